@@ -1,0 +1,219 @@
+"""Aperture stop, entrance and exit pupil, marginal and chief ray: the quasi-invariant features (qSIF)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.conventions import vergence
+from p2sf.errors import GeometryError
+from p2sf.gaussian import BasisRays, axial_ray, basis_rays, check_depth
+from p2sf.lens import Lens
+
+# Two rims whose cones differ by less than the rounding of a prescription's six digits are a tie, not a warning.
+RIM_TIE = 2e-6
+
+
+@dataclass(frozen=True)
+class Stop:
+    """The stop in use: surface (from 1), its rim in mm, who chose it, and which rim limits the axial cone.
+
+    ``surface``, ``semi_diameter`` and ``limiting_surface`` are numbers or arrays over (depth, wavelength).
+    """
+
+    surface: np.ndarray
+    semi_diameter: np.ndarray
+    limiting_surface: np.ndarray
+    chosen_by: str
+
+    @property
+    def warning(self) -> str | None:
+        """Return a sentence when another rim is narrower than the stop somewhere, else None."""
+        clash = np.asarray(self.limiting_surface != self.surface)
+        if not clash.any():
+            return None
+        rim = int(np.broadcast_to(self.limiting_surface, clash.shape)[clash].ravel()[0])
+        stop = int(np.broadcast_to(self.surface, clash.shape)[clash].ravel()[0])
+        return (
+            f"the rim of surface {rim} is narrower for this object than the stop on surface {stop}; "
+            "the stop is kept, choose stop auto to let the narrowest rim decide"
+        )
+
+
+@dataclass(frozen=True)
+class Pupils:
+    """Entrance and exit pupil, mm, positive to the right of the named vertex; infinite when telecentric."""
+
+    entrance_from_first: np.ndarray
+    entrance_diameter: np.ndarray
+    exit_from_last: np.ndarray
+    exit_diameter: np.ndarray
+
+
+@dataclass(frozen=True)
+class ParaxialRays:
+    """Marginal ray, and the chief ray of unit field slope, at every surface; surface axis first.
+
+    ``y``, ``chief_y``: heights (surfaces, …), mm. ``nu``, ``chief_nu``: reduced angles (surfaces + 1, …).
+    ``invariant``: n·(chief slope)·(entrance-pupil radius), the Lagrange invariant at unit slope.
+    """
+
+    y: np.ndarray
+    nu: np.ndarray
+    chief_y: np.ndarray
+    chief_nu: np.ndarray
+    index: np.ndarray
+    invariant: np.ndarray
+
+
+def find_stop(lens: Lens, depth_mm=np.inf, wavelength_um=None, mode: str = "file") -> Stop:
+    """Return the aperture stop per (depth, wavelength): the file's (``mode="file"``) or the limiting rim (``"auto"``).
+
+    The search follows Pieroni et al. 2015 (qSIF): of all rims, the one the axial ray meets at the
+    greatest fraction of its radius limits the cone. A tie keeps the file's stop.
+    """
+    wavelength = lens.reference_wavelength_um if wavelength_um is None else wavelength_um
+    rays = basis_rays(lens, wavelength)
+    named = lens.stop_surface or named_stop(lens)
+    rim = stop_rim(lens)
+    limiting = _limiting_surface(lens, rays, depth_mm, named, rim)
+    if mode == "file":
+        return Stop(np.asarray(named), np.asarray(rim), limiting, "file" if lens.stop_surface else "auto")
+    if mode != "auto":
+        raise GeometryError(f'stop "{mode}" is unknown; choose "file" or "auto"')
+    rims = rim_radii(lens, named, rim)
+    return Stop(limiting, rims[limiting - 1], limiting, "auto")
+
+
+def rim_radii(lens: Lens, named: int, rim: float) -> np.ndarray:
+    """Return clear semi-diameters in mm, shape (surfaces,), with the stop's own rim in its place."""
+    rims = np.array([surface.semi_diameter for surface in lens.surfaces])
+    rims[named - 1] = rim
+    return rims
+
+
+def named_stop(lens: Lens) -> int:
+    """Return the stop surface of a lens that names none: the limiting rim at infinity and the reference wavelength."""
+    rims = np.array([surface.semi_diameter for surface in lens.surfaces])
+    if not np.isfinite(rims).any():
+        raise GeometryError("the lens names no stop surface and no semi-diameters; state one of them")
+    rays = basis_rays(lens, lens.reference_wavelength_um)
+    return int(np.argmax(np.abs(rays.a) / rims)) + 1
+
+
+def _limiting_surface(lens: Lens, rays: BasisRays, depth_mm, named: int, rim: float) -> np.ndarray:
+    height, _ = axial_ray(rays, depth_mm)
+    rims = rim_radii(lens, named, rim)
+    fraction = np.abs(height) / rims.reshape(-1, *[1] * (height.ndim - 1))
+    fraction[named - 1] *= 1 + RIM_TIE
+    return np.argmax(fraction, axis=0) + 1
+
+
+def stop_rim(lens: Lens) -> float:
+    """Return semi-diameter of the stop in mm, from whatever way the aperture is stated.
+
+    Raises GeometryError for an f-number of an afocal lens, or a pupil diameter when the pupil is at infinity.
+    """
+    if lens.aperture.kind == "stop_semi_diameter":
+        return lens.aperture.value
+    rays = basis_rays(lens, lens.reference_wavelength_um)
+    scale = abs(float(rays.a[(lens.stop_surface or named_stop(lens)) - 1]))
+    if scale == 0:
+        raise GeometryError("the entrance pupil is at infinity, so it has no diameter; state the stop's semi-diameter")
+    if lens.aperture.kind == "entrance_pupil_diameter":
+        return lens.aperture.value / 2 * scale
+    power = abs(float(rays.c[-1]))
+    if power == 0:
+        raise GeometryError("an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter")
+    return scale / (2 * power * lens.aperture.value)
+
+
+def _at_stop(column: np.ndarray, stop: Stop) -> np.ndarray:
+    """Return the stop's row of a per-surface array; the stop may differ per (depth, wavelength)."""
+    row = np.asarray(stop.surface) - 1
+    if row.ndim == 0:
+        return column[int(row)]
+    row, full = np.broadcast_arrays(row, np.zeros(column.shape[1:]))[0], column
+    return np.take_along_axis(np.broadcast_to(full, (full.shape[0], *row.shape)), row[None], 0)[0]
+
+
+def pupils(lens: Lens, wavelength_um, stop: Stop | None = None) -> Pupils:
+    """Return entrance and exit pupil over (depth, wavelength) as the stop varies; mm."""
+    stop = stop or find_stop(lens)
+    rays = basis_rays(lens, wavelength_um)
+    a, b = _at_stop(rays.a, stop), _at_stop(rays.b, stop)
+    chief_y = rays.b[-1] * a - rays.a[-1] * b
+    chief_nu = rays.d[-1] * a - rays.c[-1] * b
+    with np.errstate(divide="ignore"):
+        return Pupils(
+            entrance_from_first=rays.object_index * b / a,
+            entrance_diameter=2 * stop.semi_diameter / np.abs(a),
+            exit_from_last=-rays.image_index * chief_y / chief_nu,
+            exit_diameter=2 * stop.semi_diameter / np.abs(chief_nu),
+        )
+
+
+def paraxial_rays(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None) -> ParaxialRays:
+    """Return marginal and unit-slope chief ray over broadcast (depth, wavelength).
+
+    The marginal ray is positive at the entrance pupil and, written from the stop, has no singular depth
+    but the one that puts the object into the entrance pupil. Raises GeometryError there, and for an
+    entrance pupil at infinity, where a field angle says nothing.
+    """
+    check_depth(depth_mm)
+    stop = stop or find_stop(lens)
+    rays = basis_rays(lens, wavelength_um)
+    a, b = _at_stop(rays.a, stop), _at_stop(rays.b, stop)
+    if np.any(a == 0):
+        raise GeometryError(
+            "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus"
+        )
+    n = rays.object_index
+    reach = a + n * b * vergence(depth_mm)
+    if np.any(reach == 0):
+        raise GeometryError("the object lies in the entrance pupil, so no cone of light is defined; move the object")
+    y1 = np.sign(a) * stop.semi_diameter / reach
+    nu1 = n * vergence(depth_mm) * y1
+    y, nu = _combine(rays, y1, nu1)
+    chief_y, chief_nu = _combine(rays, -n * b / a, n * np.ones_like(a))
+    return ParaxialRays(y, nu, chief_y, chief_nu, rays.index, n * stop.semi_diameter / np.abs(a))
+
+
+def _combine(rays: BasisRays, y1, nu1):
+    """Return heights at, and reduced angles before and behind, every surface of the ray (y1, nu1)."""
+    angle = rays.c * y1 + rays.d * nu1
+    first = np.broadcast_to(nu1, angle.shape[1:])[None]
+    return rays.a * y1 + rays.b * nu1, np.concatenate([first, angle])
+
+
+def f_number(lens: Lens, wavelength_um, stop: Stop | None = None) -> np.ndarray:
+    """Return effective focal length over entrance-pupil diameter; infinite for an afocal lens."""
+    power = np.abs(basis_rays(lens, wavelength_um).c[-1])
+    with np.errstate(divide="ignore"):
+        return 1 / (power * pupils(lens, wavelength_um, stop).entrance_diameter)
+
+
+def working_f_number(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None) -> np.ndarray:
+    """Return 1/(2 NA) at this depth, NA = n'|u'|; infinite for an image at infinity."""
+    with np.errstate(divide="ignore"):
+        return 0.5 / numerical_aperture(lens, depth_mm, wavelength_um, stop)
+
+
+def numerical_aperture(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None) -> np.ndarray:
+    """Return paraxial image-space numerical aperture n'|u'| at this depth."""
+    return np.abs(paraxial_rays(lens, depth_mm, wavelength_um, stop).nu[-1])
+
+
+def field_from_object_height(lens: Lens, depth_mm, wavelength_um, height_mm, stop: Stop | None = None):
+    """Return field slope of an object ``height_mm`` below the axis; GeometryError for an object at infinity."""
+    if np.any(np.isinf(depth_mm)):
+        raise GeometryError("an object at infinity has no height; give the field as an angle or an image height")
+    return height_mm / (depth_mm + pupils(lens, wavelength_um, stop).entrance_from_first)
+
+
+def field_from_image_height(lens: Lens, wavelength_um, height_mm, stop: Stop | None = None):
+    """Return field slope whose paraxial chief ray meets the sensor at ``height_mm``."""
+    rays = paraxial_rays(lens, np.inf, wavelength_um, stop)
+    unit = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * lens.sensor_mm
+    if np.any(unit == 0):
+        raise GeometryError("every chief ray meets the sensor on the axis; give the field as an angle")
+    return height_mm / unit

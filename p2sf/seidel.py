@@ -1,0 +1,141 @@
+"""Seidel sums and the six wavefront coefficients: the spatially variant features (SVF).
+
+The chief ray enters with unit field slope; its powers multiply the sums afterwards. That keeps the
+work on (depth, wavelength) only and makes a zero field exactly zero.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.lens import Lens
+from p2sf.pupils import ParaxialRays, Stop, paraxial_rays
+
+
+@dataclass(frozen=True)
+class SeidelSums:
+    """S_I … S_V per surface in mm at one field, surface axis first; ``.total()`` sums them."""
+
+    spherical: np.ndarray
+    coma: np.ndarray
+    astigmatism: np.ndarray
+    petzval: np.ndarray
+    distortion: np.ndarray
+
+    def total(self) -> "SeidelSums":
+        """Return the sums over all surfaces."""
+        return SeidelSums(*(column.sum(0) for column in self.columns()))
+
+    def columns(self) -> tuple[np.ndarray, ...]:
+        """Return S_I, S_II, S_III, S_IV, S_V in this order."""
+        return self.spherical, self.coma, self.astigmatism, self.petzval, self.distortion
+
+
+@dataclass(frozen=True)
+class Coefficients:
+    """The six coefficients in waves, peak values at this field, and what scales the PSF.
+
+    Arrays broadcast over (depth, field, wavelength). ``reduced_slope`` is the signed n'u' of the marginal
+    ray; ``image_distance`` and ``image_height`` (paraxial chief ray on the sensor) are mm.
+    """
+
+    w40: np.ndarray
+    w31: np.ndarray
+    w22: np.ndarray
+    w20: np.ndarray
+    w11: np.ndarray
+    wd: np.ndarray
+    reduced_slope: np.ndarray
+    image_index: np.ndarray
+    image_distance: np.ndarray
+    image_height: np.ndarray
+    wavelength_um: np.ndarray
+
+    @property
+    def na(self) -> np.ndarray:
+        """Image-space numerical aperture n'|u'|."""
+        return np.abs(self.reduced_slope)
+
+
+def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope=1.0) -> SeidelSums:
+    """Return the five sums per surface at this field slope (Welford 1986, eqs 8.24 and 8.40 ff.)."""
+    unit = _unit_sums(lens, rays)
+    powers = (1.0, field_slope, np.square(field_slope), np.square(field_slope), np.power(field_slope, 3))
+    return SeidelSums(*(column * power for column, power in zip(unit.columns(), powers, strict=True)))
+
+
+def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
+    c, asphere = (_per_surface(x, rays.y.ndim) for x in _shape_terms(lens))
+    inverse = 1 / rays.index
+    before, after = inverse[:-1], inverse[1:]
+    step = after - before
+    snell = _refraction(rays.nu, rays.y, rays.index, c)
+    chief_snell = _refraction(rays.chief_nu, rays.chief_y, rays.index, c)
+    bend = rays.y * (rays.nu[1:] * after**2 - rays.nu[:-1] * before**2)  # y Δ(u/n)
+    petzval = c * step
+    distortion = chief_snell**2 * rays.y * (after**2 - before**2)
+    distortion = distortion - (rays.invariant + chief_snell * rays.y) * rays.chief_y * petzval
+    figure = asphere * (rays.index[1:] - rays.index[:-1])
+    y, chief = rays.y, rays.chief_y
+    return SeidelSums(
+        spherical=-(snell**2) * bend + figure * y**4,
+        coma=-snell * chief_snell * bend + figure * y**3 * chief,
+        astigmatism=-(chief_snell**2) * bend + figure * (y * chief) ** 2,
+        petzval=-(rays.invariant**2) * petzval,
+        distortion=-chief_snell * distortion + figure * y * chief**3,
+    )
+
+
+def _refraction(nu, y, index, c):
+    """Return the refraction invariant A = n(u + yc), before each surface."""
+    return nu[:-1] + index[:-1] * y * c
+
+
+def _shape_terms(lens: Lens):
+    """Return curvature c and fourth-order figure Kc³ + 8A₄ of every surface."""
+    c = np.array([surface.curvature for surface in lens.surfaces])
+    conic = np.array([surface.conic for surface in lens.surfaces])
+    a4 = np.array([surface.aspheric[0] if surface.aspheric else 0.0 for surface in lens.surfaces])
+    return c, conic * c**3 + 8 * a4
+
+
+def _per_surface(column: np.ndarray, ndim: int) -> np.ndarray:
+    return column.reshape(-1, *[1] * (ndim - 1))
+
+
+def coefficients(lens: Lens, depth_mm, field_slope, wavelength_um, stop: Stop | None = None) -> Coefficients:
+    """Return the six coefficients over broadcast (depth, field, wavelength) arrays.
+
+    ``depth_mm`` from the first vertex, ``inf`` allowed; ``field_slope`` the tangent at the entrance
+    pupil; the sensor is where the lens puts it (`lens.with_sensor` moves it). Raises GeometryError and
+    GlassError. Source: Pieroni et al. 2015; Welford 1986, ch. 8.
+    """
+    wavelength_um, field_slope = np.asarray(wavelength_um, dtype=float), np.asarray(field_slope, dtype=float)
+    rays = paraxial_rays(lens, depth_mm, wavelength_um, stop)
+    total = _unit_sums(lens, rays).total()
+    waves = UM_PER_MM / wavelength_um
+    index = rays.index[-1]
+    square = np.square(field_slope)
+    with np.errstate(divide="ignore"):
+        image = -index * rays.y[-1] / rays.nu[-1]
+    chief = rays.chief_y[-1] + rays.chief_nu[-1] / index * lens.sensor_mm
+    return Coefficients(
+        w40=total.spherical * waves / 8,
+        w31=total.coma * waves / 2 * field_slope,
+        w22=total.astigmatism * waves / 2 * square,
+        w20=(total.astigmatism + total.petzval) * waves / 4 * square,
+        w11=total.distortion * waves / 2 * (field_slope * square),
+        wd=defocus(rays, lens.sensor_mm) * waves,
+        reduced_slope=rays.nu[-1],
+        image_index=index,
+        image_distance=image,
+        image_height=chief * field_slope,
+        wavelength_um=wavelength_um,
+    )
+
+
+def defocus(rays: ParaxialRays, sensor_mm: float) -> np.ndarray:
+    """Return defocus in mm of path, n'u'(u'·sensor + y)/2: no singularity at any depth (DESIGN.md section 2)."""
+    slope = rays.nu[-1] / rays.index[-1]
+    return rays.nu[-1] * (slope * sensor_mm + rays.y[-1]) / 2
