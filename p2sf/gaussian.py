@@ -52,9 +52,15 @@ class CardinalPoints:
     rear_nodal_from_last: np.ndarray
 
 
-def basis_rays(lens: Lens, wavelength_um) -> BasisRays:
-    """Trace the two basis rays; arrays of shape (surfaces, *wavelength_um.shape)."""
-    index = indices(lens, wavelength_um)
+def basis_rays(lens: Lens, wavelength_um, beside=()) -> BasisRays:
+    """Trace the two basis rays; arrays of shape (surfaces, *wavelength_um.shape).
+
+    ``beside``: arrays the result will be combined with; the wavelength is given their number of axes
+    (ones in front, as numpy broadcasts), so that the surface axis stays the first of all.
+    """
+    wavelength = np.asarray(wavelength_um, dtype=float)
+    missing = max((np.ndim(x) for x in beside), default=0) - wavelength.ndim
+    index = indices(lens, wavelength.reshape((1,) * missing + wavelength.shape) if missing > 0 else wavelength)
     layers = index.tolist() if index.ndim == 1 else list(index)  # plain floats make one wavelength 10× faster
     a, b, c, d = 1.0, 0.0, 0.0, 1.0
     rows = []
@@ -105,7 +111,7 @@ def _ratio(numerator, power):
 
 def image_distance(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
     """Return paraxial image position from the last vertex, mm; infinite for an object in the front focal plane."""
-    rays = basis_rays(lens, wavelength_um)
+    rays = basis_rays(lens, wavelength_um, (depth_mm,))
     height, angle = axial_ray(rays, depth_mm)
     with np.errstate(divide="ignore"):
         return -rays.image_index * height[-1] / angle[-1]
@@ -113,7 +119,7 @@ def image_distance(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
 
 def magnification(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
     """Return transverse magnification nu/(n'u') of the axial ray; 0 for an object at infinity."""
-    rays = basis_rays(lens, wavelength_um)
+    rays = basis_rays(lens, wavelength_um, (depth_mm,))
     _, angle = axial_ray(rays, depth_mm)
     with np.errstate(divide="ignore"):
         return rays.object_index * vergence(depth_mm) / angle[-1]

@@ -72,7 +72,7 @@ def find_stop(lens: Lens, depth_mm=np.inf, wavelength_um=None, mode: str = "file
     greatest fraction of its radius limits the cone. A tie keeps the file's stop.
     """
     wavelength = lens.reference_wavelength_um if wavelength_um is None else wavelength_um
-    rays = basis_rays(lens, wavelength)
+    rays = basis_rays(lens, wavelength, (depth_mm,))
     named = lens.stop_surface or named_stop(lens)
     rim = stop_rim(lens)
     limiting = _limiting_surface(lens, rays, depth_mm, named, rim)
@@ -132,14 +132,14 @@ def _at_stop(column: np.ndarray, stop: Stop) -> np.ndarray:
     row = np.asarray(stop.surface) - 1
     if row.ndim == 0:
         return column[int(row)]
-    row, full = np.broadcast_arrays(row, np.zeros(column.shape[1:]))[0], column
-    return np.take_along_axis(np.broadcast_to(full, (full.shape[0], *row.shape)), row[None], 0)[0]
+    shape = np.broadcast_shapes(row.shape, column.shape[1:])
+    return np.take_along_axis(np.broadcast_to(column, (len(column), *shape)), np.broadcast_to(row, shape)[None], 0)[0]
 
 
 def pupils(lens: Lens, wavelength_um, stop: Stop | None = None) -> Pupils:
     """Return entrance and exit pupil over (depth, wavelength) as the stop varies; mm."""
     stop = stop or find_stop(lens)
-    rays = basis_rays(lens, wavelength_um)
+    rays = basis_rays(lens, wavelength_um, (stop.surface,))
     a, b = _at_stop(rays.a, stop), _at_stop(rays.b, stop)
     chief_y = rays.b[-1] * a - rays.a[-1] * b
     chief_nu = rays.d[-1] * a - rays.c[-1] * b
@@ -161,7 +161,7 @@ def paraxial_rays(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None)
     """
     check_depth(depth_mm)
     stop = stop or find_stop(lens)
-    rays = basis_rays(lens, wavelength_um)
+    rays = basis_rays(lens, wavelength_um, (depth_mm, stop.surface))
     a, b = _at_stop(rays.a, stop), _at_stop(rays.b, stop)
     if np.any(a == 0):
         raise GeometryError(
