@@ -17,6 +17,14 @@ class SamplingError(P2SFError):
     """A grid that cannot carry the asked PSF."""
 
 
+class RequestError(P2SFError):
+    """A setup, as a user states it, that cannot be."""
+
+
+class ExportError(P2SFError):
+    """A result that cannot be written to, or read back from, the file asked for."""
+
+
 class LensFileError(P2SFError):
     """A lens file that cannot be read; ``path`` and ``line`` (from 1, None if unknown) say where."""
 
