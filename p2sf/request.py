@@ -1,0 +1,202 @@
+"""What a user asks for, in a user's terms, and the lens and source that it means.
+
+The command line and the app both come through here, so that a setup is the same wherever it is typed.
+"""
+
+from dataclasses import dataclass, replace
+from math import inf, isfinite, isinf, isnan
+
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
+from p2sf.errors import RequestError
+from p2sf.gaussian import image_distance
+from p2sf.lens import Aperture, Lens, indices, with_f_number, with_sensor
+from p2sf.pupils import (
+    Stop,
+    field_from_image_height,
+    field_from_object_height,
+    find_stop,
+    paraxial_rays,
+    rim_radii,
+)
+from p2sf.source import Source
+
+FIELDS = ("field_deg", "object_height_mm", "image_height_mm")
+
+
+@dataclass(frozen=True)
+class Request:
+    """One point source and how the camera is set; None means: as the lens file has it.
+
+    Attributes
+    ----------
+    depth_mm
+        Object distance from the first vertex, mm; inf is allowed.
+    field_deg
+        Chief-ray angle at the entrance pupil, degrees, at finite depth too.
+    object_height_mm
+        Object height instead of an angle, mm; a positive one lies at −y.
+    image_height_mm
+        Height of the paraxial chief ray on the sensor instead of an angle, mm.
+    wavelength_nm
+        Wavelength, nm; the file's middle one when not given.
+    focus_mm
+        Put the sensor at the paraxial image of this distance, mm; inf is allowed.
+    sensor_shift_um
+        Move the sensor on top of that, µm, away from the lens.
+    f_number
+        Focal length over entrance-pupil diameter, instead of the file's aperture.
+    stop
+        Take the stop from the file, or let the narrowest rim decide (auto).
+    """
+
+    depth_mm: float = inf
+    field_deg: float | None = None
+    object_height_mm: float | None = None
+    image_height_mm: float | None = None
+    wavelength_nm: float | None = None
+    focus_mm: float | None = None
+    sensor_shift_um: float = 0.0
+    f_number: float | None = None
+    stop: str = "file"
+
+    def __post_init__(self):
+        for name in ("depth_mm", "focus_mm"):
+            _check_positive(name, getattr(self, name), infinite=True)
+        for name in ("wavelength_nm", "f_number"):
+            _check_positive(name, getattr(self, name))
+        for name in (*FIELDS, "sensor_shift_um"):
+            _check_finite(name, getattr(self, name))
+        _check_one_field(self)
+        _check_stop(self.stop)
+
+
+@dataclass(frozen=True)
+class Setup:
+    """A request made concrete: the lens with its sensor, aperture and stop as asked, and the source.
+
+    ``prescription`` is the lens as its file has it.
+    """
+
+    lens: Lens
+    source: Source
+    stop: Stop
+    prescription: Lens
+
+    @property
+    def field_deg(self) -> float:
+        """Return the chief-ray angle at the entrance pupil in degrees."""
+        return float(degrees_from_slope(self.source.field_slope))
+
+
+def set_up(lens: Lens, request: Request) -> Setup:
+    """Return the setup that a request means for this lens.
+
+    Raises RequestError for a value that cannot be, GeometryError for one this lens cannot take, and
+    GlassError for a wavelength outside its glasses.
+    """
+    wavelength = wavelength_um(lens, request)
+    indices(lens, wavelength)
+    placed = with_sensor(_opened(lens, request.f_number), sensor_position(lens, request))
+    used, stop = _stopped(placed, request, wavelength)
+    slope = field_slope(used, request, wavelength, stop)
+    return Setup(used, Source(request.depth_mm, slope, wavelength), stop, lens)
+
+
+def wavelength_um(lens: Lens, request: Request) -> float:
+    """Return the asked wavelength in µm, the lens's middle one when none is asked."""
+    if request.wavelength_nm is None:
+        return lens.reference_wavelength_um
+    return request.wavelength_nm / NM_PER_UM
+
+
+def sensor_position(lens: Lens, request: Request) -> float:
+    """Return where the sensor stands, mm behind the last vertex.
+
+    A sensor is a thing and does not move with the colour: it stands at the paraxial image of ``focus_mm`` at
+    the lens's middle wavelength. Raises RequestError when that image is not a real one at a finite place.
+    """
+    shift = request.sensor_shift_um / UM_PER_MM
+    if request.focus_mm is None:
+        return lens.sensor_mm + shift
+    place = float(image_distance(lens, request.focus_mm, lens.reference_wavelength_um))
+    if not (isfinite(place) and place > 0):
+        where = f"{place:g} mm from the last vertex" if isfinite(place) else "at infinity"
+        raise RequestError(
+            f"{place_of('focus_mm')} is {request.focus_mm:g} mm, but the image of that distance lies {where} and "
+            "not on a sensor behind the lens; give a distance whose image is real, as a rule a longer one"
+        )
+    return place + shift
+
+
+def field_slope(lens: Lens, request: Request, wavelength, stop: Stop) -> float:
+    """Return the field slope that the one stated field means; 0 when none is stated."""
+    if request.object_height_mm is not None:
+        slope = field_from_object_height(lens, request.depth_mm, wavelength, request.object_height_mm, stop)
+    elif request.image_height_mm is not None:
+        slope = field_from_image_height(lens, wavelength, request.image_height_mm, stop)
+    else:
+        slope = slope_from_degrees(request.field_deg or 0.0)
+    paraxial_rays(lens, request.depth_mm, wavelength, stop)  # names the depths and stops that have no chief ray
+    return float(slope)
+
+
+def _opened(lens: Lens, f_number: float | None) -> Lens:
+    return lens if f_number is None else with_f_number(lens, f_number)
+
+
+def _stopped(lens: Lens, request: Request, wavelength) -> tuple[Lens, Stop]:
+    """Return the stop in use, and the lens naming it, so that every later step agrees on it."""
+    stop = find_stop(lens, request.depth_mm, wavelength, request.stop)
+    if request.stop == "file":
+        return lens, stop
+    named = find_stop(lens, request.depth_mm, wavelength)
+    rims = rim_radii(lens, int(named.surface), float(named.semi_diameter))
+    surfaces = tuple(replace(s, semi_diameter=float(rim)) for s, rim in zip(lens.surfaces, rims, strict=True))
+    aperture = Aperture("stop_semi_diameter", float(stop.semi_diameter))
+    return replace(lens, surfaces=surfaces, stop_surface=int(stop.surface), aperture=aperture), stop
+
+
+def place_of(name: str) -> str:
+    """Return how a sentence names an option, as it is typed on the command line."""
+    return f"--{name.replace('_', '-')}"
+
+
+def _unit(name: str) -> str:
+    return {"deg": "°", "mm": " mm", "nm": " nm", "um": " µm"}.get(name.rsplit("_", 1)[-1], "")
+
+
+def _check_positive(name: str, value: float | None, infinite: bool = False) -> None:
+    if value is None or (value > 0 and (infinite or not isinf(value))):
+        return
+    what = "a positive number, inf allowed" if infinite else "a positive finite number"
+    raise RequestError(f"{place_of(name)} is {value:g}{_unit(name)}; give {what}")
+
+
+def _check_finite(name: str, value: float | None) -> None:
+    if value is None:
+        return
+    if isnan(value) or isinf(value):
+        raise RequestError(f"{place_of(name)} is {value:g}{_unit(name)}; give a finite number")
+    if name == "field_deg" and not abs(value) < 90:
+        raise RequestError(
+            f"--field-deg is {value:g}°, and no ray at 90° or more from the axis enters a lens; "
+            "give an angle between −90 and 90°, both ends left out"
+        )
+
+
+def _check_one_field(request: Request) -> None:
+    stated = [name for name in FIELDS if getattr(request, name) is not None]
+    if len(stated) > 1:
+        raise RequestError(
+            f"the field is stated {len(stated)} times, by {' and '.join(map(place_of, stated))}; keep one"
+        )
+    if request.object_height_mm is not None and isinf(request.depth_mm):
+        raise RequestError(
+            f"--object-height-mm is {request.object_height_mm:g} mm, but an object at infinity has no height; "
+            "give --depth-mm as well, or the field as an angle or an image height"
+        )
+
+
+def _check_stop(stop: str) -> None:
+    if stop not in ("file", "auto"):
+        raise RequestError(f'--stop is "{stop}"; choose file or auto')

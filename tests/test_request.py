@@ -1,0 +1,113 @@
+"""A request means the same lens, sensor, stop and source wherever it is typed."""
+
+from math import inf, nan
+
+import numpy as np
+import pytest
+
+from p2sf.errors import P2SFError
+from p2sf.gaussian import cardinal_points, image_distance
+from p2sf.pupils import f_number, find_stop, pupils
+from p2sf.request import Request, set_up
+from p2sf.seidel import coefficients
+from tests.reference import prescription_lens
+
+ROUND_OFF = 1e-12  # a few operations in float64
+
+
+def lens():
+    return prescription_lens("double_gauss_28", 587.5618)
+
+
+def asked(**values):
+    return set_up(lens(), Request(**values))
+
+
+def numbers(setup):
+    return coefficients(setup.lens, setup.source.depth_mm, setup.source.field_slope, setup.source.wavelength_um)
+
+
+def test_nothing_asked_is_the_file():
+    setup = asked()
+    assert setup.lens == setup.prescription == lens()
+    assert (setup.source.depth_mm, setup.source.field_slope) == (inf, 0)
+    assert setup.source.wavelength_um == pytest.approx(0.5875618, rel=ROUND_OFF)
+
+
+@pytest.mark.parametrize("focus", [500.0, 2000.0, inf])
+def test_the_sensor_stands_at_the_image_of_the_focus_distance(focus):
+    setup = asked(focus_mm=focus, depth_mm=focus)
+    assert setup.lens.sensor_mm == pytest.approx(float(image_distance(lens(), focus, 0.5875618)), rel=ROUND_OFF)
+    assert abs(float(numbers(setup).wd)) < 1e-9  # round-off of 60 mm against a 0.1 µm wave
+
+
+def test_a_shift_comes_on_top_of_focus():
+    still, moved = asked(focus_mm=800), asked(focus_mm=800, sensor_shift_um=250)
+    assert moved.lens.sensor_mm - still.lens.sensor_mm == pytest.approx(0.25, abs=ROUND_OFF * 100)
+
+
+@pytest.mark.parametrize("depth", [700.0, inf])
+@pytest.mark.parametrize("height", [-12.0, 0.0, 17.5])
+def test_an_image_height_is_where_the_chief_ray_lands(depth, height):
+    setup = asked(depth_mm=depth, image_height_mm=height, focus_mm=depth)
+    assert float(numbers(setup).image_height) == pytest.approx(height, rel=ROUND_OFF, abs=ROUND_OFF)
+
+
+def test_an_object_height_is_seen_from_the_entrance_pupil():
+    setup = asked(depth_mm=1000, object_height_mm=105.8)
+    reach = 1000 + float(pupils(lens(), 0.5875618).entrance_from_first)
+    assert setup.source.field_slope == pytest.approx(105.8 / reach, rel=ROUND_OFF)
+    assert float(numbers(setup).image_height) > 0  # a positive object height lies at −y and lands at +y
+
+
+def test_an_angle_is_an_angle_at_finite_depth_too():
+    assert asked(depth_mm=600, field_deg=9.5).field_deg == pytest.approx(9.5, rel=ROUND_OFF)
+
+
+def test_an_f_number_opens_the_lens():
+    assert float(f_number(asked(f_number=4.5).lens, 0.5875618)) == pytest.approx(4.5, rel=ROUND_OFF)
+
+
+def test_stop_auto_hands_on_a_lens_that_names_the_narrowest_rim():
+    petzval = prescription_lens("petzval", 587.5618)
+    near = next(d for d in (100.0, 200.0, 300.0, 500.0) if find_stop(petzval, d).warning)
+    setup = set_up(petzval, Request(depth_mm=near, stop="auto"))
+    assert setup.lens.stop_surface == int(find_stop(petzval, near).limiting_surface)
+    assert find_stop(setup.lens, near).warning is None
+    assert set_up(petzval, Request(depth_mm=near)).stop.warning
+
+
+BAD = [
+    ({"depth_mm": 0}, "--depth-mm is 0 mm"),
+    ({"depth_mm": -5}, "--depth-mm is -5 mm"),
+    ({"depth_mm": nan}, "--depth-mm is nan mm"),
+    ({"focus_mm": nan}, "--focus-mm is nan mm"),
+    ({"focus_mm": 20}, "--focus-mm is 20 mm"),
+    ({"wavelength_nm": 0}, "--wavelength-nm is 0 nm"),
+    ({"wavelength_nm": inf}, "--wavelength-nm is inf nm"),
+    ({"f_number": -1}, "--f-number is -1"),
+    ({"sensor_shift_um": inf}, "--sensor-shift-um is inf µm"),
+    ({"field_deg": 90}, "--field-deg is 90°"),
+    ({"field_deg": -120}, "--field-deg is -120°"),
+    ({"field_deg": nan}, "--field-deg is nan°"),
+    ({"field_deg": 3, "image_height_mm": 2}, "--field-deg and --image-height-mm"),
+    ({"object_height_mm": 3}, "--object-height-mm is 3 mm"),
+    ({"stop": "open"}, '--stop is "open"'),
+]
+
+
+@pytest.mark.parametrize(("values", "words"), BAD, ids=[words for _, words in BAD])
+def test_what_cannot_be_is_one_sentence_with_place_value_and_remedy(values, words):
+    with pytest.raises(P2SFError) as caught:
+        asked(**values)
+    message = str(caught.value)
+    assert words in message
+    assert "; " in message and "\n" not in message  # the remedy follows the semicolon
+
+
+def test_focusing_into_the_front_focal_plane_is_named():
+    simple = prescription_lens("plano_convex", 587.5618)
+    front = -float(cardinal_points(simple, 0.5875618).front_focal_distance)
+    with pytest.raises(P2SFError, match="--focus-mm"):
+        set_up(simple, Request(focus_mm=front * (1 - 1e-9)))
+    assert np.isfinite(set_up(simple, Request(focus_mm=front * 1.01)).lens.sensor_mm)
