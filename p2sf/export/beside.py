@@ -1,0 +1,72 @@
+"""Whole files or none: write beside, then rename."""
+
+import errno
+import json
+import os
+import secrets
+from collections.abc import Callable
+from contextlib import suppress
+from math import isfinite
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from p2sf.errors import ExportError
+
+REMEDIES = {
+    errno.ENOSPC: "free some space or choose another disk",
+    errno.EDQUOT: "free some space or choose another disk",
+    errno.EFBIG: "choose fewer pixels or another disk",
+    errno.EACCES: "choose a folder you may write to",
+    errno.EPERM: "choose a folder you may write to",
+    errno.EROFS: "choose a folder you may write to",
+    errno.ENOENT: "make the folder first or choose another",
+    errno.ENOTDIR: "choose a folder that is one",
+    errno.EISDIR: "give the name of a file in it",
+}
+
+
+def write_json(path, value: dict) -> Path:
+    """Write a JSON object, whole or not at all; infinite values become null. Raises ExportError."""
+    text = json.dumps(plain(value), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    return write_beside(path, lambda handle: handle.write(text.encode()))
+
+
+def write_beside(path, write: Callable[[BinaryIO], object]) -> Path:
+    """Let ``write`` fill a new file next to ``path``, then give it that name; raises ExportError.
+
+    Whatever fails, a file already at ``path`` keeps its contents and no half-written one is left.
+    """
+    target = Path(path).resolve()
+    part = target.with_name(f".{secrets.token_hex(6)}.part")
+    try:
+        with open(part, "xb") as handle:
+            write(handle)
+            handle.flush()
+            os.fsync(handle.fileno())
+        os.replace(part, target)
+    except OSError as error:
+        raise ExportError(_why_not(path, error)) from error
+    finally:
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
+    return Path(path)
+
+
+def _why_not(path, error: OSError) -> str:
+    reason = (error.strerror or str(error)).rstrip(".").lower()
+    return f"{path} cannot be written, {reason}; {REMEDIES.get(error.errno, 'choose another place')}"
+
+
+def plain(value):
+    """Return numbers, texts, lists and dicts that JSON can carry; what is not finite becomes None."""
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, float):
+        return value + 0.0 if isfinite(value) else None  # + 0.0 turns −0 into 0
+    return value
