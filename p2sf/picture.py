@@ -66,3 +66,20 @@ def _draw_scale_bar(axes, psf: Psf) -> None:
     edge = {"path_effects": [withStroke(linewidth=3, foreground="black")]}
     axes.add_patch(Rectangle((x, y), length, 0.012 * height, facecolor="white", **edge))
     axes.text(x + length / 2, y + 0.025 * height, f"{length:g} µm", color="white", ha="center", va="bottom", **edge)
+
+
+def draw_spot(handle, points_um: np.ndarray, airy_radius_um: float, title: str = "") -> None:
+    """Write a spot diagram as a PNG: rays (rays, 2) in µm from the chief ray, and the Airy circle around it."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Circle
+
+    figure = Figure(figsize=(5.4, 5.4), dpi=150, layout="constrained")
+    axes = figure.add_subplot(aspect="equal", xlabel="x on the sensor, µm", ylabel="y on the sensor, µm")
+    axes.plot(*points_um.T, ".", markersize=2.5)
+    axes.add_patch(Circle((0, 0), airy_radius_um, fill=False, linestyle="--", label="Airy circle"))
+    axes.plot(0, 0, "+", color="black", label="chief ray")
+    axes.set_title(title, fontsize=9, loc="left")
+    axes.legend(fontsize=8, loc="upper right")
+    axes.grid(alpha=0.3)
+    FigureCanvasAgg(figure).print_png(handle)

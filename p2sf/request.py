@@ -5,6 +5,7 @@ The command line and the app both come through here, so that a setup is the same
 
 from dataclasses import dataclass, replace
 from math import inf, isfinite, isinf, isnan
+from typing import Literal
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import RequestError
@@ -57,7 +58,7 @@ class Request:
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
     f_number: float | None = None
-    stop: str = "file"
+    stop: Literal["file", "auto"] = "file"
 
     def __post_init__(self):
         for name in ("depth_mm", "focus_mm"):

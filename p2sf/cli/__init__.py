@@ -1,0 +1,74 @@
+"""The command line: `p2sf COMMAND`. Each command's module is loaded when it is called, none before."""
+
+import os
+import sys
+from collections.abc import Sequence
+
+from p2sf import __version__
+from p2sf.errors import P2SFError
+
+FAILED, INTERRUPTED = 2, 130
+COMMANDS = {
+    "info": ("first_order:info", "First-order data of a lens: focal and principal points, stop, pupils, image."),
+    "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
+    "psf": ("images:psf", "The point spread function of one source, to a file or in a few figures."),
+    "spot": ("spots:spot", "Where exact rays meet the sensor."),
+    "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),
+    "lenses": ("lenses:lenses", "The shipped lenses."),
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command line, the process's own by default, and return its exit code.
+
+    A failure is one sentence on standard error and code 2; nothing of the inside is shown.
+    """
+    from cyclopts import CycloptsError
+
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(errors="replace")  # a terminal without ∞ or µ shows "?" and does not fail
+    try:
+        _app()(arguments, exit_on_error=False, print_error=False)
+        sys.stdout.flush()
+    except CycloptsError as error:
+        return _fail(_usage(error))
+    except P2SFError as error:
+        return _fail(str(error))
+    except BrokenPipeError:
+        _forget_output()  # the reader, such as `head`, has seen enough
+    except OSError as error:
+        _forget_output()
+        return _fail(f"{error.filename or 'standard output'}: {error.strerror or error}; choose another place")
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    return 0
+
+
+def _app():
+    """Return the tree of commands."""
+    from cyclopts import App
+
+    described = "From a lens prescription to its point spread functions, with their accuracy."
+    app = App(name="p2sf", help=described, version=__version__, result_action="return_value")
+    for name, (place, summary) in COMMANDS.items():
+        app.command(f"p2sf.cli.{place}", name=name, help=summary)
+    return app
+
+
+def _usage(error) -> str:
+    """Return a wrong command line as one sentence that says where to look."""
+    first, *others = str(error).rstrip(".").split(". ")
+    parts = [first, *(part[:1].lower() + part[1:] for part in others)]
+    command = " ".join(("p2sf", *(error.command_chain or ())))
+    return f"{', '.join(parts)}; {command} --help lists what there is"
+
+
+def _fail(sentence: str) -> int:
+    line = " ".join(sentence.split()).rstrip(".")
+    print(f"p2sf: {line}.", file=sys.stderr)
+    return FAILED
+
+
+def _forget_output() -> None:
+    """Point standard output nowhere, so that the interpreter's own last flush cannot fail again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

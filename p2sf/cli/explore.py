@@ -1,0 +1,25 @@
+"""`p2sf explore`: open the window, or say in one sentence why not."""
+
+from importlib.util import find_spec
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from p2sf.errors import P2SFError
+
+What = Annotated[str | None, Parameter(help="A lens, or a STATE.json that the explorer wrote.")]
+
+
+def explore(what: What = None, /) -> None:
+    """Open the explorer on a lens, or on a saved state."""
+    missing = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
+    if missing:
+        raise P2SFError(f"the explorer needs {' and '.join(missing)}, not installed here; run pip install 'p2sf[app]'")
+    from app.display import display_problem
+
+    problem = display_problem()
+    if problem:
+        raise P2SFError(problem)
+    from app.__main__ import main
+
+    main([what] if what else [])

@@ -1,0 +1,118 @@
+"""`p2sf info` and `p2sf coefficients`: what paraxial rays and Seidel sums say about a lens."""
+
+from dataclasses import asdict
+
+import numpy as np
+
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
+from p2sf.cli.screen import heading, print_json, print_table, warn
+from p2sf.gaussian import abcd, cardinal_points, image_distance, magnification
+from p2sf.library import find_lens
+from p2sf.pupils import f_number, numerical_aperture, paraxial_rays, pupils
+from p2sf.request import Setup, set_up
+from p2sf.seidel import Coefficients, coefficients, seidel_sums
+
+INFO_ROWS = (
+    ("effective_focal_length", "effective focal length", "mm"),
+    ("back_focal_distance", "back focal distance, from the last vertex", "mm"),
+    ("front_focal_distance", "front focal distance, from the first vertex", "mm"),
+    ("front_principal_from_first", "front principal point, from the first vertex", "mm"),
+    ("rear_principal_from_last", "rear principal point, from the last vertex", "mm"),
+    ("front_nodal_from_first", "front nodal point, from the first vertex", "mm"),
+    ("rear_nodal_from_last", "rear nodal point, from the last vertex", "mm"),
+    ("stop_surface", "aperture stop, surface", ""),
+    ("stop_semi_diameter", "aperture stop, semi-diameter", "mm"),
+    ("entrance_pupil.from_first", "entrance pupil, from the first vertex", "mm"),
+    ("entrance_pupil.diameter", "entrance pupil, diameter", "mm"),
+    ("exit_pupil.from_last", "exit pupil, from the last vertex", "mm"),
+    ("exit_pupil.diameter", "exit pupil, diameter", "mm"),
+    ("numerical_aperture", "numerical aperture n'|u'| at this depth", ""),
+    ("f_number", "f-number (focal length / entrance pupil)", ""),
+    ("image_distance", "image of this depth, from the last vertex", "mm"),
+    ("magnification", "magnification at this depth", ""),
+)
+WAVES = (
+    ("w40", "W40 spherical aberration"),
+    ("w31", "W31 coma"),
+    ("w22", "W22 astigmatism"),
+    ("w20", "W20 field curvature"),
+    ("w11", "W11 distortion (moves the image, does not blur it)"),
+    ("wd", "Wd defocus"),
+)
+SUMS = ("surface", "S_I spherical", "S_II coma", "S_III astigm.", "S_IV Petzval", "S_V distort.")
+
+
+def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = False) -> None:
+    """Show the ABCD matrix, focal, principal and nodal points, stop, pupils and image of a lens."""
+    setup = set_up(find_lens(lens), request)
+    facts = first_order(setup)
+    if as_json:
+        return print_json(facts)
+    warn(setup.stop.warning)
+    chosen = {"file": "as the file says", "auto": "the narrowest rim"}[setup.stop.chosen_by]
+    notes = {"stop_surface": chosen}
+    rows = [(label, _look_up(facts, key), unit or notes.get(key, "")) for key, label, unit in INFO_ROWS]
+    rows += [
+        (f"ABCD matrix, {name}", value, unit) for name, value, unit in zip("ABCD", facts["abcd"], _ABCD, strict=True)
+    ]
+    return print_table(heading(setup), ("quantity", "value", "unit"), rows)
+
+
+_ABCD = ("", "mm", "1/mm", "")
+
+
+def first_order(setup: Setup) -> dict:
+    """Return the first-order facts of a setup; mm, positive to the right of the named vertex, infinite where so."""
+    lens, depth, wavelength = setup.lens, setup.source.depth_mm, setup.source.wavelength_um
+    ends = pupils(lens, wavelength, setup.stop)
+    return {
+        "abcd": abcd(lens, wavelength).ravel().tolist(),
+        **{name: float(value) for name, value in asdict(cardinal_points(lens, wavelength)).items()},
+        "stop_surface": int(setup.stop.surface),
+        "stop_semi_diameter": float(setup.stop.semi_diameter),
+        "entrance_pupil": {"from_first": float(ends.entrance_from_first), "diameter": float(ends.entrance_diameter)},
+        "exit_pupil": {"from_last": float(ends.exit_from_last), "diameter": float(ends.exit_diameter)},
+        "numerical_aperture": float(numerical_aperture(lens, depth, wavelength, setup.stop)),
+        "f_number": float(f_number(lens, wavelength, setup.stop)),
+        "image_distance": float(image_distance(lens, depth, wavelength)),
+        "magnification": float(magnification(lens, depth, wavelength)),
+    }
+
+
+def _look_up(facts: dict, key: str):
+    for part in key.split("."):
+        facts = facts[part]
+    return facts
+
+
+def coefficients_command(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = False) -> None:
+    """Show the six wavefront coefficients of one source in waves, and the Seidel sums of every surface."""
+    setup = set_up(find_lens(lens), request)
+    six, sums = seidel_numbers(setup)
+    if as_json:
+        return print_json({**wave_record(six, setup), "per_surface": sums.tolist()})
+    warn(setup.stop.warning)
+    rows = [(label, float(getattr(six, name)), "waves") for name, label in WAVES]
+    rows.append(("numerical aperture n'|u'|", float(six.na), ""))
+    rows.append(("image distance, from the last vertex", float(six.image_distance), "mm"))
+    rows.append(("image height on the sensor", float(six.image_height), "mm"))
+    print_table(heading(setup), ("coefficient", "value", "unit"), rows)
+    lines = [(number, *row) for number, row in enumerate(sums.tolist(), 1)]
+    return print_table("\nSeidel sums, mm", SUMS, [*lines, ("all", *sums.sum(0).tolist())])
+
+
+def seidel_numbers(setup: Setup) -> tuple[Coefficients, np.ndarray]:
+    """Return the six coefficients, and S_I … S_V per surface in mm, shape (surfaces, 5)."""
+    lens, source = setup.lens, setup.source
+    where = (source.depth_mm, source.wavelength_um, setup.stop)
+    sums = seidel_sums(lens, paraxial_rays(lens, *where), source.field_slope)
+    columns = [np.broadcast_to(column, len(lens.surfaces)) for column in sums.columns()]
+    six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
+    return six, np.stack(columns, axis=-1)
+
+
+def wave_record(six: Coefficients, setup: Setup) -> dict:
+    """Return the coefficients of one source as JSON names them."""
+    record = {name: float(getattr(six, name)) for name, _ in WAVES}
+    mm = {"na": six.na, "image_distance": six.image_distance, "image_height": six.image_height}
+    return {**record, **{name: float(value) for name, value in mm.items()}, "field_deg": setup.field_deg}

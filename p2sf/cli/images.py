@@ -1,0 +1,133 @@
+"""`p2sf psf`: one point spread function, computed and written to a file."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output
+from p2sf.cli.screen import heading, print_json, print_table, warn
+from p2sf.errors import ExportError, RequestError, SamplingError
+from p2sf.export import ENDINGS, describe, write_psf
+from p2sf.export.record import facts
+from p2sf.library import find_lens
+from p2sf.psf import Psf
+from p2sf.request import Setup, set_up
+
+MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine
+
+
+@dataclass(frozen=True)
+class Picture:
+    """How a PSF is computed and sampled.
+
+    Attributes
+    ----------
+    method
+        Rung of the accuracy ladder; auto takes the cheapest one that holds the tolerance.
+    tolerance
+        Least R² against the exact reference that auto accepts.
+    sampling
+        How the six coefficients become a PSF: matrix DFT of any size, or zero-padded FFT of even sizes.
+    pixels
+        Samples along each side.
+    pixel_um
+        Distance between samples, µm; one that holds the PSF when not given.
+    """
+
+    method: Literal["auto", "seidel", "fitted", "traced", "huygens", "gaussian"] | None = None
+    tolerance: float = 0.99
+    sampling: Literal["fft", "mdft"] | None = None
+    pixels: int = 64
+    pixel_um: float | None = None
+
+    def __post_init__(self):
+        if not 2 <= self.pixels <= MOST_PIXELS:
+            raise RequestError(f"--pixels is {self.pixels}; give a whole number from 2 to {MOST_PIXELS}")
+        if self.pixel_um is not None and not 0 < self.pixel_um < 1e6:
+            raise RequestError(f"--pixel-um is {self.pixel_um:g} µm; give a positive number below a metre")
+        if not 0 < self.tolerance < 1:
+            raise RequestError(f"--tolerance is {self.tolerance:g}; give an R² between 0 and 1, such as 0.99")
+        if self.sampling and self.method not in (None, "seidel"):
+            raise RequestError(
+                f"--sampling is {self.sampling}, which samples Seidel coefficients and not --method {self.method}; "
+                "leave one of the two away"
+            )
+        if self.sampling == "fft" and self.pixels % 2:
+            raise SamplingError(
+                f"--pixels is {self.pixels}, and --sampling fft needs an even size; "
+                f"give {self.pixels + 1} or choose --sampling mdft"
+            )
+
+
+USUAL = Picture()
+
+
+def psf(
+    lens: LensName,
+    /,
+    *,
+    request: Asked = AS_IN_THE_FILE,
+    picture: Annotated[Picture, Parameter(name="*")] = USUAL,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Compute the PSF of one source and write it as .npz, .tiff, .csv or .png."""
+    _check_output(output)
+    setup = set_up(find_lens(lens), request)
+    result = render(setup, picture)
+    if output:
+        write_psf(result, output, describe(setup))
+    if as_json:
+        return print_json({"file": None if output is None else str(output), "pixels": picture.pixels, **facts(result)})
+    warn(setup.stop.warning)
+    return print_table(heading(setup), ("point spread function", "value", "unit"), summary(result, output))
+
+
+def render(setup: Setup, picture: Picture) -> Psf:
+    """Return the asked PSF: by the ladder, or straight from the six coefficients when their sampling is named."""
+    if picture.sampling:
+        return _from_coefficients(setup, picture)
+    from p2sf import ladder
+
+    return ladder.render(
+        setup.lens,
+        setup.source,
+        method=picture.method or "auto",
+        pixels=picture.pixels,
+        pixel_um=picture.pixel_um,
+        tolerance=picture.tolerance,
+    )
+
+
+def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
+    from p2sf.psf import seidel_psf
+    from p2sf.seidel import coefficients
+
+    source = setup.source
+    six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
+    return seidel_psf(six, picture.pixels, picture.pixel_um, sampling=picture.sampling)
+
+
+def _check_output(output: Path | None) -> None:
+    """Refuse an unknown ending before the work and not after it."""
+    if output is not None and output.suffix.lower() not in ENDINGS:
+        raise ExportError(f'--output is {output}, its ending "{output.suffix}" is unknown; choose {", ".join(ENDINGS)}')
+
+
+def summary(result: Psf, output: Path | None) -> list[tuple]:
+    """Return the rows that tell a person what was computed."""
+    known = facts(result)
+    rows = [
+        ("method", result.method, ""),
+        ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", ""),
+        ("pixel", result.pixel_um, "µm"),
+        ("Strehl ratio", known["strehl"], ""),
+        ("light inside the window", known["energy"], ""),
+        ("sampling", result.sampling, ""),
+        ("numbers that describe it", result.numbers, ""),
+        ("traced rays", result.rays, ""),
+        ("time", 1e3 * result.seconds, "ms"),
+    ]
+    return rows if output is None else [*rows, ("written to", str(output), "")]

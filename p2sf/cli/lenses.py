@@ -1,0 +1,32 @@
+"""`p2sf lenses`: what is on the shelf."""
+
+from p2sf.cli.options import Json
+from p2sf.cli.screen import print_json, print_table
+from p2sf.gaussian import cardinal_points
+from p2sf.lens import Lens
+from p2sf.library import find_lens, shipped_lenses
+from p2sf.pupils import f_number
+
+
+def lenses(*, as_json: Json = False) -> None:
+    """List the shipped lenses; every other command takes one of these names."""
+    records = [record(find_lens(name)) for name in shipped_lenses()]
+    if as_json:
+        return print_json({"lenses": records})
+    rows = [(r["name"], r["effective_focal_length"], r["f_number"], r["field_deg"], r["title"]) for r in records]
+    columns = ("name", "focal length, mm", "f-number", "largest field, °", "title")
+    return print_table("Shipped lenses", columns, rows)
+
+
+def record(lens: Lens) -> dict:
+    """Return what a list says about one lens, at its middle wavelength."""
+    wavelength = lens.reference_wavelength_um
+    return {
+        "name": lens.name,
+        "title": lens.title,
+        "effective_focal_length": float(cardinal_points(lens, wavelength).effective_focal_length),
+        "f_number": float(f_number(lens, wavelength)),
+        "field_deg": float(max(lens.fields_deg)),
+        "wavelengths_nm": list(lens.wavelengths_nm),
+        "source": lens.source,
+    }

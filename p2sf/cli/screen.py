@@ -1,0 +1,57 @@
+"""What commands print: tables with units for people, one JSON object for programs, warnings aside."""
+
+import json
+import sys
+from math import isinf
+
+from p2sf.export import plain
+from p2sf.request import Setup
+
+WIDE = 240  # columns of a page that no terminal limits
+
+
+def print_json(value: dict) -> None:
+    """Print one JSON object; infinite numbers become null."""
+    print(json.dumps(plain(value), allow_nan=False))
+
+
+def print_table(title: str, columns: tuple[str, ...], rows: list[tuple]) -> None:
+    """Print a table, with rules and colours only on a terminal; numbers to six digits, columns of them to the right."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    terminal = sys.stdout.isatty()
+    console = Console(file=sys.stdout, width=None if terminal else WIDE, highlight=False)
+    style = box.SIMPLE_HEAD if terminal else None
+    table = Table(box=style, pad_edge=False)
+    for number, name in enumerate(columns):
+        numeric = any(isinstance(row[number], int | float) for row in rows)
+        table.add_column(name, justify="right" if numeric else "left")
+    for row in rows:
+        table.add_row(*map(text, row))
+    console.print(title, style="bold", markup=False)
+    console.print(table)
+
+
+def text(value) -> str:
+    """Return a number to six significant digits, ∞ for an infinite one, a dash for none."""
+    if value is None:
+        return "–"
+    if isinstance(value, float):
+        return ("−∞" if value < 0 else "∞") if isinf(value) else f"{value + 0.0:.6g}"
+    return str(value)
+
+
+def warn(sentence: str | None) -> None:
+    """Print a warning beside the results, where it cannot be mistaken for one of them."""
+    if sentence:
+        print(f"warning: {sentence}", file=sys.stderr)
+
+
+def heading(setup: Setup) -> str:
+    """Return one line that says which lens and which source a table is about."""
+    lens, source = setup.prescription, setup.source
+    depth = f"{text(source.depth_mm)} mm" if not isinf(source.depth_mm) else "∞"
+    place = f"object at {depth}, field {setup.field_deg:.6g}°, {source.wavelength_um * 1000:.7g} nm"
+    return f"{lens.title or lens.name}: {place}"

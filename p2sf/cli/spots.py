@@ -1,0 +1,109 @@
+"""`p2sf spot`: where exact rays meet the sensor."""
+
+from math import inf
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from cyclopts import Parameter
+
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output
+from p2sf.cli.screen import heading, print_json, print_table, warn
+from p2sf.errors import ExportError, RequestError
+from p2sf.export import describe, write_beside, write_json
+from p2sf.library import find_lens
+from p2sf.pupils import numerical_aperture
+from p2sf.request import Setup, set_up
+
+MOST_RINGS = 200  # 120 601 rays
+AIRY = 0.609835  # first zero of 2 J1(πv)/(πv), halved, in λ/NA (Born & Wolf 1999, 8.5.2)
+
+Aim = Annotated[
+    Literal["paraxial", "real"],
+    Parameter(help="Fill the paraxial entrance pupil, or aim real rays so that the stop is filled."),
+]
+Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
+Rings = Annotated[int, Parameter(help="Rings of rays over the pupil.")]
+
+
+def spot(
+    lens: LensName,
+    /,
+    *,
+    request: Asked = AS_IN_THE_FILE,
+    rings: Rings = 12,
+    aim: Aim = "paraxial",
+    clip: Clip = False,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Trace exact rays and show the spot they make on the sensor; write it as .csv, .json or .png."""
+    _check(rings, output)
+    setup = set_up(find_lens(lens), request)
+    points, figures = trace_spot(setup, rings, aim, clip)
+    if output:
+        _write(points, {**describe(setup), "spot": figures}, output)
+    if as_json:
+        return print_json({"file": None if output is None else str(output), **figures, "points_um": points.tolist()})
+    warn(setup.stop.warning)
+    rows = [(name, figures[key], unit) for key, name, unit in ROWS]
+    return print_table(heading(setup), ("spot", "value", "unit"), rows)
+
+
+ROWS = (
+    ("rms_um", "RMS radius about the centroid", "µm"),
+    ("largest_um", "farthest ray from the centroid", "µm"),
+    ("centroid_y_um", "centroid from the chief ray, along y", "µm"),
+    ("airy_radius_um", "Airy radius 0.61 λ/NA, for comparison", "µm"),
+    ("rays", "rays traced", ""),
+    ("lost", "rays that never arrive", ""),
+)
+
+
+def trace_spot(setup: Setup, rings: int, aim: str, clip: bool) -> tuple[np.ndarray, dict]:
+    """Return the arriving rays' (x, y) in µm from the chief ray, shape (rays, 2), and the spot's figures."""
+    from p2sf import raytrace
+
+    found = raytrace.spot(setup.lens, setup.source, rings, aim, clip)
+    all_points = np.stack([found.x_um, found.y_um], axis=-1)
+    points = all_points[np.isfinite(all_points).all(axis=-1)]
+    na = float(numerical_aperture(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop))
+    return points, {
+        "rms_um": float(found.rms_um),
+        "largest_um": float(np.hypot(*(points - points.mean(axis=0)).T).max()),
+        "centroid_y_um": float(found.centroid_y_um),
+        "airy_radius_um": AIRY * setup.source.wavelength_um / na if na else inf,
+        "rays": len(all_points),
+        "lost": len(all_points) - len(points),
+    }
+
+
+def _check(rings: int, output: Path | None) -> None:
+    if not 1 <= rings <= MOST_RINGS:
+        raise RequestError(f"--rings is {rings}; give a whole number from 1 to {MOST_RINGS}")
+    if output is not None and output.suffix.lower() not in WRITERS:
+        raise ExportError(f'--output is {output}, its ending "{output.suffix}" is unknown; choose {", ".join(WRITERS)}')
+
+
+def _write(points: np.ndarray, record: dict, output: Path) -> None:
+    WRITERS[output.suffix.lower()](points, record, output)
+
+
+def _write_csv(points: np.ndarray, record: dict, output: Path) -> None:
+    lines = ["x_um,y_um", *(f"{x!r},{y!r}" for x, y in points.tolist())]
+    write_beside(output, lambda handle: handle.write(("\n".join(lines) + "\n").encode()))
+
+
+def _write_json(points: np.ndarray, record: dict, output: Path) -> None:
+    write_json(output, {**record, "points_um": points})
+
+
+def _write_png(points: np.ndarray, record: dict, output: Path) -> None:
+    from p2sf.picture import draw_spot
+
+    figures, setup = record["spot"], record["setup"]
+    title = f"{record['lens']['title']}\nfield {setup['field_deg']:g}°, RMS radius {figures['rms_um']:.3g} µm"
+    write_beside(output, lambda handle: draw_spot(handle, points, figures["airy_radius_um"], title))
+
+
+WRITERS = {".csv": _write_csv, ".json": _write_json, ".png": _write_png}
