@@ -77,7 +77,10 @@ def _columns(rows, shape):
     """Return rows of (a, b, c, d), numbers or arrays, as four arrays (surfaces, *shape)."""
     if not shape:
         return np.array(rows).T
-    return [np.stack([np.broadcast_to(x, shape) for x in column]) for column in zip(*rows, strict=True)]
+    full = [
+        [x if np.shape(x) == shape else np.broadcast_to(x, shape) for x in column] for column in zip(*rows, strict=True)
+    ]
+    return [np.stack(column) for column in full]
 
 
 def abcd(lens: Lens, wavelength_um) -> np.ndarray:
