@@ -32,3 +32,7 @@ class LensFileError(P2SFError):
         place = f"{path}, line {line}: " if line else f"{path}: " if path else ""
         super().__init__(place + message)
         self.path, self.line = str(path), line
+
+
+class DatabaseError(P2SFError):
+    """A database or stack that cannot be built, read, or asked what it was asked."""

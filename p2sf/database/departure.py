@@ -1,0 +1,50 @@
+"""How far a database is from the direct evaluation it stands for."""
+
+import numpy as np
+
+from p2sf.database.parts import KINDS
+from p2sf.database.space import Space
+from p2sf.seidel import Coefficients
+
+# Steps of the additive recurrence that fills a cube most evenly (Roberts 2018): powers of 1/g, g⁴ = g + 1.
+EVEN_STEPS = 1.2207440846057596 ** -np.arange(1, 4)
+
+
+def scattered(space: Space, count: int, last_depth_mm: float = np.inf):
+    """Return ``count`` points spread evenly over a space: depth (uniform in 1/depth), field slope, wavelength."""
+    far = min(float(space.depths_mm[-1]), last_depth_mm)
+    cube = (0.5 + np.outer(EVEN_STEPS, np.arange(count))) % 1
+    near = 1 / far + cube[0] * (1 / space.depths_mm[0] - 1 / far)
+    slope, wavelength = (
+        nodes[0] + part * (nodes[-1] - nodes[0])
+        for nodes, part in zip((space.field_slopes, space.wavelengths_um), cube[1:], strict=True)
+    )
+    with np.errstate(divide="ignore"):
+        return np.clip(1 / near, space.depths_mm[0], far), slope, wavelength
+
+
+def cell_middles(space: Space, last_depth_mm: float = np.inf):
+    """Return points in the middle of cells, where interpolation loses most, as axes that broadcast.
+
+    All depths (middles in 1/depth), the outermost field, and half a dozen wavelengths from end to end.
+    """
+    near = 1 / space.depths_mm[space.depths_mm <= last_depth_mm]
+    colours = _middles(space.wavelengths_um)
+    few = colours[np.unique(np.linspace(0, len(colours) - 1, 6).round().astype(int))]
+    with np.errstate(divide="ignore"):
+        depth = 1 / _middles(near)
+    return depth[:, None, None], _middles(space.field_slopes)[-1:, None], few
+
+
+def _middles(nodes: np.ndarray) -> np.ndarray:
+    return (nodes[1:] + nodes[:-1]) / 2 if len(nodes) > 1 else nodes
+
+
+def departures(found: Coefficients, direct: Coefficients) -> dict[str, float]:
+    """Return the largest difference of each coefficient, waves."""
+    return {kind: float(np.abs(getattr(found, kind) - getattr(direct, kind)).max()) for kind in KINDS}
+
+
+def largest(direct: Coefficients) -> dict[str, float]:
+    """Return the largest magnitude of each coefficient, waves."""
+    return {kind: float(np.abs(getattr(direct, kind)).max()) for kind in KINDS}

@@ -1,0 +1,91 @@
+"""What every database stores per (depth, wavelength), and how six coefficients come out of it.
+
+Everything is kept as mm of optical path at unit field slope: free of the 1/λ that would otherwise be
+interpolated too, and with the field dependence left to its exact powers.
+"""
+
+from math import copysign, inf
+from typing import NamedTuple
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.lens import Lens
+from p2sf.pupils import ParaxialRays, Stop, paraxial_rays
+from p2sf.seidel import Coefficients, defocus, seidel_sums
+
+KINDS = ("w40", "w31", "w22", "w20", "w11", "wd")
+# Power of the field slope that each coefficient carries.
+FIELD_POWER = {"w40": 0, "w31": 1, "w22": 2, "w20": 2, "w11": 3, "wd": 0}
+
+
+class Parts(NamedTuple):
+    """Coefficients at unit field slope, mm of path, and what scales the PSF.
+
+    ``nu`` is the reduced marginal slope n'u', ``y`` the marginal height at the last vertex (mm),
+    ``chief`` the paraxial chief ray's height on the sensor at unit field slope (mm).
+    """
+
+    w40: np.ndarray
+    w31: np.ndarray
+    w22: np.ndarray
+    w20: np.ndarray
+    w11: np.ndarray
+    wd: np.ndarray
+    nu: np.ndarray
+    y: np.ndarray
+    chief: np.ndarray
+    image_index: np.ndarray
+
+
+PARTS = Parts._fields
+
+
+def parts_of(lens: Lens, rays: ParaxialRays) -> Parts:
+    """Return what a database stores for these paraxial rays (Welford 1986, eq. 8.40; DESIGN.md section 3)."""
+    total = seidel_sums(lens, rays).total()
+    index = rays.index[-1]
+    return Parts(
+        w40=total.spherical / 8,
+        w31=total.coma / 2,
+        w22=total.astigmatism / 2,
+        w20=(total.astigmatism + total.petzval) / 4,
+        w11=total.distortion / 2,
+        wd=defocus(rays, lens.sensor_mm),
+        nu=rays.nu[-1],
+        y=rays.y[-1],
+        chief=rays.chief_y[-1] + rays.chief_nu[-1] / index * lens.sensor_mm,
+        image_index=index,
+    )
+
+
+def traced_parts(lens: Lens, depth_mm, wavelength_um, stop: Stop) -> Parts:
+    """Return the parts over broadcast (depth, wavelength), traced directly."""
+    return parts_of(lens, paraxial_rays(lens, depth_mm, wavelength_um, stop))
+
+
+def assemble(parts: Parts, powers, wavelength_um) -> Coefficients:
+    """Return coefficients in waves from parts and the field's powers 1, 2, 3; numbers or arrays alike."""
+    waves = UM_PER_MM / wavelength_um
+    first, second, third = powers
+    return Coefficients(
+        w40=parts.w40 * waves,
+        w31=parts.w31 * waves * first,
+        w22=parts.w22 * waves * second,
+        w20=parts.w20 * waves * second,
+        w11=parts.w11 * waves * third,
+        wd=parts.wd * waves,
+        reduced_slope=parts.nu,
+        image_index=parts.image_index,
+        image_distance=_quotient(-parts.image_index * parts.y, parts.nu),
+        image_height=parts.chief * first,
+        wavelength_um=wavelength_um,
+    )
+
+
+def _quotient(above, below):
+    """Return above/below, infinite where below is 0: an image at infinity."""
+    if isinstance(below, float):
+        return above / below if below else copysign(inf, above)
+    with np.errstate(divide="ignore"):
+        return above / below
