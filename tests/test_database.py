@@ -1,6 +1,5 @@
 """The coefficient database: exact polynomials, the paper's rule, straight lines, and what each loses."""
 
-
 import numpy as np
 import pytest
 
