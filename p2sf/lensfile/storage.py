@@ -1,0 +1,53 @@
+"""A lens file's text: read with a sentence for every way it can fail, written whole or not at all."""
+
+import os
+from pathlib import Path
+
+from p2sf.errors import LensFileError
+
+LARGEST_FILE = 1_000_000  # bytes; a lens takes a few thousand
+
+
+def read_text(path: str | os.PathLike) -> str:
+    """Return a lens file's text; LensFileError for a file that is missing, unreadable, empty, huge or not UTF-8."""
+    try:
+        return _decoded(_bytes(Path(path)), path)
+    except FileNotFoundError:
+        raise LensFileError("there is no such file; check the path", path) from None
+    except IsADirectoryError:
+        raise LensFileError("this is a folder; name a lens file in it", path) from None
+    except (OSError, ValueError) as error:
+        if isinstance(error, LensFileError):
+            raise
+        reason = getattr(error, "strerror", None) or error
+        raise LensFileError(f"the file cannot be read ({reason}); check its path and permissions", path) from None
+
+
+def _bytes(path: Path) -> bytes:
+    with open(path, "rb") as file:
+        return file.read(LARGEST_FILE + 1)
+
+
+def _decoded(data: bytes, path) -> str:
+    if len(data) > LARGEST_FILE:
+        raise LensFileError(f"the file is larger than {LARGEST_FILE} bytes; this is no lens file", path)
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        raise LensFileError("the file is not UTF-8 text; save it as UTF-8", path, line) from None
+    if not text.strip():
+        raise LensFileError("the file is empty; write a lens into it", path)
+    return text
+
+
+def write_text(text: str, path: str | os.PathLike) -> None:
+    """Write a text beside ``path`` and rename it, so that no reader meets half a file; LensFileError."""
+    path = Path(path)
+    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        beside.write_text(text, encoding="utf-8", newline="\n")
+        os.replace(beside, path)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        raise LensFileError(f"the file cannot be written ({error.strerror}); choose another place", path) from None

@@ -1,0 +1,158 @@
+"""Lens files in TOML, meant to be written by hand.
+
+title = "Biconvex singlet"       # also: name, character (one line), source, comment
+unit = "mm"                      # of every length below; cm, m, in as well
+stop_surface = 1                 # from 1; left out, the narrowest rim is the stop
+fields_deg = [0, 5]              # chief-ray angle at the entrance pupil
+wavelengths_nm = [486.1327, 587.5618, 656.2725]
+object_medium = "air"
+
+[aperture]                       # exactly one: stop_semi_diameter, entrance_pupil_diameter, f_number
+f_number = 8
+
+[[surface]]                      # in the order light meets them
+radius = 50.0                    # > 0: centre of curvature to the right; inf is a plane
+thickness = 4.0                  # to the next surface; the last one to the sensor
+glass = "SCHOTT N-BK7"           # or 1.5168, or { nd = 1.5168, vd = 64.17 }; left out: air
+semi_diameter = 10.0             # clear rim; left out: unlimited
+conic = -1.0
+aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
+"""
+
+import os
+import re
+import tomllib
+from math import inf, isfinite
+from pathlib import Path
+
+from p2sf.conventions import NM_PER_UM
+from p2sf.errors import GeometryError, LensFileError
+from p2sf.lens import Aperture, Lens, Surface
+from p2sf.lensfile.storage import read_text, write_text
+from p2sf.lensfile.table import Rule, Table, find_line, shown
+from p2sf.lensfile.written import lens_text
+
+MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
+TEXTS = ("title", "name", "character", "source", "comment")
+TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "surface")
+APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
+SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric")
+
+RADIUS = Rule(lambda x: x == x and x != 0, "write a number that is not 0, inf for a plane")
+THICKNESS = Rule(isfinite, "write the distance to the next surface as a number")
+RIM = Rule(lambda x: x > 0, "write a positive number")
+FINITE = Rule(isfinite, "write a finite number")
+OPENING = Rule(lambda x: 0 < x < inf, "write a positive number")
+FIELD = Rule(lambda x: abs(x) < 90, "write an angle in degrees below 90")
+WAVELENGTH = Rule(lambda x: 50 <= x <= 50_000, "write a wavelength in nanometres, 50 to 50000")
+
+
+def read_toml(path: str | os.PathLike) -> Lens:
+    """Return the lens of a TOML file, lengths turned into mm; LensFileError says line, value and remedy."""
+    return parse_toml(read_text(path), path)
+
+
+def write_toml(lens: Lens, path: str | os.PathLike) -> None:
+    """Write a lens as TOML, beside and renamed; LensFileError where that is impossible."""
+    write_text(lens_to_toml(lens), path)
+
+
+def lens_to_toml(lens: Lens) -> str:
+    """Return the lens as the text of a TOML file; reading it gives an equal lens."""
+    return lens_text(lens)
+
+
+def parse_toml(text: str, path: str | os.PathLike = "lens.toml") -> Lens:
+    """Return the lens of a TOML text; ``path`` is for messages and, its stem, for a lens without a name."""
+    top = Table(str(path), text, _values(text, str(path)))
+    top.check_keys(TOP)
+    scale = _scale(top)
+    surfaces = tuple(_surface(table, scale) for table in _surface_tables(top))
+    texts = {key: top.string(key) for key in TEXTS}
+    texts["name"] = texts["name"] or Path(path).stem.encode("utf-8", "replace").decode("utf-8")
+    lens = _lens(top, surfaces, _aperture(top, scale), texts)
+    _check_wavelengths(top, lens)
+    return lens
+
+
+def _values(text: str, path: str) -> dict:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        found = re.search(r" \(at line (\d+), column \d+\)", str(error))
+        line = int(found[1]) if found else text.count("\n") + 1
+        problem = re.sub(r" \(at .*\)$", "", str(error)).rstrip(".")
+        raise LensFileError(f"this is not TOML ({problem}); correct the line", path, line) from None
+    except (ValueError, RecursionError):
+        raise LensFileError("a number is too long or lists are nested too deep; this is no lens file", path) from None
+
+
+def _scale(top: Table) -> float:
+    unit = top.string("unit", "mm")
+    if unit not in MM:
+        top.fail(f'unit is "{unit}"; write one of {", ".join(MM)}', "unit")
+    return MM[unit]
+
+
+def _surface_tables(top: Table) -> list[Table]:
+    rows = top.values.get("surface", [])
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        line = find_line(top.text, "", None, "surface") or find_line(top.text, "surface", 1, "")
+        raise LensFileError("surface is not a list of tables; head every surface with [[surface]]", top.path, line)
+    if not rows:
+        top.fail("the lens has no surfaces; write a [[surface]] for each")
+    return [Table(top.path, top.text, row, "surface", number) for number, row in enumerate(rows, 1)]
+
+
+def _surface(table: Table, scale: float) -> Surface:
+    table.check_keys(SURFACE, TOP)
+    aspheric = table.numbers("aspheric", FINITE, ())
+    return Surface(
+        radius=table.number("radius", RADIUS) * scale,
+        thickness=table.number("thickness", THICKNESS) * scale,
+        medium=table.medium("glass"),
+        conic=table.number("conic", FINITE, 0.0),
+        aspheric=tuple(a * scale ** -(2 * k + 3) for k, a in enumerate(aspheric)),
+        semi_diameter=table.number("semi_diameter", RIM, inf) * scale,
+    )
+
+
+def _aperture(top: Table, scale: float) -> Aperture:
+    values = top.values.get("aperture")
+    if not isinstance(values, dict):
+        top.fail(f"aperture is {shown(values)}; write [aperture] and one of {', '.join(APERTURES)}", "aperture")
+    table = Table(top.path, top.text, values, "aperture")
+    table.check_keys(APERTURES, TOP)
+    if len(values) != 1:
+        table.fail(f"[aperture] states {len(values)} of {', '.join(APERTURES)}; keep exactly one")
+    kind = next(iter(values))
+    return Aperture(kind, table.number(kind, OPENING) * (1.0 if kind == "f_number" else scale))
+
+
+def _lens(top: Table, surfaces, aperture: Aperture, texts: dict[str, str]) -> Lens:
+    stop = top.count("stop_surface")
+    if stop is not None and not 1 <= stop <= len(surfaces):
+        top.fail(f"stop_surface is {stop}; write a surface from 1 to {len(surfaces)}", "stop_surface")
+    fields = top.numbers("fields_deg", FIELD, (0.0,))
+    waves = top.numbers("wavelengths_nm", WAVELENGTH, (587.5618,))
+    for key, values in (("fields_deg", fields), ("wavelengths_nm", waves)):
+        if not values:
+            top.fail(f"{key} is an empty list; write at least one number", key)
+    medium = top.medium("object_medium")
+    try:
+        return Lens(surfaces, aperture, stop, **texts, fields_deg=fields, wavelengths_nm=waves, object_medium=medium)
+    except GeometryError as error:
+        raise LensFileError(str(error), top.path) from None
+
+
+def _check_wavelengths(top: Table, lens: Lens) -> None:
+    """Raise LensFileError for a wavelength of the file at which one of its glasses has no data."""
+    for medium in (m for m in lens.media if m.range_um):
+        low, high = (NM_PER_UM * edge for edge in medium.range_um)
+        for wave in lens.wavelengths_nm:
+            if not low <= wave <= high:
+                top.fail(
+                    f"wavelength {wave:g} nm is outside the data of {medium.label}, {low:g} to {high:g} nm; "
+                    "take it out or change the glass",
+                    "wavelengths_nm",
+                )
