@@ -24,6 +24,7 @@ FLOORS = (
     "ladder paper",
     "request scene image",
     "picture export",
+    "databasefile stack interchange",
     "cli",
 )
 QT = {"PySide6", "pyqtgraph", "pyvista", "pyvistaqt", "app"}

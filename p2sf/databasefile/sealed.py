@@ -1,0 +1,61 @@
+"""npz files that know whether they are whole: a hash of every other byte stands in the archive's comment.
+
+Any .npz reader opens them. A zip's own checksums cover the members but not its directory, so a changed byte
+could otherwise pass.
+"""
+
+import hashlib
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.errors import DatabaseError
+from p2sf.export import write_beside
+
+SEAL = b"p2sf sha256 "
+DIGITS = 64
+SEALED = re.compile(re.escape(SEAL) + b"[0-9a-f]{%d}" % DIGITS)
+
+
+def write_sealed(path, arrays: dict[str, np.ndarray]) -> Path:
+    """Write arrays to a sealed .npz, whole or not at all; the same arrays give the same bytes. Raises ExportError."""
+    archive = io.BytesIO()
+    np.savez_compressed(archive, **arrays)
+    comment_length = (len(SEAL) + DIGITS).to_bytes(2, "little")
+    unsealed = archive.getvalue()[:-2] + comment_length + SEAL  # a zip ends with the length of its comment, here 0
+    return write_beside(path, lambda handle: handle.write(unsealed + _digest(unsealed)))
+
+
+def read_sealed(path, mark: str) -> dict[str, np.ndarray]:
+    """Return the arrays of a sealed .npz; ``mark`` is its first member, by which a damaged file is still known.
+
+    Raises DatabaseError: not there, not ours, cut short, or damaged.
+    """
+    raw = _bytes(path)
+    if not SEALED.fullmatch(raw[-len(SEAL) - DIGITS :]):
+        raise DatabaseError(f"{path} {_why_unsealed(raw, mark)}")
+    if _digest(raw[:-DIGITS]) != raw[-DIGITS:]:
+        raise DatabaseError(f"{path} is damaged, its contents do not match its seal; copy or build it again")
+    with np.load(io.BytesIO(raw), allow_pickle=False) as file:
+        return dict(file)
+
+
+def _why_unsealed(raw: bytes, mark: str) -> str:
+    if mark.encode() in raw[:200]:
+        return "is cut short or damaged at its end; copy or build it again"
+    return "is not a P2SF database; build one with p2sf database build"
+
+
+def _bytes(path) -> bytes:
+    try:
+        return Path(path).read_bytes()
+    except OSError as error:
+        raise DatabaseError(
+            f"{path} cannot be read, {(error.strerror or str(error)).lower()}; check the name"
+        ) from error
+
+
+def _digest(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode()
