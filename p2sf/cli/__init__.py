@@ -64,8 +64,8 @@ def _usage(error) -> str:
 
 
 def _fail(sentence: str) -> int:
-    line = " ".join(sentence.split()).rstrip(".")
-    print(f"p2sf: {line}.", file=sys.stderr)
+    line = " ".join(sentence.split())
+    print(f"p2sf: {line}{'' if line.endswith(('.', '?')) else '.'}", file=sys.stderr)
     return FAILED
 
 

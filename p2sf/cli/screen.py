@@ -30,8 +30,10 @@ def print_table(title: str, columns: tuple[str, ...], rows: list[tuple]) -> None
         table.add_column(name, justify="right" if numeric else "left")
     for row in rows:
         table.add_row(*map(text, row))
-    console.print(title, style="bold", markup=False)
-    console.print(table)
+    with console.capture() as page:
+        console.print(title, style="bold", markup=False)
+        console.print(table)
+    sys.stdout.write(page.get())  # printed by the console itself, a closed pipe would exit with a code of rich's choice
 
 
 def text(value) -> str:
