@@ -116,17 +116,27 @@ def sensor_position(lens: Lens, request: Request) -> float:
     A sensor is a thing and does not move with the colour: it stands at the paraxial image of ``focus_mm`` at
     the lens's middle wavelength. Raises RequestError when that image is not a real one at a finite place.
     """
-    shift = request.sensor_shift_um / UM_PER_MM
-    if request.focus_mm is None:
-        return lens.sensor_mm + shift
-    place = float(image_distance(lens, request.focus_mm, lens.reference_wavelength_um))
+    place = _focused(lens, request.focus_mm)
+    shifted = place + request.sensor_shift_um / UM_PER_MM
+    if shifted <= 0 < place:
+        raise RequestError(
+            f"--sensor-shift-um is {request.sensor_shift_um:g} µm, which moves the sensor from {place:g} mm behind the "
+            "lens into it; give a smaller shift"
+        )
+    return shifted
+
+
+def _focused(lens: Lens, focus_mm: float | None) -> float:
+    if focus_mm is None:
+        return lens.sensor_mm
+    place = float(image_distance(lens, focus_mm, lens.reference_wavelength_um))
     if not (isfinite(place) and place > 0):
         where = f"{place:g} mm from the last vertex" if isfinite(place) else "at infinity"
         raise RequestError(
-            f"{place_of('focus_mm')} is {request.focus_mm:g} mm, but the image of that distance lies {where} and "
+            f"{place_of('focus_mm')} is {focus_mm:g} mm, but the image of that distance lies {where} and "
             "not on a sensor behind the lens; give a distance whose image is real, as a rule a longer one"
         )
-    return place + shift
+    return place
 
 
 def field_slope(lens: Lens, request: Request, wavelength, stop: Stop) -> float:

@@ -87,6 +87,7 @@ BAD = [
     ({"wavelength_nm": inf}, "--wavelength-nm is inf nm"),
     ({"f_number": -1}, "--f-number is -1"),
     ({"sensor_shift_um": inf}, "--sensor-shift-um is inf µm"),
+    ({"sensor_shift_um": -70e3}, "--sensor-shift-um is -70000 µm"),
     ({"field_deg": 90}, "--field-deg is 90°"),
     ({"field_deg": -120}, "--field-deg is -120°"),
     ({"field_deg": nan}, "--field-deg is nan°"),
