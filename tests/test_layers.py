@@ -18,7 +18,7 @@ FLOORS = (
     "seidel",
     "quadrature transform wavefront",
     "psf measures fastpath",
-    "database raytrace",
+    "database refraction rays entrance raytrace",
     "fitted huygens",
     "gaussianfit accuracy",
     "ladder paper",
