@@ -6,6 +6,8 @@ point (ξ, η) has k = −n'u'(ξ, η)/λ with the signed slope (`conventions`).
 
 import numpy as np
 
+from p2sf.errors import SamplingError
+
 # Nodes per block of the direct sum: large enough for BLAS, small enough to stay in the cache.
 BLOCK = 4096
 
@@ -56,3 +58,47 @@ def _radians(cycles: np.ndarray) -> np.ndarray:
 def _wave(cycles: np.ndarray) -> np.ndarray:
     phase = _radians(cycles)
     return np.cos(phase) + 1j * np.sin(phase)
+
+
+def matrix_dft(pupil, kx, ky, x, y) -> np.ndarray:
+    """Return Σ pupil_ji exp(2πi(kx_i x + ky_j y)) on a grid, shape (…, len(y), len(x)): two matrix products.
+
+    ``pupil``: (…, len(ky), len(kx)); any pitch and any size on either side (Soummer et al. 2007, eq. 7).
+    """
+    up, across = (_wave(np.multiply.outer(np.asarray(a), b)) for a, b in ((y, ky), (kx, x)))
+    return up @ pupil @ across
+
+
+def padded_fft(pupil: np.ndarray, pupil_samples: int, pixels: int) -> np.ndarray:
+    """Return the same sum by FFT, for kx = j/(pupil_samples·pitch), j centred, at the pitch of x: the paper's way.
+
+    ``pupil``: (…, side, side), side even, sample side//2 is j = 0. Returns (…, pixels, pixels), sample pixels//2
+    is x = 0. A pupil wider than ``pupil_samples`` is folded onto itself, which the sum at these x cannot tell
+    apart, so that any pitch is allowed. Source: Pieroni et al. 2015. Raises SamplingError.
+    """
+    check_fft(pupil_samples, pixels)
+    plane = np.fft.ifft2(_wrapped(pupil, pupil_samples), norm="forward")
+    shown = np.arange(pixels) - pixels // 2
+    return plane[..., shown[:, None], shown]
+
+
+def check_fft(pupil_samples: int, pixels: int) -> None:
+    """Raise SamplingError unless NPSF is even and NPUPIL an even number of at least twice as many."""
+    if pixels % 2:
+        raise SamplingError(f"an FFT needs an even number of PSF samples, not {pixels}; add one or use mdft")
+    if pupil_samples % 2 or pupil_samples < 2 * pixels:
+        raise SamplingError(
+            f"{pupil_samples} pupil samples are too few for {pixels} PSF samples by FFT; "
+            f"give an even number of at least {2 * pixels}"
+        )
+
+
+def _wrapped(pupil: np.ndarray, size: int) -> np.ndarray:
+    """Return the pupil on ``size``² samples, index 0 at its centre: padded with zeros, or folded if it is wider."""
+    side = pupil.shape[-1]
+    times = -(-side // size)
+    before = (times * size - side) // 2
+    padding = [(0, 0)] * (pupil.ndim - 2) + [(before, times * size - side - before)] * 2
+    blocks = np.pad(pupil, padding).reshape(*pupil.shape[:-2], times, size, times, size)
+    centre = before + side // 2
+    return np.roll(blocks.sum((-4, -2)), (-centre, -centre), (-2, -1))

@@ -17,7 +17,7 @@ FLOORS = (
     "pupils",
     "seidel",
     "quadrature transform wavefront",
-    "psf measures fastpath",
+    "fastpath psf measures",
     "database refraction rays entrance raytrace",
     "fitted huygens",
     "gaussianfit accuracy",

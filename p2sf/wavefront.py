@@ -1,0 +1,113 @@
+"""The wavefront W(ξ, η) of six coefficients, how steep it is and how large.
+
+All of it in waves over the entrance-pupil disc ξ² + η² ≤ 1, η towards the field. W11 moves the image
+without blurring it, so it stays out unless asked for (``tilt=True``).
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.seidel import Coefficients
+
+# Polar samples that find the extremes of these low-order polynomials: within 1 % over random coefficients (tested).
+SLOPE_RADII, SLOPE_ANGLES = 12, 25
+
+
+def wavefront(coefficients: Coefficients, xi, eta, tilt: bool = False) -> np.ndarray:
+    """Return W in waves at pupil points, shape (…coefficients, …points).
+
+    W = W40ρ⁴ + W31ρ²η + W22η² + (W20 + Wd)ρ² [+ W11η], Pieroni et al. 2015; Welford 1986, §7.5.
+    """
+    xi, eta = np.asarray(xi), np.asarray(eta)
+    square = xi * xi + eta * eta
+    w40, w31, w22, focus, w11 = (_before(x, square.ndim) for x in shape_coefficients(coefficients, tilt))
+    blur = square * (w40 * square + w31 * eta + focus) + w22 * (eta * eta)
+    return blur + w11 * eta if tilt else blur
+
+
+def shape_coefficients(coefficients: Coefficients, tilt: bool = False):
+    """Return W40, W31, W22, W20 + Wd and (0 unless ``tilt``) W11, each an array of the coefficients' shape."""
+    c = coefficients
+    return c.w40, c.w31, c.w22, c.w20 + c.wd, c.w11 if tilt else np.zeros_like(c.w11)
+
+
+def _before(values, grid_ndim: int) -> np.ndarray:
+    """Return values with axes for the pupil grid behind their own."""
+    values = np.asarray(values)
+    return values.reshape(*values.shape, *[1] * grid_ndim)
+
+
+def steepest_slope(coefficients: Coefficients, tilt: bool = False) -> np.ndarray:
+    """Return the largest |∇W| over the disc, waves per unit radius, within 1 %; shape of the coefficients.
+
+    λ/NA times this is the largest distance from the chief ray at which a ray of this wavefront lands.
+    """
+    across, along = (_linear(coefficients, basis, tilt) for basis in _gradient_basis())
+    return np.sqrt((across**2 + along**2).max(-1))
+
+
+def steepest_polar(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
+    """Return the largest |∂W/∂ρ| and |∂W/∂θ|, waves, within 1 %: what radial and angular sampling must carry."""
+    radial, angular = (_linear(coefficients, basis, False) for basis in _polar_basis())
+    return np.abs(radial).max(-1), np.abs(angular).max(-1)
+
+
+def _linear(coefficients: Coefficients, basis: np.ndarray, tilt: bool) -> np.ndarray:
+    """Return Σ coefficient·basis over the five shapes, (…, points)."""
+    return np.stack(np.broadcast_arrays(*shape_coefficients(coefficients, tilt)), axis=-1) @ basis
+
+
+@lru_cache(maxsize=1)
+def _slope_points():
+    rho = np.arange(1, SLOPE_RADII + 1)[:, None] / SLOPE_RADII
+    theta = np.linspace(0, np.pi, SLOPE_ANGLES)
+    return tuple(x.ravel() for x in np.broadcast_arrays(rho, np.sin(theta), np.cos(theta)))
+
+
+@lru_cache(maxsize=1)
+def _gradient_basis() -> tuple[np.ndarray, np.ndarray]:
+    """Return ∂W/∂ξ and ∂W/∂η of the five shapes at the slope points, (5, points) each."""
+    rho, sine, cosine = _slope_points()
+    xi, eta, none = rho * sine, rho * cosine, np.zeros_like(rho)
+    across = [4 * rho**2 * xi, 2 * xi * eta, none, 2 * xi, none]
+    along = [4 * rho**2 * eta, rho**2 + 2 * eta**2, 2 * eta, 2 * eta, none + 1]
+    return np.stack(across), np.stack(along)
+
+
+@lru_cache(maxsize=1)
+def _polar_basis() -> tuple[np.ndarray, np.ndarray]:
+    """Return ∂W/∂ρ and ∂W/∂θ of the five shapes at the slope points, (5, points) each."""
+    rho, sine, cosine = _slope_points()
+    none = np.zeros_like(rho)
+    radial = [4 * rho**3, 3 * rho**2 * cosine, 2 * rho * cosine**2, 2 * rho, cosine]
+    angular = [none, -(rho**3) * sine, -2 * rho**2 * sine * cosine, none, -rho * sine]
+    return np.stack(radial), np.stack(angular)
+
+
+def rms(coefficients: Coefficients, tilt_removed: bool = True) -> np.ndarray:
+    """Return the RMS of W about its mean over the disc, waves, exact; W11 left out.
+
+    ``tilt_removed`` also takes out the tilt that coma contains, which moves the peak and does not lower it:
+    (2πσ)² is then what a small aberration costs of the Strehl ratio (Maréchal). Variances of the
+    orthogonal parts (Born & Wolf 1999, §9.2.1): spherical with focus, coma, astigmatism.
+    """
+    w40, w31, w22, focus, _ = shape_coefficients(coefficients)
+    mean_focus = focus + w22 / 2
+    axial = 4 / 45 * w40**2 + w40 * mean_focus / 6 + mean_focus**2 / 12
+    return np.sqrt(axial + w31**2 / (72 if tilt_removed else 8) + w22**2 / 24)
+
+
+def pv(coefficients: Coefficients, tilt_removed: bool = True) -> np.ndarray:
+    """Return the largest less the smallest W over the disc, waves, within 1 %; the tilt handled as in `rms`."""
+    rho, sine, cosine = _slope_points()
+    xi, eta = np.append(rho * sine, 0), np.append(rho * cosine, 0)
+    values = wavefront(coefficients, xi, eta)
+    if tilt_removed:
+        values = values - coma_tilt(coefficients)[..., None] * eta
+    return values.max(-1) - values.min(-1)
+
+
+def coma_tilt(coefficients: Coefficients) -> np.ndarray:
+    """Return the tilt in W31ρ³cosθ that fits it best over the disc, 2/3 W31 waves at the rim."""
+    return np.asarray(coefficients.w31) * (2 / 3)
