@@ -15,6 +15,10 @@ COMMANDS = {
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
     "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),
     "lenses": ("lenses:lenses", "The shipped lenses."),
+    "import": (
+        "importing:import_",
+        "A lens of Zemax, CODE V, ISET, Optical Bench or CSV, with a report on the reading.",
+    ),
 }
 
 
@@ -28,20 +32,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(errors="replace")  # a terminal without ∞ or µ shows "?" and does not fail
     try:
-        _app()(arguments, exit_on_error=False, print_error=False)
+        code = _app()(arguments, exit_on_error=False, print_error=False)
         sys.stdout.flush()
+        return code or 0
     except CycloptsError as error:
         return _fail(_usage(error))
     except P2SFError as error:
         return _fail(str(error))
     except BrokenPipeError:
         _forget_output()  # the reader, such as `head`, has seen enough
+        return 0
     except OSError as error:
         _forget_output()
         return _fail(f"{error.filename or 'standard output'}: {error.strerror or error}; choose another place")
     except KeyboardInterrupt:
         return INTERRUPTED
-    return 0
 
 
 def _app():

@@ -10,16 +10,11 @@ from p2sf.errors import P2SFError
 What = Annotated[str | None, Parameter(help="A lens, or a STATE.json that the explorer wrote.")]
 
 
-def explore(what: What = None, /) -> None:
-    """Open the explorer on a lens, or on a saved state."""
+def explore(what: What = None, /) -> int:
+    """Open the explorer on a lens, or on a saved state; return its exit code."""
     missing = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
     if missing:
         raise P2SFError(f"the explorer needs {' and '.join(missing)}, not installed here; run pip install 'p2sf[app]'")
-    from app.display import display_problem
-
-    problem = display_problem()
-    if problem:
-        raise P2SFError(problem)
     from app.__main__ import main
 
-    main([what] if what else [])
+    return main([what] if what else [])

@@ -1,0 +1,74 @@
+"""`p2sf spot` traces what it says and writes it in the format of the ending."""
+
+import json
+
+import numpy as np
+import pytest
+
+from p2sf.cli import main
+
+PLACE = ("spot", "double_gauss_28", "--field-deg", "14")
+FIGURES = ["rms_um", "largest_um", "centroid_y_um", "airy_radius_um", "rays", "lost"]
+
+
+@pytest.fixture
+def answer(capsys):
+    def run(*arguments) -> dict:
+        assert main([*map(str, arguments), "--json"]) == 0, capsys.readouterr().err
+        return json.loads(capsys.readouterr().out)
+
+    return run
+
+
+def test_the_figures_are_those_of_the_points(answer):
+    found = answer(*PLACE, "--rings", 6)
+    assert list(found) == ["file", *FIGURES, "points_um"]
+    points = np.array(found["points_um"])
+    assert found["rays"] == len(points) == 1 + 3 * 6 * 7  # the centre and rings of 6, 12, … 36
+    off_centre = points - points.mean(axis=0)
+    assert found["rms_um"] == pytest.approx(np.sqrt((off_centre**2).sum() / len(points)), rel=1e-12)
+    assert found["largest_um"] == pytest.approx(np.hypot(*off_centre.T).max(), rel=1e-12)
+    assert found["centroid_y_um"] == pytest.approx(points[:, 1].mean(), rel=1e-12)
+
+
+def test_the_airy_circle_has_the_radius_of_the_textbook(answer):
+    found = answer("spot", "asphere", "--wavelength-nm", 550)
+    na = na_of(answer, "asphere", 550)
+    assert found["airy_radius_um"] == pytest.approx(0.61 * 0.55 / na, rel=3e-4)  # 0.61 is 0.60983 rounded
+
+
+def na_of(answer, name, wavelength_nm) -> float:
+    return answer("info", name, "--wavelength-nm", wavelength_nm)["numerical_aperture"]
+
+
+def test_vignetting_loses_rays(answer):
+    assert answer(*PLACE)["lost"] == 0
+    assert answer(*PLACE, "--clip")["lost"] > 0
+
+
+def test_aiming_at_the_stop_changes_the_spot(answer):
+    assert answer(*PLACE, "--aim", "real")["rms_um"] != pytest.approx(answer(*PLACE)["rms_um"], rel=1e-3)
+
+
+def test_files_hold_the_points(answer, tmp_path):
+    found = answer(*PLACE, "-o", tmp_path / "spot.csv")
+    table = np.genfromtxt(tmp_path / "spot.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(np.stack([table["x_um"], table["y_um"]], -1), found["points_um"])
+    answer(*PLACE, "-o", tmp_path / "spot.json")
+    kept = json.loads((tmp_path / "spot.json").read_text(encoding="utf-8"))
+    assert kept["points_um"] == found["points_um"] and kept["lens"]["name"] == "double_gauss_28"
+    answer(*PLACE, "-o", tmp_path / "spot.png")
+    assert (tmp_path / "spot.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"), [("--rings 0", "--rings is 0"), ("-o a.npz", ".npz"), ("--aim high", "high")]
+)
+def test_an_option_that_cannot_be(capsys, options, words):
+    assert main([*PLACE, *options.split()]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_a_table_for_people(capsys):
+    assert main(list(PLACE)) == 0
+    assert "RMS radius" in capsys.readouterr().out
