@@ -17,7 +17,7 @@ COMMANDS = {
     "lenses": ("lenses:lenses", "The shipped lenses."),
     "import": (
         "importing:import_",
-        "A lens of Zemax, CODE V, ISET, Optical Bench or CSV, with a report on the reading.",
+        "A lens of Zemax, CODE V, ISET, Optical Bench or CSV, with a report.",
     ),
 }
 

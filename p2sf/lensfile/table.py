@@ -4,10 +4,11 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
-from math import isfinite, nan
+from math import nan
 
 from p2sf.errors import GlassError, LensFileError
-from p2sf.glass import Medium, parse_medium
+from p2sf.glass import Medium
+from p2sf.lensfile.media import read_medium
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ class Table:
     def medium(self, key: str) -> Medium:
         """Return the medium a key names; air where it is absent."""
         try:
-            return parse_medium(self.values.get(key, "air"))
+            return read_medium(self.values.get(key, "air"))
         except GlassError as error:
             self.fail(str(error), key)
 
@@ -90,7 +91,7 @@ def as_float(value) -> float:
     """Return a TOML number as a float; NaN for anything else, which no rule lets pass."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return nan
-    return float(value) if abs(value) < 1e300 or not isfinite(value) else nan
+    return float(value) if isinstance(value, float) or abs(value) < 1e300 else nan
 
 
 def shown(value) -> str:

@@ -6,6 +6,7 @@ from json import dumps
 from p2sf.errors import LensFileError
 from p2sf.glass import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass, TabulatedIndex
 from p2sf.lens import Lens, Surface
+from p2sf.lensfile.agf import FormulaGlass
 
 
 @dataclass(frozen=True)
@@ -81,4 +82,7 @@ def _medium(medium: Medium) -> str:
     if isinstance(medium, TabulatedIndex):
         label = "" if medium.label == "table" else f", label = {_text(medium.label)}"
         return f"{{ wavelengths_um = {_list(medium.wavelengths_um)}, n = {_list(medium.values)}{label} }}"
+    if isinstance(medium, FormulaGlass):
+        numbers = f"coefficients = {_list(medium.coefficients)}, range_um = {_list(medium.range_um)}"
+        return f"{{ agf_formula = {medium.formula}, {numbers}, name = {_text(medium.name)} }}"
     raise LensFileError(f"medium {medium.label} cannot be written to a file; give an index, a glass name or nd and vd")

@@ -1,0 +1,55 @@
+"""`p2sf import`: a lens from another program's file, with a report on what was read and how."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from p2sf.cli.options import Json, Output
+from p2sf.cli.screen import print_json
+from p2sf.errors import LensFileError
+from p2sf.lensfile.importing import Import, import_lens
+
+Consent = Annotated[bool, Parameter(negative="", help="Take the substitute glasses that are offered, and report them.")]
+Glasses = Annotated[list[Path] | None, Parameter("--agf", negative="", help="AGF glass catalogue; may be repeated.")]
+
+
+def import_(
+    file: Path,
+    *,
+    output: Output = None,
+    accept_substitutes: Consent = False,
+    agf: Glasses = None,
+    as_json: Json = False,
+) -> None:
+    """Read a lens of Zemax, CODE V, ISET, Optical Bench or a CSV table; write it as .toml, .zmx or ISET .json."""
+    found = import_lens(file, accept_substitutes, agf or ())
+    if output is not None:
+        _check_apart(output, file)
+        from p2sf.lensfile.writing import write_lens
+
+        write_lens(found.lens, output)
+    if as_json:
+        return print_json(record(found, output))
+    print(found.report.text)
+    return print(f"written: {output}") if output else None
+
+
+def _check_apart(output: Path, file: Path) -> None:
+    """Raise LensFileError where the output would overwrite what was read."""
+    if output.exists() and output.samefile(file):
+        raise LensFileError("the output is the file that was read; choose another name", str(output))
+
+
+def record(found: Import, output: Path | None) -> dict:
+    """Return the report of one import as plain values."""
+    report = found.report
+    notes = [{"kind": n.kind, "text": n.text, "surface": n.surface, "line": n.line} for n in report.notes]
+    written = str(output) if output else None
+    return {
+        "path": report.path,
+        "format": report.format,
+        "encoding": report.encoding,
+        "notes": notes,
+        "output": written,
+    }

@@ -1,0 +1,117 @@
+"""Glass catalogues in the AGF format: the user's own data, which beat the built-in table."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.errors import GlassError
+from p2sf.glass import checked_wavelength
+from p2sf.lensfile.agfformulas import COEFFICIENTS, DIRECT, SQUARED, refractive_index
+from p2sf.lensfile.sourcetext import LensText, number, read_source, whole
+
+F_LINE_UM, D_LINE_UM, C_LINE_UM = 0.4861327, 0.5875618, 0.6562725
+
+
+@dataclass(frozen=True)
+class FormulaGlass:
+    """A glass by AGF formula number and coefficients (λ in µm), valid inside ``range_um``.
+
+    ``listed_nd`` is the index the catalogue prints beside them, a check on the coefficients.
+    """
+
+    name: str
+    formula: int
+    coefficients: tuple[float, ...]
+    range_um: tuple[float, float]
+    listed_nd: float | None = field(default=None, compare=False)
+
+    @property
+    def label(self) -> str:
+        """Return the maker's name of the glass."""
+        return self.name
+
+    def index(self, wavelength_um) -> np.ndarray:
+        """Return the index; GlassError outside the glass's range or where its formula gives no real number."""
+        wavelength = checked_wavelength(self, wavelength_um)
+        index = refractive_index(self.formula, self.coefficients, wavelength)
+        if not np.all((index > 0) & (index < 1e3)):
+            raise GlassError(f"formula {self.formula} of {self.name} gives no real index there; check its coefficients")
+        return index
+
+
+@dataclass(frozen=True)
+class Catalogue:
+    """One AGF file: its name (the file's stem) and its glasses by upper-case name."""
+
+    name: str
+    path: str
+    glasses: dict[str, FormulaGlass] = field(default_factory=dict)
+
+
+def read_agf(path) -> Catalogue:
+    """Return the catalogue in an AGF file; LensFileError names the line that cannot be read."""
+    source = read_source(path)
+    glasses: dict[str, FormulaGlass] = {}
+    entry: dict[str, tuple[int, list[str]]] = {}
+    last = ""
+    for line, text in enumerate(source.lines, 1):
+        words = text.split()
+        if words and words[0] == "NM":
+            _store(glasses, entry, source)
+            entry = {}
+        if words and words[0] in ("NM", "CD", "LD"):
+            entry[words[0]] = (line, words[1:])
+        elif words and last == "CD" and _looks_like_a_number(words[0]):
+            entry["CD"][1].extend(words)  # some makers' files wrap the coefficients
+            continue
+        last = words[0] if words else ""
+    _store(glasses, entry, source)
+    if not glasses:
+        raise source.error("no glass (NM and CD lines) is in this file; give an AGF catalogue", len(source.lines))
+    return Catalogue(Path(path).stem.upper(), str(path), glasses)
+
+
+def _store(glasses, entry, source: LensText) -> None:
+    """Add the glass whose lines have been collected; a catalogue's first entry of a name counts."""
+    if "NM" not in entry:
+        return
+    line, words = entry["NM"]
+    if len(words) < 2:
+        raise source.error("a glass needs a name and a formula number (NM name formula …); complete it", line)
+    formula = whole(words[1], "formula number", source, line)
+    if formula not in DIRECT and formula not in SQUARED:
+        raise source.error(f"{words[0]} uses dispersion formula {formula}; only 1 to 13 exist, correct it", line)
+    listed = number(words[3], "listed nd", source, line) if len(words) > 3 else None
+    glass = FormulaGlass(words[0], formula, _coefficients(entry, source, line), _range(entry, source, line), listed)
+    glasses.setdefault(words[0].upper(), glass)
+
+
+def _looks_like_a_number(word: str) -> bool:
+    return word[0] in "+-.0123456789"
+
+
+def _coefficients(entry, source: LensText, name_line: int) -> tuple[float, ...]:
+    line, words = entry.get("CD", (name_line, []))
+    if not words:
+        raise source.error("the glass has no coefficients (CD line); complete it", line)
+    return tuple(number(word, "coefficient", source, line) for word in words[:COEFFICIENTS])
+
+
+def _range(entry, source: LensText, name_line: int) -> tuple[float, float]:
+    line, words = entry.get("LD", (name_line, []))
+    if len(words) < 2:
+        raise source.error("the glass has no wavelength range (LD line); complete it", line)
+    low, high = (number(word, "wavelength", source, line) for word in words[:2])
+    if not 0 < low < high:
+        raise source.error(f"the glass's range is {low:g} to {high:g} µm; give the smaller first, both positive", line)
+    return low, high
+
+
+def nd_and_vd(glass: FormulaGlass) -> tuple[float, float]:
+    """Return nd and the Abbe number a catalogue prints; 0 where the glass has no data at those lines."""
+    low, high = glass.range_um
+    if not (low <= F_LINE_UM and C_LINE_UM <= high):
+        return 0.0, 0.0
+    blue, yellow, red = (float(glass.index(line)) for line in (F_LINE_UM, D_LINE_UM, C_LINE_UM))
+    return yellow, (yellow - 1) / (blue - red) if blue != red else 0.0

@@ -1,0 +1,192 @@
+"""From what a file states to a Lens: units, glasses, stop, aperture, fields; every failure keeps its line."""
+
+import re
+from dataclasses import replace
+from math import inf, isfinite
+
+from p2sf.conventions import NM_PER_UM
+from p2sf.errors import GeometryError, GlassError
+from p2sf.glass import AIR, Medium
+from p2sf.lens import Aperture, Lens, Surface
+from p2sf.lensfile import conjugates
+from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
+from p2sf.lensfile.report import Notebook
+from p2sf.lensfile.resolve import GlassSources, resolve
+from p2sf.lensfile.sourcetext import LensText
+
+HIGHEST_ORDER = 40
+PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
+FIELD_WORDS = {"object_height": "object heights", "image_height": "image heights", "real_image_height": "image heights"}
+
+
+def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensText) -> Lens:
+    """Return the lens of a file; LensFileError with line wherever it is no lens this program traces."""
+    if not raw.surfaces:
+        raise source.error("the file holds no lens surface between object and image", len(source.lines))
+    media = _media(raw, sources, notes, source)
+    lens = _located(lambda: _bare_lens(raw, media), raw, source, None)
+    lens = _located(lambda: _with_aperture(lens, raw, notes), raw, source, raw.aperture_line or raw.wavelength_line)
+    lens = _located(lambda: _with_fields(lens, raw, notes), raw, source, raw.field_line)
+    if not raw.sensor_stated:
+        lens = _located(lambda: _focused(lens, raw, notes), raw, source, None)
+    _read_notes(lens, raw, notes)
+    return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
+
+
+def _located(make, raw: RawLens, source: LensText, line: int | None) -> Lens:
+    """Return what ``make`` makes; its failure gets the line of the surface it names, else ``line``, else the last."""
+    try:
+        return make()
+    except (GeometryError, GlassError) as failure:
+        named = re.match(r"surface (\d+)", str(failure))
+        where = raw.surfaces[int(named[1]) - 1].line if named else line
+        raise source.error(str(failure), where or len(source.lines)) from failure
+    except (OverflowError, ZeroDivisionError) as failure:
+        raise source.error(
+            "a number is too large or too small for a lens; correct it", line or len(source.lines)
+        ) from failure
+
+
+def _media(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensText) -> list[Medium]:
+    """Return object medium and the medium behind each surface."""
+    media = [_medium(raw.object_glass, None, sources, notes, source)]
+    for surface in raw.surfaces:
+        media.append(media[-1] if surface.keeps_medium else _medium(surface.glass, surface, sources, notes, source))
+    return media
+
+
+def _medium(glass: RawGlass | None, surface: RawSurface | None, sources, notes, source) -> Medium:
+    if glass is None:
+        return AIR
+    line = glass.line or (surface.line if surface else None)
+    try:
+        found = resolve(glass, sources)
+    except GlassError as failure:
+        where = surface.name if surface else "object space"
+        raise source.error(f"{where}: {failure}", line or len(source.lines)) from failure
+    if found.substitution:
+        notes.add("substituted", found.substitution, surface.number if surface else None, line)
+    return found.medium
+
+
+def _bare_lens(raw: RawLens, media: list[Medium]) -> Lens:
+    surfaces = tuple(
+        _surface(s, m, raw.unit_mm, n) for n, (s, m) in enumerate(zip(raw.surfaces, media[1:], strict=True), 1)
+    )
+    wavelengths = tuple(dict.fromkeys(round(w * NM_PER_UM, 9) for w in raw.wavelengths_um)) or (587.5618,)
+    return Lens(
+        surfaces,
+        PLACEHOLDER,
+        raw.stop,
+        title=raw.title,
+        source=raw.source,
+        wavelengths_nm=wavelengths,
+        object_medium=media[0],
+    )
+
+
+def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surface:
+    """Return one surface in mm; an r² term on a plane is the paraboloid it is, elsewhere it has no place."""
+    curvature, conic, terms = raw.curvature / unit, raw.conic, dict(raw.aspheric)
+    square = terms.pop(2, 0.0)
+    if square and curvature:
+        raise GeometryError(
+            f"surface {number}: the r² coefficient {square:g} beside a radius of curvature is not a conic with terms "
+            "from r⁴ on; refit the surface without r²"
+        )
+    if square:
+        curvature, conic = 2 * square / unit, -1.0
+    odd = [power for power, value in terms.items() if value and (power % 2 or not 4 <= power <= HIGHEST_ORDER)]
+    if odd:
+        raise GeometryError(f"surface {number}: aspheric term r^{odd[0]} is not even from r⁴ on; refit the surface")
+    return Surface(
+        1 / curvature if curvature else inf,
+        raw.thickness * unit,
+        medium,
+        conic,
+        _coefficients(terms, unit),
+        raw.semi_diameter * unit if raw.semi_diameter > 0 else inf,
+    )
+
+
+def _coefficients(terms: dict[int, float], unit: float) -> tuple[float, ...]:
+    """Return A4, A6, … in mm^-3, mm^-5, …, up to the last that is not 0."""
+    top = max((power for power, value in terms.items() if value), default=2)
+    return tuple(terms.get(power, 0.0) * unit ** (1 - power) for power in range(4, top + 1, 2))
+
+
+def _primary_um(raw: RawLens, lens: Lens) -> float:
+    if raw.primary is not None and 0 <= raw.primary < len(raw.wavelengths_um):
+        return raw.wavelengths_um[raw.primary]
+    return lens.reference_wavelength_um
+
+
+def _with_aperture(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    primary = _primary_um(raw, lens)
+    if raw.aperture is None:
+        return _open_to_its_rims(lens, raw, primary, notes)
+    if raw.stop is None:
+        surface, _ = conjugates.limiting_rim(lens, primary)
+        notes.add("caution", f"no stop is named; the narrowest rim, surface {surface}, is the stop")
+        lens = replace(lens, stop_surface=surface)
+    if not raw.aperture[1] > 0:
+        raise GeometryError(f"the aperture is {raw.aperture[1]:g}; give a positive number")
+    rays = conjugates.trace(lens, lens.stop_surface, primary)
+    same = abs(primary - lens.reference_wavelength_um) < 1e-9
+    return replace(lens, aperture=conjugates.aperture(raw, rays, same))
+
+
+def _open_to_its_rims(lens: Lens, raw: RawLens, wavelength_um: float, notes: Notebook) -> Lens:
+    """Return the lens whose file states no aperture: the stop's rim, or the narrowest rim, is it."""
+    if raw.stop and isfinite(lens.surfaces[raw.stop - 1].semi_diameter):
+        rim = lens.surfaces[raw.stop - 1].semi_diameter
+        notes.add("read", f"the stop, surface {raw.stop}, is open to its rim, semi-diameter {rim:g} mm")
+    else:
+        surface, rim = conjugates.limiting_rim(lens, wavelength_um)
+        notes.add("caution", f"no aperture is stated; the narrowest rim, surface {surface}, limits the light")
+    return replace(lens, aperture=Aperture("stop_semi_diameter", rim))
+
+
+def _with_fields(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    if not raw.fields:
+        return lens
+    stop = lens.stop_surface or conjugates.limiting_rim(lens, lens.reference_wavelength_um)[0]
+    try:
+        slopes = conjugates.field_slopes(raw, conjugates.trace(lens, stop, _primary_um(raw, lens)))
+    except GeometryError as failure:
+        if raw.field_kind == "angle":
+            raise
+        notes.add("caution", f"{failure}; the field list holds the axis only", None, raw.field_line)
+        return lens
+    if any(x for x, _ in raw.fields):
+        notes.add("read", "fields beside the y axis are turned onto it, which a round lens does not notice")
+    if raw.field_kind in FIELD_WORDS:
+        notes.add("read", f"fields given as {FIELD_WORDS[raw.field_kind]} are kept as angles at the entrance pupil")
+    if raw.field_kind == "real_image_height" and any(slopes):
+        notes.add("caution", "real image heights are taken as paraxial ones; distortion makes the angles differ")
+    return replace(lens, fields_deg=conjugates.degrees_of(slopes))
+
+
+def _focused(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    """Return the lens with the sensor its file does not state at the paraxial focus for an object at infinity."""
+    focus = conjugates.trace(lens, 1, lens.reference_wavelength_um).focus
+    if not isfinite(focus):
+        notes.add(
+            "caution", "the file does not say where the sensor is, and the lens has no focus; it is at the last vertex"
+        )
+        return lens
+    notes.add("caution", "the file does not say where the sensor is; it is put at the paraxial focus for infinity")
+    return replace(lens, surfaces=(*lens.surfaces[:-1], replace(lens.surfaces[-1], thickness=focus)))
+
+
+def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
+    aperture = f"{lens.aperture.kind.replace('_', ' ')} {lens.aperture.value:.6g}"
+    stop = f"stop on surface {lens.stop_surface}" if lens.stop_surface else "no stop named"
+    waves = ", ".join(f"{w:g}" for w in lens.wavelengths_nm)
+    angles = ", ".join(f"{f:.4g}" for f in lens.fields_deg)
+    notes.add("read", f"{len(lens.surfaces)} surfaces, {stop}, {aperture}; {waves} nm; fields {angles}°")
+    if raw.unit_mm != 1:
+        notes.add("read", f"lengths converted to mm from units of {raw.unit_mm:g} mm")
+    if isfinite(raw.object_distance):
+        distance = raw.object_distance * raw.unit_mm
+        notes.add("read", f"the file's object is at {distance:.6g} mm; ask for this depth to see the file's image")

@@ -1,0 +1,160 @@
+"""Aperture and fields as files state them, turned into a stop rim and field angles by paraxial rays.
+
+This floor lies below `gaussian`, so the two basis rays are traced here once more, in plain floats.
+"""
+
+from dataclasses import dataclass, replace
+from math import asin, atan, degrees, hypot, inf, isfinite, radians, tan
+
+from p2sf.errors import GeometryError
+from p2sf.lens import Aperture, Lens
+from p2sf.lensfile.raw import RawLens
+
+# Above this a distance in a file means infinity; CODE V writes 1e13, ray-tracing programs 1e10.
+FAR = 1e10
+
+
+@dataclass(frozen=True)
+class Paraxial:
+    """Two basis rays (y, nu) = (1, 0) and (0, 1): heights at the stop, heights and angles behind the lens."""
+
+    stop: tuple[float, float]
+    last: tuple[float, float, float, float]
+    object_index: float
+    image_index: float
+
+    @property
+    def entrance_pupil(self) -> float:
+        """Return the entrance pupil's position from the first vertex, mm; infinite for a telecentric lens."""
+        a, b = self.stop
+        return self.object_index * b / a if a else inf
+
+    @property
+    def focus(self) -> float:
+        """Return the back focal distance, mm; infinite for an afocal lens."""
+        a, _, c, _ = self.last
+        return -self.image_index * a / c if c else inf
+
+
+def trace(lens: Lens, stop: int, wavelength_um: float) -> Paraxial:
+    """Return the basis rays at one wavelength; GlassError outside a glass's range."""
+    index = [float(medium.index(wavelength_um)) for medium in lens.media]
+    a, b, c, d = 1.0, 0.0, 0.0, 1.0
+    at_stop = (a, b)
+    for number, surface in enumerate(lens.surfaces, 1):
+        power = surface.curvature * (index[number] - index[number - 1])
+        c, d = c - power * a, d - power * b
+        if number == stop:
+            at_stop = (a, b)
+        last = (a, b, c, d)
+        reduced = surface.thickness / index[number]
+        a, b = a + reduced * c, b + reduced * d
+    return Paraxial(at_stop, last, index[0], index[-1])
+
+
+def limiting_rim(lens: Lens, wavelength_um: float) -> tuple[int, float]:
+    """Return the surface whose rim limits the cone from infinity, and that rim in mm (Pieroni et al. 2015, qSIF)."""
+    heights = [abs(trace(lens, n, wavelength_um).stop[0]) for n in range(1, len(lens.surfaces) + 1)]
+    filled = [height / surface.semi_diameter for height, surface in zip(heights, lens.surfaces, strict=True)]
+    if not any(isfinite(surface.semi_diameter) for surface in lens.surfaces):
+        raise GeometryError("the file states no aperture, no stop and no semi-diameter; add one of them")
+    widest = max(range(len(filled)), key=filled.__getitem__)
+    return widest + 1, lens.surfaces[widest].semi_diameter
+
+
+def aperture(raw: RawLens, rays: Paraxial, keep: bool) -> Aperture:
+    """Return the aperture of a lens whose stop is known; ``keep`` leaves a pupil diameter or f-number as it is.
+
+    Otherwise, because the file's primary wavelength is not the lens's reference wavelength or because
+    it is stated at a finite distance, it becomes the stop's semi-diameter.
+    """
+    kind, value = raw.aperture
+    if kind == "stop_semi_diameter":
+        return Aperture(kind, value * raw.unit_mm)
+    if kind == "entrance_pupil_diameter" and keep:
+        return Aperture(kind, value * raw.unit_mm)
+    if kind == "f_number" and keep and rays.last[2]:
+        return Aperture(kind, value)
+    rim = abs(_marginal_height(kind, value, raw, rays))
+    if not (isfinite(rim) and rim > 0):
+        raise GeometryError(
+            f"the aperture ({kind.replace('_', ' ')} {value:g}) fills the stop to {rim:g} mm; correct it"
+        )
+    return Aperture("stop_semi_diameter", rim)
+
+
+def _marginal_height(kind: str, value: float, raw: RawLens, rays: Paraxial) -> float:
+    """Return the height at the stop of the marginal ray that an aperture statement means."""
+    a, b = rays.stop
+    _, _, c, d = rays.last
+    distance = raw.object_distance * raw.unit_mm
+    if kind == "entrance_pupil_diameter":
+        return value * raw.unit_mm / 2 * a
+    if kind == "f_number" or (kind == "image_f_number" and not isfinite(distance)):
+        return a / (2 * value * c) if c else inf
+    start = rays.object_index / distance if distance else inf
+    if not isfinite(start):
+        raise GeometryError("the object lies in the first vertex, where an aperture angle fills no stop; move it")
+    per_height = a + b * start
+    if kind == "object_na":
+        return distance * tan(asin(_sine(value, rays.object_index))) * per_height
+    slope = c + d * start
+    goal = 1 / (2 * value) if kind == "image_f_number" else rays.image_index * tan(asin(_sine(value, rays.image_index)))
+    return goal / slope * per_height if slope else inf
+
+
+def _sine(numerical_aperture: float, index: float) -> float:
+    if not 0 < numerical_aperture < index:
+        raise GeometryError(f"numerical aperture {numerical_aperture:g} is impossible in index {index:g}; correct it")
+    return numerical_aperture / index
+
+
+def field_slopes(raw: RawLens, rays: Paraxial) -> list[float]:
+    """Return each field as the chief ray's slope at the entrance pupil, distance from the axis only.
+
+    Raises GeometryError where a height has no slope: an afocal lens, a telecentric one, an object at infinity.
+    """
+    if raw.field_kind == "angle":
+        return [hypot(*(tan(radians(_angle(x))) for x in pair)) for pair in raw.fields]
+    heights = [hypot(*pair) * raw.unit_mm for pair in raw.fields]
+    if not any(heights):
+        return [0.0] * len(heights)
+    per_slope = _height_per_slope(raw, rays)
+    if not (isfinite(per_slope) and per_slope):
+        raise GeometryError("field heights have no angle for this lens")
+    return [abs(height / per_slope) for height in heights]
+
+
+def _angle(angle_deg: float) -> float:
+    if not abs(angle_deg) < 90:
+        raise GeometryError(f"field angle {angle_deg:g}° is not below 90°; correct it")
+    return angle_deg
+
+
+def _height_per_slope(raw: RawLens, rays: Paraxial) -> float:
+    """Return the object height, or the paraxial image height, of a chief ray of slope 1."""
+    distance = raw.object_distance * raw.unit_mm
+    pupil = rays.entrance_pupil
+    if raw.field_kind == "object_height":
+        return distance + pupil
+    if not isfinite(pupil):
+        return inf
+    a, b, c, d = rays.last
+    start = rays.object_index / distance if distance else 0.0
+    slope = c + d * start
+    image = -rays.image_index * (a + b * start) / slope if slope else inf
+    y, nu = -pupil, rays.object_index
+    return a * y + b * nu + (c * y + d * nu) / rays.image_index * image
+
+
+def with_object_named(lens: Lens, distance_mm: float) -> Lens:
+    """Return the lens with a comment that keeps the file's object distance, which a lens does not hold."""
+    if not isfinite(distance_mm):
+        return lens
+    words = f"The file's object stands {distance_mm:.6g} mm before the first surface."
+    return replace(lens, comment=f"{lens.comment}\n{words}".strip())
+
+
+def degrees_of(slopes: list[float]) -> tuple[float, ...]:
+    """Return field angles in degrees, each once, in the file's order."""
+    return tuple(dict.fromkeys(round(degrees(atan(slope)), 12) for slope in slopes))

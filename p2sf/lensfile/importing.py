@@ -1,0 +1,119 @@
+"""Read a lens from whatever file people have: the format is told by its content, its ending only breaks ties."""
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from p2sf.errors import LensFileError
+from p2sf.lens import Lens
+from p2sf.lensfile.agf import Catalogue, read_agf
+from p2sf.lensfile.codev import read_codev
+from p2sf.lensfile.csvtable import read_table
+from p2sf.lensfile.iset import read_iset_dat, read_iset_json
+from p2sf.lensfile.opticalbench import read_optical_bench
+from p2sf.lensfile.report import ImportReport, Notebook
+from p2sf.lensfile.resolve import GlassSources
+from p2sf.lensfile.sourcetext import LensText, read_source
+from p2sf.lensfile.toml import parse_toml
+from p2sf.lensfile.zemax import read_zemax
+
+
+@dataclass(frozen=True)
+class Import:
+    """A lens read from a file, and what a user should know about the reading."""
+
+    lens: Lens
+    report: ImportReport
+
+
+@dataclass(frozen=True)
+class Format:
+    """One format: its name, what its text must contain, its file ending, and its reader."""
+
+    name: str
+    mark: re.Pattern
+    ending: str
+    read: Callable[[LensText, GlassSources, Notebook], Lens]
+
+
+def _read_toml(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
+    notes.add("read", "a lens file of this program, exactly as written")
+    return parse_toml(source.text.removeprefix("\ufeff"), source.path)
+
+
+def _pattern(text: str) -> re.Pattern:
+    return re.compile(text, re.IGNORECASE | re.MULTILINE)
+
+
+FORMATS = (
+    Format("ISET lens (JSON)", re.compile(r"\A\s*\{"), ".json", read_iset_json),
+    Format("Optical Bench text", _pattern(r"^\s*\[lens data\]"), ".txt", read_optical_bench),
+    Format("P2SF lens (TOML)", _pattern(r"^\s*\[\[\s*surface\s*\]\]"), ".toml", _read_toml),
+    Format("Zemax", _pattern(r"^\s*SURF\s+\d+\s*$"), ".zmx", read_zemax),
+    Format("CODE V", _pattern(r"^\s*(SO|RDM|LEN|TIT(LE)?)\b[^=,]*$"), ".seq", read_codev),
+    Format("table with named columns", _pattern(r"^[^#\n]*\bradius\b[^\n]*[,;\t]"), ".csv", read_table),
+    Format("ISET lens (.dat)", _pattern(r"^\s*([-+.\deE]+[ \t,]+){3}[-+.\deE]+\s*$"), ".dat", read_iset_dat),
+)
+
+
+def import_lens(path, accept_substitutes: bool = False, catalogues: Iterable = ()) -> Import:
+    """Return the lens of a file of any known format, and the report on reading it.
+
+    ``catalogues``: paths of AGF glass catalogues; those lying beside the file are used as well. Raises
+    LensFileError, with its line, for what cannot be read exactly; a substitute glass needs consent.
+    """
+    source = read_source(path)
+    return import_text(source, GlassSources(_catalogues(path, catalogues), {}, accept_substitutes))
+
+
+def import_text(source: LensText, sources: GlassSources) -> Import:
+    """Return the lens of a text of any known format, and the report on reading it; LensFileError."""
+    found = recognise(source)
+    notes = Notebook()
+    for catalogue in sources.catalogues:
+        notes.add("read", f"glass catalogue {catalogue.path} with {len(catalogue.glasses)} glasses is at hand")
+    lens = found.read(source, sources, notes)
+    if lens.name == "lens":
+        lens = replace(lens, name=_name(source.path))
+    return Import(lens, ImportReport(source.path, found.name, source.encoding, tuple(notes.notes)))
+
+
+def recognise(source: LensText) -> Format:
+    """Return the format of a text: .toml is TOML, else the first whose mark the text bears, else by its ending."""
+    ending = Path(source.path).suffix.lower()
+    by_ending = {known.ending: known for known in FORMATS}
+    if ending == ".toml":
+        return by_ending[ending]
+    if ending == ".agf" or re.search(r"^NM \S+ \d+", source.text, re.MULTILINE):
+        raise source.error("this is a glass catalogue, not a lens; give it beside a lens file", 1)
+    marked = next((known for known in FORMATS if known.mark.search(source.text)), None)
+    if marked or ending in by_ending:
+        return marked or by_ending[ending]
+    names = ", ".join(known.name for known in FORMATS)
+    raise source.error(f"the file is none of the formats known here: {names}", 1)
+
+
+def _name(path: str) -> str:
+    """Return a plain name from a file's stem, as a lens file's name has to be."""
+    stem = re.sub(r"[^A-Za-z0-9.]+", "_", Path(path).stem).strip("_.")
+    return stem.lower() or "lens"
+
+
+def _catalogues(path, given: Iterable) -> tuple[Catalogue, ...]:
+    """Return the user's catalogues, then those beside the lens, of which an unreadable one is passed over."""
+    listed = [read_agf(item) for item in given]
+    folder = Path(path).parent
+    beside = sorted(item for item in folder.glob("*") if item.suffix.lower() == ".agf")[:50]
+    known = {Path(item.path).resolve() for item in listed}
+    for item in beside:
+        if item.resolve() not in known:
+            listed.append(_tolerant(item))
+    return tuple(item for item in listed if item.glasses)
+
+
+def _tolerant(path: Path) -> Catalogue:
+    try:
+        return read_agf(path)
+    except LensFileError:
+        return Catalogue(path.stem.upper(), str(path), {})

@@ -1,0 +1,66 @@
+"""A lens as a file states it, in the file's own units, every item with the line it stands on."""
+
+from dataclasses import dataclass, field
+from math import inf
+
+
+@dataclass(frozen=True)
+class RawGlass:
+    """What a file says of a medium: a name with its makers, an index, or nd and vd; ``beside`` is a hint (nd, vd).
+
+    ``medium`` is a ready medium the file itself defines (a private glass, a table of indices).
+    """
+
+    name: str = ""
+    makers: tuple[str, ...] = ()
+    index: float | None = None
+    model: tuple[float, float] | None = None
+    beside: tuple[float, float] | None = None
+    medium: object = None
+    line: int | None = None
+
+
+@dataclass
+class RawSurface:
+    """One surface while it is being read. ``glass`` None is air; ``keeps_medium`` repeats the one before it."""
+
+    number: int
+    line: int | None = None
+    label: str = ""
+    curvature: float = 0.0
+    thickness: float = 0.0
+    glass: RawGlass | None = None
+    keeps_medium: bool = False
+    conic: float = 0.0
+    aspheric: dict[int, float] = field(default_factory=dict)
+    semi_diameter: float = inf
+
+    @property
+    def name(self) -> str:
+        """Return "surface 3" or "surface 3 (FRONT)"."""
+        return f"surface {self.number}" + (f" ({self.label})" if self.label else "")
+
+
+@dataclass
+class RawLens:
+    """A whole file. Lengths in units of ``unit_mm``; wavelengths µm; field pairs (x, y) in the kind's unit.
+
+    ``aspheric`` maps the power of r to its coefficient; ``primary`` counts wavelengths from 0.
+    """
+
+    surfaces: list[RawSurface] = field(default_factory=list)
+    unit_mm: float = 1.0
+    object_distance: float = inf
+    object_glass: RawGlass | None = None
+    stop: int | None = None
+    aperture: tuple[str, float] | None = None
+    aperture_line: int | None = None
+    field_kind: str = "angle"
+    fields: list[tuple[float, float]] = field(default_factory=list)
+    field_line: int | None = None
+    wavelengths_um: list[float] = field(default_factory=list)
+    wavelength_line: int | None = None
+    primary: int | None = None
+    title: str = ""
+    source: str = ""
+    sensor_stated: bool = True

@@ -1,0 +1,133 @@
+"""Bytes to lines for other programs' formats: size guard, encodings, zip members, numbers with their line."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from p2sf.errors import LensFileError
+
+# A prescription of a thousand surfaces is 300 kB, the largest glass catalogue 1.2 MB.
+LARGEST_BYTES = 8_000_000
+BYTE_ORDER_MARKS = (("utf-8-sig", b"\xef\xbb\xbf"), ("utf-16", b"\xff\xfe"), ("utf-16", b"\xfe\xff"))
+
+
+@dataclass(frozen=True)
+class LensText:
+    """A lens file as text: where it came from, how it was encoded, what it says."""
+
+    path: str
+    encoding: str
+    text: str
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """Return the lines; only line feeds and carriage returns end one, as every editor counts them."""
+        return tuple(self.text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
+
+    def error(self, message: str, line: int | None = None) -> LensFileError:
+        """Return the failure that names this file and a line (from 1)."""
+        return LensFileError(message, self.path, line)
+
+
+def read_source(path) -> LensText:
+    """Return the text of a lens file, or of the one lens inside a zip archive.
+
+    Raises LensFileError for a missing or unreadable file, one of over 8 MB, and an archive without a lens.
+    """
+    return source_of(read_bytes(path), str(path))
+
+
+def source_of(data: bytes, path: str) -> LensText:
+    """Return the text of a lens file's bytes; a zip archive is opened, a binary file refused."""
+    if data[:4] == b"PK\x03\x04":
+        name, data = _zip_member(data, path)
+        path = f"{path}/{name}"
+    text, encoding = decode(data)
+    if "\0" in text:
+        line = text[: text.index("\0")].count("\n") + 1
+        raise LensFileError("the file is not text but binary; give the lens as a text file", path, line)
+    return LensText(path, encoding, text)
+
+
+def read_bytes(path) -> bytes:
+    """Return the bytes of a file; LensFileError when it is missing, a folder, or over 8 MB."""
+    try:
+        with Path(path).open("rb") as stream:
+            data = stream.read(LARGEST_BYTES + 1)
+    except FileNotFoundError:
+        raise LensFileError("there is no such file; check the path", str(path)) from None
+    except IsADirectoryError:
+        raise LensFileError("this is a folder; name a lens file in it", str(path)) from None
+    except (OSError, ValueError) as failure:
+        reason = getattr(failure, "strerror", None) or str(failure)
+        raise LensFileError(f"the file cannot be read ({reason}); check its path and permissions", str(path)) from None
+    _check_size(len(data), str(path))
+    return data
+
+
+def decode(data: bytes) -> tuple[str, str]:
+    """Return text and encoding name: by byte order mark, by UTF-16's zero bytes, else UTF-8, else Latin-1."""
+    for encoding, mark in BYTE_ORDER_MARKS:
+        if data.startswith(mark):
+            return data.decode(encoding, errors="replace"), encoding
+    for encoding, zeros in (("utf-16-le", data[1:200:2]), ("utf-16-be", data[0:200:2])):
+        if len(zeros) > 1 and not any(zeros):
+            return data.decode(encoding, errors="replace"), encoding
+    try:
+        return data.decode("utf-8"), "utf-8"
+    except UnicodeDecodeError:
+        return data.decode("latin-1"), "latin-1"
+
+
+def _check_size(count: int, path: str) -> None:
+    if count > LARGEST_BYTES:
+        raise LensFileError(f"the file is over {LARGEST_BYTES / 1e6:g} MB; a prescription is far smaller", path)
+
+
+def _zip_member(data: bytes, path: str) -> tuple[str, bytes]:
+    """Return name and bytes of the first lens in an archive; what it unpacks to is bounded like any file."""
+    import io
+    import zipfile
+    import zlib
+
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            names = [name for name in archive.namelist() if name.lower().endswith((".zmx", ".seq", ".json", ".txt"))]
+            if not names:
+                raise LensFileError("the archive holds no .zmx or .seq file; unpack the lens yourself", path)
+            first = sorted(names, key=lambda name: not name.lower().endswith(".zmx"))[0]
+            with archive.open(first) as stream:
+                member = stream.read(LARGEST_BYTES + 1)
+    except LensFileError:
+        raise
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        NotImplementedError,
+        RuntimeError,
+        EOFError,
+        OSError,
+        ValueError,
+    ) as failure:
+        raise LensFileError(f"the archive cannot be unpacked ({failure}); unpack it yourself", path) from failure
+    _check_size(len(member), f"{path}/{first}")
+    return first, member
+
+
+def number(word: str, what: str, source: LensText, line: int) -> float:
+    """Return a finite number; LensFileError with its place where the word is none."""
+    try:
+        value = float(word.upper().replace("D", "E"))
+    except ValueError:
+        value = math.nan
+    if not abs(value) < 1e100:
+        raise source.error(f'{what} "{word[:40]}" is not a number; correct it', line)
+    return value
+
+
+def whole(word: str, what: str, source: LensText, line: int) -> int:
+    """Return a whole number; LensFileError with its place where the word is none."""
+    value = number(word, what, source, line)
+    if value != int(value) or abs(value) > 1e6:
+        raise source.error(f'{what} "{word[:40]}" is not a whole number; correct it', line)
+    return int(value)

@@ -1,0 +1,192 @@
+"""Write a lens for other programs: Zemax .zmx and ISET .json; a lens file of this program by its ending too."""
+
+import json
+import os
+from math import inf, isfinite
+from pathlib import Path
+
+from p2sf.conventions import NM_PER_UM
+from p2sf.errors import LensFileError
+from p2sf.glass import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
+from p2sf.lens import Lens
+from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
+from p2sf.lensfile.conjugates import limiting_rim, trace
+from p2sf.lensfile.raw import RawGlass
+from p2sf.lensfile.resolve import GlassSources, resolve
+from p2sf.lensfile.storage import write_text
+from p2sf.lensfile.toml import lens_to_toml
+
+SILICA_LABEL = "main/SiO2/Malitson"
+ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
+HIGHEST_ZEMAX_ORDER = 16
+SPECTRUM_NM = tuple(range(400, 701, 10))
+
+
+def write_lens(lens: Lens, path: str | os.PathLike) -> None:
+    """Write a lens as .toml, .zmx or ISET .json by the ending; LensFileError for another one or a lens it cannot hold.
+
+    A .zmx of glasses from AGF catalogues gets its own small catalogue beside it, of the same stem.
+    """
+    ending = Path(path).suffix.lower()
+    writers = {".toml": lens_to_toml, ".zmx": lambda lens: lens_to_zmx(lens, Path(path).stem), ".json": lens_to_iset}
+    if ending not in writers:
+        raise LensFileError(f'ending "{ending}" is none of {", ".join(writers)}; choose one', str(path))
+    text = writers[ending](lens)
+    catalogue = lens_to_agf(lens) if ending == ".zmx" else ""
+    if catalogue:
+        write_text(catalogue, Path(path).with_suffix(".agf"))
+    write_text(text, path)
+
+
+def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
+    """Return the lens as a Zemax prescription, object at infinity; LensFileError for what Zemax has no line for."""
+    stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
+    lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", "  DISZ INFINITY"]
+    if lens.object_medium != AIR:
+        lines.append(_zemax_glass(lens.object_medium))
+    for number, surface in enumerate(lens.surfaces, 1):
+        lines += _zemax_surface(lens, surface, number, stop)
+    count = len(lens.surfaces) + 1
+    return "\n".join([*lines, f"SURF {count}", "  TYPE STANDARD", "  CURV 0.0", "  DISZ 0", ""])
+
+
+def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
+    waves, fields = lens.wavelengths_nm, lens.fields_deg
+    primary = min(range(len(waves)), key=lambda i: abs(waves[i] / NM_PER_UM - lens.reference_wavelength_um)) + 1
+    keyword = ZEMAX_APERTURES.get(lens.aperture.kind)
+    return [
+        "VERS 181122 258 36214",
+        "MODE SEQ",
+        f"NAME {' '.join((lens.title or lens.name).split())}",
+        "UNIT MM X W X CM MR CPMM",
+        f"{keyword} {lens.aperture.value!r} 0" if keyword else "FLOA",
+        f"GCAT {' '.join(makers)}",
+        f"FTYP 0 0 {len(fields)} {len(waves)} 0 0 0",
+        f"XFLN {' '.join('0' for _ in fields)}",
+        f"YFLN {' '.join(repr(float(field)) for field in fields)}",
+        *(f"WAVM {i} {wave / NM_PER_UM!r} 1" for i, wave in enumerate(waves, 1)),
+        f"PWAV {primary}",
+    ]
+
+
+def _zemax_surface(lens: Lens, surface, number: int, stop: int) -> list[str]:
+    if len(surface.aspheric) > HIGHEST_ZEMAX_ORDER // 2 - 1:
+        raise LensFileError(
+            f"surface {number} has aspheric terms above r^16, for which Zemax has no line; save as TOML"
+        )
+    rim = surface.semi_diameter
+    if number == stop and lens.aperture.kind == "stop_semi_diameter":
+        rim = lens.aperture.value
+    return [
+        f"SURF {number}",
+        *["  STOP"] * (number == stop),
+        f"  TYPE {'EVENASPH' if surface.aspheric else 'STANDARD'}",
+        f"  CURV {surface.curvature!r}",
+        *(f"  PARM {i} {a!r}" for i, a in enumerate(surface.aspheric, 2)),
+        f"  DISZ {surface.thickness!r}",
+        *[_zemax_glass(surface.medium)] * (surface.medium != AIR),
+        *[f"  CONI {surface.conic!r}"] * bool(surface.conic),
+        f"  DIAM {rim if isfinite(rim) else 0!r} {int(isfinite(rim))} 0 0 1",
+    ]
+
+
+def _zemax_glass(medium: Medium) -> str:
+    if isinstance(medium, ConstantIndex):
+        return f"  GLAS ___BLANK 1 0 {medium.value!r} 0 0 0 0 0 0 0"
+    if isinstance(medium, ModelGlass):
+        return f"  GLAS ___BLANK 1 0 {medium.nd!r} {medium.vd!r} 0 0 0 0 0 0"
+    if isinstance(medium, CatalogueGlass) and medium.label == SILICA_LABEL:
+        return "  GLAS SILICA 0 0 1.5 40 0 0 0 0 0 0"
+    if isinstance(medium, CatalogueGlass) and " " in medium.label:
+        return f"  GLAS {medium.label.split()[1]} 0 0 1.5 40 0 0 0 0 0 0"
+    if isinstance(medium, FormulaGlass):
+        return f"  GLAS {medium.name} 0 0 1.5 40 0 0 0 0 0 0"
+    raise LensFileError(f"medium {medium.label} has no line in a Zemax file; save as TOML, or give nd and vd")
+
+
+def _makers(lens: Lens, stem: str) -> list[str]:
+    """Return the catalogues a .zmx names; LensFileError where one name would find another maker's glass."""
+    glasses = [m for m in lens.media if isinstance(m, CatalogueGlass) and " " in m.label]
+    makers = list(dict.fromkeys(glass.label.split()[0] for glass in glasses))
+    for glass in glasses:
+        name = glass.label.split()[1]
+        if resolve(RawGlass(name, tuple(makers)), GlassSources()).medium != glass:
+            raise LensFileError(f"{glass.label} shares its name with another maker's glass of this lens; save as TOML")
+    own = [stem.upper()] * any(isinstance(medium, FormulaGlass) for medium in lens.media)
+    return [*own, *makers] or ["SCHOTT"]
+
+
+def lens_to_agf(lens: Lens) -> str:
+    """Return a catalogue of the lens's own AGF glasses, empty where it has none."""
+    glasses = dict.fromkeys(medium for medium in lens.media if isinstance(medium, FormulaGlass))
+    return "".join(map(_agf_entry, glasses))
+
+
+def _agf_entry(glass: FormulaGlass) -> str:
+    nd, vd = nd_and_vd(glass)
+    coefficients = " ".join(map(repr, glass.coefficients))
+    low, high = glass.range_um
+    return f"NM {glass.name} {glass.formula} 0 {nd:.6f} {vd:.4f} 0 0\nCD {coefficients}\nLD {low!r} {high!r}\n"
+
+
+def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
+    """Return the lens as ISET JSON, its indices at the reference wavelength, or over 400 to 700 nm if ``spectral``.
+
+    A stop on a refracting surface becomes a plane in its vertex, since ISET marks a stop by its index 0.
+    Raises LensFileError where the object is not in air.
+    """
+    if lens.object_medium != AIR:
+        raise LensFileError("the object stands in a medium, which an ISET file cannot say; save as TOML")
+    wave = lens.reference_wavelength_um
+    stop = lens.stop_surface or limiting_rim(lens, wave)[0]
+    rows = []
+    for number, surface in enumerate(lens.surfaces, 1):
+        row = _iset_row(surface, _iset_index(surface.medium, wave, spectral))
+        plain = isfinite(surface.radius) or surface.aspheric or surface.medium != lens.media[number - 1]
+        if number == stop:
+            opening = {"radius": 0, "thickness": 0.0, "ior": 0, "semi_aperture": _stop_rim(lens, stop, wave)}
+            rows += [opening] if plain else [opening | {"thickness": surface.thickness}]
+        if number != stop or plain:
+            rows.append(row)
+    focal = -1 / trace(lens, 1, wave).last[2] if trace(lens, 1, wave).last[2] else inf
+    top = {
+        "name": lens.name,
+        "description": " ".join(lens.title.split()),
+        "type": "multi element lens",
+        "surfaces": rows,
+    }
+    if isfinite(focal):
+        top["metadata"] = {"focalLength": focal / 1000}  # ISET keeps it in metres
+    return json.dumps(top, indent=1) + "\n"
+
+
+def _iset_row(surface, ior) -> dict:
+    row = {"radius": surface.radius if isfinite(surface.radius) else 0, "thickness": surface.thickness, "ior": ior}
+    if isfinite(surface.semi_diameter):
+        row["semi_aperture"] = surface.semi_diameter
+    if surface.conic:
+        row["conic_constant"] = surface.conic
+    if surface.aspheric:
+        row["aspheric_coefficients"] = list(surface.aspheric)
+    return row
+
+
+def _iset_index(medium: Medium, wavelength_um: float, spectral: bool):
+    if not spectral or isinstance(medium, ConstantIndex):
+        return float(medium.index(wavelength_um))
+    low, high = medium.range_um or (0.0, inf)
+    waves = [w for w in SPECTRUM_NM if low <= w / NM_PER_UM <= high]
+    return [waves, [float(medium.index(w / NM_PER_UM)) for w in waves]]
+
+
+def _stop_rim(lens: Lens, stop: int, wavelength_um: float) -> float:
+    """Return the stop's semi-diameter in mm, from whatever way the aperture is stated."""
+    rays = trace(lens, stop, wavelength_um)
+    kind, value = lens.aperture.kind, lens.aperture.value
+    if kind == "stop_semi_diameter":
+        return value
+    if kind == "entrance_pupil_diameter":
+        return value / 2 * abs(rays.stop[0])
+    if not rays.last[2]:
+        raise LensFileError("an afocal lens has no f-number; state the stop's semi-diameter")
+    return abs(rays.stop[0] / (2 * value * rays.last[2]))
