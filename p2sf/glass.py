@@ -192,7 +192,8 @@ def constant_index(value: float) -> ConstantIndex:
 def parse_medium(medium) -> Medium:
     """Return the medium a person wrote: a glass name, "air", an index, or a table of nd and vd.
 
-    A table ``{wavelengths_um = […], n = […]}`` gives measured indices. Raises GlassError.
+    A table ``{wavelengths_um = […], n = […]}``, with a ``label`` if wanted, gives measured indices.
+    Raises GlassError.
     """
     if isinstance(medium, str):
         return _from_text(medium.strip())
@@ -219,19 +220,19 @@ def _from_text(text: str) -> Medium:
 def _from_table(table: dict) -> Medium:
     if set(table) == {"nd", "vd"} and all(_is_number(x) for x in table.values()):
         return model_glass(table["nd"], table["vd"])
-    if set(table) == {"wavelengths_um", "n"}:
-        return measured_index(table["wavelengths_um"], table["n"])
+    if {"wavelengths_um", "n"} <= set(table) <= {"wavelengths_um", "n", "label"}:
+        return measured_index(table["wavelengths_um"], table["n"], str(table.get("label", "table")))
     raise GlassError(f"glass is {table}; write {{ nd = 1.5168, vd = 64.17 }} or {{ wavelengths_um = […], n = […] }}")
 
 
-def measured_index(wavelengths_um, values) -> TabulatedIndex:
+def measured_index(wavelengths_um, values, label: str = "table") -> TabulatedIndex:
     """Return a medium measured at ascending wavelengths in µm; GlassError for lists that do not fit."""
     lists = isinstance(wavelengths_um, list | tuple) and isinstance(values, list | tuple)
     if not (lists and len(wavelengths_um) == len(values) > 0 and all(map(_is_number, [*wavelengths_um, *values]))):
         raise GlassError("glass table needs two equally long lists of numbers; give wavelengths_um and n")
     if any(b <= a for a, b in pairwise(wavelengths_um)):
         raise GlassError(f"glass table's wavelengths are {wavelengths_um} µm; put them in ascending order")
-    return TabulatedIndex(tuple(map(float, wavelengths_um)), tuple(constant_index(n).value for n in values))
+    return TabulatedIndex(tuple(map(float, wavelengths_um)), tuple(constant_index(n).value for n in values), label)
 
 
 def _is_number(x) -> bool:
