@@ -152,14 +152,14 @@ def nodes_for(slope: float, reach: float, twist: float | None = None) -> tuple[i
     waves; ``reach``: waves per unit radius of the kernel at the window's farthest corner. The margins are
     measured against four times finer rules, up to 200 waves (tests/test_quadrature.py).
     """
-    radial = _harmonics(slope + reach, 2) / 4
+    radial = 0.85 * _harmonics(slope + reach, 2) + 0.15 * _harmonics(reach, 2)
     angular = _harmonics((slope if twist is None else twist) + reach, 5)
-    return _stepped(0.85 * radial + 3), even_count(angular + 4)
+    return _stepped(radial / 4 + 4), even_count(angular + 4)
 
 
 def chords_for(slope: float, reach: float) -> tuple[int, int]:
     """Return (rows, columns) of `chord_rows` for the steepest |∇W| ``slope``, with the same promise as `nodes_for`."""
-    count = even_count(0.42 * _harmonics(slope + reach, 2) + 3)
+    count = even_count(0.4 * _harmonics(slope + reach, 2) + 0.1 * _harmonics(reach, 2) + 4)
     return count, count
 
 
