@@ -19,7 +19,8 @@ class BasisRays:
 
     A ray (y1, nu1) has height a·y1 + b·nu1 at surface j and reduced angle c·y1 + d·nu1 behind it.
     ``a``, ``b``, ``c``, ``d``: (surfaces, *wavelength.shape), mm where they carry a unit;
-    ``index``: (surfaces + 1, *wavelength.shape).
+    ``index``: (surfaces + 1, *wavelength.shape). ``power`` of every surface (1/mm) and ``gap``, the reduced
+    thickness behind it (mm), are what the rays were traced with: numbers for one wavelength, else arrays.
     """
 
     a: np.ndarray
@@ -27,6 +28,8 @@ class BasisRays:
     c: np.ndarray
     d: np.ndarray
     index: np.ndarray
+    power: list
+    gap: list
 
     @property
     def object_index(self):
@@ -62,25 +65,78 @@ def basis_rays(lens: Lens, wavelength_um, beside=()) -> BasisRays:
     missing = max((np.ndim(x) for x in beside), default=0) - wavelength.ndim
     index = indices(lens, wavelength.reshape((1,) * missing + wavelength.shape) if missing > 0 else wavelength)
     layers = index.tolist() if index.ndim == 1 else list(index)  # plain floats make one wavelength 10× faster
-    a, b, c, d = 1.0, 0.0, 0.0, 1.0
+    steps = zip(lens.surfaces, layers, layers[1:], strict=False)
+    power, gap = zip(*((s.curvature * (after - n), s.thickness / after) for s, n, after in steps), strict=True)
+    rows = [*zip(march(power, gap, 1.0, 0.0), march(power, gap, 0.0, 1.0), strict=True)]
+    columns = columns_of([(a, b, c, d) for (a, c), (b, d) in rows], index.shape[1:])
+    return BasisRays(*columns, index, power, gap)
+
+
+def march(power, gap, y, nu) -> list:
+    """Return (height, reduced angle behind) at every surface of the ray that arrives as (y, nu) at the first."""
     rows = []
-    for surface, before, after in zip(lens.surfaces, layers, layers[1:], strict=False):
-        power = surface.curvature * (after - before)
-        c, d = c - power * a, d - power * b
-        rows.append((a, b, c, d))
-        reduced = surface.thickness / after
-        a, b = a + reduced * c, b + reduced * d
-    return BasisRays(*_columns(rows, index.shape[1:]), index)
+    for strength, reduced in zip(power, gap, strict=False):
+        nu = nu - strength * y
+        rows.append((y, nu))
+        y = y + reduced * nu
+    return rows
 
 
-def _columns(rows, shape):
-    """Return rows of (a, b, c, d), numbers or arrays, as four arrays (surfaces, *shape)."""
+def columns_of(rows, shape):
+    """Return rows of numbers or arrays as arrays (surfaces, *shape), one per column."""
     if not shape:
-        return np.array(rows).T
-    full = [
-        [x if np.shape(x) == shape else np.broadcast_to(x, shape) for x in column] for column in zip(*rows, strict=True)
-    ]
-    return [np.stack(column) for column in full]
+        return np.array(rows, dtype=float).T
+    return [np.stack([np.broadcast_to(x, shape) for x in column]) for column in zip(*rows, strict=True)]
+
+
+# An angle below this many roundings of the powers and gaps it comes from is none: 32 leaves room for a focal
+# length, and from it a gap, that someone computed in double precision.
+ROUNDING = 32 * np.finfo(float).eps
+SUSPICIOUS = 1e-9
+
+
+def settled_angle(power, gap, y, nu):
+    """Return the last reduced angle of a ray, exactly 0 where it is nothing but the rounding of the inputs.
+
+    ``y``, ``nu``: heights at, reduced angles behind the surfaces that ``power`` and ``gap`` belong to. A
+    change of power bends by −δ·y, a change of gap lifts by δ·nu; a ray that ends parallel to the axis shares
+    its Lagrange invariant with what they cause, so its last angle moves by Σ(|δpower|y² + |δgap|nu²)/y_last.
+    """
+    last = np.asarray(nu[-1])
+    parallel = np.abs(last) <= SUSPICIOUS * np.max(np.abs(nu), axis=0)
+    if not parallel.any():
+        return last
+    noise = sum(np.abs(p) * h * h for p, h in zip(power, y, strict=False))
+    noise = noise + sum(np.abs(g) * v * v for g, v in zip(gap, nu[:-1], strict=False))
+    return np.where(parallel & (np.abs(last * y[-1]) <= ROUNDING * noise), 0.0, last)
+
+
+def chief_ray(rays: BasisRays, stop_surface):
+    """Return heights (surfaces, …) and reduced angles (surfaces + 1, …) of the ray (0, 1) at the stop's centre.
+
+    It is traced outwards from the stop: taken from the basis rays at the first vertex, a chief ray a hair
+    behind the stop would be the difference of two large heights. The reduced angles at both ends are exactly
+    zero where only rounding is left, that is where a pupil is at infinity.
+    """
+    first, *others = np.unique(stop_surface)
+    y, nu = _from_stop(rays, int(first) - 1)
+    for surface in others:
+        here = np.asarray(stop_surface) == surface
+        y, nu = (np.where(here, new, old) for new, old in zip(_from_stop(rays, int(surface) - 1), (y, nu), strict=True))
+    return y, nu
+
+
+def _from_stop(rays: BasisRays, at: int):
+    y, nu = _branch(rays, rays.power[at:], rays.gap[at:])
+    back_y, back_nu = _branch(rays, (0.0, *rays.power[:at][::-1]), rays.gap[:at][::-1])  # mirrored: light runs left
+    return np.concatenate([-back_y[:0:-1], y]), np.concatenate([back_nu[::-1], nu])
+
+
+def _branch(rays: BasisRays, power, gap):
+    """Return heights, reduced angles of the ray (0, 1) from the stop on, along one direction of travel."""
+    y, nu = columns_of(march(power, (*gap, 0.0), 0.0, 1.0), rays.index.shape[1:])
+    nu[-1] = settled_angle(power, gap, y, nu)
+    return y, nu
 
 
 def abcd(lens: Lens, wavelength_um) -> np.ndarray:
@@ -91,20 +147,31 @@ def abcd(lens: Lens, wavelength_um) -> np.ndarray:
 
 
 def cardinal_points(lens: Lens, wavelength_um) -> CardinalPoints:
-    """Focal, principal and nodal points (Welford 1986, §3); infinite for an afocal lens."""
+    """Focal, principal and nodal points (Welford 1986, §3); infinite for a lens that is afocal to rounding."""
     rays = basis_rays(lens, wavelength_um)
     n, n_image = rays.object_index, rays.image_index
-    a, c, d = rays.a[-1], rays.c[-1], rays.d[-1]
+    a, c, d = rays.a[-1], settled_angle(rays.power, rays.gap, rays.a, rays.c), rays.d[-1]
+    lift, turn = _lift(rays), _turn(rays)
     with np.errstate(divide="ignore", invalid="ignore"):
         return CardinalPoints(
             effective_focal_length=-1 / c,
             back_focal_distance=_ratio(-n_image * a, c),
             front_focal_distance=_ratio(n * d, c),
-            front_principal_from_first=_ratio(n * (d - 1), c),
-            rear_principal_from_last=_ratio(n_image * (1 - a), c),
-            front_nodal_from_first=_ratio(n * d - n_image, c),
-            rear_nodal_from_last=_ratio(n - n_image * a, c),
+            front_principal_from_first=_ratio(n * turn, c),
+            rear_principal_from_last=_ratio(-n_image * lift, c),
+            front_nodal_from_first=_ratio(n * turn + (n - n_image), c),
+            rear_nodal_from_last=_ratio((n - n_image) - n_image * lift, c),
         )
+
+
+def _lift(rays: BasisRays):
+    """Return A − 1, summed gap by gap: the difference itself loses every digit when the powers are weak."""
+    return sum((gap * c for gap, c in zip(rays.gap[:-1], rays.c, strict=False)), np.zeros(rays.a.shape[1:]))
+
+
+def _turn(rays: BasisRays):
+    """Return D − 1, summed power by power."""
+    return -sum(power * b for power, b in zip(rays.power, rays.b, strict=True))
 
 
 def _ratio(numerator, power):
@@ -117,15 +184,20 @@ def image_distance(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
     rays = basis_rays(lens, wavelength_um, (depth_mm,))
     height, angle = axial_ray(rays, depth_mm)
     with np.errstate(divide="ignore"):
-        return -rays.image_index * height[-1] / angle[-1]
+        return -rays.image_index * height[-1] / settled_angle(rays.power, rays.gap, height, angle)
 
 
 def magnification(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
-    """Return transverse magnification nu/(n'u') of the axial ray; 0 for an object at infinity."""
+    """Return transverse magnification nu/(n'u') of the axial ray; 0 for an object at infinity.
+
+    Infinite for an image at infinity, but for an afocal lens, which magnifies every object alike.
+    """
     rays = basis_rays(lens, wavelength_um, (depth_mm,))
-    _, angle = axial_ray(rays, depth_mm)
-    with np.errstate(divide="ignore"):
-        return rays.object_index * vergence(depth_mm) / angle[-1]
+    start = rays.object_index * vergence(depth_mm)
+    height, angle = axial_ray(rays, depth_mm)
+    last = settled_angle(rays.power, rays.gap, height, angle)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where((start == 0) & (last == 0), 1 / rays.d[-1], start / last)
 
 
 def axial_ray(rays: BasisRays, depth_mm):

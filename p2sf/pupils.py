@@ -1,16 +1,19 @@
 """Aperture stop, entrance and exit pupil, marginal and chief ray: the quasi-invariant features (qSIF)."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.errors import GeometryError
-from p2sf.gaussian import BasisRays, axial_ray, basis_rays, check_depth
+from p2sf.gaussian import BasisRays, axial_ray, basis_rays, check_depth, chief_ray, settled_angle
 from p2sf.lens import Lens
 
 # Two rims whose cones differ by less than the rounding of a prescription's six digits are a tie, not a warning.
 RIM_TIE = 2e-6
+# Nearer to the entrance pupil than a few roundings of its distance, the cone of light is nothing but noise.
+OBJECT_IN_PUPIL = 8 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,7 @@ class ParaxialRays:
     """Marginal ray, and the chief ray of unit field slope, at every surface; surface axis first.
 
     ``y``, ``chief_y``: heights (surfaces, …), mm. ``nu``, ``chief_nu``: reduced angles (surfaces + 1, …).
-    ``invariant``: n·(chief slope)·(entrance-pupil radius), the Lagrange invariant at unit slope.
+    ``invariant``: the Lagrange invariant, n·(entrance-pupil radius) for a chief ray of unit slope.
     """
 
     y: np.ndarray
@@ -82,6 +85,11 @@ def find_stop(lens: Lens, depth_mm=np.inf, wavelength_um=None, mode: str = "file
         raise GeometryError(f'stop "{mode}" is unknown; choose "file" or "auto"')
     rims = rim_radii(lens, named, rim)
     return Stop(limiting, rims[limiting - 1], limiting, "auto")
+
+
+def file_stop(lens: Lens) -> tuple[int, float]:
+    """Return the file's stop surface (from 1), or the limiting rim if it names none, and its rim in mm."""
+    return lens.stop_surface or named_stop(lens), stop_rim(lens)
 
 
 def rim_radii(lens: Lens, named: int, rim: float) -> np.ndarray:
@@ -116,66 +124,67 @@ def stop_rim(lens: Lens) -> float:
     if lens.aperture.kind == "stop_semi_diameter":
         return lens.aperture.value
     rays = basis_rays(lens, lens.reference_wavelength_um)
-    scale = abs(float(rays.a[(lens.stop_surface or named_stop(lens)) - 1]))
+    _, nu = chief_ray(rays, lens.stop_surface or named_stop(lens))
+    scale = abs(float(nu[0]))
     if scale == 0:
         raise GeometryError("the entrance pupil is at infinity, so it has no diameter; state the stop's semi-diameter")
     if lens.aperture.kind == "entrance_pupil_diameter":
         return lens.aperture.value / 2 * scale
-    power = abs(float(rays.c[-1]))
+    power = abs(float(settled_angle(rays.power, rays.gap, rays.a, rays.c)))
     if power == 0:
         raise GeometryError("an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter")
     return scale / (2 * power * lens.aperture.value)
-
-
-def _at_stop(column: np.ndarray, stop: Stop) -> np.ndarray:
-    """Return the stop's row of a per-surface array; the stop may differ per (depth, wavelength)."""
-    row = np.asarray(stop.surface) - 1
-    if row.ndim == 0:
-        return column[int(row)]
-    shape = np.broadcast_shapes(row.shape, column.shape[1:])
-    return np.take_along_axis(np.broadcast_to(column, (len(column), *shape)), np.broadcast_to(row, shape)[None], 0)[0]
 
 
 def pupils(lens: Lens, wavelength_um, stop: Stop | None = None) -> Pupils:
     """Return entrance and exit pupil over (depth, wavelength) as the stop varies; mm."""
     stop = stop or find_stop(lens)
     rays = basis_rays(lens, wavelength_um, (stop.surface,))
-    a, b = _at_stop(rays.a, stop), _at_stop(rays.b, stop)
-    chief_y = rays.b[-1] * a - rays.a[-1] * b
-    chief_nu = rays.d[-1] * a - rays.c[-1] * b
+    y, nu = chief_ray(rays, stop.surface)
     with np.errstate(divide="ignore"):
         return Pupils(
-            entrance_from_first=rays.object_index * b / a,
-            entrance_diameter=2 * stop.semi_diameter / np.abs(a),
-            exit_from_last=-rays.image_index * chief_y / chief_nu,
-            exit_diameter=2 * stop.semi_diameter / np.abs(chief_nu),
+            entrance_from_first=-rays.object_index * y[0] / nu[0],
+            entrance_diameter=2 * stop.semi_diameter / np.abs(nu[0]),
+            exit_from_last=-rays.image_index * y[-1] / nu[-1],
+            exit_diameter=2 * stop.semi_diameter / np.abs(nu[-1]),
         )
 
 
-def paraxial_rays(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None) -> ParaxialRays:
-    """Return marginal and unit-slope chief ray over broadcast (depth, wavelength).
+def paraxial_rays(
+    lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None, field: Literal["slope", "height"] = "slope"
+) -> ParaxialRays:
+    """Return marginal and unit-field chief ray over broadcast (depth, wavelength).
 
-    The marginal ray is positive at the entrance pupil and, written from the stop, has no singular depth
-    but the one that puts the object into the entrance pupil. Raises GeometryError there, and for an
-    entrance pupil at infinity, where a field angle says nothing.
+    ``field="slope"``: the chief ray has slope 1 at the entrance pupil; ``"height"``: it comes from an object
+    1 mm below the axis, which a telecentric object space needs. The marginal ray is positive at the entrance
+    pupil (at the stop, if that pupil is at infinity) and has no singular depth but the one that puts the
+    object into the entrance pupil. Raises GeometryError there, for a slope when the entrance pupil is at
+    infinity, and for a height when the object is.
     """
     check_depth(depth_mm)
-    stop = stop or find_stop(lens)
-    rays = basis_rays(lens, wavelength_um, (depth_mm, stop.surface))
-    a, b = _at_stop(rays.a, stop), _at_stop(rays.b, stop)
-    if np.any(a == 0):
-        raise GeometryError(
-            "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus"
-        )
-    n = rays.object_index
-    reach = a + n * b * vergence(depth_mm)
-    if np.any(reach == 0):
+    surface, rim = (stop.surface, stop.semi_diameter) if stop else file_stop(lens)
+    rays = basis_rays(lens, wavelength_um, (depth_mm, surface))
+    centre_y, centre_nu = chief_ray(rays, surface)
+    n, a, close = rays.object_index, centre_nu[0], vergence(depth_mm)
+    reach = a - n * close * centre_y[0]
+    _check_field(field, a, close)
+    if np.any(np.abs(reach) <= OBJECT_IN_PUPIL * np.abs(a)):
         raise GeometryError("the object lies in the entrance pupil, so no cone of light is defined; move the object")
-    y1 = np.sign(a) * stop.semi_diameter / reach
-    nu1 = n * vergence(depth_mm) * y1
-    y, nu = _combine(rays, y1, nu1)
-    chief_y, chief_nu = _combine(rays, -n * b / a, n * np.ones_like(a))
-    return ParaxialRays(y, nu, chief_y, chief_nu, rays.index, n * stop.semi_diameter / np.abs(a))
+    side = np.where(a < 0, -1.0, 1.0)
+    y, nu = _combine(rays, side * rim / reach, n * close * side * rim / reach)
+    nu[-1] = settled_angle(rays.power, rays.gap, y, nu[1:])
+    scale = n / a if field == "slope" else n * close / reach
+    return ParaxialRays(y, nu, centre_y * scale, centre_nu * scale, rays.index, side * rim * scale)
+
+
+def _check_field(field: str, a, close) -> None:
+    """Raise GeometryError where a slope (entrance pupil at infinity) or a height (object there) says nothing."""
+    if field == "slope" and np.any(a == 0):
+        raise GeometryError(
+            "the entrance pupil is at infinity, so a field angle says nothing; give an object height or move the stop"
+        )
+    if field == "height" and np.any(close == 0):
+        raise GeometryError("an object at infinity has no height; give the field as an angle or an image height")
 
 
 def _combine(rays: BasisRays, y1, nu1):
@@ -187,7 +196,8 @@ def _combine(rays: BasisRays, y1, nu1):
 
 def f_number(lens: Lens, wavelength_um, stop: Stop | None = None) -> np.ndarray:
     """Return effective focal length over entrance-pupil diameter; infinite for an afocal lens."""
-    power = np.abs(basis_rays(lens, wavelength_um).c[-1])
+    rays = basis_rays(lens, wavelength_um)
+    power = np.abs(settled_angle(rays.power, rays.gap, rays.a, rays.c))
     with np.errstate(divide="ignore"):
         return 1 / (power * pupils(lens, wavelength_um, stop).entrance_diameter)
 

@@ -5,6 +5,7 @@ work on (depth, wavelength) only and makes a zero field exactly zero.
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -104,15 +105,23 @@ def _per_surface(column: np.ndarray, ndim: int) -> np.ndarray:
     return column.reshape(-1, *[1] * (ndim - 1))
 
 
-def coefficients(lens: Lens, depth_mm, field_slope, wavelength_um, stop: Stop | None = None) -> Coefficients:
+def coefficients(
+    lens: Lens,
+    depth_mm,
+    field_slope,
+    wavelength_um,
+    stop: Stop | None = None,
+    field: Literal["slope", "height"] = "slope",
+) -> Coefficients:
     """Return the six coefficients over broadcast (depth, field, wavelength) arrays.
 
     ``depth_mm`` from the first vertex, ``inf`` allowed; ``field_slope`` the tangent at the entrance
-    pupil; the sensor is where the lens puts it (`lens.with_sensor` moves it). Raises GeometryError and
-    GlassError. Source: Pieroni et al. 2015; Welford 1986, ch. 8.
+    pupil, or with ``field="height"`` the mm the object stands below the axis; the sensor is where the lens
+    puts it (`lens.with_sensor` moves it). Raises GeometryError and GlassError.
+    Source: Pieroni et al. 2015; Welford 1986, ch. 8.
     """
     wavelength_um, field_slope = np.asarray(wavelength_um, dtype=float), np.asarray(field_slope, dtype=float)
-    rays = paraxial_rays(lens, depth_mm, wavelength_um, stop)
+    rays = paraxial_rays(lens, depth_mm, wavelength_um, stop, field)
     total = _unit_sums(lens, rays).total()
     waves = UM_PER_MM / wavelength_um
     index = rays.index[-1]
