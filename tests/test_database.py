@@ -206,6 +206,10 @@ def test_unknown_interpolants_and_moving_stops_are_refused():
 @pytest.mark.parametrize("interpolant", ["exact", "table1", "linear"])
 def test_single_nodes_make_a_database_of_one_point(interpolant):
     lens = dispersive_lens("landscape")
+    far = build_database(lens, Space([np.inf], [0.1], [0.55]), interpolant)
+    assert far.coefficients(np.inf, 0.1, 0.55).w31 == pytest.approx(
+        float(coefficients(lens, np.inf, 0.1, 0.55).w31), rel=1e-12
+    )
     database = build_database(lens, Space([800.0], [0.1], [0.55]), interpolant)
     assert database.coefficients(800.0, 0.1, 0.55).w31 == pytest.approx(
         float(coefficients(lens, 800, 0.1, 0.55).w31), rel=1e-12

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from p2sf.database.departure import cell_middles, departures, largest, scattered
+from p2sf.database.departure import cell_middles, departures, largest, path_scale, scattered
 from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import RULES, GridDatabase, traced_grid
 from p2sf.database.space import Space
@@ -17,7 +17,7 @@ INTERPOLANTS = ("exact", *RULES)
 # A smooth glass needs some 20 terms over the visible; what still departs at 160 is not smooth.
 TERMS = (20, 40, 80, 160)
 TOLERANCE = 1e-12
-ABSOLUTE_WAVES = 1e-12  # a coefficient that the design cancels has no scale of its own
+ROUND_OFF = 1e-13
 HELD_OUT = 64
 
 
@@ -39,7 +39,8 @@ def build_database(lens: Lens, space: Space, interpolant: str = "exact", stop: S
 def _exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
     points = scattered(space, HELD_OUT)
     direct = coefficients(lens, *points, stop)
-    allowed = {kind: TOLERANCE * top + ABSOLUTE_WAVES for kind, top in largest(direct).items()}
+    floor = ROUND_OFF * path_scale(direct)
+    allowed = {kind: TOLERANCE * top + floor for kind, top in largest(direct).items()}
     for terms in TERMS if np.ptp(space.wavelengths_um) else (1,):
         database = ExactDatabase(space, *exact_series(lens, space, stop, terms), lens.sensor_mm, {})
         errors = departures(database.coefficients(*points), direct)

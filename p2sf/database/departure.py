@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.database.parts import KINDS
 from p2sf.database.space import Space
 from p2sf.seidel import Coefficients
@@ -48,3 +49,14 @@ def departures(found: Coefficients, direct: Coefficients) -> dict[str, float]:
 def largest(direct: Coefficients) -> dict[str, float]:
     """Return the largest magnitude of each coefficient, waves."""
     return {kind: float(np.abs(getattr(direct, kind)).max()) for kind in KINDS}
+
+
+def path_scale(direct: Coefficients) -> float:
+    """Return the largest path, waves, that coefficients are small differences of: n'u'·(distance·u')/2.
+
+    Rounding leaves a share of this, however small the design or the focus make the coefficient itself.
+    """
+    slope = direct.reduced_slope / direct.image_index
+    with np.errstate(invalid="ignore"):
+        path = np.abs(direct.reduced_slope * slope * direct.image_distance) * UM_PER_MM / direct.wavelength_um / 2
+    return float(path[np.isfinite(path)].max(initial=0.0))

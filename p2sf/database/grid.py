@@ -83,7 +83,8 @@ class GridDatabase:
     def last_depth_mm(self) -> float:
         """Return the farthest depth that the rule reaches without a gap, mm."""
         depths = self.space.depths_mm
-        return float(depths[np.isfinite(depths)][-1] if self.rule.finite_only else depths[-1])
+        finite = depths[np.isfinite(depths)]
+        return float(finite[-1] if self.rule.finite_only and finite.size else depths[-1])
 
     def coefficients(self, depth_mm, field_slope, wavelength_um) -> Coefficients:
         """Return the six coefficients at one point or over broadcast arrays.

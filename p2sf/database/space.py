@@ -1,7 +1,7 @@
 """The part of (depth, field, wavelength) space that a database covers, and the nodes laid through it."""
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, isfinite
 
 import numpy as np
 
@@ -70,7 +70,7 @@ def _in_nm(value):
 
 
 def _widened(low: float, high: float) -> tuple[float, float]:
-    return low - ROUNDING * abs(low), high + ROUNDING * abs(high)
+    return (low - ROUNDING * abs(low) if isfinite(low) else low), high + ROUNDING * abs(high)
 
 
 def _check_axis(values: np.ndarray, limits, name: str, unit: str, shown) -> None:

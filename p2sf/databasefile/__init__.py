@@ -1,6 +1,14 @@
-"""Databases and PSF stacks as files."""
+"""Databases as files."""
 
-from p2sf.databasefile.npz import load_database, save_database
+from p2sf.databasefile.npz import database_bytes, database_from_bytes, load_database, same_database, save_database
 from p2sf.databasefile.provenance import Stored, provenance
 
-__all__ = ["Stored", "load_database", "provenance", "save_database"]
+__all__ = [
+    "Stored",
+    "database_bytes",
+    "database_from_bytes",
+    "load_database",
+    "provenance",
+    "same_database",
+    "save_database",
+]

@@ -9,7 +9,7 @@ from p2sf.database import ExactDatabase, GridDatabase, Space
 from p2sf.database.exact import NUMBERS
 from p2sf.database.grid import PER_WAVELENGTH, STORED, Grid
 from p2sf.databasefile.provenance import Stored, provenance
-from p2sf.databasefile.sealed import read_sealed, write_sealed
+from p2sf.databasefile.sealed import opened, read_sealed, sealed, write_sealed
 from p2sf.errors import DatabaseError
 from p2sf.lens import Lens
 from p2sf.pupils import Stop
@@ -20,11 +20,12 @@ MARK = "p2sf_database"
 
 def save_database(database, lens: Lens, path, stop: Stop | None = None) -> Path:
     """Write a database and its provenance as .npz, whole or not at all; ExportError where that is impossible."""
-    arrays, numbers = _KINDS[type(database).__name__][0](database)
-    head = {"schema": SCHEMA, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
-    space = database.space
-    axes = {"depths_mm": space.depths_mm, "field_slopes": space.field_slopes, "wavelengths_um": space.wavelengths_um}
-    return write_sealed(path, {MARK: np.array(json.dumps(head, ensure_ascii=False)), **axes, **arrays})
+    return write_sealed(path, _arrays(database, lens, stop))
+
+
+def database_bytes(database, lens: Lens, stop: Stop | None = None) -> bytes:
+    """Return what `save_database` writes."""
+    return sealed(_arrays(database, lens, stop))
 
 
 def load_database(path) -> Stored:
@@ -32,17 +33,46 @@ def load_database(path) -> Stored:
 
     Raises DatabaseError for a file that is missing, foreign, cut short, damaged, or of a newer schema.
     """
-    arrays = read_sealed(path, MARK)
+    return _stored(read_sealed(path, MARK), path)
+
+
+def database_from_bytes(raw: bytes, name) -> Stored:
+    """Return the database that `database_bytes` turned into bytes; errors as `load_database`."""
+    return _stored(opened(raw, MARK, name), name)
+
+
+def same_database(one: bytes, other: bytes) -> bool:
+    """Return whether two files hold the same database, whichever versions of the software wrote them."""
+    (first, first_meta), (second, second_meta) = _content(one), _content(other)
+    same = first.keys() == second.keys() and all(np.array_equal(first[key], second[key]) for key in first)
+    return same and first_meta == second_meta
+
+
+def _content(raw: bytes):
+    arrays = opened(raw, MARK, "the database")
+    meta = json.loads(str(arrays.pop(MARK)))
+    return arrays, {**meta, "versions": None}
+
+
+def _arrays(database, lens: Lens, stop: Stop | None) -> dict[str, np.ndarray]:
+    arrays, numbers = _KINDS[type(database).__name__][0](database)
+    head = {"schema": SCHEMA, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
+    space = database.space
+    axes = {"depths_mm": space.depths_mm, "field_slopes": space.field_slopes, "wavelengths_um": space.wavelengths_um}
+    return {MARK: np.array(json.dumps(head, ensure_ascii=False)), **axes, **arrays}
+
+
+def _stored(arrays: dict[str, np.ndarray], name) -> Stored:
     try:
         meta = json.loads(str(arrays[MARK]))
         if meta["schema"] > SCHEMA:
             raise DatabaseError(
-                f"{path} has schema {meta['schema']}, newer than {SCHEMA}, the newest this P2SF reads; update P2SF"
+                f"{name} has schema {meta['schema']}, newer than {SCHEMA}, the newest this P2SF reads; update P2SF"
             )
         space = Space(arrays["depths_mm"], arrays["field_slopes"], arrays["wavelengths_um"])
         return Stored(_KINDS[meta["kind"]][1](space, arrays, meta), meta)
     except (KeyError, TypeError, IndexError, json.JSONDecodeError) as error:
-        raise DatabaseError(f"{path} lacks what a P2SF database holds, {error!r}; build it again") from error
+        raise DatabaseError(f"{name} lacks what a P2SF database holds, {error!r}; build it again") from error
 
 
 def _pack_exact(database: ExactDatabase):

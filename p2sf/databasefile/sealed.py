@@ -21,23 +21,32 @@ SEALED = re.compile(re.escape(SEAL) + b"[0-9a-f]{%d}" % DIGITS)
 
 def write_sealed(path, arrays: dict[str, np.ndarray]) -> Path:
     """Write arrays to a sealed .npz, whole or not at all; the same arrays give the same bytes. Raises ExportError."""
+    return write_beside(path, lambda handle: handle.write(sealed(arrays)))
+
+
+def sealed(arrays: dict[str, np.ndarray]) -> bytes:
+    """Return the bytes of a sealed .npz."""
     archive = io.BytesIO()
     np.savez_compressed(archive, **arrays)
     comment_length = (len(SEAL) + DIGITS).to_bytes(2, "little")
     unsealed = archive.getvalue()[:-2] + comment_length + SEAL  # a zip ends with the length of its comment, here 0
-    return write_beside(path, lambda handle: handle.write(unsealed + _digest(unsealed)))
+    return unsealed + _digest(unsealed)
 
 
 def read_sealed(path, mark: str) -> dict[str, np.ndarray]:
-    """Return the arrays of a sealed .npz; ``mark`` is its first member, by which a damaged file is still known.
+    """Return the arrays of a sealed .npz file; DatabaseError as `opened` and when it is not there."""
+    return opened(_bytes(path), mark, path)
 
-    Raises DatabaseError: not there, not ours, cut short, or damaged.
+
+def opened(raw: bytes, mark: str, name) -> dict[str, np.ndarray]:
+    """Return the arrays of a sealed .npz's bytes; ``mark`` is its first member, which a damaged one still shows.
+
+    Raises DatabaseError, starting with ``name``: not ours, cut short, or damaged.
     """
-    raw = _bytes(path)
     if not SEALED.fullmatch(raw[-len(SEAL) - DIGITS :]):
-        raise DatabaseError(f"{path} {_why_unsealed(raw, mark)}")
+        raise DatabaseError(f"{name} {_why_unsealed(raw, mark)}")
     if _digest(raw[:-DIGITS]) != raw[-DIGITS:]:
-        raise DatabaseError(f"{path} is damaged, its contents do not match its seal; copy or build it again")
+        raise DatabaseError(f"{name} is damaged, its contents do not match its seal; copy or build it again")
     with np.load(io.BytesIO(raw), allow_pickle=False) as file:
         return dict(file)
 

@@ -1,0 +1,81 @@
+"""PSFs as FITS, with the keywords of poppy (its documentation, "FITS Header Keywords Definitions")."""
+
+import io
+from pathlib import Path
+
+import numpy as np
+
+from p2sf import __version__
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import ExportError
+from p2sf.export import write_beside
+from p2sf.interchange.cube import Cube
+from p2sf.lens import Lens
+from p2sf.pupils import pupils
+
+METRES_PER_UM = 1e-6
+ARCSECONDS = 180 * 3600 / np.pi
+
+
+def write_fits(cube: Cube, path) -> Path:
+    """Write a cube as one image (x, y, wavelength, field, depth in FITS order) and a table per axis; ExportError."""
+    try:
+        from astropy.io import fits
+    except ImportError as error:
+        raise ExportError("FITS files need astropy, which is not installed; pip install 'p2sf[fits]'") from error
+    image = fits.PrimaryHDU(cube.values)
+    for keyword, value, comment in keywords(cube):
+        image.header[keyword] = (value, comment)
+    tables = [_axis_table(fits, *axis) for axis in _axes(cube)]
+    content = io.BytesIO()  # astropy refuses a handle that was opened to create a file
+    fits.HDUList([image, *tables]).writeto(content)
+    return write_beside(path, lambda handle: handle.write(content.getbuffer()))
+
+
+def keywords(cube: Cube) -> list[tuple[str, object, str]]:
+    """Return (keyword, value, comment) of the image's header; lengths in metres, as poppy has them."""
+    lens, colours = cube.stored.lens, cube.wavelengths_nm * 1e-9
+    middle, width = float(colours[len(colours) // 2]), _pupil_metres(cube.stored.lens)
+    return [
+        ("WAVELEN", middle, "[m] middle wavelength"),
+        ("NWAVES", len(colours), "number of wavelengths, the third axis"),
+        *((f"WAVE{k}", float(x), "[m] wavelength") for k, x in enumerate(colours)),
+        ("PIXELSCL", cube.pixel_um * METRES_PER_UM, "[m] sensor pitch per pixel"),
+        ("PIXUNIT", "meter", "unit of PIXELSCL"),
+        ("OVERSAMP", 1, "samples per pixel"),
+        ("DET_SAMP", 1, "samples per detector pixel"),
+        ("DIAM", width, "[m] entrance-pupil diameter"),
+        ("DIFFLMT", middle / width * ARCSECONDS, "[arcsec] lambda/D in object space"),
+        ("NORMALIZ", "unit sum in the window", "PSF normalization"),
+        ("BUNIT", "fraction", "of the light in the window, per pixel"),
+        *_axis_keywords(cube),
+        ("INSTRUME", lens.name[:60], "lens"),
+        ("METHOD", cube.stored.database.method, "rung of the accuracy ladder"),
+        ("LENSHASH", cube.stored.meta["lens"]["sha256_of_toml"], "SHA-256 of the lens file"),
+        ("CREATOR", f"p2sf {__version__}", "software"),
+    ]
+
+
+def _axis_keywords(cube: Cube):
+    """Yield where the chief ray lies: sample N//2 counted from 0, that is N//2 + 1 from 1."""
+    for axis, name in ((1, "X"), (2, "Y")):
+        yield f"CTYPE{axis}", f"{name} (field along +Y)" if axis == 2 else name, "sensor axis"
+        yield f"CRPIX{axis}", cube.values.shape[-axis] // 2 + 1, "chief ray"
+        yield f"CRVAL{axis}", 0.0, "chief ray"
+        yield f"CDELT{axis}", cube.pixel_um, "pitch"
+        yield f"CUNIT{axis}", "um", ""
+
+
+def _pupil_metres(lens: Lens) -> float:
+    return float(pupils(lens, lens.reference_wavelength_um).entrance_diameter) / UM_PER_MM
+
+
+def _axes(cube: Cube):
+    yield "WAVELENGTH", "nm", cube.wavelengths_nm
+    yield "FIELD", "deg", cube.fields_deg
+    yield "DEPTH", "mm", cube.depths_mm
+
+
+def _axis_table(fits, name: str, unit: str, values: np.ndarray):
+    column = fits.Column(name=name, format="D", unit=unit, array=values)
+    return fits.BinTableHDU.from_columns([column], name=name)

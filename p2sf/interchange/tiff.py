@@ -1,0 +1,48 @@
+"""PSFs as one TIFF of float pages, an ImageJ hyperstack."""
+
+import json
+from itertools import product
+from pathlib import Path
+
+from p2sf import __version__
+from p2sf.export import CONVENTIONS, write_beside
+from p2sf.interchange.cube import Cube
+
+# Row 0 is the lowest y; a reader that honours the TIFF tag turns the picture up.
+ORIENTATION = (274, "H", 1, 4, True)
+
+
+def write_tiff(cube: Cube, path) -> Path:
+    """Write a cube as float32 pages, depth as frames, field as slices, wavelength as channels; ExportError."""
+    import tifffile
+
+    about = {"conventions": CONVENTIONS, "pixel_um": cube.pixel_um, "method": cube.stored.meta["method"]}
+    about["lens"] = cube.stored.meta["lens"]["name"]
+    metadata = {
+        "axes": "TZCYX",
+        "unit": "um",
+        "mode": "grayscale",
+        "max": float(cube.values.max()),
+        "min": 0.0,
+        "Labels": labels(cube),
+        "Info": json.dumps(about, ensure_ascii=False),
+    }
+    per_um = 1 / cube.pixel_um
+    return write_beside(
+        path,
+        lambda handle: tifffile.imwrite(
+            handle,
+            cube.values,
+            imagej=True,
+            resolution=(per_um, per_um),
+            metadata=metadata,
+            extratags=[ORIENTATION],
+            software=f"p2sf {__version__}",
+        ),
+    )
+
+
+def labels(cube: Cube) -> list[str]:
+    """Return what each page shows, in page order."""
+    axes = product(cube.depths_mm.tolist(), cube.fields_deg.tolist(), cube.wavelengths_nm.tolist())
+    return [f"depth {depth:g} mm, field {field:g} deg, {colour:g} nm" for depth, field, colour in axes]
