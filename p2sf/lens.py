@@ -107,6 +107,14 @@ def indices(lens: Lens, wavelength_um) -> np.ndarray:
     return rows
 
 
+def lens_range_um(lens: Lens) -> tuple[float, float] | None:
+    """Return the wavelengths in µm at which every medium has an index; None where nothing limits them."""
+    ranges = [medium.range_um for medium in lens.media if medium.range_um]
+    if not ranges:
+        return None
+    return max(low for low, _ in ranges), min(high for _, high in ranges)
+
+
 def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
     if not surfaces:
         raise GeometryError("the lens has no surfaces; give at least one")

@@ -13,7 +13,7 @@ from p2sf.conventions import slope_from_degrees
 from p2sf.errors import LensFileError
 from p2sf.gaussian import cardinal_points, image_distance, magnification
 from p2sf.glass import catalogue_glass
-from p2sf.lens import indices
+from p2sf.lens import indices, lens_range_um
 from p2sf.library import find_lens, lenses_folder, shipped_lenses
 from p2sf.pupils import f_number, find_stop, paraxial_rays
 from p2sf.seidel import seidel_sums
@@ -203,3 +203,12 @@ def test_all_indices_of_a_lens_are_quick():
             indices(lens, wave)
         times.append((time.process_time() - start) / 50)
     assert np.median(times) < 9e-5
+
+
+def test_the_range_of_a_lens_is_what_all_its_glasses_share():
+    lens = find_lens("telephoto")
+    low, high = lens_range_um(lens)
+    ranges = [catalogue_glass(f"SCHOTT {g}").range_um for g in ("N-BK7", "N-BASF2", "N-ZK7", "N-LAF33", "SF1")]
+    assert (low, high) == (max(a for a, _ in ranges), min(b for _, b in ranges))
+    assert np.all(np.isfinite(indices(lens, [low, high])))
+    assert lens_range_um(find_lens("eye_navarro")) is None

@@ -13,8 +13,8 @@ def lenses(*, as_json: Json = False) -> None:
     records = [record(find_lens(name)) for name in shipped_lenses()]
     if as_json:
         return print_json({"lenses": records})
-    rows = [(r["name"], r["effective_focal_length"], r["f_number"], r["field_deg"], r["title"]) for r in records]
-    columns = ("name", "focal length, mm", "f-number", "largest field, °", "title")
+    rows = [(r["name"], r["effective_focal_length"], r["f_number"], r["field_deg"], r["character"]) for r in records]
+    columns = ("name", "focal length, mm", "f-number", "largest field, °", "what it is")
     return print_table("Shipped lenses", columns, rows)
 
 
@@ -24,6 +24,7 @@ def record(lens: Lens) -> dict:
     return {
         "name": lens.name,
         "title": lens.title,
+        "character": lens.character,
         "effective_focal_length": float(cardinal_points(lens, wavelength).effective_focal_length),
         "f_number": float(f_number(lens, wavelength)),
         "field_deg": float(max(lens.fields_deg)),
