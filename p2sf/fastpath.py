@@ -161,7 +161,7 @@ def _multiples(angle: np.ndarray, count: int, dtype) -> np.ndarray:
         phase = angle.astype(dtype)[..., None] * np.arange(count, dtype=dtype)
         return np.cos(phase, out=phase)
     out = np.ones((count, *angle.shape))
-    np.cos(angle, out=out[1:2].reshape(angle.shape) if count > 1 else None)
+    out[1:2] = np.cos(angle)
     twice = 2 * np.cos(angle)
     for m in range(2, count):
         np.multiply(twice, out[m - 1], out=out[m])

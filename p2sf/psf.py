@@ -24,7 +24,7 @@ from p2sf.seidel import Coefficients
 from p2sf.transform import check_fft, padded_fft, sum_plane_waves
 from p2sf.wavefront import steepest_polar, steepest_slope, wavefront
 
-AIRY_RADIUS = 0.6098350  # first zero of J1 over 2π, times λ/NA
+AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π, times λ/NA
 WINDOW_AIRY_RADII = 5
 PREVIEW_GRID = 128
 LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
