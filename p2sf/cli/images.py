@@ -12,6 +12,7 @@ from p2sf.errors import ExportError, RequestError, SamplingError
 from p2sf.export import ENDINGS, describe, write_psf
 from p2sf.export.record import facts
 from p2sf.library import find_lens
+from p2sf.measures import centroid, radius_of_energy
 from p2sf.psf import Psf
 from p2sf.request import Setup, set_up
 
@@ -80,14 +81,15 @@ def psf(
     if output:
         write_psf(result, output, describe(setup))
     if as_json:
-        return print_json({"file": None if output is None else str(output), "pixels": picture.pixels, **facts(result)})
+        file = None if output is None else str(output)
+        return print_json({"file": file, "pixels": picture.pixels, **facts(result), **figures(result)})
     warn(setup.stop.warning)
     return print_table(heading(setup), ("point spread function", "value", "unit"), summary(result, output))
 
 
 def render(setup: Setup, picture: Picture) -> Psf:
-    """Return the asked PSF: by the ladder, or straight from the six coefficients when their sampling is named."""
-    if picture.sampling:
+    """Return the asked PSF: by the ladder, or straight from the six coefficients when they are asked for."""
+    if picture.sampling or picture.method == "seidel":
         return _from_coefficients(setup, picture)
     from p2sf import ladder
 
@@ -107,7 +109,7 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
 
     source = setup.source
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
-    return seidel_psf(six, picture.pixels, picture.pixel_um, sampling=picture.sampling)
+    return seidel_psf(six, picture.pixels, picture.pixel_um, sampling=picture.sampling or "mdft")
 
 
 def _check_output(output: Path | None) -> None:
@@ -116,15 +118,25 @@ def _check_output(output: Path | None) -> None:
         raise ExportError(f'--output is {output}, its ending "{output.suffix}" is unknown; choose {", ".join(ENDINGS)}')
 
 
+def figures(result: Psf) -> dict:
+    """Return the centroid, from the chief ray, and the radii around it that hold 50 and 80 % of the window's light."""
+    x, y = centroid(result)
+    half, most = (float(radius_of_energy(result, share)) for share in (0.5, 0.8))
+    return {"centroid_um": [float(x), float(y)], "radius_50_um": half, "radius_80_um": most}
+
+
 def summary(result: Psf, output: Path | None) -> list[tuple]:
     """Return the rows that tell a person what was computed."""
-    known = facts(result)
+    known, measured = facts(result), figures(result)
     rows = [
         ("method", result.method, ""),
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", ""),
         ("pixel", result.pixel_um, "µm"),
         ("Strehl ratio", known["strehl"], ""),
         ("light inside the window", known["energy"], ""),
+        ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
+        ("radius of 50 % of that light", measured["radius_50_um"], "µm"),
+        ("radius of 80 % of that light", measured["radius_80_um"], "µm"),
         ("sampling", result.sampling, ""),
         ("numbers that describe it", result.numbers, ""),
         ("traced rays", result.rays, ""),

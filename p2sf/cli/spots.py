@@ -12,11 +12,11 @@ from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.errors import ExportError, RequestError
 from p2sf.export import describe, write_beside, write_json
 from p2sf.library import find_lens
+from p2sf.measures import airy_radius_um
 from p2sf.pupils import numerical_aperture
 from p2sf.request import Setup, set_up
 
 MOST_RINGS = 200  # 120 601 rays
-AIRY = 0.609835  # first zero of 2 J1(πv)/(πv), halved, in λ/NA (Born & Wolf 1999, 8.5.2)
 
 Aim = Annotated[
     Literal["paraxial", "real"],
@@ -72,7 +72,7 @@ def trace_spot(setup: Setup, rings: int, aim: str, clip: bool) -> tuple[np.ndarr
         "rms_um": float(found.rms_um),
         "largest_um": float(np.hypot(*(points - points.mean(axis=0)).T).max()),
         "centroid_y_um": float(found.centroid_y_um),
-        "airy_radius_um": AIRY * setup.source.wavelength_um / na if na else inf,
+        "airy_radius_um": float(airy_radius_um(setup.source.wavelength_um, na)) if na else inf,
         "rays": len(all_points),
         "lost": len(all_points) - len(points),
     }
