@@ -183,8 +183,13 @@ def image_distance(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
     """Return paraxial image position from the last vertex, mm; infinite for an object in the front focal plane."""
     rays = basis_rays(lens, wavelength_um, (depth_mm,))
     height, angle = axial_ray(rays, depth_mm)
-    with np.errstate(divide="ignore"):
-        return -rays.image_index * height[-1] / settled_angle(rays.power, rays.gap, height, angle)
+    return crossing(rays.image_index, height[-1], settled_angle(rays.power, rays.gap, height, angle))
+
+
+def crossing(index, height, reduced_angle):
+    """Return where a ray meets the axis, mm behind the plane of its height; +inf if it runs parallel."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(reduced_angle == 0, np.inf, -index * height / reduced_angle)[()]
 
 
 def magnification(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
@@ -193,11 +198,11 @@ def magnification(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
     Infinite for an image at infinity, but for an afocal lens, which magnifies every object alike.
     """
     rays = basis_rays(lens, wavelength_um, (depth_mm,))
-    start = rays.object_index * vergence(depth_mm)
     height, angle = axial_ray(rays, depth_mm)
+    start = rays.object_index * vergence(depth_mm)
     last = settled_angle(rays.power, rays.gap, height, angle)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where((start == 0) & (last == 0), 1 / rays.d[-1], start / last)
+        return np.where((start == 0) & (last == 0), 1 / rays.d[-1], start / last)[()]
 
 
 def axial_ray(rays: BasisRays, depth_mm):

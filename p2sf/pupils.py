@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.errors import GeometryError
-from p2sf.gaussian import BasisRays, axial_ray, basis_rays, check_depth, chief_ray, settled_angle
+from p2sf.gaussian import BasisRays, axial_ray, basis_rays, check_depth, chief_ray, crossing, settled_angle
 from p2sf.lens import Lens
 
 # Two rims whose cones differ by less than the rounding of a prescription's six digits are a tie, not a warning.
@@ -143,9 +143,9 @@ def pupils(lens: Lens, wavelength_um, stop: Stop | None = None) -> Pupils:
     y, nu = chief_ray(rays, stop.surface)
     with np.errstate(divide="ignore"):
         return Pupils(
-            entrance_from_first=-rays.object_index * y[0] / nu[0],
+            entrance_from_first=crossing(rays.object_index, y[0], nu[0]),
             entrance_diameter=2 * stop.semi_diameter / np.abs(nu[0]),
-            exit_from_last=-rays.image_index * y[-1] / nu[-1],
+            exit_from_last=crossing(rays.image_index, y[-1], nu[-1]),
             exit_diameter=2 * stop.semi_diameter / np.abs(nu[-1]),
         )
 

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.gaussian import crossing
 from p2sf.lens import Lens
 from p2sf.pupils import ParaxialRays, Stop, paraxial_rays
 
@@ -126,8 +127,7 @@ def coefficients(
     waves = UM_PER_MM / wavelength_um
     index = rays.index[-1]
     square = np.square(field_slope)
-    with np.errstate(divide="ignore"):
-        image = -index * rays.y[-1] / rays.nu[-1]
+    image = crossing(index, rays.y[-1], rays.nu[-1])
     chief = rays.chief_y[-1] + rays.chief_nu[-1] / index * lens.sensor_mm
     return Coefficients(
         w40=total.spherical * waves / 8,
