@@ -1,6 +1,7 @@
 """`p2sf psf`: one point spread function, computed and written to a file."""
 
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -63,6 +64,7 @@ class Picture:
 
 
 USUAL = Picture()
+_LADDER = find_spec("p2sf.ladder") is not None
 
 
 def psf(
@@ -89,18 +91,15 @@ def psf(
 
 def render(setup: Setup, picture: Picture) -> Psf:
     """Return the asked PSF: by the ladder, or straight from the six coefficients when they are asked for."""
-    if picture.sampling or picture.method == "seidel":
+    method = picture.method or ("auto" if _LADDER else "seidel")
+    if picture.sampling or method == "seidel":
         return _from_coefficients(setup, picture)
+    if not _LADDER:
+        raise RequestError(f"--method is {method}, a rung that this version does not have yet; choose seidel")
     from p2sf import ladder
 
-    return ladder.render(
-        setup.lens,
-        setup.source,
-        method=picture.method or "auto",
-        pixels=picture.pixels,
-        pixel_um=picture.pixel_um,
-        tolerance=picture.tolerance,
-    )
+    grid = {"pixels": picture.pixels, "pixel_um": picture.pixel_um}
+    return ladder.render(setup.lens, setup.source, method=method, tolerance=picture.tolerance, **grid)
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
