@@ -23,7 +23,7 @@ import numpy as np
 
 from p2sf.quadrature import RowNodes
 from p2sf.seidel import Coefficients
-from p2sf.wavefront import shape_coefficients
+from p2sf.wavefront import shape_coefficients, spread
 
 BATCH = 8  # PSFs at a time: 8 × 128² pupils of float32 just fit a second-level cache
 TURN = 2 * np.pi
@@ -54,16 +54,16 @@ def intensities(coefficients: Coefficients, pixels: int, pixel_um: float, rows: 
     The coefficients broadcast over (depth, field, wavelength); rows of the PSF are +y, sample pixels//2 is the
     chief ray. ``dtype``, float32 or float64, is the precision of everything behind the reduced phase.
     """
-    fields = np.broadcast_arrays(*shape_coefficients(coefficients)[:4], wave_number(coefficients))
-    w40, w31, w22, focus, scale = (x.ravel() for x in fields)
-    even, coma = np.stack([w40, w22, focus], axis=-1), w31[:, None]
-    out = np.empty((scale.size, pixels, pixels), dtype)
+    terms = spread(*shape_coefficients(coefficients)[:4], wave_number(coefficients))
+    shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
+    even, coma, scale = terms[:, [0, 2, 3]], terms[:, 1:2], terms[:, 4]
+    out = np.empty((len(terms), pixels, pixels), dtype)
     for members in _groups(scale):
-        cycles = float(scale[members[0]]) * pixel_um
-        for some in np.split(members, range(BATCH, len(members), BATCH)):
-            parts = _fields(even[some], coma[some], rows, (cycles, pixels, np.dtype(dtype)))
-            out[some] = _unfold(*parts, pixels)
-    return out.reshape(*fields[0].shape, pixels, pixels)
+        setting = float(scale[members[0]]) * pixel_um, pixels, out.dtype
+        for start in range(0, len(members), BATCH):
+            some = members[start : start + BATCH]
+            out[some] = _unfold(*_fields(even[some], coma[some], rows, setting), pixels)
+    return out.reshape(*shape, pixels, pixels)
 
 
 def wave_number(coefficients: Coefficients) -> np.ndarray:

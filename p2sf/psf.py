@@ -22,7 +22,7 @@ from p2sf.quadrature import (
 )
 from p2sf.seidel import Coefficients
 from p2sf.transform import check_fft, padded_fft, sum_plane_waves
-from p2sf.wavefront import steepest_polar, steepest_slope, wavefront
+from p2sf.wavefront import slope_bound, steepest_polar, steepest_slope, wavefront
 
 AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π, times λ/NA
 WINDOW_AIRY_RADII = 5
@@ -115,11 +115,13 @@ def corner_reach(scale, pixels: int, pixel_um: float) -> float:
 
 def rows_for(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str) -> RowNodes:
     """Return the pupil samples that no PSF of these coefficients aliases on. Raises SamplingError if too many."""
-    slope = float(np.max(steepest_slope(coefficients)))
     reach = corner_reach(np.abs(wave_number(coefficients)), pixels, pixel_um)
+    # A grid of step 2/N repeats the picture every N/2 cycles; blur and window must fit side by side.
+    if quality == "preview" and 2.1 * (slope_bound(coefficients) + reach) < PREVIEW_GRID:
+        return grid_rows(PREVIEW_GRID)
+    slope = float(np.max(steepest_slope(coefficients)))
     if quality == "preview":
-        # A grid of step 2/N repeats the picture every N/2 cycles; blur and window must fit side by side.
-        rows, columns = (max(PREVIEW_GRID, even_count(2.1 * (slope + reach))),) * 2
+        rows = columns = max(PREVIEW_GRID, even_count(2.1 * (slope + reach)))
     else:
         rows, columns = chords_for(slope, reach)
     if rows * columns > 4 * LARGEST_NODES:
@@ -221,12 +223,12 @@ def check_image(coefficients: Coefficients) -> None:
             "the image of this object lies at infinity (NA 0), so the sensor holds no PSF; move the object or refocus"
         )
     c = coefficients
-    for name in ("w40", "w31", "w22", "w20", "wd", "reduced_slope"):
-        value = getattr(c, name)
-        if not np.isfinite(value).all():
-            raise GeometryError(
-                f"{name} is not finite, so there is no wavefront; choose a depth, field or lens that has"
-            )
+    if not np.isfinite(c.w40 + c.w31 + c.w22 + c.w20 + c.wd + c.reduced_slope).all():
+        names = ("w40", "w31", "w22", "w20", "wd", "reduced_slope")
+        bad = next(name for name in names if not np.isfinite(getattr(c, name)).all())
+        raise GeometryError(
+            f"{bad} is not finite, so there is no wavefront; choose a depth, field or lens that has one"
+        )
 
 
 def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None) -> float:

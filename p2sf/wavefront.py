@@ -29,7 +29,14 @@ def wavefront(coefficients: Coefficients, xi, eta, tilt: bool = False) -> np.nda
 def shape_coefficients(coefficients: Coefficients, tilt: bool = False):
     """Return W40, W31, W22, W20 + Wd and (0 unless ``tilt``) W11, each an array of the coefficients' shape."""
     c = coefficients
-    return c.w40, c.w31, c.w22, c.w20 + c.wd, c.w11 if tilt else np.zeros_like(c.w11)
+    return c.w40, c.w31, c.w22, c.w20 + c.wd, c.w11 if tilt else 0.0
+
+
+def spread(*columns) -> np.ndarray:
+    """Return broadcast numbers or arrays as one array with a last axis, (…, columns)."""
+    if all(np.ndim(x) == 0 for x in columns):  # one PSF at a time is worth the quick way
+        return np.array(columns, dtype=float)
+    return np.stack(np.broadcast_arrays(*columns), axis=-1)
 
 
 def _before(values, grid_ndim: int) -> np.ndarray:
@@ -43,19 +50,26 @@ def steepest_slope(coefficients: Coefficients, tilt: bool = False) -> np.ndarray
 
     λ/NA times this is the largest distance from the chief ray at which a ray of this wavefront lands.
     """
-    across, along = (_linear(coefficients, basis, tilt) for basis in _gradient_basis())
-    return np.sqrt((across**2 + along**2).max(-1))
+    return np.sqrt(_slopes(coefficients, _gradient_basis(), tilt).sum(-2).max(-1))
 
 
 def steepest_polar(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
     """Return the largest |∂W/∂ρ| and |∂W/∂θ|, waves, within 1 %: what radial and angular sampling must carry."""
-    radial, angular = (_linear(coefficients, basis, False) for basis in _polar_basis())
-    return np.abs(radial).max(-1), np.abs(angular).max(-1)
+    steepest = np.sqrt(_slopes(coefficients, _polar_basis(), False).max(-1))
+    return steepest[..., 0], steepest[..., 1]
 
 
-def _linear(coefficients: Coefficients, basis: np.ndarray, tilt: bool) -> np.ndarray:
-    """Return Σ coefficient·basis over the five shapes, (…, points)."""
-    return np.stack(np.broadcast_arrays(*shape_coefficients(coefficients, tilt)), axis=-1) @ basis
+def slope_bound(coefficients: Coefficients) -> float:
+    """Return a number that no |∇W| of these coefficients exceeds: quick, and far too large where terms balance."""
+    w40, w31, w22, focus, _ = shape_coefficients(coefficients)
+    return float(np.max(4 * abs(w40) + 3 * abs(w31) + 2 * abs(w22) + 2 * abs(focus)))
+
+
+def _slopes(coefficients: Coefficients, basis: np.ndarray, tilt: bool) -> np.ndarray:
+    """Return the squares of Σ coefficient·basis over the five shapes, (…, 2, points)."""
+    terms = spread(*shape_coefficients(coefficients, tilt))
+    slopes = (terms @ basis).reshape(*terms.shape[:-1], 2, -1)
+    return np.square(slopes, out=slopes)
 
 
 @lru_cache(maxsize=1)
@@ -66,23 +80,23 @@ def _slope_points():
 
 
 @lru_cache(maxsize=1)
-def _gradient_basis() -> tuple[np.ndarray, np.ndarray]:
-    """Return ∂W/∂ξ and ∂W/∂η of the five shapes at the slope points, (5, points) each."""
+def _gradient_basis() -> np.ndarray:
+    """Return ∂W/∂ξ, then ∂W/∂η of the five shapes at the slope points, (5, 2·points)."""
     rho, sine, cosine = _slope_points()
     xi, eta, none = rho * sine, rho * cosine, np.zeros_like(rho)
     across = [4 * rho**2 * xi, 2 * xi * eta, none, 2 * xi, none]
     along = [4 * rho**2 * eta, rho**2 + 2 * eta**2, 2 * eta, 2 * eta, none + 1]
-    return np.stack(across), np.stack(along)
+    return np.concatenate([across, along], axis=1)
 
 
 @lru_cache(maxsize=1)
-def _polar_basis() -> tuple[np.ndarray, np.ndarray]:
-    """Return ∂W/∂ρ and ∂W/∂θ of the five shapes at the slope points, (5, points) each."""
+def _polar_basis() -> np.ndarray:
+    """Return ∂W/∂ρ, then ∂W/∂θ of the five shapes at the slope points, (5, 2·points)."""
     rho, sine, cosine = _slope_points()
     none = np.zeros_like(rho)
     radial = [4 * rho**3, 3 * rho**2 * cosine, 2 * rho * cosine**2, 2 * rho, cosine]
     angular = [none, -(rho**3) * sine, -2 * rho**2 * sine * cosine, none, -rho * sine]
-    return np.stack(radial), np.stack(angular)
+    return np.concatenate([radial, angular], axis=1)
 
 
 def rms(coefficients: Coefficients, tilt_removed: bool = True) -> np.ndarray:
