@@ -14,6 +14,8 @@ COMMANDS = {
     "psf": ("images:psf", "The point spread function of one source, to a file or in a few figures."),
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
     "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),
+    "database": ("databases:app", "Every PSF of a lens as a file: build one, look into one."),
+    "export": ("exports:export", "A database or stack for ISETCam, FITS or ImageJ readers, or as a table."),
     "lenses": ("lenses:lenses", "The shipped lenses."),
     "import": (
         "importing:import_",

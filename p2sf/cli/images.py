@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from p2sf.cli.lookups import is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output
 from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.errors import ExportError, RequestError, SamplingError
@@ -78,15 +79,22 @@ def psf(
 ) -> None:
     """Compute the PSF of one source and write it as .npz, .tiff, .csv or .png."""
     _check_output(output)
-    setup = set_up(find_lens(lens), request)
-    result = render(setup, picture)
+    if is_database(lens):
+        if picture.sampling or picture.method not in (None, "auto"):
+            raise RequestError(f"--method and --sampling need the lens, and {lens} is a database; leave them away")
+        result, about, title = looked_up(lens, request, picture.pixels, picture.pixel_um)
+        warning = None
+    else:
+        setup = set_up(find_lens(lens), request)
+        result, about, title = render(setup, picture), describe(setup) if output else {}, heading(setup)
+        warning = setup.stop.warning
     if output:
-        write_psf(result, output, describe(setup))
+        write_psf(result, output, about)
     if as_json:
         file = None if output is None else str(output)
         return print_json({"file": file, "pixels": picture.pixels, **facts(result), **figures(result)})
-    warn(setup.stop.warning)
-    return print_table(heading(setup), ("point spread function", "value", "unit"), summary(result, output))
+    warn(warning)
+    return print_table(title, ("point spread function", "value", "unit"), summary(result, output))
 
 
 def render(setup: Setup, picture: Picture) -> Psf:

@@ -1,0 +1,217 @@
+"""`p2sf database build` and `p2sf database info`: every PSF of a lens as a file."""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import Annotated, Literal
+
+import numpy as np
+from cyclopts import App, Parameter
+
+from p2sf.cli.images import MOST_PIXELS
+from p2sf.cli.options import Json, LensName
+from p2sf.cli.screen import print_json, print_table, text
+from p2sf.cli.spans import even_span, span
+from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.database import Space, depth_nodes
+from p2sf.database.render import Sampling
+from p2sf.databasefile import load_database, save_database
+from p2sf.errors import ExportError, RequestError
+from p2sf.library import find_lens
+from p2sf.request import Request, set_up
+
+app = App(name="database", help="Every PSF of a lens as a file: build one, look into one.")
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """Which points the database covers, as LOW:HIGH:COUNT, one number, or numbers with commas.
+
+    Attributes
+    ----------
+    depths_mm
+        Object distances from the first vertex, mm; uniform in 1/depth, HIGH may be inf.
+    fields_deg
+        Chief-ray angles at the entrance pupil, degrees; uniform in angle.
+    wavelengths_nm
+        Wavelengths, nm.
+    """
+
+    depths_mm: str = "500:inf:20"
+    fields_deg: str | None = None
+    wavelengths_nm: str = "400:700:31"
+
+
+@dataclass(frozen=True)
+class Camera:
+    """How the camera is set; as the lens file has it when not given.
+
+    Attributes
+    ----------
+    focus_mm
+        Put the sensor at the paraxial image of this distance, mm; inf is allowed.
+    sensor_shift_um
+        Move the sensor on top of that, µm, away from the lens.
+    f_number
+        Focal length over entrance-pupil diameter.
+    """
+
+    focus_mm: float | None = None
+    sensor_shift_um: float = 0.0
+    f_number: float | None = None
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What is kept, and how.
+
+    Attributes
+    ----------
+    method
+        Rung of the accuracy ladder that the numbers describe.
+    interpolant
+        What stands between the nodes: exact polynomials, the paper's table 1, or straight lines.
+    stack
+        Write the rendered PSFs too, as a Zarr v3 folder; a stack that was stopped goes on where it was.
+    pixels
+        Samples along each side of a stack's PSFs.
+    pixel_um
+        Their distance, µm; what the finest PSF needs when not given.
+    scheduler
+        Address of a dask.distributed scheduler that renders the stack; this machine's threads when not given.
+    """
+
+    method: Literal["seidel", "fitted"] = "seidel"
+    interpolant: Literal["exact", "table1", "linear"] = "exact"
+    stack: bool = False
+    pixels: int = 64
+    pixel_um: float | None = None
+    scheduler: str | None = None
+
+    def __post_init__(self):
+        if not 2 <= self.pixels <= MOST_PIXELS:
+            raise RequestError(f"--pixels is {self.pixels}; give a whole number from 2 to {MOST_PIXELS}")
+        if self.pixel_um is not None and not 0 < self.pixel_um < 1e6:
+            raise RequestError(f"--pixel-um is {self.pixel_um:g} µm; give a positive number below a metre")
+        if self.method == "fitted" and self.interpolant != "exact":
+            raise RequestError(f"--interpolant is {self.interpolant}, which is for --method seidel; leave it away")
+
+
+@app.command
+def build(
+    lens: LensName,
+    /,
+    *,
+    output: Annotated[Path, Parameter(["--output", "-o"], negative="", help="File to write: .npz, a stack .zarr.")],
+    nodes: Annotated[Nodes, Parameter(name="*")] = Nodes(),
+    camera: Annotated[Camera, Parameter(name="*")] = Camera(),
+    kind: Annotated[Kind, Parameter(name="*")] = Kind(),
+    as_json: Json = False,
+) -> None:
+    """Build the PSF database of a lens and write it, with the error it makes, measured."""
+    _check_ending(output, ".zarr" if kind.stack else ".npz")
+    found = find_lens(lens)
+    setup = set_up(
+        found, Request(focus_mm=camera.focus_mm, sensor_shift_um=camera.sensor_shift_um, f_number=camera.f_number)
+    )
+    start = perf_counter()
+    database = _built(setup, space_of(nodes, found), kind)
+    seconds = perf_counter() - start
+    if kind.stack:
+        _write_stack(database, setup.lens, output, kind)
+    else:
+        save_database(database, setup.lens, output, setup.stop)
+    size = sum(p.stat().st_size for p in (output.rglob("*") if output.is_dir() else [output]) if p.is_file())
+    about = {"file": str(output), "bytes": size, "nodes": database.space.shape, "build_seconds": seconds}
+    if as_json:
+        return print_json({**about, "errors_waves": database.errors})
+    rows = [("nodes, depth × field × wavelength", " × ".join(map(str, database.space.shape)), "")]
+    rows += [("coefficients built in", 1e3 * seconds, "ms"), ("file", str(output), ""), ("size", size / 1e3, "kB")]
+    return print_table(
+        f"{found.title or found.name}: PSF database", ("", "value", "unit"), rows + error_rows(database.errors)
+    )
+
+
+def _built(setup, space: Space, kind: Kind):
+    """Return the coefficients of a setup over a space."""
+    from p2sf.database import build_database
+
+    return build_database(setup.lens, space, kind.interpolant, setup.stop)
+
+
+def space_of(nodes: Nodes, lens) -> Space:
+    """Return the nodes that a person asked for; without fields, 21 up to the lens's widest. RequestError."""
+    asked = span(nodes.depths_mm, "--depths-mm")
+    depths = asked if isinstance(asked, np.ndarray) else depth_nodes(*asked)
+    if not depths[0] > 0:
+        raise RequestError(f"--depths-mm is {nodes.depths_mm}; give distances in front of the lens, above 0")
+    fields = even_span(nodes.fields_deg or f"0:{max((1.0, *lens.fields_deg))!r}:21", "--fields-deg")
+    if not (0 <= fields[0] and fields[-1] < 90):
+        raise RequestError(f"--fields-deg is {nodes.fields_deg}; give angles from 0 to below 90 degrees")
+    colours = even_span(nodes.wavelengths_nm, "--wavelengths-nm")
+    if not colours[0] > 0:
+        raise RequestError(f"--wavelengths-nm is {nodes.wavelengths_nm}; give wavelengths above 0")
+    return Space(depths, slope_from_degrees(fields), colours / NM_PER_UM)
+
+
+def _check_ending(output: Path, ending: str) -> None:
+    if output.suffix.lower() != ending:
+        wanted = "a stack is a .zarr folder" if ending == ".zarr" else "a database is a .npz file, a --stack a .zarr"
+        raise ExportError(f"--output is {output}; {wanted}, choose a name that ends in {ending}")
+
+
+def _write_stack(database, lens, output: Path, kind: Kind) -> None:
+    """Fill a stack, with a line of progress on a terminal."""
+    from p2sf.stack import Watch, write_stack
+
+    def tell(done: int, total: int, seconds_left: float) -> None:
+        print(f"\r{done} of {total} chunks, {seconds_left:.0f} s left ", end="", file=sys.stderr, flush=True)
+
+    watch = Watch(progress=tell) if sys.stderr.isatty() else Watch()
+    write_stack(database, lens, output, Sampling(kind.pixels, kind.pixel_um), watch, kind.scheduler)
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
+
+
+@app.command
+def info(file: Path, /, *, as_json: Json = False) -> None:
+    """Say what a database or a stack holds, where it comes from, and how exact it is."""
+    stack = None
+    if file.is_dir():
+        from p2sf.stack import open_stack
+
+        stack = open_stack(file)
+    meta = (stack or load_database(file)).stored.meta if stack else load_database(file).meta
+    held = {} if stack is None else {"psfs": stack.psf.shape, "pixel_um": stack.pixel_um, "complete": stack.complete}
+    if as_json:
+        return print_json({**{key: value for key, value in meta.items() if key != "numbers"}, **held})
+    return print_table(
+        f"{file}: {meta['lens']['title'] or meta['lens']['name']}", ("", "value", "unit"), about_rows(meta, held)
+    )
+
+
+def about_rows(meta: dict, held: dict) -> list[tuple]:
+    """Return the rows that tell a person what a database holds."""
+    covers = {
+        key: f"{text(low)} to {'∞' if high is None else text(high)}" for key, (low, high) in meta["covers"].items()
+    }
+    rows = [
+        ("lens", meta["lens"]["name"], ""),
+        ("method", meta["method"], ""),
+        ("interpolant", meta["interpolant"], ""),
+        ("nodes, depth × field × wavelength", " × ".join(map(str, meta["nodes"])), ""),
+        *((name.split("_")[0], covers[name], name.split("_")[1]) for name in covers),
+        ("sensor from the last vertex", meta["sensor_mm"], "mm"),
+        ("glasses", ", ".join(glass["glass"] for glass in meta["glasses"]), ""),
+        ("made with p2sf", meta["versions"]["p2sf"], ""),
+    ]
+    if held:
+        rows += [("PSFs", " × ".join(map(str, held["psfs"])), ""), ("pixel", held["pixel_um"], "µm")]
+        rows += [("complete", "yes" if held["complete"] else "no, build it again to go on", "")]
+    return rows + error_rows(meta["errors_waves"])
+
+
+def error_rows(errors: dict[str, float]) -> list[tuple]:
+    """Return one row per coefficient: the largest error against direct evaluation."""
+    return [(f"largest error of {kind.upper()}", value, "waves") for kind, value in errors.items()]

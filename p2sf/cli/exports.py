@@ -1,0 +1,90 @@
+"""`p2sf export`: a database or a stack in another program's format."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from p2sf.cli.images import MOST_PIXELS
+from p2sf.cli.options import Json
+from p2sf.cli.screen import print_json
+from p2sf.database.render import Sampling
+from p2sf.errors import RequestError
+
+ENDINGS = {"iset": ".mat", "fits": ".fits", "tiff": ".tif", "csv": ".csv"}
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """How a .npz is rendered; a stack is exported as it is.
+
+    Attributes
+    ----------
+    pixels
+        Samples along each side; 64, and 128 for ISETCam, when not given.
+    pixel_um
+        Distance between samples, µm; what the finest PSF needs when not given.
+    depth_mm
+        For ISETCam, which holds one object distance: which, mm; the farthest when not given.
+    """
+
+    pixels: int | None = None
+    pixel_um: float | None = None
+    depth_mm: float | None = None
+
+    def __post_init__(self):
+        if self.pixels is not None and not 2 <= self.pixels <= MOST_PIXELS:
+            raise RequestError(f"--pixels is {self.pixels}; give a whole number from 2 to {MOST_PIXELS}")
+        if self.pixel_um is not None and not 0 < self.pixel_um < 1e6:
+            raise RequestError(f"--pixel-um is {self.pixel_um:g} µm; give a positive number below a metre")
+
+
+def export(
+    file: Path,
+    /,
+    *,
+    to: Literal["iset", "fits", "tiff", "csv"],
+    output: Annotated[Path | None, Parameter(["--output", "-o"], negative="", help="File to write.")] = None,
+    picture: Annotated[Rendered, Parameter(name="*")] = Rendered(),
+    as_json: Json = False,
+) -> None:
+    """Write a database (.npz) or stack (.zarr) as ISETCam optics, FITS, an ImageJ TIFF, or a table."""
+    target = output or file.with_suffix(ENDINGS[to])
+    _WRITERS[to](file, target, picture)
+    if as_json:
+        print_json({"file": str(target), "to": to, "bytes": target.stat().st_size})
+    else:
+        print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
+
+
+def _iset(file: Path, target: Path, picture: Rendered) -> None:
+    from p2sf.interchange import IsetOptions, open_stored, write_iset
+
+    options = IsetOptions(picture.depth_mm, picture.pixels or IsetOptions().pixels, picture.pixel_um)
+    write_iset(open_stored(file), target, options)
+
+
+def _fits(file: Path, target: Path, picture: Rendered) -> None:
+    from p2sf.interchange import open_cube, write_fits
+
+    write_fits(open_cube(file, _sampling(picture)), target)
+
+
+def _tiff(file: Path, target: Path, picture: Rendered) -> None:
+    from p2sf.interchange import open_cube, write_tiff
+
+    write_tiff(open_cube(file, _sampling(picture)), target)
+
+
+def _csv(file: Path, target: Path, picture: Rendered) -> None:
+    from p2sf.interchange import open_stored, write_csv
+
+    write_csv(open_stored(file), target)
+
+
+def _sampling(picture: Rendered) -> Sampling:
+    return Sampling(picture.pixels or Sampling().pixels, picture.pixel_um)
+
+
+_WRITERS = {"iset": _iset, "fits": _fits, "tiff": _tiff, "csv": _csv}
