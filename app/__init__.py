@@ -1,0 +1,1 @@
+"""The explorer: one window on one lens, following its sliders."""

@@ -1,0 +1,58 @@
+"""What a person must know about the picture, in words. No Qt in here."""
+
+from math import isinf
+
+import numpy as np
+
+from app.scales import significant
+from app.setting import Setting
+
+DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
+WIDE_DEG, FAST_NA = 25.0, 0.30  # tan and sin differ by 10 % at 25°; an NA of 0.3 is f/1.7
+
+
+def warnings(setting: Setting, method: str, lost_rays: int = 0) -> tuple[str, ...]:
+    """Return the sentences that hold for this setting and method, most important first."""
+    found = [
+        _image_at_infinity(setting),
+        _lost(lost_rays),
+        _defocus(setting) if method == "seidel" else None,
+        _paraxial(setting) if method == "seidel" else None,
+        setting.stop.warning,
+    ]
+    return tuple(_sentence(text) for text in found if text)
+
+
+def _sentence(text: str) -> str:
+    return text[0].upper() + text[1:] + ("" if text.endswith(".") else ".")
+
+
+def _image_at_infinity(setting: Setting) -> str | None:
+    if isinf(float(setting.coefficients.image_distance)):
+        return "the object lies in the front focal plane, so its image is at infinity; move the source"
+    return None
+
+
+def _lost(count: int) -> str | None:
+    if not count:
+        return None
+    rays = "one of the drawn rays misses" if count == 1 else f"{count} of the drawn rays miss"
+    return f"{rays} a surface or is totally reflected; the light that arrives is less than the picture assumes"
+
+
+def _defocus(setting: Setting) -> str | None:
+    wd = float(setting.coefficients.wd)
+    if np.isnan(wd) or abs(wd) < DEFOCUS_LIMIT:
+        return None
+    return f"defocus is {significant(wd, 3)} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down"
+
+
+def _paraxial(setting: Setting) -> str | None:
+    angle = abs(float(np.rad2deg(np.arctan(setting.source.field_slope))))
+    na = float(setting.coefficients.na)
+    if angle <= WIDE_DEG and na <= FAST_NA:
+        return None
+    what = f"a field of {angle:.0f}°" if angle > WIDE_DEG else f"an aperture of NA {na:.2f}"
+    return (
+        f"{what} is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced"
+    )

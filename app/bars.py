@@ -1,0 +1,193 @@
+"""The bar above (lens, method, steps, snapshot, theme), the line below (warnings, facts), the banner for refusals."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
+
+from app.card import Chooser, chooser, select
+from app.compute import Live
+from app.readout import Readout
+from app.scales import signed
+from app.setting import load, shipped
+from app.state import CHOICES
+from app.store import Store
+from app.theme import Tokens
+from p2sf.errors import P2SFError
+
+OPEN = "open"
+METHOD_WORDS = {
+    "auto": "auto",
+    "seidel": "seidel: six coefficients",
+    "fitted": "fitted: polynomial from real rays",
+    "traced": "traced: exact wavefront",
+    "huygens": "huygens: the reference sum",
+}
+TOLERANCES = (0.9, 0.95, 0.99, 0.999, 0.9999)
+METHOD_TIP = "Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough."
+TOLERANCE_TIP = "Tolerance: the R² against the Huygens reference that auto must promise."
+
+
+class TopBar(QFrame):
+    """Everything that is chosen rather than dragged."""
+
+    open_file = Signal()
+    lens_chosen = Signal(str)
+    help_asked = Signal()
+
+    def __init__(self, store: Store, parent=None):
+        super().__init__(parent)
+        self.setObjectName("bar")
+        self._store = store
+        self.lens = Chooser(self)
+        self.lens.setAccessibleName("Lens")
+        self.lens.setToolTip("The lens: shipped ones, or a .toml file (Ctrl+O, or drop it on the window)")
+        self.lens.setMinimumWidth(300)
+        self.lens.setMaximumWidth(460)
+        self.lens.activated.connect(self._on_lens)
+        words = tuple((name, METHOD_WORDS[name]) for name in CHOICES["method"])
+        self.method = chooser(words, METHOD_TIP, self)
+        tolerances = tuple((str(t), f"R² ≥ {t:g}") for t in TOLERANCES)
+        self.tolerance = chooser(tolerances, TOLERANCE_TIP, self)
+        for box in (self.method, self.tolerance):
+            box.setObjectName("")
+        self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
+        self.tolerance.activated.connect(lambda: store.update(tolerance=float(self.tolerance.currentData())))
+        self.undo = self._tool("Undo", "Take back one step (Ctrl+Z)", store.undo)
+        self.redo = self._tool("Redo", "Take the step again (Ctrl+Shift+Z)", store.redo)
+        self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
+        self.theme = self._tool("Light", "Light or dark", self._turn_theme)
+        self.help = self._tool("?", "Shortcuts and terms (F1)", self.help_asked.emit)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(10, 6, 10, 6)
+        row.setSpacing(8)
+        row.addWidget(self.lens)
+        row.addSpacing(12)
+        row.addWidget(QLabel("Method"))
+        row.addWidget(self.method)
+        row.addWidget(self.tolerance)
+        row.addStretch(1)
+        for tool in (self.undo, self.redo, self.snapshot, self.theme, self.help):
+            row.addWidget(tool)
+
+    def _tool(self, text: str, tip: str, action) -> QToolButton:
+        button = QToolButton(self)
+        button.setText(text)
+        button.setToolTip(tip)
+        button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        if action:
+            button.clicked.connect(action)
+        return button
+
+    def set_snapshot_menu(self, menu: QMenu) -> None:
+        """Give the snapshot button its choices."""
+        self.snapshot.setMenu(menu)
+        self.snapshot.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+
+    def fill_lenses(self) -> None:
+        """List the shipped lenses by title, and the way to a file."""
+        for name in shipped():
+            self.lens.addItem(lens_title(name), name)
+        self.lens.insertSeparator(self.lens.count())
+        self.lens.addItem("Open a lens file…", OPEN)
+
+    def show_state(self, state, dark: bool) -> None:
+        """Follow a state."""
+        if self.lens.findData(state.lens) < 0:
+            self.lens.insertItem(0, lens_title(state.lens), state.lens)
+        select(self.lens, state.lens)
+        select(self.method, state.method)
+        if self.tolerance.findData(str(state.tolerance)) < 0:
+            self.tolerance.addItem(f"R² ≥ {state.tolerance:g}", str(state.tolerance))
+        select(self.tolerance, str(state.tolerance))
+        self.tolerance.setVisible(state.method == "auto")
+        self.undo.setEnabled(self._store.can_undo)
+        self.redo.setEnabled(self._store.can_redo)
+        self.theme.setText("Light" if dark else "Dark")
+        self._dark = dark
+
+    def _turn_theme(self) -> None:
+        self._store.update(theme="light" if self._dark else "dark")
+
+    def _on_lens(self) -> None:
+        chosen = self.lens.currentData()
+        if chosen == OPEN:
+            select(self.lens, self._store.state.lens)
+            self.open_file.emit()
+        else:
+            self.lens_chosen.emit(chosen)
+
+
+def lens_title(name: str) -> str:
+    """Return how the chooser names a lens: its title, else its name; a file that cannot be read keeps its name."""
+    try:
+        lens = load(name)
+    except P2SFError:
+        return name
+    return lens.title or lens.name
+
+
+class StatusLine(QWidget):
+    """Warnings at the left, facts at the right."""
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.warning = Readout(self, colour="warning")
+        self.facts = Readout(self, align=Qt.AlignmentFlag.AlignRight)
+        self.facts.setFixedWidth(470)
+        self.warning.ground = self.facts.ground = "window"
+        row = QHBoxLayout(self)
+        row.setContentsMargins(4, 0, 4, 0)
+        row.addWidget(self.warning, 1)
+        row.addWidget(self.facts)
+
+    def show_live(self, live: Live, frame_ms: float | None) -> None:
+        """Show the sentences and figures of an answer."""
+        text = "   ".join(f"⚠ {sentence}" for sentence in live.warnings)
+        if self.warning.text() != text:
+            self.warning.set_text(text)
+            self.warning.setToolTip("\n".join(live.warnings))
+        self.facts.set_text(facts(live, frame_ms))
+
+    def say(self, text: str) -> None:
+        """Show a passing message until the next answer."""
+        self.warning.set_text(text)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.warning.restyle(theme)
+        self.facts.restyle(theme)
+
+
+def facts(live: Live, frame_ms: float | None) -> str:
+    """Return the line of figures at the right."""
+    c = live.setting.coefficients
+    parts = [f"image height {signed(float(c.image_height), 3)} mm", f"NA {float(c.na):.4f}"]
+    parts.append(f"{live.milliseconds['all']:.1f} ms computing")
+    if frame_ms is not None:
+        parts.append(f"{frame_ms:.1f} ms/frame")
+    return " · ".join(parts)
+
+
+class Banner(QFrame):
+    """A refusal in one calm sentence; it goes by itself when the next answer comes, or by its button."""
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.setObjectName("banner")
+        self.text = QLabel(self)
+        self.text.setWordWrap(True)
+        close = QToolButton(self)
+        close.setText("Dismiss")
+        close.clicked.connect(self.hide)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(12, 6, 8, 6)
+        row.addWidget(self.text, 1)
+        row.addWidget(close)
+        self.hide()
+
+    def say(self, sentence: str) -> None:
+        """Show a sentence."""
+        self.text.setText(sentence[0].upper() + sentence[1:])
+        self.show()

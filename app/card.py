@@ -1,0 +1,82 @@
+"""The frame every panel sits in: a title, tools, a readout, and the picture."""
+
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QPainter, QPalette, QPen, QPolygonF
+from PySide6.QtWidgets import QComboBox, QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+
+class Card(QFrame):
+    """A titled frame; ``readout`` is a line of numbers at the right of the title."""
+
+    def __init__(self, title: str, tip: str = "", parent=None):
+        super().__init__(parent)
+        self.setObjectName("card")
+        self.setMinimumSize(180, 120)
+        self.title, self.readout = QLabel(title, self), QLabel(self)
+        self.title.setObjectName("title")
+        self.title.setToolTip(tip)
+        self.readout.setObjectName("readout")
+        self.readout.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.head = QHBoxLayout()
+        self.head.setSpacing(8)
+        self.head.addWidget(self.title)
+        self.head.addWidget(self.readout, 1)
+        self.column = QVBoxLayout(self)
+        self.column.setContentsMargins(10, 7, 10, 8)
+        self.column.setSpacing(5)
+        self.column.addLayout(self.head)
+
+    def add_footer(self, *widgets: QWidget) -> None:
+        """Put a line of small widgets under the picture, from the left."""
+        line = QHBoxLayout()
+        line.setSpacing(8)
+        for widget in widgets:
+            line.addWidget(widget)
+        self.column.addLayout(line)
+
+    def add_tool(self, widget: QWidget) -> None:
+        """Put a small control at the right end of the title line."""
+        self.head.addWidget(widget)
+
+    def set_body(self, widget: QWidget) -> None:
+        """Put the picture under the title line."""
+        self.column.addWidget(widget, 1)
+
+    def set_readout(self, text: str) -> None:
+        """Show a line of numbers; the whole of it as a tooltip, should it not fit."""
+        if self.readout.text() != text:
+            self.readout.setText(text)
+            self.readout.setToolTip(text)
+
+
+class Chooser(QComboBox):
+    """A combo box with a plain chevron: a style sheet takes the native arrow away."""
+
+    def paintEvent(self, event) -> None:
+        """Paint the box, then the chevron."""
+        super().paintEvent(event)
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(self.palette().color(QPalette.ColorRole.PlaceholderText), 1.6))
+        x, y = self.width() - 13.0, self.height() / 2 - 1.5
+        painter.drawPolyline(QPolygonF([QPointF(x - 3.5, y), QPointF(x, y + 3.5), QPointF(x + 3.5, y)]))
+
+
+def chooser(choices: tuple[tuple[str, str], ...], tip: str, parent=None) -> QComboBox:
+    """Return a small combo box of (value, words)."""
+    box = Chooser(parent)
+    box.setObjectName("small")
+    box.setToolTip(tip)
+    box.setAccessibleName(tip)
+    for value, words in choices:
+        box.addItem(words, value)
+    return box
+
+
+def select(box: QComboBox, value: str) -> None:
+    """Show a value without telling anybody."""
+    if box.currentData() != value:
+        box.blockSignals(True)
+        box.setCurrentIndex(box.findData(value))
+        box.blockSignals(False)

@@ -1,0 +1,95 @@
+"""From a state to everything the panels show, one frozen answer. No Qt in here, and panels compute nothing."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from time import perf_counter
+
+import numpy as np
+
+from app.advice import warnings
+from app.layout import Layout, layout
+from app.pupil import PupilMap, disc, dominant, pupil_map
+from app.scales import nice
+from app.setting import Setting, setting
+from app.state import State
+from p2sf.measures import airy_radius_um
+from p2sf.psf import Psf, seidel_psf, suitable_pixel_um
+from p2sf.wavefront import wavefront
+
+PUPIL_SAMPLES = 96
+PSF_PIXELS = 64
+WINDOWS = (1, 1.5, 2, 3, 4, 5, 6, 8)
+
+
+@dataclass(frozen=True)
+class Live:
+    """One answer: setting, drawing, pupil, PSF, sentences, and what the open panels asked for in ``views``.
+
+    ``milliseconds`` names what each part took; ``quality`` is "preview" while a slider moves, else "settled".
+    """
+
+    state: State
+    setting: Setting
+    layout: Layout
+    pupil: PupilMap
+    psf: Psf
+    quality: str
+    airy_radius_um: float
+    dominant: str
+    warnings: tuple[str, ...]
+    why: str
+    milliseconds: Mapping[str, float]
+    views: Mapping[str, object] = field(default_factory=dict)
+
+
+View = Callable[["Live"], object]
+"""A function from the answer so far to what one panel shows; it names no Qt."""
+
+
+def live(state: State, quality: str = "settled", views: Mapping[str, View] | None = None) -> Live:
+    """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest."""
+    begun = perf_counter()
+    set_up = setting(state)
+    drawn = layout(set_up)
+    placed = perf_counter()
+    psf = render(state, set_up, quality)
+    rendered = perf_counter()
+    lost = sum(not ray.passed for ray in drawn.rays)
+    answer = Live(
+        state=state,
+        setting=set_up,
+        layout=drawn,
+        pupil=pupil(set_up),
+        psf=psf,
+        quality=quality,
+        airy_radius_um=float(airy_radius_um(set_up.source.wavelength_um, set_up.coefficients.na)),
+        dominant=dominant(set_up.coefficients),
+        warnings=warnings(set_up, psf.method, lost),
+        why="",
+        milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (rendered - placed)},
+    )
+    return with_views(answer, views or {}, begun)
+
+
+def with_views(answer: Live, views: Mapping[str, View], begun: float) -> Live:
+    """Return the answer with the open panels' views and the time of it all."""
+    results = {name: view(answer) for name, view in views.items()}
+    total = 1e3 * (perf_counter() - begun)
+    return replace(answer, views=results, milliseconds={**answer.milliseconds, "all": total})
+
+
+def render(state: State, set_up: Setting, quality: str) -> Psf:
+    """Return the PSF by the state's method, in the window that suits its blur."""
+    pixel = window_um(set_up) / PSF_PIXELS
+    return seidel_psf(set_up.coefficients, PSF_PIXELS, pixel, quality)
+
+
+def window_um(set_up: Setting) -> float:
+    """Return the width of the shown window in µm: a round number, so that axes stand still while sliders move."""
+    return nice(float(suitable_pixel_um(set_up.coefficients, PSF_PIXELS)) * PSF_PIXELS, WINDOWS)
+
+
+def pupil(set_up: Setting) -> PupilMap:
+    """Return the Seidel wavefront over the pupil."""
+    xi, eta, inside = disc(PUPIL_SAMPLES)
+    return pupil_map(np.asarray(wavefront(set_up.coefficients, xi, eta)), inside, "seidel")

@@ -1,0 +1,207 @@
+"""The column of controls: one row per quantity, each a name, an editable number, a slider."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
+
+from app.compute import Live
+from app.facts import rows
+from app.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
+from app.readout import FactTable, Readout
+from app.scales import Vergence, short_distance, signed
+from app.setting import Ranges, default_state, load, ranges
+from app.slider import STEPS, Slider
+from app.store import Store
+from app.theme import SPACE, Tokens
+from p2sf.errors import P2SFError
+
+WIDTH = 292
+
+
+class Row(QWidget):
+    """One quantity: name and number above, slider below; tells the store, follows the state."""
+
+    def __init__(self, quantity: Quantity, store: Store, parent=None):
+        super().__init__(parent)
+        self.quantity, self._store = quantity, store
+        self.setToolTip(quantity.tip)
+        self.slider, self.edit, self.note = Slider(self), ValueEdit(self), Readout(self)
+        self.slider.setAccessibleName(quantity.title)
+        self.edit.setAccessibleName(quantity.title)
+        self.buttons = [self._button(*button) for button in quantity.buttons]
+        self._scale = None
+        self._lay_out()
+        self._connect()
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.setSpacing(SPACE // 2)
+        head.addWidget(QLabel(self.quantity.title))
+        head.addStretch(1)
+        for button in self.buttons:
+            head.addWidget(button)
+        head.addWidget(self.edit)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(head)
+        column.addWidget(self.slider)
+        column.addWidget(self.note)
+        self.note.setVisible(self.quantity is FIELD)
+
+    def _connect(self) -> None:
+        self.slider.sliderPressed.connect(self._store.begin)
+        self.slider.sliderReleased.connect(self._store.end)
+        self.slider.valueChanged.connect(self._on_slider)
+        self.slider.reset.connect(self.reset)
+        self.edit.committed.connect(self._on_text)
+        self.edit.reset.connect(self.reset)
+
+    def _button(self, label: str, value: float | None, tip: str) -> QPushButton:
+        button = QPushButton(label, self)
+        button.setObjectName("small")
+        button.setToolTip(tip)
+        button.clicked.connect(lambda: self._store.update(**{self.quantity.key: value}))
+        return button
+
+    def reset(self) -> None:
+        """Go back to the lens's own value."""
+        fresh = default_state(self._store.state.lens)
+        self._store.update(**{self.quantity.key: getattr(fresh, self.quantity.key)})
+
+    def show_state(self, state, limits: Ranges) -> None:
+        """Follow a state: slider, number, ticks; no signal goes back."""
+        scale = self.quantity.scale(limits)
+        if scale != self._scale:
+            self._scale = scale
+            self._set_marks(scale)
+        value = self.quantity.shown(state, limits)
+        self.slider.blockSignals(True)
+        self.slider.setValue(round(STEPS * scale.travel(value)))
+        self.slider.blockSignals(False)
+        self.edit.set_text(self.quantity.write(value))
+
+    def _set_marks(self, scale) -> None:
+        inside = [(v, name) for v, name in self.quantity.ticks if scale.low <= v <= scale.high]
+        self.slider.set_ticks(tuple((scale.travel(v), name) for v, name in inside))
+        if isinstance(scale, Vergence):
+            self.slider.set_ticks(tuple((part, short_distance(scale.value(part))) for part in (0.0, 0.5, 0.8, 1.0)))
+        if self.quantity is WAVELENGTH:
+            steps = [k / 24 for k in range(25)]
+            self.slider.set_spectrum(tuple((t, visible_colour(scale.value(t))) for t in steps))
+
+    def show_note(self, text: str) -> None:
+        """Show a line of consequences under the slider."""
+        self.note.set_text(text)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.slider.restyle(theme)
+        self.note.restyle(theme)
+
+    def _on_slider(self, step: int) -> None:
+        self._store.update(**{self.quantity.key: self._scale.value(step / STEPS)})
+
+    def _on_text(self, text: str) -> None:
+        try:
+            value = self.quantity.read(text)
+        except P2SFError as error:
+            self._store.refused.emit(str(error))
+            self.edit.set_text(self.edit.last)
+        else:
+            self._store.update(**{self.quantity.key: value})
+
+
+class ValueEdit(QLineEdit):
+    """A number with its unit; Return commits, Escape goes back, double-click asks for the reset."""
+
+    committed = Signal(str)
+    reset = Signal()
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.setObjectName("value")
+        self.setFixedWidth(96)
+        self.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.last = ""
+        self.editingFinished.connect(self._commit)
+
+    def set_text(self, text: str) -> None:
+        """Show a value, unless a person is in the middle of typing another."""
+        self.last = text
+        if not (self.hasFocus() and self.isModified()) and self.text() != text:
+            self.setText(text)
+
+    def _commit(self) -> None:
+        if self.isModified() and self.text() != self.last:
+            self.setModified(False)
+            self.committed.emit(self.text())
+
+    def keyPressEvent(self, event) -> None:
+        """Let Escape take the typing back."""
+        if event.key() == Qt.Key.Key_Escape:
+            self.setModified(False)
+            self.setText(self.last)
+            return
+        super().keyPressEvent(event)
+
+    def mouseDoubleClickEvent(self, event) -> None:
+        """Ask for the reset."""
+        self.setModified(False)
+        self.reset.emit()
+
+
+class Controls(QWidget):
+    """All rows, the autofocus button, and the sentence that names the dominant term."""
+
+    autofocus = Signal()
+
+    def __init__(self, store: Store, parent=None):
+        super().__init__(parent)
+        self.setObjectName("controls")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setFixedWidth(WIDTH)
+        self.rows = {quantity.key: Row(quantity, store, self) for quantity in QUANTITIES}
+        self.focus_button = QPushButton("Autofocus: best RMS wavefront", self)
+        self.focus_button.setToolTip("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F).")
+        self.focus_button.clicked.connect(self.autofocus)
+        self.sentence, self.detail, self.facts = QLabel(self), QLabel(self), FactTable(self)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        self.sentence.setObjectName("sentence")
+        self.detail.setObjectName("muted")
+        for label in (self.sentence, self.detail):
+            label.setWordWrap(True)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(12, 10, 12, 12)
+        column.setSpacing(10)
+        for row in self.rows.values():
+            column.addWidget(row)
+        column.addWidget(self.focus_button)
+        column.addSpacing(4)
+        column.addWidget(self.sentence)
+        column.addWidget(self.detail)
+        column.addStretch(1)
+        column.addWidget(self.facts)
+
+    def show_state(self, state) -> None:
+        """Follow a state."""
+        limits = ranges(load(state.lens))
+        for row in self.rows.values():
+            row.show_state(state, limits)
+
+    def show_live(self, live: Live) -> None:
+        """Show what follows from the state: heights, sensor position, the dominant term."""
+        height = live.setting.object_height_mm
+        image = float(live.setting.coefficients.image_height)
+        object_text = "object at infinity" if height is None else f"object {signed(height, 2)} mm"
+        self.rows["field_deg"].show_note(f"{object_text} · image {signed(image, 3)} mm")
+        self.sentence.setText(live.dominant)
+        self.detail.setText(live.why)
+        self.facts.show_rows(rows(live))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.facts.restyle(theme)
+        for row in self.rows.values():
+            row.restyle(theme)

@@ -1,0 +1,45 @@
+"""The first-order figures of the present point, as a small table. No Qt in here."""
+
+from math import isinf
+
+from app.scales import signed, significant, written_distance
+
+
+def rows(live) -> tuple[tuple[str, str, str], ...]:
+    """Return (name, value with unit, definition) of what a person asks first."""
+    s = live.setting
+    c, p = s.coefficients, s.pupils
+    na = float(c.na)
+    return (
+        ("Focal length f′", length(s.focal_length_mm), "Effective focal length f′ = −1/C of the system matrix."),
+        (
+            "Working f-number",
+            f"f/{significant(0.5 / na, 3)}" if na else "∞",
+            "Working f-number 1/(2 NA) at this depth.",
+        ),
+        ("Numerical aperture", f"{na:.4f}", "NA = n′|u′|, image-space slope of the marginal ray."),
+        ("Airy radius", f"{significant(live.airy_radius_um, 3)} µm", "First dark ring of a perfect lens, 0.61 λ/NA."),
+        ("Paraxial image", length(float(c.image_distance)), "Paraxial image of this depth, from the last vertex."),
+        ("Sensor", length(s.lens.sensor_mm), "Where the sensor stands, from the last vertex."),
+        ("Entrance pupil", pupil(p.entrance_from_first, p.entrance_diameter), "Diameter, place from the first vertex."),
+        ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), "Diameter, and place from the last vertex."),
+        ("Stop", f"surface {int(s.stop.surface)} ({s.stop.chosen_by})", "The surface whose rim limits the light."),
+        ("Strehl ratio", f"{float(live.psf.strehl):.3f}", "Peak of the PSF over that of the same pupil with W = 0."),
+    )
+
+
+def length(mm: float) -> str:
+    """Return a length in mm with its sign."""
+    return "∞" if isinf(mm) else f"{signed(mm, 3)} mm"
+
+
+def pupil(place, diameter) -> str:
+    """Return a pupil's diameter and place."""
+    if isinf(float(place)):
+        return "at infinity"
+    return f"⌀ {significant(float(diameter), 4)} at {signed(float(place), 2)} mm"
+
+
+def described_depth(mm: float) -> str:
+    """Return a depth in words."""
+    return "object at infinity" if isinf(mm) else f"object at {written_distance(mm)}"

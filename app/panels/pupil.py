@@ -1,0 +1,67 @@
+"""The wavefront over the pupil: W in waves, or the phase it leaves."""
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtGui import QColor
+
+from app.card import Card, chooser, select
+from app.compute import Live
+from app.plots import HeatMap
+from app.readout import Readout
+from app.scales import nice, significant
+from app.store import Store
+from app.theme import Tokens
+
+WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-C2"
+TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
+
+
+class PupilPanel:
+    """A heat map of W with RMS and peak-to-valley; the chooser switches to wrapped phase."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Pupil phase", TIP)
+        self.mode = chooser((("waves", "W, waves"), ("wrapped", "wrapped")), "How the phase is shown", self.widget)
+        self.mode.activated.connect(lambda: store.update(phase=self.mode.currentData()))
+        self.widget.add_tool(self.mode)
+        self.map = HeatMap("ξ, pupil radii", "η, towards the field", self.widget)
+        self.rim = pg.PlotCurveItem(*(f(np.linspace(0, 2 * np.pi, 121)) for f in (np.cos, np.sin)))
+        self.map.plot.addItem(self.rim)
+        self.map.set_extent(1.0)
+        self.numbers = Readout(self.widget, pill=True, colour="text")
+        self.widget.set_body(self.map)
+        self.widget.add_footer(self.numbers)
+        self._map = ""
+
+    def show(self, live: Live) -> None:
+        """Paint the wavefront."""
+        pupil, mode = live.pupil, live.state.phase
+        select(self.mode, mode)
+        self._use_map(WRAPPED_MAP if mode == "wrapped" else WAVES_MAP)
+        if mode == "wrapped":
+            self._paint(np.mod(pupil.waves, 1.0), (0.0, 1.0), ((0.0, "0"), (0.5, "½"), (1.0, "1")))
+        else:
+            limit = self._limit(pupil.waves)
+            labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
+            self._paint(pupil.waves, (-limit, limit), labels)
+        self.numbers.set_text(f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ")
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.map.restyle(theme)
+        self.numbers.restyle(theme)
+        self.rim.setPen(pg.mkPen(QColor(theme.muted), width=1))
+
+    @staticmethod
+    def _limit(waves: np.ndarray) -> float:
+        peak = np.nanmax(np.abs(waves)) if np.isfinite(waves).any() else 0.0
+        return nice(max(float(peak), 0.05), (1, 1.5, 2, 3, 5, 7))
+
+    def _use_map(self, name: str) -> None:
+        if name != self._map:
+            self._map = name
+            self.map.set_map(name)
+
+    def _paint(self, values: np.ndarray, levels: tuple[float, float], labels) -> None:
+        self.map.show_values(values, levels, (-1.0, -1.0, 2.0, 2.0))
+        self.map.bar.show_scale(self._map, "λ", labels)

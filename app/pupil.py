@@ -1,0 +1,71 @@
+"""The wavefront over the pupil as a picture and as numbers. No Qt in here."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.conventions import centred_axis
+
+TERMS = ("w40", "w31", "w22", "w20", "wd", "w11")
+WORDS = {
+    "w40": "spherical aberration",
+    "w31": "coma",
+    "w22": "astigmatism",
+    "w20": "field curvature",
+    "wd": "defocus",
+    "w11": "distortion",
+}
+FORMULAS = {"w40": "ρ⁴", "w31": "ρ³ cos θ", "w22": "ρ² cos² θ", "w20": "ρ²", "wd": "ρ²", "w11": "ρ cos θ"}
+
+
+@dataclass(frozen=True)
+class PupilMap:
+    """W in waves over the unit disc, (y, x), NaN outside; RMS without piston, peak to valley, in waves."""
+
+    waves: np.ndarray
+    rms: float
+    peak_to_valley: float
+    kind: str
+
+
+@lru_cache(maxsize=8)
+def disc(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ξ, η of ``count``² samples over the pupil's square, and which of them lie inside."""
+    axis = (centred_axis(count) + (0.5 if count % 2 == 0 else 0.0)) * 2 / count
+    xi, eta = np.meshgrid(axis, axis)
+    return xi, eta, xi**2 + eta**2 <= 1
+
+
+def pupil_map(waves: np.ndarray, inside: np.ndarray, kind: str) -> PupilMap:
+    """Return the map with its RMS and peak-to-valley over the samples inside that have a value."""
+    kept = waves[inside]
+    kept = kept[np.isfinite(kept)]
+    if kept.size == 0:
+        return PupilMap(np.full(waves.shape, np.nan), np.nan, np.nan, kind)
+    shown = np.where(inside, waves, np.nan)
+    return PupilMap(shown, float(kept.std()), float(kept.max() - kept.min()), kind)
+
+
+def variance_parts(coefficients) -> dict[str, float]:
+    """Return how the variance of W over the disc (waves²) splits into orthogonal shapes; tilt is left out.
+
+    Spherical beyond its best focus W40²/180, coma beyond its tilt W31²/72, astigmatism about its medial focus W22²/24,
+    and all focus together (W40 + W20 + Wd + W22/2)²/12 (Mahajan 1991, table 2-1). The focus goes by the name of its
+    larger cause.
+    """
+    w40, w31, w22, w20, wd = (float(getattr(coefficients, name)) for name in ("w40", "w31", "w22", "w20", "wd"))
+    causes = {"wd": wd, "w20": w20 + w22 / 2}
+    focus = max(causes, key=lambda name: abs(causes[name]))
+    return {"w40": w40**2 / 180, "w31": w31**2 / 72, "w22": w22**2 / 24, focus: (w40 + w20 + wd + w22 / 2) ** 2 / 12}
+
+
+def dominant(coefficients) -> str:
+    """Return the sentence that names what blurs most: a share of the wavefront's variance."""
+    parts = variance_parts(coefficients)
+    total = sum(parts.values())
+    if total < 1 / 14**2 / 10:
+        return f"Diffraction-limited: RMS {np.sqrt(total):.3f} λ"
+    name = max(parts, key=parts.__getitem__)
+    share = parts[name] / total
+    return f"{'Mostly' if share > 0.5 else 'Most of all'} {WORDS[name]}: {100 * share:.0f} % of the wavefront variance"

@@ -1,0 +1,121 @@
+"""Numbers that change every frame, painted directly: a QLabel would lay out the window anew for each."""
+
+from PySide6.QtCore import QEvent, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter
+from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
+
+from app.plots import small_font
+from app.theme import LIGHT, Tokens
+
+PAD = 7.0
+
+
+class Readout(QWidget):
+    """One line of text; ``pill`` draws a rounded ground behind it, ``colour`` and ``ground`` name tokens."""
+
+    ground = "card"
+
+    def __init__(self, parent=None, pill: bool = False, colour: str = "muted", align=Qt.AlignmentFlag.AlignLeft):
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self._pill, self._colour, self._align = pill, colour, align
+        self._text, self._theme = "", LIGHT
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def text(self) -> str:
+        """Return the text shown."""
+        return self._text
+
+    def set_text(self, text: str, colour: str | None = None) -> None:
+        """Show a text, in the colour of another token if one is named."""
+        if (text, colour or self._colour) != (self._text, self._colour):
+            self._text, self._colour = text, colour or self._colour
+            self.setAccessibleName(text)
+            self.update()
+
+    def sizeHint(self) -> QSize:
+        """Return the height of one line; the width is whatever there is."""
+        return QSize(60, 20 if self._pill else 16)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the smallest size."""
+        return self.sizeHint()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.update()
+
+    def event(self, event) -> bool:
+        """Show the whole text as a tooltip where it is cut off and no other tooltip is set."""
+        if event.type() == QEvent.Type.ToolTip and not self.toolTip() and self._cut() != self._text:
+            QToolTip.showText(event.globalPos(), self._text, self)
+            return True
+        return super().event(event)
+
+    def _cut(self) -> str:
+        room = self.width() - (2 * PAD if self._pill else 0)
+        return QFontMetricsF(small_font(12)).elidedText(self._text, Qt.TextElideMode.ElideRight, room)
+
+    def paintEvent(self, event) -> None:
+        """Paint ground and text."""
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), QColor(getattr(self._theme, self.ground)))
+        painter.setFont(small_font(12))
+        text, pad = self._cut(), PAD if self._pill else 0.0
+        if self._pill and text:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(self._theme.faint))
+            wide = QFontMetricsF(small_font(12)).horizontalAdvance(text) + 2 * PAD
+            painter.drawRoundedRect(QRectF(0, 0, wide, self.height()), 4, 4)
+        painter.setPen(QColor(getattr(self._theme, self._colour)))
+        room = QRectF(pad, 0, self.width() - 2 * pad, self.height())
+        painter.drawText(room, self._align | Qt.AlignmentFlag.AlignVCenter, text)
+
+
+class FactTable(QWidget):
+    """Names at the left, values at the right; hovering a row defines it."""
+
+    ROW = 17.0
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self._rows: tuple[tuple[str, str, str], ...] = ()
+        self._theme = LIGHT
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def show_rows(self, rows: tuple[tuple[str, str, str], ...]) -> None:
+        """Show (name, value, definition) rows."""
+        if len(rows) != len(self._rows):
+            self.setFixedHeight(round(self.ROW * len(rows)))
+        if rows != self._rows:
+            self._rows = rows
+            self.update()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.update()
+
+    def event(self, event) -> bool:
+        """Define the row under the pointer."""
+        if event.type() == QEvent.Type.ToolTip:
+            row = int(event.pos().y() // self.ROW)
+            if row < len(self._rows):
+                QToolTip.showText(event.globalPos(), self._rows[row][2], self)
+            return True
+        return super().event(event)
+
+    def paintEvent(self, event) -> None:
+        """Paint the rows."""
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), QColor(self._theme.card))
+        painter.setFont(small_font(12))
+        for k, (name, value, _) in enumerate(self._rows):
+            line = QRectF(0, k * self.ROW, self.width(), self.ROW)
+            painter.setPen(QColor(self._theme.muted))
+            painter.drawText(line, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, name)
+            painter.setPen(QColor(self._theme.text))
+            painter.drawText(line, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, value)

@@ -1,0 +1,122 @@
+"""How a slider's travel, 0 to 1, maps to a quantity, and how quantities are written and read. No Qt in here."""
+
+from dataclasses import dataclass
+from math import exp, floor, inf, isfinite, isinf, isnan, log, log10
+
+from p2sf.errors import P2SFError
+
+INFINITE = ("∞", "inf", "infinity")
+MM_PER_UNIT = {"": None, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
+
+
+@dataclass(frozen=True)
+class Linear:
+    """Equal travel, equal change."""
+
+    low: float
+    high: float
+
+    def value(self, travel: float) -> float:
+        """Return the quantity at this travel."""
+        return self.low + travel * (self.high - self.low)
+
+    def travel(self, value: float) -> float:
+        """Return the travel of this quantity, held inside 0 to 1."""
+        return _inside((value - self.low) / (self.high - self.low))
+
+
+@dataclass(frozen=True)
+class Logarithmic:
+    """Equal travel, equal ratio: f-numbers."""
+
+    low: float
+    high: float
+
+    def value(self, travel: float) -> float:
+        """Return the quantity at this travel."""
+        return self.low * exp(travel * log(self.high / self.low))
+
+    def travel(self, value: float) -> float:
+        """Return the travel of this quantity, held inside 0 to 1."""
+        return _inside(log(value / self.low) / log(self.high / self.low))
+
+
+@dataclass(frozen=True)
+class Vergence:
+    """Equal travel, equal change of 1/distance, from the closest distance to infinity."""
+
+    low: float
+    high: float = inf
+
+    def value(self, travel: float) -> float:
+        """Return the distance at this travel; infinity at the end."""
+        return inf if travel >= 1 else self.low / (1 - travel)
+
+    def travel(self, value: float) -> float:
+        """Return the travel of this distance, held inside 0 to 1."""
+        return _inside(1 - self.low / value)
+
+
+def _inside(travel: float) -> float:
+    return min(1.0, max(0.0, travel))
+
+
+def nice(value: float, steps: tuple[float, ...] = (1, 2, 5)) -> float:
+    """Return the smallest number of the series ``steps``·10ᵏ that is not below ``value`` (> 0)."""
+    decade = 10.0 ** floor(log10(value))
+    return next((step * decade for step in steps if step * decade >= value * (1 - 1e-9)), 10 * steps[0] * decade)
+
+
+def written_distance(mm: float) -> str:
+    """Return a distance as people write it: ∞, metres from 1 m on, else millimetres."""
+    if isinf(mm):
+        return "∞"
+    if abs(mm) >= 1000:
+        return f"{significant(mm / 1000, 4)} m"
+    return f"{significant(mm, 4)} mm"
+
+
+def short_distance(mm: float) -> str:
+    """Return a distance for a tick: three digits at most, no needless zeros."""
+    if isinf(mm):
+        return "∞"
+    return f"{mm / 1000:.3g} m" if mm >= 1000 else f"{mm:.3g} mm"
+
+
+def significant(value: float, digits: int) -> str:
+    """Return a number with so many digits and no exponent, as tables want it."""
+    if value == 0 or not isfinite(value):
+        return f"{value:g}"
+    places = max(0, digits - 1 - floor(log10(abs(value))))
+    return f"{value:.{places}f}".replace("-", "−")
+
+
+def signed(value: float, places: int) -> str:
+    """Return a number with a true minus sign; a rounded zero has no sign."""
+    text = f"{value:.{places}f}"
+    return text.lstrip("-") if float(text) == 0 else text.replace("-", "−")
+
+
+def read_distance(text: str) -> float:
+    """Return millimetres of "2 m", "350", "∞"; P2SFError otherwise."""
+    plain = text.strip().lower()
+    if plain in INFINITE:
+        return inf
+    number = plain.rstrip("abcdefghijklmnopqrstuvwxyzµ ")
+    unit = plain[len(number) :].strip()
+    if unit not in MM_PER_UNIT:
+        raise P2SFError(f'the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞')
+    return read_number(number, "distance") * (MM_PER_UNIT[unit] or 1.0)
+
+
+def read_number(text: str, words: str) -> float:
+    """Return the number a person typed, unit and true minus allowed; P2SFError otherwise."""
+    plain = text.strip().replace("−", "-").replace(",", ".").lower().removeprefix("f/")
+    plain = plain.rstrip("abcdfghijklmnopqrstuvwxyzµ°λ/ ")
+    try:
+        value = float(plain)
+    except ValueError:
+        value = inf
+    if isnan(value) or isinf(value):
+        raise P2SFError(f'the {words} "{text.strip()}" is not a number; write one such as 12.5')
+    return value

@@ -1,0 +1,134 @@
+"""A slider painted by hand: travel 0 to 1, ticks, and for wavelengths the spectrum itself."""
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
+from PySide6.QtWidgets import QAbstractSlider, QSizePolicy
+
+from app.theme import LIGHT, Tokens
+
+STEPS = 1000
+HANDLE = 7.0
+MARGIN = 9.0
+
+
+class Slider(QAbstractSlider):
+    """A horizontal slider over 0 to STEPS with arrow and Page keys; double-click asks for the reset."""
+
+    reset = Signal()
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setRange(0, STEPS)
+        self.setSingleStep(STEPS // 200)
+        self.setPageStep(STEPS // 20)
+        self.setOrientation(Qt.Orientation.Horizontal)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self._theme, self._ticks, self._spectrum = LIGHT, (), ()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.update()
+
+    def set_ticks(self, ticks: tuple[tuple[float, str], ...]) -> None:
+        """Mark travels (0 to 1) with a short label under the groove."""
+        self._ticks = ticks
+        self.updateGeometry()
+        self.update()
+
+    def set_spectrum(self, colours: tuple[tuple[float, str], ...]) -> None:
+        """Paint the groove as a gradient of (travel, colour)."""
+        self._spectrum = colours
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """Return a height that has room for the tick labels when there are any."""
+        return QSize(160, 32 if self._ticks else 22)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the smallest useful size."""
+        return QSize(80, self.sizeHint().height())
+
+    def mousePressEvent(self, event) -> None:
+        """Take hold of the handle, or bring it under the pointer."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.setSliderDown(True)
+            self._follow(event.position())
+
+    def mouseMoveEvent(self, event) -> None:
+        """Follow the pointer while held."""
+        if self.isSliderDown():
+            self._follow(event.position())
+
+    def mouseReleaseEvent(self, event) -> None:
+        """Let go."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.setSliderDown(False)
+
+    def mouseDoubleClickEvent(self, event) -> None:
+        """Ask for the reset."""
+        self.setSliderDown(False)
+        self.reset.emit()
+
+    def handle_x(self) -> float:
+        """Return where the handle stands, in pixels."""
+        return self._x(self.value() / STEPS)
+
+    def _x(self, travel: float) -> float:
+        return MARGIN + travel * (self.width() - 2 * MARGIN)
+
+    def _follow(self, point: QPointF) -> None:
+        travel = (point.x() - MARGIN) / max(1.0, self.width() - 2 * MARGIN)
+        self.setValue(round(STEPS * travel))
+
+    def paintEvent(self, event) -> None:
+        """Paint groove, ticks and handle."""
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), QColor(self._theme.card))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        middle = 11.0
+        self._paint_groove(painter, middle)
+        self._paint_ticks(painter, middle)
+        self._paint_handle(painter, middle)
+
+    def _paint_groove(self, painter: QPainter, middle: float) -> None:
+        theme, half = self._theme, 5.0 if self._spectrum else 2.0
+        groove = QRectF(MARGIN, middle - half, self.width() - 2 * MARGIN, 2 * half)
+        painter.setPen(Qt.PenStyle.NoPen)
+        if self._spectrum:
+            gradient = QLinearGradient(groove.topLeft(), groove.topRight())
+            for travel, colour in self._spectrum:
+                gradient.setColorAt(travel, QColor(colour))
+            painter.setBrush(gradient)
+            painter.drawRoundedRect(groove, 2, 2)
+            return
+        painter.setBrush(QColor(theme.line))
+        painter.drawRoundedRect(groove, half, half)
+        painter.setBrush(QColor(theme.accent if self.isEnabled() else theme.muted))
+        painter.drawRoundedRect(QRectF(groove.left(), groove.top(), self.handle_x() - MARGIN, 2 * half), half, half)
+
+    def _paint_ticks(self, painter: QPainter, middle: float) -> None:
+        font = painter.font()
+        font.setPixelSize(10)
+        painter.setFont(font)
+        for travel, label in self._ticks:
+            x = self._x(travel)
+            painter.setPen(QPen(QColor(self._theme.muted), 1))
+            painter.drawLine(QPointF(x, middle + 6), QPointF(x, middle + 9))
+            wide = painter.fontMetrics().horizontalAdvance(label)
+            left = min(max(x - wide / 2, 1.0), self.width() - wide - 1.0)
+            painter.drawText(QPointF(left, middle + 19), label)
+
+    def _paint_handle(self, painter: QPainter, middle: float) -> None:
+        theme, centre = self._theme, QPointF(self.handle_x(), middle)
+        if self.hasFocus():
+            halo = QColor(theme.accent)
+            halo.setAlpha(70)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(halo)
+            painter.drawEllipse(centre, HANDLE + 2.5, HANDLE + 2.5)
+        painter.setPen(QPen(QColor(theme.accent if self.isEnabled() else theme.muted), 2))
+        painter.setBrush(QColor(theme.card))
+        painter.drawEllipse(centre, HANDLE - 1, HANDLE - 1)

@@ -1,0 +1,51 @@
+"""What a snapshot writes: the PSF's data or a picture, and beside it the state that made it. No Qt in here."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from app.compute import Live
+from app.setting import setup
+from app.state import State, state_to_json
+from p2sf.errors import ExportError
+from p2sf.export import describe, versions, write_beside, write_psf
+
+DATA_ENDINGS = (".npz", ".tiff", ".csv")
+
+
+def side_car(path) -> Path:
+    """Return where the state of a snapshot lies: beside it, the same name with .json."""
+    return Path(path).with_suffix(".json")
+
+
+def write_state(state: State, path, **extra) -> Path:
+    """Write a state file that ``p2sf explore`` opens again; a lens given by a relative path is made absolute."""
+    text = state_to_json(_portable(state), versions=versions(), **extra)
+    return write_beside(path, lambda handle: handle.write(text.encode()))
+
+
+def write_data(live: Live, path) -> tuple[Path, Path]:
+    """Write the PSF on screen as .npz, .tiff or .csv and its state beside; return both paths. ExportError."""
+    if Path(path).suffix.lower() not in DATA_ENDINGS:
+        ending = Path(path).suffix
+        raise ExportError(f'{path}: PSF data has no ending "{ending}"; choose {", ".join(DATA_ENDINGS)}')
+    written = write_psf(live.psf, path, {**describe(setup(live.state)), "state": _entries(live.state)})
+    return written, write_state(live.state, side_car(path), exported=Path(path).name)
+
+
+def write_picture(state: State, png: bytes, path) -> tuple[Path, Path]:
+    """Write a picture already encoded as PNG and its state beside; return both paths. ExportError."""
+    if Path(path).suffix.lower() != ".png":
+        raise ExportError(
+            f'{path}: a picture of the window ends in ".png", not "{Path(path).suffix}"; change the ending'
+        )
+    written = write_beside(path, lambda handle: handle.write(png))
+    return written, write_state(state, side_car(path), exported=Path(path).name)
+
+
+def _entries(state: State) -> str:
+    return state_to_json(_portable(state))
+
+
+def _portable(state: State) -> State:
+    path = Path(state.lens)
+    return replace(state, lens=str(path.resolve())) if path.is_file() else state

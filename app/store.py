@@ -1,0 +1,98 @@
+"""The one place the state lives while the window is open: changes, undo, redo."""
+
+from contextlib import contextmanager
+from dataclasses import replace
+
+from PySide6.QtCore import QObject, Signal
+
+from app.state import State
+from p2sf.errors import P2SFError
+
+
+class Store(QObject):
+    """Holds the present State; ``changed`` tells of every new one, ``refused`` carries a sentence.
+
+    A drag is one step of undo: what happens between ``begin`` and ``end`` is undone together.
+    """
+
+    changed = Signal(object)
+    refused = Signal(str)
+
+    def __init__(self, state: State, parent: QObject | None = None):
+        super().__init__(parent)
+        self._states, self._at = [state], 0
+        self._before_drag: State | None = None
+
+    @property
+    def state(self) -> State:
+        """Return the present state."""
+        return self._states[self._at]
+
+    @property
+    def moving(self) -> bool:
+        """Return whether a control is being dragged."""
+        return self._before_drag is not None
+
+    def update(self, **changes) -> None:
+        """Change some entries; a value that cannot be is refused in a sentence and nothing changes."""
+        try:
+            self.replace(replace(self.state, **changes))
+        except P2SFError as error:
+            self.refused.emit(str(error))
+
+    def replace(self, state: State) -> None:
+        """Make this the present state: one step of undo, or part of the drag under way."""
+        if state == self.state:
+            return
+        if self.moving and self.state is not self._before_drag:
+            self._states[self._at] = state
+        else:
+            self._states[self._at + 1 :] = [state]
+            self._at += 1
+        self.changed.emit(state)
+
+    def begin(self) -> None:
+        """Begin a drag."""
+        if not self.moving:
+            self._before_drag = self.state
+
+    def end(self) -> None:
+        """End a drag; the settled picture is owed, so ``changed`` is sent once more."""
+        if self.moving:
+            moved = self.state is not self._before_drag
+            self._before_drag = None
+            if moved:
+                self.changed.emit(self.state)
+
+    @contextmanager
+    def drag(self):
+        """Hold a drag open for a block."""
+        self.begin()
+        try:
+            yield self
+        finally:
+            self.end()
+
+    @property
+    def can_undo(self) -> bool:
+        """Return whether there is a step to take back."""
+        return self._at > 0
+
+    @property
+    def can_redo(self) -> bool:
+        """Return whether there is a step to take again."""
+        return self._at + 1 < len(self._states)
+
+    def undo(self) -> None:
+        """Take back one step."""
+        self._go(-1, self.can_undo)
+
+    def redo(self) -> None:
+        """Take one step again."""
+        self._go(1, self.can_redo)
+
+    def _go(self, step: int, possible: bool) -> None:
+        self.end()
+        if possible:
+            self._at += step
+            self.changed.emit(self.state)

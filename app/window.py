@@ -1,0 +1,175 @@
+"""The window: from slider to picture in three hops, store → live → panels."""
+
+from time import perf_counter
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter, QTabWidget, QVBoxLayout, QWidget
+
+from app import compute
+from app.actions import Actions
+from app.bars import Banner, StatusLine, TopBar
+from app.compute import Live
+from app.controls import Controls
+from app.panels import REGISTRY, Panel, build, view_of
+from app.state import State
+from app.store import Store
+from app.theme import SPACE, palette, stylesheet, tokens
+from p2sf.errors import P2SFError
+
+ENTRIES = {entry.key: entry for entry in REGISTRY}
+MAIN = tuple(entry.key for entry in REGISTRY if entry.place == "main")
+
+
+class Window(QMainWindow):
+    """Top bar, controls, panels, status line; ``refresh`` is the whole live path."""
+
+    def __init__(self, state: State | None = None):
+        super().__init__()
+        self.setWindowTitle("P2SF Explorer")
+        self.setAcceptDrops(True)
+        self.store = Store(state or State(), self)
+        self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
+        self.status, self.banner, self.tabs = StatusLine(self), Banner(self), QTabWidget(self)
+        self.panels: dict[str, Panel] = {key: build(ENTRIES[key], self.store) for key in MAIN}
+        self.live: Live | None = None
+        self.frame_ms: float | None = None
+        self._theme = None
+        self._lay_out()
+        self.actions = Actions(self)
+        self.store.changed.connect(self.refresh)
+        self.store.refused.connect(self.refuse)
+        self.tabs.currentChanged.connect(self._on_tab)
+        QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_scheme)
+        self.top.fill_lenses()
+        self.refresh(self.store.state)
+
+    def _lay_out(self) -> None:
+        for entry in REGISTRY:
+            if entry.place != "main":
+                self.tabs.addTab(page(entry.key), entry.title)
+        row = splitter(Qt.Orientation.Horizontal, [self.panels[key].widget for key in MAIN[1:]], (19, 19, 17))
+        self.stack = splitter(Qt.Orientation.Vertical, [self.panels[MAIN[0]].widget, row, self.tabs], (27, 41, 32))
+        middle = QHBoxLayout()
+        middle.setSpacing(SPACE)
+        middle.addWidget(self.controls)
+        middle.addWidget(self.stack, 1)
+        body = QWidget(self)
+        body.setObjectName("window")
+        column = QVBoxLayout(body)
+        column.setContentsMargins(SPACE, SPACE, SPACE, SPACE // 2)
+        column.setSpacing(SPACE)
+        column.addWidget(self.top)
+        column.addWidget(self.banner)
+        column.addLayout(middle, 1)
+        column.addWidget(self.status)
+        self.setCentralWidget(body)
+        self.resize(1440, 900)
+
+    def refresh(self, state: State) -> None:
+        """Compute an answer and paint it; a refusal keeps the last good picture."""
+        begun = perf_counter()
+        self._restyle(state)
+        self._bring_up(state.tab)
+        try:
+            self.controls.show_state(state)
+            live = compute.live(state, "preview" if self.store.moving else "settled", self._wanted())
+        except P2SFError as error:
+            self.refuse(str(error))
+            return
+        self.live = live
+        self.banner.hide()
+        self.top.show_state(state, self._theme.dark)
+        self.controls.show_live(live)
+        for key in self._visible():
+            self.panels[key].show(live)
+        self.status.show_live(live, self.frame_ms)
+        QTimer.singleShot(0, lambda: self._painted(begun))
+
+    def refuse(self, sentence: str) -> None:
+        """Say in the banner why something cannot be; the last good picture stays."""
+        self.banner.say(sentence)
+        self.top.show_state(self.store.state, self._theme.dark)
+
+    def open_panel(self, key: str) -> None:
+        """Bring a panel to the front."""
+        if key not in MAIN:
+            self.store.update(tab=key)
+
+    def _painted(self, begun: float) -> None:
+        self.frame_ms = 1e3 * (perf_counter() - begun)
+
+    def _visible(self) -> tuple[str, ...]:
+        """Return the panels on show: the main ones and the open tab."""
+        return (*MAIN, self.tabs.currentWidget().objectName())
+
+    def _wanted(self) -> dict[str, compute.View]:
+        views = {key: view_of(ENTRIES[key]) for key in self._visible()}
+        return {key: view for key, view in views.items() if view}
+
+    def _bring_up(self, key: str) -> None:
+        """Bring the state's tab to the front, building its panel the first time."""
+        pages = {self.tabs.widget(k).objectName(): self.tabs.widget(k) for k in range(self.tabs.count())}
+        key = key if key in pages else next(iter(pages))
+        if key not in self.panels:
+            panel = build(ENTRIES[key], self.store)
+            panel.restyle(self._theme)
+            pages[key].layout().addWidget(panel.widget)
+            self.panels[key] = panel
+        if self.tabs.currentWidget() is not pages[key]:
+            self.tabs.blockSignals(True)
+            self.tabs.setCurrentWidget(pages[key])
+            self.tabs.blockSignals(False)
+
+    def _on_tab(self) -> None:
+        self.store.update(tab=self.tabs.currentWidget().objectName())
+
+    def _on_scheme(self) -> None:
+        if self.store.state.theme == "system":
+            self.refresh(self.store.state)
+
+    def _restyle(self, state: State) -> None:
+        theme = tokens(state.theme)
+        if theme is self._theme:
+            return
+        self._theme = theme
+        QApplication.instance().setPalette(palette(theme))
+        self.setStyleSheet(stylesheet(theme))
+        for part in (self.controls, self.status, *self.panels.values()):
+            part.restyle(theme)
+
+    def dragEnterEvent(self, event) -> None:
+        """Welcome a lens file or a saved state."""
+        if dropped(event):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event) -> None:
+        """Open what was dropped."""
+        event.acceptProposedAction()
+        self.actions.open_path(dropped(event))
+
+
+def dropped(event) -> str | None:
+    """Return the path of a dropped lens file or state, None for anything else."""
+    paths = [url.toLocalFile() for url in event.mimeData().urls()]
+    return next((path for path in paths if path.lower().endswith((".toml", ".json"))), None)
+
+
+def page(key: str) -> QWidget:
+    """Return an empty tab page that a panel is put on when first opened."""
+    made = QWidget()
+    made.setObjectName(key)
+    QVBoxLayout(made).setContentsMargins(0, 0, 0, 0)
+    return made
+
+
+def splitter(orientation: Qt.Orientation, widgets: list[QWidget], shares: tuple[int, ...]) -> QSplitter:
+    """Return a splitter whose parts keep these shares of the room."""
+    made = QSplitter(orientation)
+    made.setHandleWidth(SPACE)
+    made.setChildrenCollapsible(False)
+    for k, (widget, share) in enumerate(zip(widgets, shares, strict=True)):
+        made.addWidget(widget)
+        made.setStretchFactor(k, share)
+    made.setSizes([100 * share for share in shares])
+    return made

@@ -1,0 +1,41 @@
+import os
+
+os.environ["QT_QPA_PLATFORM"] = "offscreen"  # before Qt is imported: tests need no screen
+
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtWidgets import QApplication
+
+from app.state import State
+from app.theme import configure_plots
+from app.window import Window
+
+
+@pytest.fixture
+def window(qtbot):
+    QApplication.instance().setStyle("Fusion")
+    configure_plots()
+    made = Window(State(method="seidel", theme="light"))
+    qtbot.addWidget(made)
+    made.resize(1440, 900)
+    made.show()
+    qtbot.waitExposed(made)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def drag(qtbot):
+    """Return a function that drags a slider's handle to a travel with the mouse; ``release=False`` holds it there."""
+
+    def move(slider, travel: float, release: bool = True, steps: int = 4) -> None:
+        middle, start = 11, slider.handle_x()
+        end = 9 + travel * (slider.width() - 18)
+        qtbot.mousePress(slider, Qt.MouseButton.LeftButton, pos=QPointF(start, middle).toPoint())
+        for k in range(1, steps + 1):
+            at = start + (end - start) * k / steps
+            qtbot.mouseMove(slider, QPointF(at, middle).toPoint())
+        if release:
+            qtbot.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=QPointF(end, middle).toPoint())
+
+    return move

@@ -1,0 +1,89 @@
+"""The state: JSON and back, and every bad value one sentence."""
+
+import json
+import subprocess
+import sys
+from math import inf
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.state import CHOICES, State, read_state, state_from_json, state_to_json
+from p2sf.errors import P2SFError
+
+finite = {"allow_nan": False, "allow_infinity": False}
+STATES = st.builds(
+    State,
+    lens=st.sampled_from(["double_gauss_28", "/some where/lens.toml"]),
+    depth_mm=st.floats(1e-3, 1e12, **finite) | st.just(inf),
+    focus_mm=st.none() | st.floats(1e-3, 1e12, **finite) | st.just(inf),
+    sensor_shift_um=st.floats(-1e6, 1e6, **finite),
+    field_deg=st.floats(-89, 89, **finite),
+    wavelength_nm=st.floats(100, 20000, **finite),
+    f_number=st.none() | st.floats(0.2, 1000, **finite),
+    clip=st.booleans(),
+    tolerance=st.floats(0, 1, **finite),
+    **{name: st.sampled_from(values) for name, values in CHOICES.items()},
+)
+
+
+@given(STATES)
+def test_json_and_back_is_identical(state):
+    assert state_from_json(state_to_json(state, versions={"p2sf": "x"})) == state
+
+
+def test_infinity_is_plain_json():
+    text = state_to_json(State())
+    assert json.loads(text, parse_constant=pytest.fail)["state"]["depth_mm"] == "inf"
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"depth_mm": -1.0}, "source depth is -1 mm"),
+        ({"depth_mm": float("nan")}, "source depth is nan mm"),
+        ({"field_deg": 90.0}, "field angle is 90 °"),
+        ({"field_deg": "wide"}, "field angle is 'wide'"),
+        ({"method": "magic"}, 'method is "magic"; choose one of auto'),
+        ({"lens": ""}, "names no lens"),
+        ({"clip": "yes"}, "clip must be true or false"),
+    ],
+)
+def test_a_value_that_cannot_be_is_a_sentence(changes, words):
+    with pytest.raises(P2SFError, match=words.replace("(", r"\(")):
+        State(**changes)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{", "line 1: not JSON"),
+        ("[]", "is not a state"),
+        ('{"schema": "p2sf-explorer-state", "version": 99, "state": {}}', "version 99"),
+        ('{"schema": "p2sf-explorer-state", "version": 1, "state": {"dept_mm": 1}}', 'unknown entry "dept_mm"'),
+    ],
+)
+def test_a_bad_state_file_is_a_sentence(tmp_path, text, words):
+    path = tmp_path / "state.json"
+    path.write_text(text)
+    with pytest.raises(P2SFError, match=words):
+        read_state(path)
+
+
+def test_a_missing_state_file_is_a_sentence(tmp_path):
+    with pytest.raises(P2SFError, match="cannot be read"):
+        read_state(tmp_path / "none.json")
+
+
+def test_state_and_compute_know_no_qt():
+    """The layer law: a live answer, side panels included, without Qt or its plots."""
+    code = """
+import sys
+from app import compute, focus, snapshot, state
+from app.views import profiles, seidel
+compute.live(state.State(), views={"p": profiles.profiles, "s": seidel.per_surface})
+print([name for name in sys.modules if name.startswith(("PySide6", "pyqtgraph", "pyvista"))])
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "[]"

@@ -1,0 +1,50 @@
+"""LatestWins: one runs, one waits, what finishes is shown."""
+
+from threading import Event
+
+import pytest
+
+from app.worker import LatestWins
+from p2sf.errors import GeometryError
+
+
+@pytest.fixture
+def worker(qtbot):
+    made = LatestWins()
+    yield made
+    made.stop()
+
+
+def test_one_runs_one_waits_and_the_latest_waiting_wins(qtbot, worker):
+    gate, seen = Event(), []
+    worker.finished.connect(lambda key, result: seen.append((key, result)))
+    worker.submit("first", lambda cancelled, progress: gate.wait(5))
+    for key in ("second", "third"):
+        worker.submit(key, lambda cancelled, progress, key=key: key)
+    gate.set()
+    qtbot.waitUntil(lambda: len(seen) == 2)
+    assert seen == [("first", True), ("third", "third")]
+
+
+def test_a_refusal_comes_as_its_sentence_and_the_next_job_runs(qtbot, worker):
+    def refuse(cancelled, progress):
+        raise GeometryError("no such lens")
+
+    with qtbot.waitSignal(worker.failed) as told:
+        worker.submit("key", refuse)
+    assert told.args == ["key", "no such lens"]
+    with qtbot.waitSignal(worker.finished):
+        worker.submit("next", lambda cancelled, progress: 1)
+
+
+def test_cancel_reaches_the_running_job(qtbot, worker):
+    with qtbot.waitSignal(worker.finished) as told:
+        worker.submit("key", lambda cancelled, progress: cancelled.wait(5))
+        worker.cancel()
+    assert told.args[1] is True
+
+
+def test_progress_is_told(qtbot, worker):
+    with qtbot.waitSignal(worker.progressed) as told:
+        worker.submit("key", lambda cancelled, progress: progress(0.5))
+    assert told.args == ["key", 0.5]
