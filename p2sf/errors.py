@@ -25,6 +25,10 @@ class ExportError(P2SFError):
     """A result that cannot be written to, or read back from, the file asked for."""
 
 
+class Cancelled(P2SFError):
+    """A long computation that its caller stopped."""
+
+
 class LensFileError(P2SFError):
     """A lens file that cannot be read; ``path`` and ``line`` (from 1, None if unknown) say where."""
 
