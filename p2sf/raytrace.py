@@ -77,7 +77,9 @@ def pencil(lens: Lens, source: Source, xi, eta, aim="paraxial", clip=False, stop
     # The chief ray rides along as the last ray, so that one trace does.
     xi, eta = np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
     rays = pupil_rays(lens, source, xi, eta, aim, stop)
-    beam = run(lens, start(rays), rays.index, lens_rims(lens, keep_stop=False) if clip else None)
+    beam = start(rays)
+    beam.exempt = 1  # the chief ray is the origin of all differences, whether or not a rim would stop it
+    run(lens, beam, rays.index, lens_rims(lens, keep_stop=False) if clip else None)
     beam.path += rays.path
     if beam.status.any():
         _blank(beam)

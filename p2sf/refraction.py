@@ -32,7 +32,7 @@ class Beam:
     """Rays on their way: position from the current vertex (mm), optical cosines, optical path (mm), fate.
 
     ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that whatever treats the
-    components alike is one call.
+    components alike is one call. The last ``exempt`` rays pass every rim.
     """
 
     def __init__(self, place: np.ndarray, ray: np.ndarray):
@@ -42,6 +42,7 @@ class Beam:
         self.path = np.zeros(place.shape[1:])
         self.status = np.zeros(place.shape[1:], np.int8)
         self.failed_surface = np.zeros(place.shape[1:], np.int16)
+        self.exempt = 0
 
     def advance(self, step, index) -> None:
         """Move every ray by the ray parameter ``step`` in a medium of this index."""
@@ -191,5 +192,6 @@ def _root(beam: Beam, cosine_square, gain, number: int, out=None):
 def clip(beam: Beam, rim: float, number: int) -> None:
     """Stop every ray that lands outside a rim of radius ``rim`` mm."""
     outside = beam.x * beam.x + beam.y * beam.y > rim * rim
+    outside[..., outside.shape[-1] - beam.exempt :] = False
     if outside.any():
         beam.fail(outside, Status.CLIPPED, number)

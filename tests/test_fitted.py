@@ -1,0 +1,105 @@
+"""The fitted rung: its polynomials, what it promises with 26 and 46 numbers, and when it asks for more."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GeometryError
+from p2sf.fitted import fit, fitted_psf
+from p2sf.quadrature import disc_nodes
+from p2sf.rayfit import LEVELS, ray_data
+from p2sf.raytrace import pencil
+from p2sf.zernike import basis, gradient, terms
+from tests.reference import LENSES, huygens_rows
+from tests.test_huygens import r_squared
+from tests.test_raytrace import case
+
+
+def cases(name):
+    for row, stored, _ in huygens_rows(name):
+        yield *case(name, row), row["pixel_um"], stored
+
+
+@pytest.mark.parametrize("odd", [False, True])
+def test_polynomials_are_orthonormal_on_the_disc(odd):
+    nodes = disc_nodes(16, 64)
+    values = basis(12, nodes.xi, nodes.eta, odd)
+    assert np.allclose((values * nodes.weight) @ values.T, np.eye(len(values)), atol=1e-13)
+    assert len(values) == len(terms(12, odd))
+
+
+@pytest.mark.parametrize("odd", [False, True])
+def test_gradients_equal_differences(odd):
+    nodes, step = disc_nodes(5, 12), 1e-5
+    across, along = gradient(8, nodes.xi, nodes.eta, odd)
+    around = [
+        (basis(8, nodes.xi + dx, nodes.eta + dy, odd) - basis(8, nodes.xi - dx, nodes.eta - dy, odd)) / (2 * step)
+        for dx, dy in ((step, 0), (0, step))
+    ]
+    # Second-order differences of degree 8: 8³·step² plus rounding over step.
+    assert np.allclose(across, around[0], atol=1e-6) and np.allclose(along, around[1], atol=1e-6)
+
+
+def test_the_levels_count_what_the_design_counts():
+    assert [level.numbers for level in LEVELS[:2]] == [26, 46]
+    assert LEVELS[0].rays == LEVELS[1].rays == 64
+
+
+@pytest.mark.parametrize("name", [name for name in LENSES if name != "petzval"])
+def test_sixty_four_rays_hold_what_the_ladder_promises(name):
+    for lens, source, pixel, stored in cases(name):
+        few, more, default = (fitted_psf(lens, source, 32, pixel, n) for n in (26, 46, None))
+        assert few.rays == more.rays == 64
+        assert r_squared(few.values, stored) >= 0.994
+        assert r_squared(more.values, stored) >= 0.9999
+        assert r_squared(default.values, stored) >= 0.998
+
+
+@pytest.mark.parametrize("k", range(4))
+def test_a_fast_petzval_takes_as_many_numbers_as_it_needs(k):
+    lens, source, pixel, stored = list(cases("petzval"))[k]
+    psf = fitted_psf(lens, source, 32, pixel)
+    print(f"petzval row {k}: {psf.numbers} numbers from {psf.rays} rays, R² {r_squared(psf.values, stored):.7f}")
+    assert r_squared(psf.values, stored) >= 0.995
+
+
+@pytest.mark.parametrize("name", ["double_gauss_28", "telephoto", "petzval"])
+def test_the_residual_is_that_of_rays_the_fit_has_not_seen(name):
+    lens, source, _, _ = list(cases(name))[1]
+    nodes = disc_nodes(9, 26)
+    rays = ray_data(pencil(lens, source, nodes.xi, nodes.eta))
+    for numbers in (26, 46):
+        found = fit(lens, source, numbers)
+        phase, fx, fy = found.at(nodes.xi, nodes.eta)
+        error = phase - rays.phase + (fx - rays.fx) * rays.x_um + (fy - rays.fy) * rays.y_um
+        seen = np.sqrt(nodes.weight @ error**2)
+        assert 0.7 < found.residual_waves / seen < 4  # an estimate, and rather too large than too small
+
+
+def test_the_map_of_the_pupil_is_squeezed_off_axis_as_the_witness_found():
+    """DESIGN.md section 2: NA × 0.979 sagittal and × 0.945 tangential on the Double Gauss at 14°."""
+    squeeze = []
+    for index in (0, 2):
+        lens, source, _, _ = list(cases("double_gauss_28"))[index]
+        _, fx, fy = fit(lens, source, 46).at(np.array([0.05, 0.0, 0.0]), np.array([0.0, 0.05, -0.05]))
+        squeeze.append((fx[0], (fy[1] - fy[2]) / 2))
+    sagittal, tangential = (off / on for off, on in zip(squeeze[1], squeeze[0], strict=True))
+    assert sagittal == pytest.approx(0.979, abs=0.015) and tangential == pytest.approx(0.945, abs=0.015)
+
+
+def test_the_energy_follows_parseval():
+    lens, source, pixel, _ = next(cases("tessar"))
+    assert fitted_psf(lens, source, 128, pixel / 2).energy == pytest.approx(
+        fitted_psf(lens, source, 256, pixel / 4).energy, rel=1e-2
+    )
+
+
+def test_an_unknown_count_of_numbers_names_those_there_are():
+    lens, source, _, _ = next(cases("tessar"))
+    with pytest.raises(GeometryError, match="26, 46, 72"):
+        fit(lens, source, 30)
+
+
+def test_the_preview_is_the_settled_picture_in_single_precision():
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    preview, settled = (fitted_psf(lens, source, 32, pixel, quality=q) for q in ("preview", "settled"))
+    assert r_squared(preview.values, settled.values) > 1 - 1e-7
