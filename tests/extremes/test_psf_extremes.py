@@ -1,0 +1,150 @@
+"""The picture at the extremes: sampling, energy, precision, pitch, size and symmetry."""
+
+import numpy as np
+import pytest
+
+from p2sf.conventions import centred_axis
+from p2sf.errors import SamplingError
+from p2sf.fastpath import intensities, wave_number
+from p2sf.lens import with_f_number
+from p2sf.psf import fft_intensity, plain_intensity, seidel_psf
+from p2sf.quadrature import chord_rows, grid_rows
+from p2sf.seidel import coefficients
+from p2sf.transform import padded_fft
+from tests.extremes.settled import PROMISE, error_of, random_case
+from tests.reference import prescription_lens
+from tests.waves import NA, WAVELENGTH_UM, relative_l2, waves
+
+LAMBDA_NA = WAVELENGTH_UM / NA
+RANDOM = np.random.default_rng(7)
+
+
+@pytest.mark.parametrize("seed", range(50))
+def test_settled_sampling_holds_its_promise(seed):
+    """The first fifty of the two thousand cases of ``python -m tests.extremes.settled``."""
+    words, *case = random_case(seed)
+    assert error_of(*case) <= PROMISE, words
+
+
+def test_settled_sampling_fails_where_the_slope_is_misjudged():
+    """The measure can fail: too few nodes for a steep case are far from settled."""
+    steep = waves(w40=40.0)
+    few, fine = (intensities(steep, 16, 1.0, chord_rows(n, n), np.float64) for n in (150, 1600))
+    assert relative_l2(few, fine) > 100 * PROMISE
+
+
+@pytest.mark.parametrize("six", RANDOM.normal(size=(6, 6)) * [[0], [1e-3], [1], [10], [50], [200]])
+@pytest.mark.parametrize("dtype, tolerance", [(np.float64, 1e-10), (np.float32, 1e-5)])
+def test_energy_inside_and_outside_any_window_is_all_the_energy(six, dtype, tolerance):
+    """Parseval: over a whole period of a uniform pupil grid, Σ|field|² = period²·Σ|weight|², whatever W."""
+    grid, period = grid_rows(128), 160
+    c = waves(*six)
+    cycles = 128 / (2 * period)  # a grid of step 2/128 repeats after 64 cycles
+    whole = intensities(c, period, cycles * LAMBDA_NA, grid, dtype).astype(float)
+    # The folded weights count four nodes at once; each alone has a quarter.
+    total = period**2 * 4 * np.sum((grid.weight / 4) ** 2)
+    assert abs(whole.sum() / total - 1) <= tolerance
+    window = np.zeros((period, period), bool)
+    window[60:90, 71:97] = True
+    assert abs((whole[window].sum() + whole[~window].sum()) / total - 1) <= tolerance
+
+
+def test_the_padded_fft_has_the_energy_of_the_pupil():
+    rng = np.random.default_rng(3)
+    pupil = rng.normal(size=(24, 24)) * np.exp(2j * np.pi * rng.random((24, 24)))  # apodised at will
+    pupil[5:9, 14:] = 0  # and vignetted
+    plane = padded_fft(pupil, 96, 48)
+    middle = np.fft.ifft2(np.pad(pupil, 36), norm="forward")
+    assert abs((np.abs(middle) ** 2).sum() / (96**2 * (np.abs(pupil) ** 2).sum()) - 1) < 1e-12
+    inside = (np.abs(plane) ** 2).sum()
+    shown = np.fft.fftshift(np.abs(middle) ** 2)[24:72, 24:72]
+    assert abs(inside / shown.sum() - 1) < 1e-12
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 30.0, 200.0])
+def test_float32_keeps_the_settled_promise(size):
+    c = waves(*(size * np.array([0.4, -0.5, 0.3, 0.2, 0.0, -0.2])))
+    single, double = (seidel_psf(c, 32, 1.0, dtype=dtype).values for dtype in (np.float32, np.float64))
+    assert relative_l2(single, double) < PROMISE
+
+
+@pytest.mark.parametrize("fraction", [0.01, 0.1, 1.0, 10.0])
+def test_matrix_dft_is_the_plain_formula_at_any_pitch(fraction):
+    c = waves(0.8, -1.2, 0.7, 0.3, 5.0, -0.4)
+    pitch = fraction * LAMBDA_NA
+    found = seidel_psf(c, 24, pitch)
+    plain = plain_intensity(c, 24, pitch)
+    # Two different rules, each of which promises 1e-4; at these small slopes they keep far more.
+    assert relative_l2(found.values, plain / plain.sum()) < PROMISE / 100
+
+
+@pytest.mark.parametrize("fraction", [0.01, 0.1, 0.5])
+def test_fft_agrees_with_matrix_dft(fraction):
+    """The FFT's pupil is a square grid with weighted edge cells: second order, 1e-2 at 64 samples per radius."""
+    c = waves(0.3, 0.4, -0.2)
+    pitch = fraction * LAMBDA_NA
+    samples = int(2 * np.ceil(128 / fraction / 2))
+    ours = fft_intensity(c, 16, pitch, min(samples, 4096))
+    assert relative_l2(ours, plain_intensity(c, 16, pitch)) < 5e-3
+
+
+def test_a_window_of_one_sample():
+    for six in ((0.0,), (3.0, 1.0, -2.0)):
+        found = seidel_psf(waves(*six), 1, 1.0)
+        assert found.values.shape == (1, 1) and found.values[0, 0] == 1.0
+        assert found.strehl == pytest.approx(float(plain_intensity(waves(*six), 1, 1.0)[0, 0]), rel=PROMISE / 10)
+
+
+def test_a_window_of_a_thousand_samples():
+    c = waves(0.5, 1.0, -0.5)
+    found = seidel_psf(c, 1023, 0.05 * LAMBDA_NA)
+    assert abs(found.values.sum() - 1) < 1e-12 and np.isfinite(found.values).all()
+    # Its middle is the picture of a small window.
+    small = plain_intensity(c, 31, 0.05 * LAMBDA_NA)
+    middle = found.values[511 - 15 : 511 + 16, 511 - 15 : 511 + 16]
+    assert relative_l2(middle / middle.sum(), small / small.sum()) < 1e-8
+    np.testing.assert_allclose(found.values, found.values[:, ::-1], atol=1e-13)
+
+
+def test_no_wavefront_at_all_is_airy_to_ten_digits():
+    """(2J1(v)/v)², Airy 1835, with J1 as its integral: W exactly 0, peak exactly 1."""
+    pitch = 0.07 * LAMBDA_NA
+    values = intensities(waves(), 33, pitch, chord_rows(64, 64), np.float64)
+    v = 2 * np.pi * 0.07 * np.hypot(*np.meshgrid(centred_axis(33), centred_axis(33)))
+    angle = (np.arange(400) + 0.5) * (np.pi / 400)
+    bessel = np.cos(angle - v[..., None] * np.sin(angle)).mean(-1)
+    airy = np.divide(2 * bessel, v, out=np.ones_like(v), where=v > 0) ** 2
+    np.testing.assert_allclose(values, airy, atol=1e-12)
+    assert abs(values[16, 16] - 1) < 1e-14
+
+
+def test_a_lens_on_axis_gives_a_picture_symmetric_to_rounding():
+    lens = prescription_lens("double_gauss_28", 587.5618)
+    values = seidel_psf(coefficients(lens, np.inf, 0.0, 0.5875618), 65).values
+    for turned in (values[::-1], values[:, ::-1], values[::-1, ::-1]):
+        np.testing.assert_allclose(values, turned, rtol=0, atol=1e-13)
+
+
+def double_gauss_at(number: float):
+    lens = with_f_number(prescription_lens("double_gauss_28", 587.5618), number)
+    return coefficients(lens, np.inf, 0.0, 0.5875618)
+
+
+def test_a_ten_thousandth_aperture_has_a_picture():
+    found = double_gauss_at(1e4)
+    psf = seidel_psf(found, 16, 0.2 / abs(float(wave_number(found))))
+    assert abs(psf.values.sum() - 1) < 1e-12 and np.isfinite(psf.values).all() and 0 < psf.strehl <= 1 + 1e-12
+
+
+def test_a_half_aperture_of_ten_thousand_waves_is_refused_in_words():
+    found = double_gauss_at(0.5)
+    with pytest.raises(SamplingError, match=r"phase slope of \d+ waves"):
+        seidel_psf(found, 16, 0.2 / abs(float(wave_number(found))))
+
+
+def test_scaling_lens_and_wavelength_leaves_the_picture_alone():
+    six = (0.5, -1.0, 0.8, 0.0, 0.0, 0.3)
+    first = seidel_psf(waves(*six), 24, 0.3 * LAMBDA_NA).values
+    for k in (1e-6, 1e6):
+        again = seidel_psf(waves(*six, wavelength_um=WAVELENGTH_UM * k), 24, 0.3 * LAMBDA_NA * k).values
+        np.testing.assert_allclose(again, first, rtol=0, atol=1e-13)
