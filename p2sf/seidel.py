@@ -71,22 +71,30 @@ def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
     c, asphere = (_per_surface(x, rays.y.ndim) for x in _shape_terms(lens))
     inverse = 1 / rays.index
     before, after = inverse[:-1], inverse[1:]
-    step = after - before
-    snell = _refraction(rays.nu, rays.y, rays.index, c)
-    chief_snell = _refraction(rays.chief_nu, rays.chief_y, rays.index, c)
-    bend = rays.y * (rays.nu[1:] * after**2 - rays.nu[:-1] * before**2)  # y Δ(u/n)
-    petzval = c * step
-    distortion = chief_snell**2 * rays.y * (after**2 - before**2)
-    distortion = distortion - (rays.invariant + chief_snell * rays.y) * rays.chief_y * petzval
-    figure = asphere * (rays.index[1:] - rays.index[:-1])
     y, chief = rays.y, rays.chief_y
-    return SeidelSums(
-        spherical=-(snell**2) * bend + figure * y**4,
-        coma=-snell * chief_snell * bend + figure * y**3 * chief,
-        astigmatism=-(chief_snell**2) * bend + figure * (y * chief) ** 2,
-        petzval=-(rays.invariant**2) * petzval,
-        distortion=-chief_snell * distortion + figure * y * chief**3,
+    snell = _refraction(rays.nu, y, rays.index, c)
+    chief_snell = _refraction(rays.chief_nu, chief, rays.index, c)
+    bend = y * (rays.nu[1:] * (after * after) - rays.nu[:-1] * (before * before))  # y Δ(u/n)
+    petzval = c * (after - before)
+    distortion = chief_snell * chief_snell * y * (after * after - before * before)
+    distortion = distortion - (rays.invariant + chief_snell * y) * chief * petzval
+    sums = (
+        -snell * snell * bend,
+        -snell * chief_snell * bend,
+        -chief_snell * chief_snell * bend,
+        -(rays.invariant**2) * petzval,
+        -chief_snell * distortion,
     )
+    if asphere.any():
+        figure = asphere * (rays.index[1:] - rays.index[:-1])
+        sums = (total + part for total, part in zip(sums, _figuring(figure, y, chief), strict=True))
+    return SeidelSums(*sums)
+
+
+def _figuring(figure, y, chief):
+    """Return what an asphere (Kc³ + 8A₄)Δn adds to the five sums, without dividing by y (Welford 1986, ch. 8)."""
+    square, cross = figure * y * y, chief * chief
+    return square * y * y, square * y * chief, square * cross, 0.0, figure * y * chief * cross
 
 
 def _refraction(nu, y, index, c):
@@ -96,10 +104,9 @@ def _refraction(nu, y, index, c):
 
 def _shape_terms(lens: Lens):
     """Return curvature c and fourth-order figure Kc³ + 8A₄ of every surface."""
-    c = np.array([surface.curvature for surface in lens.surfaces])
-    conic = np.array([surface.conic for surface in lens.surfaces])
-    a4 = np.array([surface.aspheric[0] if surface.aspheric else 0.0 for surface in lens.surfaces])
-    return c, conic * c**3 + 8 * a4
+    rows = ((s.curvature, s.conic, s.aspheric[0] if s.aspheric else 0.0) for s in lens.surfaces)
+    c, figure = zip(*((c, conic * c**3 + 8 * a4) for c, conic, a4 in rows), strict=True)
+    return np.array(c), np.array(figure)
 
 
 def _per_surface(column: np.ndarray, ndim: int) -> np.ndarray:
