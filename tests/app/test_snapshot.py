@@ -48,6 +48,6 @@ def test_a_place_that_cannot_be_written_is_a_sentence(busy, tmp_path):
 
 def test_no_display_is_a_sentence_and_a_display_is_none():
     assert "no display" in display_problem({}, "linux")
-    assert display_problem({"DISPLAY": ":0"}, "linux") is None
+    assert display_problem({"WAYLAND_DISPLAY": "wayland-0"}, "linux") is None
     assert display_problem({"QT_QPA_PLATFORM": "offscreen"}, "linux") is None
     assert display_problem({}, "darwin") is None
