@@ -51,7 +51,11 @@ class Catalogue:
 
 def read_agf(path) -> Catalogue:
     """Return the catalogue in an AGF file; LensFileError names the line that cannot be read."""
-    source = read_source(path)
+    return read_agf_text(read_source(path))
+
+
+def read_agf_text(source: LensText) -> Catalogue:
+    """Return the catalogue in an AGF text, named by its path's stem; LensFileError with line."""
     glasses: dict[str, FormulaGlass] = {}
     entry: dict[str, tuple[int, list[str]]] = {}
     last = ""
@@ -69,7 +73,7 @@ def read_agf(path) -> Catalogue:
     _store(glasses, entry, source)
     if not glasses:
         raise source.error("no glass (NM and CD lines) is in this file; give an AGF catalogue", len(source.lines))
-    return Catalogue(Path(path).stem.upper(), str(path), glasses)
+    return Catalogue(Path(source.path).stem.upper(), source.path, glasses)
 
 
 def _store(glasses, entry, source: LensText) -> None:

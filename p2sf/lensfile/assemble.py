@@ -25,6 +25,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
         raise source.error("the file holds no lens surface between object and image", len(source.lines))
     media = _media(raw, sources, notes, source)
     lens = _located(lambda: _bare_lens(raw, media), raw, source, None)
+    lens = _located(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)
     lens = _located(lambda: _with_aperture(lens, raw, notes), raw, source, raw.aperture_line or raw.wavelength_line)
     lens = _located(lambda: _with_fields(lens, raw, notes), raw, source, raw.field_line)
     if not raw.sensor_stated:
@@ -83,6 +84,26 @@ def _bare_lens(raw: RawLens, media: list[Medium]) -> Lens:
         wavelengths_nm=wavelengths,
         object_medium=media[0],
     )
+
+
+def _within_data(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    """Return the lens with the wavelengths at which all its glasses have data; GlassError if the primary has none."""
+    primary = _primary_um(raw, lens)
+    kept = []
+    for wave in lens.wavelengths_nm:
+        lacking = next((medium for medium in lens.media if _lacks(medium, wave / NM_PER_UM)), None)
+        if lacking is None:
+            kept.append(wave)
+        elif abs(wave / NM_PER_UM - primary) < 1e-9 or len(lens.wavelengths_nm) == 1:
+            lacking.index(wave / NM_PER_UM)  # raises, with the range of the data
+        else:
+            notes.add("caution", f"wavelength {wave:g} nm is outside the data of {lacking.label} and left out")
+    return replace(lens, wavelengths_nm=tuple(kept))
+
+
+def _lacks(medium: Medium, wavelength_um: float) -> bool:
+    low, high = medium.range_um or (0.0, inf)
+    return not low <= wavelength_um <= high
 
 
 def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surface:

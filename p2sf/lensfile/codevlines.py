@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass, field
 from math import inf
 
+from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass import Medium, measured_index
 from p2sf.lensfile.codevtext import Command
@@ -16,7 +17,6 @@ UNITS_MM = {"M": 1.0, "MM": 1.0, "C": 10.0, "CM": 10.0, "I": 25.4, "IN": 25.4, "
 APERTURES = {"EPD": "entrance_pupil_diameter", "FNO": "image_f_number", "NA": "image_na", "NAO": "object_na"}
 FIELD_KINDS = {"AN": "angle", "OB": "object_height", "IM": "image_height", "RI": "real_image_height"}
 ORDERS = {letter: 4 + 2 * place for place, letter in enumerate("ABCDEFGHJ")}
-NM = 1e-3
 
 
 @dataclass
@@ -97,7 +97,7 @@ def read_private(reading: Reading, command: Command) -> None:
     if len(pairs) != len(reading.private_nm) or len(command.words) != len(pairs):
         raise reading.source.error(f"private glass {name} has not one index per wavelength; complete it", command.line)
     try:
-        table = measured_index([w * NM for w, _ in pairs], [n for _, n in pairs])
+        table = measured_index([w / NM_PER_UM for w, _ in pairs], [n for _, n in pairs])
     except GlassError as failure:
         raise reading.source.error(f"private glass {name}: {failure}", command.line) from failure
     reading.private[name] = type(table)(table.wavelengths_um, table.values, name)
@@ -132,7 +132,7 @@ def _wavelengths(reading: Reading, command: Command) -> None:
     values = reading.numbers(command, "wavelength")
     if not all(50 <= value <= 50_000 for value in values):
         raise reading.source.error("a wavelength is not light; give nanometres", command.line)
-    reading.raw.wavelengths_um, reading.raw.wavelength_line = [value * NM for value in values], command.line
+    reading.raw.wavelengths_um, reading.raw.wavelength_line = [value / NM_PER_UM for value in values], command.line
 
 
 def _reference(reading: Reading, command: Command) -> None:

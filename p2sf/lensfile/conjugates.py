@@ -92,6 +92,8 @@ def _marginal_height(kind: str, value: float, raw: RawLens, rays: Paraxial) -> f
         return value * raw.unit_mm / 2 * a
     if kind == "f_number" or (kind == "image_f_number" and not isfinite(distance)):
         return a / (2 * value * c) if c else inf
+    if kind == "object_na" and not isfinite(distance):
+        raise GeometryError("an object at infinity has no numerical aperture; state the pupil's diameter or f-number")
     start = rays.object_index / distance if distance else inf
     if not isfinite(start):
         raise GeometryError("the object lies in the first vertex, where an aperture angle fills no stop; move it")

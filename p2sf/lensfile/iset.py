@@ -8,6 +8,7 @@ import json
 import re
 from math import inf
 
+from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass import measured_index
 from p2sf.lens import Lens
@@ -18,7 +19,6 @@ from p2sf.lensfile.resolve import GlassSources
 from p2sf.lensfile.sourcetext import LensText, number
 
 STOP_NAMES = ("stop", "diaphragm", "aperture")
-NM = 1e-3
 IDENTITY = ([1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0])
 KEYS = (
     "radius",
@@ -145,7 +145,7 @@ def _glass(ior, count: int, line: int, source: LensText) -> RawGlass | None:
         raise source.error(f"surface {count}: ior is neither a number nor [[nm …], [n …]]; correct it", line)
     try:
         pairs = sorted(zip(ior[0], ior[1], strict=True))
-        table = measured_index([w * NM for w, _ in pairs], [n for _, n in pairs])
+        table = measured_index([w / NM_PER_UM for w, _ in pairs], [n for _, n in pairs])
     except (GlassError, TypeError) as failure:
         raise source.error(
             f"surface {count}: ior is no table of wavelengths and indices ({failure})", line

@@ -42,7 +42,7 @@ def read_optical_bench(source: LensText, sources: GlassSources, notes: Notebook)
     for line, text in enumerate(source.lines, 1):
         words = _cells(text)
         if words[0].startswith("["):
-            reading.section = words[0].lower()
+            reading.section = text.strip().lower().partition("]")[0] + "]"
         elif any(words) and not words[0].startswith("#"):
             READERS.get(reading.section, _skip)(reading, words, line)
     _finish(reading)

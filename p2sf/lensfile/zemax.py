@@ -72,9 +72,10 @@ def _finish(reading: Reading) -> None:
         raw.aperture = None  # float by stop size: the stop's rim, which is what a lens without aperture gets
     if reading.wavelength_count:
         raw.wavelengths_um = raw.wavelengths_um[: reading.wavelength_count]
-    count = reading.field_count or max(len(reading.x_fields), len(reading.y_fields))
+    longest = max(len(reading.x_fields), len(reading.y_fields))
+    count = min(reading.field_count or longest, longest)
     padded = [[*values, *[0.0] * count][:count] for values in (reading.x_fields, reading.y_fields)]
-    raw.fields = list(zip(*padded, strict=True))[:1000]
+    raw.fields = list(zip(*padded, strict=True))
 
 
 def _shape(reading: Reading, surface: RawSurface) -> None:

@@ -84,8 +84,8 @@ def _field_type(reading: Reading, words: list[str]) -> None:
     if reading.number(words, 2, "telecentric flag", 0.0):
         text = "the file asks for telecentric object space; chief rays pass the centre of its stop instead"
         reading.notes.add("caution", text, None, reading.line)
-    reading.field_count = int(reading.number(words, 3, "number of fields", 0.0)) or None
-    reading.wavelength_count = int(reading.number(words, 4, "number of wavelengths", 0.0)) or None
+    reading.field_count = max(0, int(reading.number(words, 3, "number of fields", 0.0))) or None
+    reading.wavelength_count = max(0, int(reading.number(words, 4, "number of wavelengths", 0.0))) or None
 
 
 def _fields(reading: Reading, words: list[str]) -> None:
