@@ -22,7 +22,7 @@ from p2sf.quadrature import (
 )
 from p2sf.seidel import Coefficients
 from p2sf.transform import check_fft, padded_fft, sum_plane_waves
-from p2sf.wavefront import slope_bound, steepest_polar, steepest_slope, wavefront
+from p2sf.wavefront import slope_bound, steepest_chords, steepest_polar, steepest_slope, wavefront
 
 AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π, times λ/NA
 WINDOW_AIRY_RADII = 5
@@ -123,7 +123,7 @@ def rows_for(coefficients: Coefficients, pixels: int, pixel_um: float, quality: 
     if quality == "preview":
         rows = columns = max(PREVIEW_GRID, even_count(2.1 * (slope + reach)))
     else:
-        rows, columns = chords_for(slope, reach)
+        rows, columns = chords_for(*steepest_chords(coefficients), reach)
     if rows * columns > 4 * LARGEST_NODES:
         raise SamplingError(
             f"a phase slope of {slope:.0f} waves over a window of {reach:.0f} cycles needs {rows} × {columns} pupil "

@@ -152,15 +152,18 @@ def nodes_for(slope: float, reach: float, twist: float | None = None) -> tuple[i
     waves; ``reach``: waves per unit radius of the kernel at the window's farthest corner. The margins are
     measured against four times finer rules, up to 200 waves (tests/test_quadrature.py).
     """
-    radial = 0.85 * _harmonics(slope + reach, 2) + 0.15 * _harmonics(reach, 2)
-    angular = _harmonics((slope if twist is None else twist) + reach, 5)
+    radial = 0.85 * _harmonics(slope + reach, 7) + 0.15 * _harmonics(reach, 7)
+    angular = _harmonics((slope if twist is None else twist) + reach, 7)
     return _stepped(radial / 4 + 4), even_count(angular + 4)
 
 
-def chords_for(slope: float, reach: float) -> tuple[int, int]:
-    """Return (rows, columns) of `chord_rows` for the steepest |∇W| ``slope``, with the same promise as `nodes_for`."""
-    count = even_count(0.4 * _harmonics(slope + reach, 2) + 0.1 * _harmonics(reach, 2) + 4)
-    return count, count
+def chords_for(row_slope, column_slope, reach: float) -> tuple[int, int]:
+    """Return (rows, columns) of `chord_rows` for the slopes of `wavefront.steepest_chords`; promise as `nodes_for`.
+
+    Of arrays of slopes the largest counts. n Gauss nodes integrate 2n harmonics.
+    """
+    slopes = (float(np.max(slope)) for slope in (row_slope, column_slope))
+    return tuple(even_count(_harmonics(slope + reach, 7) / 2 + 4) for slope in slopes)
 
 
 def _harmonics(slope: float, tail: float) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from p2sf.quadrature import disc_nodes
-from p2sf.wavefront import coma_tilt, pv, rms, steepest_polar, steepest_slope, wavefront
+from p2sf.wavefront import coma_tilt, pv, rms, steepest_chords, steepest_polar, steepest_slope, wavefront
 from tests.waves import waves
 
 RANDOM = waves(*np.random.default_rng(1).normal(size=(6, 200)))
@@ -80,3 +80,16 @@ def test_peak_to_valley_of_single_terms():
     assert float(pv(waves(w31=2.0), tilt_removed=False)) == pytest.approx(4)
     # ρ³ − 2ρ/3 is 1/3 at the rim and −(2/3)(2/9)^½·(2/3)… inside: the rim wins.
     assert float(pv(waves(w31=2.0))) == pytest.approx(4 / 3, rel=0.01)
+
+
+def test_chord_slopes_are_never_below_those_of_a_dense_search():
+    t, s = (x.ravel() for x in np.meshgrid(np.linspace(0.01, np.pi - 0.01, 90), np.linspace(0, np.pi / 2, 90)))
+
+    def w(t, s):
+        return wavefront(RANDOM, np.sin(s) * np.sin(t), np.cos(t))
+
+    h = 1e-5
+    dense = (w(t + h, s) - w(t - h, s)) / (2 * h), (w(t, s + h) - w(t, s - h)) / (2 * h)
+    for ours, slopes in zip(steepest_chords(RANDOM), dense, strict=True):
+        ratio = ours / np.abs(slopes).max(-1)
+        assert ratio.min() > 0.998 and ratio.max() < 1.05
