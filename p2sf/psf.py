@@ -153,8 +153,8 @@ def fft_samples(coefficients: Coefficients, pixels: int, pixel_um: float, qualit
     blur = float(np.max(steepest_slope(coefficients) / scale))
     rim = min(LARGEST_FFT, FFT_RADIUS[quality] / float(np.min(scale)))
     samples = even_count(max(2 * pixels, 2 * blur + pixels, rim))
-    if samples**2 > LARGEST_NODES:
-        raise SamplingError(f"an FFT of {samples} × {samples} pupil samples is too large; widen the pixel or use mdft")
+    if samples > LARGEST_FFT or 2 * samples * float(np.max(scale)) > LARGEST_FFT:  # a wide pixel has a wide pupil
+        raise SamplingError(f"an FFT of {samples} × {samples} pupil samples is too large; use mdft or change the pixel")
     return samples
 
 

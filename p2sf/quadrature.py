@@ -15,6 +15,7 @@ from p2sf.errors import SamplingError
 # The settled picture's promise: relative L2 error of the PSF in its window.
 SETTLED_TOLERANCE = 1e-4
 NEWTON_STEPS = 8
+AT_ONCE = 2**22  # numbers of a table that only a sum is wanted of
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,8 @@ def cell_areas(xi, eta, step: float, strips: int = 16) -> np.ndarray:
     column = np.abs(np.asarray(xi))[:, None] + node * (step / 2)
     chord = np.sqrt(np.maximum(0, 1 - column**2))
     bottom = np.abs(np.asarray(eta))[:, None, None] - step / 2
-    return _overlap(chord, bottom, step) @ (weight / 2)
+    blocks = np.array_split(bottom, ceil(bottom.size * chord.size / AT_ONCE))
+    return np.concatenate([_overlap(chord, block, step) @ (weight / 2) for block in blocks])
 
 
 def _overlap(chord, bottom, step):

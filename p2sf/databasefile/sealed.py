@@ -7,7 +7,9 @@ could otherwise pass.
 import hashlib
 import io
 import re
+import zlib
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -16,6 +18,8 @@ from p2sf.export import write_beside
 
 SEAL = b"p2sf sha256 "
 DIGITS = 64
+# A seal is no signature: whoever recomputes it may have put anything before it.
+UNREADABLE = (ValueError, TypeError, KeyError, EOFError, OSError, RuntimeError, MemoryError, BadZipFile, zlib.error)
 SEALED = re.compile(re.escape(SEAL) + b"[0-9a-f]{%d}" % DIGITS)
 
 
@@ -47,8 +51,10 @@ def opened(raw: bytes, mark: str, name) -> dict[str, np.ndarray]:
         raise DatabaseError(f"{name} {_why_unsealed(raw, mark)}")
     if _digest(raw[:-DIGITS]) != raw[-DIGITS:]:
         raise DatabaseError(f"{name} is damaged, its contents do not match its seal; copy or build it again")
-    with np.load(io.BytesIO(raw), allow_pickle=False) as file:
-        return dict(file)
+    try:
+        return dict(np.load(io.BytesIO(raw), allow_pickle=False))
+    except UNREADABLE as error:
+        raise DatabaseError(f"{name} is sealed but no archive of arrays ({error}); build it again") from error
 
 
 def _why_unsealed(raw: bytes, mark: str) -> str:
