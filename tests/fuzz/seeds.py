@@ -1,0 +1,37 @@
+"""What the fuzzing starts from: every sample file of the tests, a database, and ordinary command lines."""
+
+import numpy as np
+
+from p2sf.database import Space, build_database
+from p2sf.databasefile.npz import MARK, database_bytes
+from p2sf.databasefile.sealed import sealed
+from p2sf.library import find_lens, lenses_folder
+from tests.fuzz.targets import ENDINGS
+from tests.imports import FILES, FOLDER
+
+LINES = (
+    b"\x00\x00",
+    b"\x01\x01\n\x001000\n\x015",
+    b"\x02\x02\n\x00300\n\x0915\n\x0a0.5\n\x0cmdft",
+    b"\x01\x00\n\x00inf\n\x0310\n\x04656.2725\n\x052000\n\x06-20\n\x078",
+    b"\x02\x03\n\x0916\n\x0bseidel\n\x0cfft\n\x08auto",
+)
+
+
+def seeds(target: str) -> list[bytes]:
+    """Return the first inputs of a target."""
+    tomls = [path.read_bytes() for path in sorted(lenses_folder().glob("*.toml"))]
+    if target == "toml":
+        return tomls
+    if target == "lens_file":
+        files = [(FOLDER / name).read_bytes() for name in FILES]
+        endings = [bytes([ENDINGS.index("." + name.rsplit(".", 1)[1])]) for name in FILES]
+        return [*(a + b for a, b in zip(endings, files, strict=True)), *(b"\x00" + x for x in tomls[:3])]
+    if target == "glass_catalogue":
+        return [(FOLDER / "own.agf").read_bytes()]
+    if target == "database":
+        lens = find_lens("singlet_f6")
+        raw = database_bytes(build_database(lens, Space((300.0,), (0.0,), (0.5, 0.6)), "table1"), lens)
+        plain = sealed({MARK: np.array("{}"), "series": np.zeros((2, 3))})
+        return [b"\x00" + raw, b"\x01" + raw, b"\x01" + plain]
+    return list(LINES)

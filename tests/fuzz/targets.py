@@ -1,0 +1,133 @@
+"""What hostile bytes are fed to. Each target takes bytes and may end in a `P2SFError` only.
+
+A target returns "accepted" or "refused"; any other exception is a finding.
+"""
+
+import contextlib
+import hashlib
+import io
+import warnings
+from collections.abc import Callable
+
+from p2sf.cli import main
+from p2sf.databasefile.npz import database_from_bytes
+from p2sf.databasefile.sealed import DIGITS, SEAL
+from p2sf.errors import P2SFError
+from p2sf.gaussian import cardinal_points
+from p2sf.lensfile.agf import read_agf_text
+from p2sf.lensfile.importing import import_text
+from p2sf.lensfile.resolve import GlassSources
+from p2sf.lensfile.sourcetext import source_of
+from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.pupils import pupils
+from p2sf.request import Request, set_up
+from p2sf.seidel import coefficients
+
+ENDINGS = (".toml", ".zmx", ".seq", ".csv", ".json", ".txt", ".dat")
+OPTIONS = (
+    "--depth-mm",
+    "--field-deg",
+    "--object-height-mm",
+    "--image-height-mm",
+    "--wavelength-nm",
+    "--focus-mm",
+    "--sensor-shift-um",
+    "--f-number",
+    "--stop",
+    "--pixels",
+    "--pixel-um",
+    "--method",
+    "--sampling",
+)
+LENSES = ("double_gauss_28", "eye_navarro", "relay", "plano_convex")
+COMMANDS = ("info", "coefficients", "psf")
+
+
+def refused_or(work: Callable[[], None]) -> str:
+    """Run the work; say whether it went through or ended in an error that a user can read."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # numpy's overflow notes on 1e308 mm are not the subject
+            work()
+    except P2SFError as failure:
+        assert str(failure).strip(), "an error without a sentence"
+        return "refused"
+    return "accepted"
+
+
+def lens_file(data: bytes) -> str:
+    """Read the bytes as a lens file (the first byte picks the ending) and, if it is one, use and rewrite it."""
+    ending = ENDINGS[data[0] % len(ENDINGS)] if data else ".toml"
+    return refused_or(
+        lambda: use(import_text(source_of(data[1:], f"hostile{ending}"), GlassSources((), {}, True)).lens)
+    )
+
+
+def toml(data: bytes) -> str:
+    return refused_or(lambda: use(parse_toml(data.decode("utf-8", "replace"), "hostile.toml")))
+
+
+def use(lens) -> None:
+    """Ask a lens that was accepted for everything paraxial, and write it again."""
+    assert parse_toml(lens_to_toml(lens), "again.toml") == lens
+    wavelength = lens.reference_wavelength_um
+    cardinal_points(lens, wavelength)
+    pupils(lens, wavelength)
+    setup = set_up(lens, Request(field_deg=lens.fields_deg[-1]))
+    coefficients(setup.lens, setup.source.depth_mm, setup.source.field_slope, wavelength, setup.stop)
+
+
+def glass_catalogue(data: bytes) -> str:
+    return refused_or(lambda: read_agf_text(source_of(data, "hostile.agf")))
+
+
+def database(data: bytes) -> str:
+    """Read the bytes as a database; after an odd first byte with a correct seal, which anybody can compute."""
+    raw = data[1:]
+    if data[:1] and data[0] % 2:
+        raw = raw.removesuffix(raw[-DIGITS:]) + SEAL
+        raw += hashlib.sha256(raw).hexdigest().encode()
+    return refused_or(lambda: database_from_bytes(raw, "hostile.npz"))
+
+
+def command_line(data: bytes) -> str:
+    """Run a command with options made of the bytes; exit code 0 or 2 with one sentence, nothing else."""
+    output, error = Stream(), Stream()
+    with contextlib.redirect_stdout(output), contextlib.redirect_stderr(error), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        code = main(arguments(data))
+    if code == 0:
+        return "accepted"
+    assert code == 2 and error.getvalue().count("\n") == 1, (code, error.getvalue())
+    return "refused"
+
+
+def arguments(data: bytes) -> list[str]:
+    """Return a command line: two bytes pick command and lens, then lines of an option byte and its value."""
+    head, *lines = data.split(b"\n")
+    head += b"\0\0"
+    words = [COMMANDS[head[0] % len(COMMANDS)], LENSES[head[1] % len(LENSES)]]
+    for line in lines[:6]:
+        if line:
+            value = line[1:].decode("utf-8", "replace").replace("\0", "")
+            words += [OPTIONS[line[0] % len(OPTIONS)], value]
+    return words
+
+
+class Stream(io.StringIO):
+    """A captured stream that can be reconfigured, as a real one can."""
+
+    def reconfigure(self, **_options) -> None:
+        """Accept what the command line asks of its streams."""
+
+
+TARGETS = {
+    "lens_file": lens_file,
+    "toml": toml,
+    "glass_catalogue": glass_catalogue,
+    "database": database,
+    "command_line": command_line,
+}
+
+# Reading takes no longer than 2 s; a command line may ask for a PSF of thousands of waves, which is work, not a hang.
+SECONDS = {name: 20 if name == "command_line" else 2 for name in TARGETS}

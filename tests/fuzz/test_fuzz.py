@@ -1,0 +1,42 @@
+"""Everything that ever broke a reader, and a few hundred fresh injuries per target; no guided fuzzing here."""
+
+import random
+from pathlib import Path
+from time import process_time
+
+import pytest
+
+from tests.fuzz.seeds import seeds
+from tests.fuzz.targets import SECONDS, TARGETS
+from tests.mutations import damaged
+
+CORPUS = sorted(path for path in (Path(__file__).parent / "corpus").iterdir() if path.name[0] != ".")
+COUNT = {"command_line": 60, "lens_file": 150}
+
+
+def answered(name: str, data: bytes) -> str:
+    """Return what became of an input, which must not take longer than its target allows (CPU time)."""
+    start = process_time()
+    found = TARGETS[name](data)
+    assert process_time() - start < SECONDS[name], data[:500]
+    return found
+
+
+def test_what_broke_once_is_answered():
+    for path in CORPUS:
+        assert answered(path.name.rsplit("-", 1)[0], path.read_bytes()) in ("accepted", "refused"), path.name
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_damage_is_accepted_or_refused(name):
+    found = set()
+    for number in range(COUNT.get(name, 200)):
+        chance = random.Random(f"{name} {number}")
+        found.add(answered(name, damaged(chance.choice(seeds(name)), chance)))
+    assert "refused" in found
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_the_seeds_are_accepted(name):
+    """Otherwise the fuzzing would start from nothing and try nothing."""
+    assert "accepted" in {TARGETS[name](data) for data in seeds(name)}
