@@ -20,7 +20,7 @@ from p2sf.raytrace import pencil
 from p2sf.rendering import Made, counts_for, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.source import Source
 from p2sf.transform import sum_plane_waves
-from p2sf.vignetting import ClearNodes, clear_nodes, clear_shape, pencil_blur
+from p2sf.vignetting import ClearNodes, clear_nodes, pencil_blur, whole_nodes
 
 BLOCK = 8192  # rays at a time: few enough for a second-level cache, and an answer to cancel every few milliseconds
 GROWTH = 1.3
@@ -148,9 +148,13 @@ def huygens_field(lens, source, counts, window, filling: Filling, watch: "_Watch
     return Field(total, blur if resolved(spread, window[1]) else None, lost)
 
 
+def one_pass(lens, source, counts, window, filling: Filling = PLAIN) -> Field:
+    """Return the field of one set of nodes in float64, unasked whether it has converged."""
+    return huygens_field(lens, source, counts, window, filling, _Watch())
+
+
 def _nodes_of(lens, source, counts, filling: Filling) -> ClearNodes:
-    shape = clear_shape(lens, source, counts[1], filling.aim) if filling.clip else None
-    return clear_nodes(counts, shape)
+    return clear_nodes(lens, source, counts, filling.aim) if filling.clip else whole_nodes(counts)
 
 
 def _block(lens, source, nodes: ClearNodes, part: slice, aim) -> tuple[RayData, np.ndarray]:

@@ -17,7 +17,7 @@ from p2sf.pupils import Stop
 from p2sf.quadrature import disc_nodes
 from p2sf.raytrace import Pencil, diffraction_phase, pencil
 from p2sf.source import Source
-from p2sf.zernike import basis, gradient, terms
+from p2sf.zernike import basis, columns, evaluate, gradient, terms
 
 # Rays on the rim, where a polynomial strays first, that take no part in the fit: (ξ, η).
 HELD_OUT = np.array([[0.0, 0.0, 1.0, 0.6], [1.0, -1.0, 0.0, 0.8]])
@@ -72,10 +72,12 @@ class RayData:
 
 @dataclass(frozen=True)
 class Steepness:
-    """What sampling must carry: steepest |∂w/∂ρ| and |∂w/∂θ| in waves, largest |f| in cycles per µm."""
+    """What sampling must carry, in waves: steepest |∂w/∂ρ|, |∂w/∂θ|, |∂w/∂ξ|, |∂w/∂η|; ``spread``: largest |f|, /µm."""
 
     radial: float
     angular: float
+    across: float
+    along: float
     spread: float
 
 
@@ -110,6 +112,12 @@ class FittedPencil:
     def on(self, even, odd):
         """Return phase, fx and fy where the even and odd terms have these values, (terms, points)."""
         return self.phase @ even[: len(self.phase)], self.fx @ odd, self.fy @ even[: len(self.fy)]
+
+    def at_points(self, xi, eta):
+        """Return phase and fx as `at` does, but by Horner's rule, at points of any shape."""
+        square = xi * xi
+        phase = evaluate(columns(self.phase, self.level.wave_order), square, eta)
+        return phase, xi * evaluate(columns(self.fx, self.level.map_order, True), square, eta)
 
     def jacobian(self, xi, eta) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (cycles/µm)²."""
@@ -220,7 +228,9 @@ def steepness(rays: RayData, xi, eta) -> Steepness:
     """
     radial = np.nanmax(np.abs(rays.x_um * rays.fx + rays.y_um * rays.fy) / np.hypot(xi, eta))
     angular = np.nanmax(np.abs(rays.x_um * rays.fy - rays.y_um * rays.fx))
-    return Steepness(float(radial), float(angular), float(np.nanmax(np.hypot(rays.fx, rays.fy))))
+    spread = np.sqrt(np.nanmax(rays.fx * rays.fx + rays.fy * rays.fy))
+    across, along = (spread * np.nanmax(np.abs(axis)) for axis in (rays.x_um, rays.y_um))
+    return Steepness(*(float(value) for value in (radial, angular, across, along, spread)))
 
 
 @lru_cache(maxsize=16)

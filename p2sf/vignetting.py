@@ -1,13 +1,14 @@
 """Pupil nodes that end at the clear apertures: the cat's eye of an oblique pencil, without a jagged edge.
 
 From a centre inside the clear part every direction is followed to the rim it meets (bisection on real rays), and
-Gauss–Legendre radii run to exactly there, so that no edge crosses a node's cell. The part must be star-shaped
-about its centre, as every overlap of rims seen through a lens is. What is lost: at the corners of the cat's
-eye the rim has a kink, and convergence in the number of directions is only second order there; the reference
-measures what that leaves and reports it.
+Gauss–Legendre radii run to exactly there. Where one rim takes over from another the outline has a corner; the
+directions are Gauss–Legendre nodes between corners, so that nothing kinks inside an interval. The part must be
+star-shaped about its centre, as every overlap of rims seen through a lens is.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -19,15 +20,19 @@ from p2sf.raytrace import hexapolar, pencil
 from p2sf.source import Source
 
 SEARCH_RINGS = 12
+SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/192 of the half circle may be missed
 BISECTIONS = 36  # the pupil radius to 2e-11
+CORNER_BISECTIONS = 26  # a corner's direction to 2e-10
+FEWEST_PER_ARC = 6
+GAUSS_EXCESS = 1.2  # Gauss–Legendre nodes per uniform direction for the same harmonics, π/2 less what the ends save
 
 
 @dataclass(frozen=True)
-class ClearShape:
-    """The clear part of the pupil: its centre on the η axis, and its radius per direction of the half circle."""
+class Outline:
+    """The clear part of the pupil: its centre on the η axis, and the corners' angles from +η, 0 and π included."""
 
     centre: float
-    radius: np.ndarray
+    corners: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -40,17 +45,74 @@ class ClearNodes:
     share: float
 
 
-def clear_nodes(counts, shape: ClearShape | None) -> ClearNodes:
-    """Return the nodes of (radial, angular) ``counts`` over the whole pupil, or over its clear part."""
-    if shape is None:
-        nodes = disc_nodes(*counts)
-        return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
+def whole_nodes(counts) -> ClearNodes:
+    """Return the nodes of (radial, angular) ``counts`` over the whole pupil."""
+    nodes = disc_nodes(*counts)
+    return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
+
+
+def clear_nodes(lens: Lens, source: Source, counts, aim: str = "paraxial") -> ClearNodes:
+    """Return nodes over the clear part of the pupil, about as dense as ``counts`` are over the whole.
+
+    Raises GeometryError when nothing is clear.
+    """
+    shape = outline(lens, source, aim)
+    theta, share = _directions(shape.corners, counts[1])
+    radius, _ = _edge(lens, source, aim, shape.centre, theta)
     square, weight = gauss_legendre(counts[0])
-    rho = np.sqrt((1 + square) / 2)[:, None] * shape.radius
-    theta = directions(counts[1])
-    area = (weight[:, None] * shape.radius**2 / counts[1]).ravel()
+    rho = np.sqrt((1 + square) / 2)[:, None] * radius
+    # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half, over the whole pupil's area π.
+    area = (weight[:, None] / 2 * radius**2 * share / np.pi).ravel()
     xi, eta = (rho * np.sin(theta)).ravel(), (shape.centre + rho * np.cos(theta)).ravel()
     return ClearNodes(xi, eta, area / area.sum(), float(area.sum()))
+
+
+def _directions(corners, count: int):
+    """Return angles and weights (sum π) of Gauss–Legendre nodes between corners, together some ``count``/2."""
+    angles, weights = [], []
+    for low, high in pairwise(corners):
+        number = max(FEWEST_PER_ARC, round(GAUSS_EXCESS * count / 2 * (high - low) / np.pi))
+        node, weight = gauss_legendre(number)
+        angles.append((low + high + (high - low) * node) / 2)
+        weights.append((high - low) / 2 * weight)
+    return np.concatenate(angles), np.concatenate(weights)
+
+
+@lru_cache(maxsize=16)
+def outline(lens: Lens, source: Source, aim: str = "paraxial") -> Outline:
+    """Return centre and corners of the clear part of the pupil. Raises GeometryError when nothing is clear."""
+    xi, eta = hexapolar(SEARCH_RINGS)
+    passed = pencil(lens, source, xi, eta, aim, clip=True).passed
+    if not passed.any():
+        raise GeometryError("the rims clip every ray of this field; leave clip off or reduce the field")
+    centre = float(eta[passed].mean())
+    if not pencil(lens, source, [0.0], [centre], aim, clip=True).passed.all():
+        raise GeometryError("the clear part of the pupil has no clear centre; leave clip off or reduce the field")
+    theta = (np.arange(SCAN) + 0.5) * (np.pi / SCAN)
+    rim = _edge(lens, source, aim, centre, theta)[1]
+    change = np.flatnonzero(np.diff(rim))
+    low, high, first = theta[change], theta[change + 1], rim[change]
+    for _ in range(CORNER_BISECTIONS if change.size else 0):
+        middle = (low + high) / 2
+        same = _edge(lens, source, aim, centre, middle)[1] == first
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return Outline(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
+
+
+def _edge(lens, source, aim, centre: float, theta):
+    """Return the clear radius along each angle, and the surface whose rim ends it (0: the pupil's own)."""
+    sine, cosine = np.sin(theta), np.cos(theta)
+    # The unit circle seen from the centre: |centre + r·direction| = 1.
+    outer = np.sqrt(1 - (centre * sine) ** 2) - centre * cosine
+    rays = pencil(lens, source, outer * sine, centre + outer * cosine, aim, clip=True)
+    whole, rim = rays.passed, rays.failed_surface.copy()
+    low, high = np.zeros_like(outer), outer.copy()
+    for _ in range(0 if whole.all() else BISECTIONS):
+        middle = (low + high) / 2
+        rays = pencil(lens, source, middle * sine, centre + middle * cosine, aim, clip=True)
+        low, high = np.where(rays.passed, middle, low), np.where(rays.passed, high, middle)
+        rim = np.where(rays.passed, rim, rays.failed_surface)
+    return np.where(whole, outer, low), np.where(whole, 0, rim)
 
 
 def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, aim: str) -> float | None:
@@ -62,35 +124,3 @@ def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, aim: str) -> floa
     if nodes.share == 1.0:
         return found.blur_um2
     return float(nodes.weight @ (1 / np.abs(found.jacobian(nodes.xi, nodes.eta))) / (np.pi * nodes.share))
-
-
-def directions(count: int) -> np.ndarray:
-    """Return the angles from +η of the half circle's share of ``count`` uniform directions."""
-    return (np.arange(count // 2) + 0.5) * (2 * np.pi / count)
-
-
-def clear_shape(lens: Lens, source: Source, count: int, aim: str = "paraxial") -> ClearShape:
-    """Return the clear part of the pupil along ``count`` directions. Raises GeometryError when nothing is clear."""
-    xi, eta = hexapolar(SEARCH_RINGS)
-    passed = pencil(lens, source, xi, eta, aim, clip=True).passed
-    if not passed.any():
-        raise GeometryError("the rims clip every ray of this field; leave clip off or reduce the field")
-    centre = float(eta[passed].mean())
-    sine, cosine = np.sin(directions(count)), np.cos(directions(count))
-    # The unit circle seen from the centre: |centre + r·direction| = 1.
-    outer = np.sqrt(1 - (centre * sine) ** 2) - centre * cosine
-    inner = np.zeros_like(outer)
-    if not _clear(lens, source, aim, inner, (sine, cosine, centre)).all():
-        raise GeometryError("the clear part of the pupil has no clear centre; leave clip off or reduce the field")
-    open_ = _clear(lens, source, aim, outer, (sine, cosine, centre))
-    limit, high = outer.copy(), outer.copy()
-    for _ in range(BISECTIONS):
-        middle = (inner + high) / 2
-        clear = _clear(lens, source, aim, middle, (sine, cosine, centre))
-        inner, high = np.where(clear, middle, inner), np.where(clear, high, middle)
-    return ClearShape(centre, np.where(open_, limit, inner))
-
-
-def _clear(lens, source, aim, radius, polar) -> np.ndarray:
-    sine, cosine, centre = polar
-    return pencil(lens, source, radius * sine, centre + radius * cosine, aim, clip=True).passed

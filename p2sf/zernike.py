@@ -6,6 +6,7 @@ angle and hence smooth at the centre (Born & Wolf 1999, §9.2.1; Abramowitz & St
 """
 
 from functools import lru_cache
+from math import comb, factorial
 
 import numpy as np
 
@@ -62,3 +63,70 @@ def _slopes(n: int, m: int, xi, eta, odd: bool):
 def _norm(n: int, m: int) -> float:
     """Return what gives a term unit mean square over the disc (Noll 1976, eq. 1)."""
     return float(np.sqrt((n + 1) * (2 if m else 1)))
+
+
+@lru_cache(maxsize=32)
+def powers(order: int, odd: bool = False) -> np.ndarray:
+    """Return every polynomial as powers, (terms, a, b): Σ c[a, b]·ξ²ᵃ·ηᵇ, times one more ξ if ``odd``."""
+    size = order // 2 + 1, order + 1
+    products = (_product(_radial_powers((n - m) // 2, m), _harmonic_powers(m, odd), size) for n, m in terms(order, odd))
+    return np.stack([_norm(n, m) * form for (n, m), form in zip(terms(order, odd), products, strict=True)])
+
+
+def _radial_powers(k: int, m: int) -> dict[tuple[int, int], float]:
+    """Return P_k^(0,m)(2ρ² − 1) in powers of (ξ², η) (Born & Wolf 1999, §9.2, eq. 5 with n = m + 2k)."""
+    out: dict[tuple[int, int], float] = {}
+    for j in range(k + 1):
+        scale = (-1) ** (k - j) * factorial(m + k + j) // (factorial(j) * factorial(k - j) * factorial(m + j))
+        for i in range(j + 1):
+            key = i, 2 * (j - i)
+            out[key] = out.get(key, 0) + scale * comb(j, i)
+    return out
+
+
+def _harmonic_powers(m: int, odd: bool) -> dict[tuple[int, int], float]:
+    """Return Re (η + iξ)^m, or Im/ξ, in powers of (ξ², η) (binomial theorem)."""
+    first = 1 if odd else 0
+    return {((k - first) // 2, m - k): (-1) ** (k // 2) * comb(m, k) for k in range(first, m + 1, 2)}
+
+
+def _product(one, two, size) -> np.ndarray:
+    out = np.zeros(size)
+    for (a, b), x in one.items():
+        for (c, d), y in two.items():
+            out[a + c, b + d] += x * y
+    return out
+
+
+def columns(coefficients: np.ndarray, order: int, odd: bool = False) -> list[list[float]]:
+    """Return Σ coefficient·term as plain numbers c[b][a] of ξ²ᵃ·ηᵇ, for `evaluate`."""
+    form = powers(order, odd)
+    flat = (coefficients @ form.reshape(len(form), -1)).reshape(form.shape[1:])
+    top = order - 1 if odd else order
+    return [column[: (top - b) // 2 + 1].tolist() for b, column in enumerate(flat.T[: top + 1])]
+
+
+def evaluate(form: list[list[float]], square: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    """Return Σ c[b][a]·squareᵃ·ηᵇ by Horner's rule: as fast as a fit at new points can be had."""
+    return evaluate_in_eta([in_square(column, square) for column in form], eta)
+
+
+def evaluate_in_eta(parts: list, eta: np.ndarray) -> np.ndarray:
+    """Return Σ parts[b]·ηᵇ, each part an array or a number."""
+    value = parts[-1] * np.ones_like(eta) if np.ndim(parts[-1]) == 0 else parts[-1].copy()
+    for part in parts[-2::-1]:
+        value *= eta
+        value += part
+    return value
+
+
+def in_square(column: list[float], square: np.ndarray):
+    """Return Σ column[a]·squareᵃ; a plain number if only column[0] is there."""
+    if len(column) == 1:
+        return column[0]
+    value = column[-1] * square
+    for c in column[-2:0:-1]:
+        value += c
+        value *= square
+    value += column[0]
+    return value
