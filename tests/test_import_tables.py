@@ -107,3 +107,19 @@ def test_what_is_no_lens_at_all(content, tmp_path):
     (tmp_path / "thing").write_text(content)
     with pytest.raises(LensFileError):
         load_lens(tmp_path / "thing")
+
+
+HUGE = {
+    "a file over 4 MB": (b"SURF 0\n" * 600_000, "over 4 MB"),
+    "a million lines": (b"1\n" * 300_000, "over 200000 lines"),
+    "an endless line": (b"S " + b"1" * 400_000, "line 1: the line has over 300000 characters"),
+    "lists without end": (b'{"surfaces":' + b"[" * 100_000, "nested too deep"),
+}
+
+
+@pytest.mark.parametrize("case", HUGE)
+def test_what_is_no_lens_is_refused_before_it_costs_anything(case, tmp_path):
+    content, said = HUGE[case]
+    (tmp_path / "huge.json").write_bytes(content)
+    with pytest.raises(LensFileError, match=said):
+        load_lens(tmp_path / "huge.json")

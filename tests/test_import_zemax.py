@@ -202,17 +202,17 @@ def test_a_wavelength_without_data_is_left_out_and_said():
     assert "40000 nm is outside the data of SCHOTT N-BK7" in found.report.of("caution")[0].text
 
 
-def test_a_file_over_eight_megabytes_is_refused(tmp_path):
+def test_a_file_over_four_megabytes_is_refused(tmp_path):
     path = tmp_path / "huge.zmx"
     path.write_bytes(b"SURF 0\n" * 1_200_000)
-    with pytest.raises(LensFileError, match="over 8 MB"):
+    with pytest.raises(LensFileError, match="over 4 MB"):
         load_lens(path)
 
 
 def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path):
     with zipfile.ZipFile(tmp_path / "bomb.zip", "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("bomb.zmx", b"\0" * 9_000_000)
-    with pytest.raises(LensFileError, match="over 8 MB"):
+    with pytest.raises(LensFileError, match="over 4 MB"):
         load_lens(tmp_path / "bomb.zip")
 
 
@@ -220,3 +220,15 @@ def test_the_report_lists_what_was_read_and_left_out():
     report = read_file(FOLDER / DOUBLET).report
     assert (report.format, report.encoding) == ("Zemax", "utf-8")
     assert "3 surfaces, stop on surface 1" in report.text and "solves" in report.text
+
+
+def test_a_thousand_surfaces_are_read_and_one_more_refused():
+    def rows(count):
+        return (
+            "SURF 0\n" + "".join(f"SURF {n}\n  DISZ 1\n  DIAM 5\n" for n in range(1, count + 1)) + f"SURF {count + 1}\n"
+        )
+
+    everything = (text_of(DOUBLET), rows(1000))
+    assert len(read(DOUBLET, everything).lens.surfaces) == 1000
+    with pytest.raises(LensFileError, match="line 3002: the file holds 1001 surfaces; at most 1000 are read"):
+        read(DOUBLET, (text_of(DOUBLET), rows(1001)))

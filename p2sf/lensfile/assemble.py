@@ -15,6 +15,7 @@ from p2sf.lensfile.resolve import GlassSources, resolve
 from p2sf.lensfile.sourcetext import LensText
 
 HIGHEST_ORDER = 40
+MOST_SURFACES = 1000
 PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
 FIELD_WORDS = {"object_height": "object heights", "image_height": "image heights", "real_image_height": "image heights"}
 
@@ -23,6 +24,9 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     """Return the lens of a file; LensFileError with line wherever it is no lens this program traces."""
     if not raw.surfaces:
         raise source.error("the file holds no lens surface between object and image", len(source.lines))
+    if len(raw.surfaces) > MOST_SURFACES:
+        where = raw.surfaces[MOST_SURFACES].line or len(source.lines)
+        raise source.error(f"the file holds {len(raw.surfaces)} surfaces; at most {MOST_SURFACES} are read", where)
     media = _media(raw, sources, notes, source)
     lens = _located(lambda: _bare_lens(raw, media), raw, source, None)
     lens = _located(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)

@@ -38,23 +38,32 @@ class Paraxial:
 
 def trace(lens: Lens, stop: int, wavelength_um: float) -> Paraxial:
     """Return the basis rays at one wavelength; GlassError outside a glass's range."""
-    index = [float(medium.index(wavelength_um)) for medium in lens.media]
+    index = _indices(lens, wavelength_um)
+    rows = _running_matrices(lens, index)
+    return Paraxial(rows[stop - 1][:2], rows[-1], index[0], index[-1])
+
+
+def _indices(lens: Lens, wavelength_um: float) -> list[float]:
+    known = {medium: float(medium.index(wavelength_um)) for medium in dict.fromkeys(lens.media)}
+    return [known[medium] for medium in lens.media]
+
+
+def _running_matrices(lens: Lens, index: list[float]) -> list[tuple[float, float, float, float]]:
+    """Return heights (a, b) at and reduced angles (c, d) behind every surface of both basis rays."""
     a, b, c, d = 1.0, 0.0, 0.0, 1.0
-    at_stop = (a, b)
+    rows = []
     for number, surface in enumerate(lens.surfaces, 1):
         power = surface.curvature * (index[number] - index[number - 1])
         c, d = c - power * a, d - power * b
-        if number == stop:
-            at_stop = (a, b)
-        last = (a, b, c, d)
+        rows.append((a, b, c, d))
         reduced = surface.thickness / index[number]
         a, b = a + reduced * c, b + reduced * d
-    return Paraxial(at_stop, last, index[0], index[-1])
+    return rows
 
 
 def limiting_rim(lens: Lens, wavelength_um: float) -> tuple[int, float]:
     """Return the surface whose rim limits the cone from infinity, and that rim in mm (Pieroni et al. 2015, qSIF)."""
-    heights = [abs(trace(lens, n, wavelength_um).stop[0]) for n in range(1, len(lens.surfaces) + 1)]
+    heights = [abs(row[0]) for row in _running_matrices(lens, _indices(lens, wavelength_um))]
     filled = [height / surface.semi_diameter for height, surface in zip(heights, lens.surfaces, strict=True)]
     if not any(isfinite(surface.semi_diameter) for surface in lens.surfaces):
         raise GeometryError("the file states no aperture, no stop and no semi-diameter; add one of them")

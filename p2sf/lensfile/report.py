@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 Kind = Literal["read", "substituted", "ignored", "caution"]
+MOST_NOTES = 500
 TITLES = {
     "read": "read",
     "substituted": "substituted",
@@ -53,15 +54,19 @@ class ImportReport:
 
 @dataclass
 class Notebook:
-    """Collects notes while a file is being read."""
+    """Collects notes while a file is being read; a file of nonsense does not fill the memory."""
 
-    notes: list[Note] = field(default_factory=list)
+    seen: dict[Note, None] = field(default_factory=dict)
+
+    @property
+    def notes(self) -> list[Note]:
+        """Return the notes in the order they came."""
+        return list(self.seen)
 
     def add(self, kind: Kind, text: str, surface: int | None = None, line: int | None = None) -> None:
         """Add a note once; the same sentence about the same surface is not repeated."""
-        note = Note(kind, text, surface, line)
-        if note not in self.notes:
-            self.notes.append(note)
+        if len(self.seen) < MOST_NOTES:
+            self.seen[Note(kind, text, surface, line)] = None
 
 
 def note_vignetting(notes: Notebook, factors) -> None:

@@ -2,12 +2,15 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from p2sf.errors import LensFileError
 
 # A prescription of a thousand surfaces is 300 kB, the largest glass catalogue 1.2 MB.
-LARGEST_BYTES = 8_000_000
+LARGEST_BYTES = 4_000_000
+MOST_LINES = 200_000
+LONGEST_LINE = 300_000
 BYTE_ORDER_MARKS = (("utf-8-sig", b"\xef\xbb\xbf"), ("utf-16", b"\xff\xfe"), ("utf-16", b"\xfe\xff"))
 
 
@@ -19,7 +22,7 @@ class LensText:
     encoding: str
     text: str
 
-    @property
+    @cached_property
     def lines(self) -> tuple[str, ...]:
         """Return the lines; only line feeds and carriage returns end one, as every editor counts them."""
         return tuple(self.text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
@@ -32,7 +35,7 @@ class LensText:
 def read_source(path) -> LensText:
     """Return the text of a lens file, or of the one lens inside a zip archive.
 
-    Raises LensFileError for a missing or unreadable file, one of over 8 MB, and an archive without a lens.
+    Raises LensFileError for a missing or unreadable file, one of over 4 MB, and an archive without a lens.
     """
     return source_of(read_bytes(path), str(path))
 
@@ -46,11 +49,21 @@ def source_of(data: bytes, path: str) -> LensText:
     if "\0" in text:
         line = text[: text.index("\0")].count("\n") + 1
         raise LensFileError("the file is not text but binary; give the lens as a text file", path, line)
-    return LensText(path, encoding, text)
+    source = LensText(path, encoding, text)
+    _check_lines(source)
+    return source
+
+
+def _check_lines(source: LensText) -> None:
+    if len(source.lines) > MOST_LINES:
+        raise source.error(f"the file has over {MOST_LINES} lines; a prescription is far smaller", MOST_LINES)
+    long = next((n for n, line in enumerate(source.lines, 1) if len(line) > LONGEST_LINE), None)
+    if long:
+        raise source.error(f"the line has over {LONGEST_LINE} characters; this is no lens file", long)
 
 
 def read_bytes(path) -> bytes:
-    """Return the bytes of a file; LensFileError when it is missing, a folder, or over 8 MB."""
+    """Return the bytes of a file; LensFileError when it is missing, a folder, or over 4 MB."""
     try:
         with Path(path).open("rb") as stream:
             data = stream.read(LARGEST_BYTES + 1)
