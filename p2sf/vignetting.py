@@ -24,7 +24,7 @@ SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/
 BISECTIONS = 36  # the pupil radius to 2e-11
 CORNER_BISECTIONS = 26  # a corner's direction to 2e-10
 FEWEST_PER_ARC = 6
-GAUSS_EXCESS = 1.2  # Gauss–Legendre nodes per uniform direction for the same harmonics, π/2 less what the ends save
+GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
 
 @dataclass(frozen=True)
