@@ -155,3 +155,13 @@ def test_spans():
     assert even_span("400:700:4", "x").tolist() == [400, 500, 600, 700]
     with pytest.raises(RequestError, match="x is a:b:3"):
         span("a:b:3", "x")
+
+
+def test_a_fitted_database_is_built_and_rendered(said, tmp_path):
+    path = tmp_path / "fitted.npz"
+    grid = ("--depths-mm", "5000:inf:3", "--fields-deg", "10:14:3", "--wavelengths-nm", "540:560:3")
+    answer = json.loads(said("database", "build", "cooke_triplet", *grid, "--method", "fitted", "-o", path, "--json"))
+    assert answer["errors_waves"]["phase"] < 1e-3
+    shown = json.loads(said("psf", path, "--field-deg", 12, "--wavelength-nm", 550, "--pixels", 16, "--json"))
+    assert shown["method"] == "fitted"
+    assert shown["rays"] == 0

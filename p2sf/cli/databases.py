@@ -135,6 +135,10 @@ def build(
 
 def _built(setup, space: Space, kind: Kind):
     """Return the coefficients of a setup over a space."""
+    if kind.method == "fitted":
+        from p2sf.fitseries import build_fitted
+
+        return build_fitted(setup.lens, space, setup.stop)
     from p2sf.database import build_database
 
     return build_database(setup.lens, space, kind.interpolant, setup.stop)

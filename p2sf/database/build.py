@@ -14,8 +14,8 @@ from p2sf.pupils import Stop, find_stop
 from p2sf.seidel import coefficients
 
 INTERPOLANTS = ("exact", *RULES)
-# A smooth glass needs some 20 terms over the visible; what still departs at 160 is not smooth.
-TERMS = (20, 40, 80, 160)
+# A smooth glass needs some 20 terms over the visible; what still departs at 192 is not smooth.
+TERMS = (24, 48, 96, 192)
 TOLERANCE = 1e-12
 ROUND_OFF = 1e-13
 HELD_OUT = 64

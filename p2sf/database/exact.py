@@ -38,6 +38,7 @@ LENGTHS = {
     "image_index": 1,
 }
 NUMBERS = sum(LENGTHS.values())
+PUPIL = NUMBERS - 2
 T_NODES = np.cos(np.pi * (np.arange(5) + 0.5) / 5)
 
 
@@ -75,6 +76,11 @@ class ExactDatabase:
         numbers = self.series.T @ chebyshev_terms(self._reduced(wavelength.ravel()), len(self.series))
         numbers = numbers.reshape(NUMBERS, *wavelength.shape)
         return self._evaluate(numbers, vergence(depth_mm), np.asarray(field_slope, dtype=float), wavelength)
+
+    def pupil_mm(self, wavelength_um: float) -> float:
+        """Return where the entrance pupil stands, mm from the first vertex."""
+        terms = chebyshev_terms(np.asarray(self._reduced(wavelength_um)), len(self.series))
+        return float(terms @ self.series[:, PUPIL])
 
     @cached_property
     def _orders(self):
@@ -117,7 +123,7 @@ def chebyshev_terms(x: np.ndarray, count: int) -> np.ndarray:
     terms[0] = 1
     terms[1:2] = x
     for k in range(2, count):
-        np.multiply(2 * x, terms[k - 1], out=terms[k])
+        np.multiply(2 * x, terms[k - 1], out=terms[k, ...])
         terms[k] -= terms[k - 2]
     return terms
 

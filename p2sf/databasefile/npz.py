@@ -11,11 +11,14 @@ from p2sf.database.grid import PER_WAVELENGTH, STORED, Grid
 from p2sf.databasefile.provenance import Stored, provenance
 from p2sf.databasefile.sealed import opened, read_sealed, sealed, write_sealed
 from p2sf.errors import DatabaseError
+from p2sf.fitdatabase import FittedDatabase
 from p2sf.lens import Lens
 from p2sf.pupils import Stop
+from p2sf.rayfit import Level
 
 SCHEMA = 1
 MARK = "p2sf_database"
+LEVEL = ("wave_order", "map_order", "radii", "directions")
 
 
 def save_database(database, lens: Lens, path, stop: Stop | None = None) -> Path:
@@ -98,6 +101,21 @@ def _unpack_grid(space: Space, arrays, meta) -> GridDatabase:
     return GridDatabase(space, grid, meta["interpolant"], meta["errors_waves"])
 
 
+def _pack_fitted(database: FittedDatabase):
+    arrays, numbers = _pack_exact(database.seidel)
+    level = [getattr(database.level, name) for name in LEVEL]
+    numbers = {**numbers, "level": level, "seidel_errors_waves": database.seidel.errors}
+    return {**arrays, "fits": database.series}, {**numbers, "residual_waves": database.residual_waves}
+
+
+def _unpack_fitted(space: Space, arrays, meta) -> FittedDatabase:
+    numbers = meta["numbers"]
+    level = Level(*(int(count) for count in numbers["level"]))
+    fits = _shaped(arrays["fits"], (None, None, None, level.numbers + 1))
+    seidel = _unpack_exact(space, arrays, {**meta, "errors_waves": numbers["seidel_errors_waves"]})
+    return FittedDatabase(seidel, fits, level, meta["errors_waves"], numbers["residual_waves"])
+
+
 def _shaped(array: np.ndarray, shape: tuple) -> np.ndarray:
     """Return an array as it is, KeyError unless it has the shape its axes ask for."""
     if array.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, array.shape, strict=True)):
@@ -105,4 +123,8 @@ def _shaped(array: np.ndarray, shape: tuple) -> np.ndarray:
     return array
 
 
-_KINDS = {"ExactDatabase": (_pack_exact, _unpack_exact), "GridDatabase": (_pack_grid, _unpack_grid)}
+_KINDS = {
+    "ExactDatabase": (_pack_exact, _unpack_exact),
+    "GridDatabase": (_pack_grid, _unpack_grid),
+    "FittedDatabase": (_pack_fitted, _unpack_fitted),
+}
