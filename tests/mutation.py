@@ -1,0 +1,76 @@
+"""Do the tests notice when the formulas change? Mutation testing by mutmut, in a copy of the project.
+
+``python -m tests.mutation [module …]`` (needs ``pip install mutmut``; by default gaussian, pupils, seidel, wavefront,
+psf and fitted) prints for each module how many mutants its tests kill, and every survivor as a difference. The
+working tree is not touched.
+"""
+
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+FIRST_ORDER = ("tests/test_gaussian.py", "tests/test_pupils.py", "tests/test_seidel.py", "tests/extremes/test_named.py")
+TESTS = {
+    "gaussian": FIRST_ORDER,
+    "pupils": FIRST_ORDER,
+    "seidel": FIRST_ORDER,
+    "wavefront": ("tests/test_wavefront.py", "tests/test_quadrature.py"),
+    "psf": ("tests/test_psf.py", "tests/extremes/test_psf_extremes.py"),
+    "fitted": ("tests/test_fitted.py",),
+}
+SETTINGS = """[mutmut]
+source_paths=p2sf
+only_mutate=p2sf/{module}.py
+pytest_add_cli_args_test_selection={tests}
+pytest_add_cli_args=
+    -p
+    no:cacheprovider
+also_copy=
+    lenses
+    app
+    pyproject.toml
+    tests
+"""
+
+
+def mutate(module: str, folder: Path) -> Counter:
+    """Return how many mutants of a module were killed or survived, and print the survivors."""
+    for name in ("p2sf", "app", "tests", "lenses"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "pyproject.toml", folder)
+    tests = "".join(f"\n    {path}" for path in TESTS[module])
+    (folder / "setup.cfg").write_text(SETTINGS.format(module=module, tests=tests))
+    run("run", "--max-children", "1", folder=folder)
+    states = dict(
+        line.strip().rsplit(": ", 1)
+        for line in run("results", "--all", "true", folder=folder).splitlines()
+        if ": " in line
+    )
+    for name, state in states.items():
+        if state not in ("killed", "timeout"):
+            print(f"--- {state}\n{run('show', name, folder=folder)}", flush=True)
+    return Counter(states.values())
+
+
+def run(*arguments: str, folder: Path) -> str:
+    result = subprocess.run([sys.executable, "-m", "mutmut", *arguments], cwd=folder, capture_output=True, text=True)
+    if result.returncode and arguments[0] == "run":
+        print(result.stdout[-3000:], result.stderr[-3000:])
+    return result.stdout
+
+
+def main() -> None:
+    for module in sys.argv[1:] or TESTS:
+        with tempfile.TemporaryDirectory() as folder:
+            found = mutate(module, Path(folder))
+        killed = found["killed"] + found["timeout"]
+        share = 100 * killed / max(1, found.total())
+        print(f"{module}: {killed} of {found.total()} mutants killed ({share:.1f} %), {dict(found)}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
