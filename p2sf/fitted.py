@@ -16,7 +16,7 @@ from p2sf.source import Source
 from p2sf.transform import sum_plane_waves
 from p2sf.zernike import basis
 
-__all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf"]
+__all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "summed"]
 
 
 def fitted_psf(
@@ -36,20 +36,24 @@ def fitted_psf(
     """
     started = perf_counter()
     found = fit(lens, source, numbers, aim)
+    intensity, words = summed(found, pixels, pixel_um, quality)
+    tolerance = SETTLED_TOLERANCE if quality == "settled" else None
+    made = Made("fitted", found.numbers, found.rays, words, started, tolerance)
+    blur = found.blur_um2 if resolved(found.steepness.spread, pixel_um) else None
+    return psf_from_intensity(intensity, pixel_um, wavelength_um, blur, made)
+
+
+def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, str]:
+    """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and its nodes in words."""
     nodes = rows_for(found, pixels, pixel_um, quality)
     dtype = np.float64 if quality == "settled" else np.float32
     if nodes is None:
         counts = counts_for(found.steepness, pixels, pixel_um)
         intensity = fitted_intensity(found, counts, pixels, pixel_um, dtype)
-        words = f"{counts[0]} radii × {counts[1]} directions, {intensity.dtype.name}"
-    else:
-        phase, fx = found.at_points(nodes.xi, nodes.eta)
-        intensity = nodes.intensity(phase, fx, pixels, pixel_um, dtype)
-        words = f"{nodes.words}, {intensity.dtype.name}"
-    tolerance = SETTLED_TOLERANCE if quality == "settled" else None
-    made = Made("fitted", found.numbers, found.rays, words, started, tolerance)
-    blur = found.blur_um2 if resolved(found.steepness.spread, pixel_um) else None
-    return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made)
+        return intensity, f"{counts[0]} radii × {counts[1]} directions, {intensity.dtype.name}"
+    phase, fx = found.at_points(nodes.xi, nodes.eta)
+    intensity = nodes.intensity(phase, fx, pixels, pixel_um, dtype)
+    return intensity, f"{nodes.words}, {intensity.dtype.name}"
 
 
 def fitted_intensity(found: FittedPencil, counts, pixels: int, pixel_um: float, dtype=np.float64) -> np.ndarray:
