@@ -5,7 +5,7 @@ the field slope: under h → −h, η → −η nothing changes, so each coeffic
 is h times a function of h². They are kept as optical path (times λ), which is smoother than waves.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from time import perf_counter
 
@@ -15,11 +15,11 @@ from p2sf.conventions import vergence
 from p2sf.database.exact import ExactDatabase, chebyshev_terms
 from p2sf.database.render import Sampling, critical_pixel_um
 from p2sf.database.space import Space
-from p2sf.fitted import fitted_intensity
+from p2sf.fitted import summed
 from p2sf.psf import Psf, suitable_pixel_um
 from p2sf.quadrature import SETTLED_TOLERANCE
 from p2sf.rayfit import FittedPencil, Level, Steepness, level_rays
-from p2sf.rendering import Made, counts_for, psf_from_intensity
+from p2sf.rendering import Made, psf_from_intensity
 from p2sf.seidel import Coefficients
 from p2sf.source import Source
 from p2sf.zernike import basis, gradient, terms
@@ -64,9 +64,10 @@ class FittedDatabase:
     def fit_at(self, source: Source) -> FittedPencil:
         """Return the fitted pencil of one source, looked up and not traced; DatabaseError outside the space."""
         phase, fx, fy, _ = split(self.level, self.numbers_at(source))
-        return FittedPencil(
-            self.level, phase, fx, fy, self.residual_waves, steepness(self.level, phase, fx, fy), np.nan, 0
-        )
+        steep = steepness(self.level, phase, fx, fy)
+        known = {"level": self.level, "phase": phase, "fx": fx, "fy": fy, "steepness": steep, "rays": 0}
+        known["residual_waves"] = self.residual_waves
+        return FittedPencil(**{field.name: known.get(field.name, np.nan) for field in fields(FittedPencil)})
 
     def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:
         """Return the PSF of one source, from looked-up numbers; DatabaseError, SamplingError."""
@@ -74,10 +75,8 @@ class FittedDatabase:
         found = self.fit_at(source)
         six = self.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
         pixel_um = pixel_um or float(suitable_pixel_um(six, pixels))
-        counts = counts_for(found.steepness, pixels, pixel_um)
-        words = f"{counts[0]} radii × {counts[1]} directions"
+        intensity, words = summed(found, pixels, pixel_um)
         made = Made("fitted", found.numbers, 0, words, started, SETTLED_TOLERANCE)
-        intensity = fitted_intensity(found, counts, pixels, pixel_um)
         return psf_from_intensity(intensity, pixel_um, source.wavelength_um, None, made)
 
     def rendered(self, points, sampling: Sampling, dtype=np.float32) -> np.ndarray:
@@ -86,9 +85,8 @@ class FittedDatabase:
         axes = np.broadcast_arrays(*points)
         out = np.empty((axes[0].size, pixels, pixels), dtype)
         for k, point in enumerate(zip(*(x.ravel().tolist() for x in axes), strict=True)):
-            found = self.fit_at(Source(*point))
-            values = fitted_intensity(found, counts_for(found.steepness, pixels, pixel_um), pixels, pixel_um, dtype)
-            np.divide(values, values.sum(dtype=float), out=out[k])
+            values, _ = summed(self.fit_at(Source(*point)), pixels, pixel_um, sampling.quality)
+            out[k] = values / values.sum(dtype=float)
         return out.reshape(*axes[0].shape, pixels, pixels)
 
     @cached_property

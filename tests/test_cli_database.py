@@ -11,6 +11,7 @@ from p2sf.databasefile import load_database
 from p2sf.errors import RequestError
 from p2sf.export import read_psf
 from p2sf.stack import open_stack
+from tests.test_databasefile import damaged
 
 GRID = ("--depths-mm", "500:inf:5", "--fields-deg", "0:14:3", "--wavelengths-nm", "450:650:3")
 
@@ -165,3 +166,13 @@ def test_a_fitted_database_is_built_and_rendered(said, tmp_path):
     shown = json.loads(said("psf", path, "--field-deg", 12, "--wavelength-nm", 550, "--pixels", 16, "--json"))
     assert shown["method"] == "fitted"
     assert shown["rays"] == 0
+
+
+def test_a_thousand_corrupted_files_are_refused_with_code_2_and_one_sentence(refused, file, tmp_path):
+    """The same random damage as in test_databasefile, through the command line."""
+    whole, rng, broken = file.read_bytes(), np.random.default_rng(7), tmp_path / "broken.npz"
+    for _ in range(1000):
+        content = damaged(whole, rng)
+        if content != whole:
+            broken.write_bytes(content)
+            assert str(broken) in refused("database", "info", broken)

@@ -63,6 +63,7 @@ def test_csv_has_every_node_and_its_coefficients(file, lens, tmp_path):
     assert json.loads(lines[1].removeprefix("# meta: "))["lens"]["name"] == "double_gauss_28"
 
 
+@pytest.mark.filterwarnings("error")
 def test_fits_is_verified_by_astropy(cube, lens, tmp_path):
     from astropy.io import fits
 

