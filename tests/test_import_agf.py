@@ -5,7 +5,7 @@ import pytest
 
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass import catalogue_glass
-from p2sf.lensfile.agf import FormulaGlass, read_agf
+from p2sf.lensfile.agf import Catalogue, FormulaGlass, read_agf
 from p2sf.lensfile.agfformulas import refractive_index
 from p2sf.lensfile.importing import import_lens
 from tests.imports import FOLDER, read, text_of
@@ -79,6 +79,16 @@ def test_a_catalogue_the_file_names_beats_the_built_in_table():
 def test_the_order_of_the_file_counts():
     found = read(DOUBLET, ("GCAT SCHOTT", "GCAT SCHOTT OWN"), ("N-BK7", "HOUSE1"), catalogues=[own()])
     assert found.lens.surfaces[0].medium.name == "HOUSE1"
+
+
+@pytest.mark.parametrize(("order", "index"), [("ONE TWO", 1.6), ("TWO ONE", 1.7)])
+def test_of_two_catalogues_the_one_the_file_names_first_counts(order, index):
+    catalogues = [
+        Catalogue(name, f"{name}.agf", {"N-BK7": FormulaGlass("N-BK7", 5, (n,), (0.3, 2.0))})
+        for name, n in (("TWO", 1.7), ("ONE", 1.6))
+    ]
+    lens = read(DOUBLET, ("GCAT SCHOTT", f"GCAT {order} SCHOTT"), catalogues=catalogues).lens
+    assert float(lens.surfaces[0].medium.index(0.55)) == pytest.approx(index)
 
 
 def test_a_glass_that_contradicts_its_own_name_line_is_not_used():

@@ -47,6 +47,11 @@ def test_the_image_f_number_is_the_working_one_of_a_finite_object():
     assert float(working_f_number(lens, 254.0, 0.55)) == pytest.approx(4.0, rel=1e-10)
 
 
+def test_the_image_f_number_of_an_object_at_infinity_is_the_f_number():
+    aperture = read(DOUBLET, ("EPD   20.0", "FNO 5")).lens.aperture
+    assert (aperture.kind, aperture.value) == ("f_number", 5.0)
+
+
 def test_image_heights_of_a_finite_object_become_angles():
     """The chief ray of the field meets the paraxial image plane at the stated height."""
     lens = load_lens(FOLDER / PRIVATE)

@@ -38,6 +38,15 @@ def test_a_stop_in_a_medium_does_not_end_it():
     assert [s.medium.label for s in wet.lens.surfaces[3:5]] == ["1.336", "1.336"]
 
 
+def test_index_0_behind_a_curved_surface_is_air_and_said():
+    found = read(
+        TRIPLET,
+        ('"radius": 7331.288, "thickness": 5.86, "ior": 1.0', '"radius": 7331.288, "thickness": 5.86, "ior": 0'),
+    )
+    assert found.lens.stop_surface == 5 and found.lens.surfaces[1].medium.label == "1.0"
+    assert "index 0 behind a curved surface" in found.report.text
+
+
 def test_spectral_indices_are_a_table():
     medium = load_lens(FOLDER / TRIPLET).surfaces[2].medium
     assert medium.range_um == (0.4, 0.7) and float(medium.index(0.55)) == pytest.approx(1.675, abs=1e-12)

@@ -81,7 +81,8 @@ def test_semicolons_allow_a_decimal_comma(tmp_path):
         "radius;thickness;nd;vd;diameter;stop\n50,5;4,0;1,5168;64,17;20;1\nplano;90;;;20;\n"
     )
     lens = load_lens(tmp_path / "komma.csv")
-    assert lens.surfaces[0].radius == 50.5 and lens.surfaces[0].medium.vd == 64.17 and lens.surfaces[1].radius == inf
+    assert lens.surfaces[0].radius == 50.5 and lens.surfaces[0].medium.vd == 64.17
+    assert lens.surfaces[0].semi_diameter == 10.0 and lens.surfaces[1].radius == inf
 
 
 TABLE_REFUSED = {
@@ -107,19 +108,3 @@ def test_what_is_no_lens_at_all(content, tmp_path):
     (tmp_path / "thing").write_text(content)
     with pytest.raises(LensFileError):
         load_lens(tmp_path / "thing")
-
-
-HUGE = {
-    "a file over 4 MB": (b"SURF 0\n" * 600_000, "over 4 MB"),
-    "a million lines": (b"1\n" * 300_000, "over 200000 lines"),
-    "an endless line": (b"S " + b"1" * 400_000, "line 1: the line has over 300000 characters"),
-    "lists without end": (b'{"surfaces":' + b"[" * 100_000, "nested too deep"),
-}
-
-
-@pytest.mark.parametrize("case", HUGE)
-def test_what_is_no_lens_is_refused_before_it_costs_anything(case, tmp_path):
-    content, said = HUGE[case]
-    (tmp_path / "huge.json").write_bytes(content)
-    with pytest.raises(LensFileError, match=said):
-        load_lens(tmp_path / "huge.json")

@@ -78,6 +78,8 @@ def aperture(raw: RawLens, rays: Paraxial, keep: bool) -> Aperture:
     it is stated at a finite distance, it becomes the stop's semi-diameter.
     """
     kind, value = raw.aperture
+    if kind == "image_f_number" and not isfinite(raw.object_distance):
+        kind = "f_number"  # for an object at infinity the two are one
     if kind == "stop_semi_diameter":
         return Aperture(kind, value * raw.unit_mm)
     if kind == "entrance_pupil_diameter" and keep:
@@ -99,7 +101,7 @@ def _marginal_height(kind: str, value: float, raw: RawLens, rays: Paraxial) -> f
     distance = raw.object_distance * raw.unit_mm
     if kind == "entrance_pupil_diameter":
         return value * raw.unit_mm / 2 * a
-    if kind == "f_number" or (kind == "image_f_number" and not isfinite(distance)):
+    if kind == "f_number":
         return a / (2 * value * c) if c else inf
     if kind == "object_na" and not isfinite(distance):
         raise GeometryError("an object at infinity has no numerical aperture; state the pupil's diameter or f-number")

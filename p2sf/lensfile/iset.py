@@ -106,6 +106,8 @@ def _surface(values: dict, count: int, line: int, source: LensText, notes: Noteb
     surface.conic = one("conic_constant", 0.0)
     surface.semi_diameter = one("semi_aperture", inf) or inf
     surface.aspheric = dict(zip(range(4, 44, 2), _coefficients(values, count, line, source), strict=False))
+    if radius and values.get("ior") == 0:
+        notes.add("caution", "index 0 behind a curved surface is read as air, as PBRT does", count, line)
     surface.glass = _glass(values.get("ior", 1.0), count, line, source)
     return surface
 
