@@ -16,7 +16,7 @@ from p2sf.source import Source
 from p2sf.transform import sum_plane_waves
 from p2sf.zernike import basis
 
-__all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "summed"]
+__all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "psf_of_fit", "summed"]
 
 
 def fitted_psf(
@@ -35,12 +35,16 @@ def fitted_psf(
     Raises GeometryError where rays do not reach the sensor, SamplingError for a window no nodes can carry.
     """
     started = perf_counter()
-    found = fit(lens, source, numbers, aim)
-    intensity, words = summed(found, pixels, pixel_um, quality)
+    return psf_of_fit(fit(lens, source, numbers, aim), source.wavelength_um, (pixels, pixel_um), quality, started)
+
+
+def psf_of_fit(found: FittedPencil, wavelength_um: float, window, quality: str, started: float) -> Psf:
+    """Return the PSF that a fit describes in a window (pixels, pixel_um); ``started`` is a `perf_counter` reading."""
+    intensity, words = summed(found, *window, quality)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     made = Made("fitted", found.numbers, found.rays, words, started, tolerance)
-    blur = found.blur_um2 if resolved(found.steepness.spread, pixel_um) else None
-    return psf_from_intensity(intensity, pixel_um, wavelength_um, blur, made)
+    blur = found.blur_um2 if resolved(found.steepness.spread, window[1]) else None
+    return psf_from_intensity(intensity, window[1], wavelength_um, blur, made)
 
 
 def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, str]:
