@@ -11,13 +11,13 @@ DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| =
 WIDE_DEG, FAST_NA = 25.0, 0.30  # tan and sin differ by 10 % at 25°; an NA of 0.3 is f/1.7
 
 
-def warnings(setting: Setting, method: str, lost_rays: int = 0) -> tuple[str, ...]:
-    """Return the sentences that hold for this setting and method, most important first."""
+def warnings(setting: Setting, exact: bool, lost_rays: int = 0) -> tuple[str, ...]:
+    """Return the sentences that hold for this setting, with or without exact rays, most important first."""
     found = [
         _image_at_infinity(setting),
         _lost(lost_rays),
-        _defocus(setting) if method == "seidel" else None,
-        _paraxial(setting) if method == "seidel" else None,
+        None if exact else _defocus(setting),
+        None if exact else _paraxial(setting),
         setting.stop.warning,
     ]
     return tuple(_sentence(text) for text in found if text)

@@ -9,16 +9,16 @@ import numpy as np
 from app.advice import warnings
 from app.layout import Layout, layout
 from app.pupil import PupilMap, disc, dominant, pupil_map
-from app.scales import nice
+from app.rung import rendered
 from app.setting import Setting, setting
 from app.state import State
 from p2sf.measures import airy_radius_um
-from p2sf.psf import Psf, seidel_psf, suitable_pixel_um
+from p2sf.psf import Psf
+from p2sf.raytrace import opd_map
 from p2sf.wavefront import wavefront
 
 PUPIL_SAMPLES = 96
-PSF_PIXELS = 64
-WINDOWS = (1, 1.5, 2, 3, 4, 5, 6, 8)
+RAY_SAMPLES = 64  # across the pupil where every sample is a traced ray
 
 
 @dataclass(frozen=True)
@@ -52,21 +52,21 @@ def live(state: State, quality: str = "settled", views: Mapping[str, View] | Non
     set_up = setting(state)
     drawn = layout(set_up)
     placed = perf_counter()
-    psf = render(state, set_up, quality)
-    rendered = perf_counter()
+    made = rendered(state, set_up, quality)
+    psf, finished = made.psf, perf_counter()
     lost = sum(not ray.passed for ray in drawn.rays)
     answer = Live(
         state=state,
         setting=set_up,
         layout=drawn,
-        pupil=pupil(set_up),
+        pupil=pupil(set_up, made.exact),
         psf=psf,
         quality=quality,
         airy_radius_um=float(airy_radius_um(set_up.source.wavelength_um, set_up.coefficients.na)),
         dominant=dominant(set_up.coefficients),
-        warnings=warnings(set_up, psf.method, lost),
-        why="",
-        milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (rendered - placed)},
+        warnings=warnings(set_up, made.exact, lost),
+        why=made.why,
+        milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (finished - placed)},
     )
     return with_views(answer, views or {}, begun)
 
@@ -78,18 +78,9 @@ def with_views(answer: Live, views: Mapping[str, View], begun: float) -> Live:
     return replace(answer, views=results, milliseconds={**answer.milliseconds, "all": total})
 
 
-def render(state: State, set_up: Setting, quality: str) -> Psf:
-    """Return the PSF by the state's method, in the window that suits its blur."""
-    pixel = window_um(set_up) / PSF_PIXELS
-    return seidel_psf(set_up.coefficients, PSF_PIXELS, pixel, quality)
-
-
-def window_um(set_up: Setting) -> float:
-    """Return the width of the shown window in µm: a round number, so that axes stand still while sliders move."""
-    return nice(float(suitable_pixel_um(set_up.coefficients, PSF_PIXELS)) * PSF_PIXELS, WINDOWS)
-
-
-def pupil(set_up: Setting) -> PupilMap:
-    """Return the Seidel wavefront over the pupil."""
+def pupil(set_up: Setting, exact: bool) -> PupilMap:
+    """Return the wavefront that made the PSF: of the six coefficients for seidel, of exact rays for the other rungs."""
     xi, eta, inside = disc(PUPIL_SAMPLES)
-    return pupil_map(np.asarray(wavefront(set_up.coefficients, xi, eta)), inside, "seidel")
+    if not exact:
+        return pupil_map(np.asarray(wavefront(set_up.coefficients, xi, eta)), inside, "six coefficients")
+    return pupil_map(opd_map(set_up.lens, set_up.source, RAY_SAMPLES), disc(RAY_SAMPLES)[2], "exact rays")

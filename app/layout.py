@@ -12,7 +12,7 @@ from p2sf.pupils import find_stop, paraxial_rays
 from p2sf.raytrace import Status, pupil_rays, trace
 
 PROFILE_POINTS = 33
-REACH = 5.0  # rays from afar begin so many lens lengths before the lens, outside any window
+REACH = 3.0  # rays from afar begin so many lens lengths before the lens, outside any window
 
 
 @dataclass(frozen=True)

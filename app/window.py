@@ -11,6 +11,7 @@ from app.actions import Actions
 from app.bars import Banner, StatusLine, TopBar
 from app.compute import Live
 from app.controls import Controls
+from app.measuring import Measuring
 from app.panels import REGISTRY, Panel, build, view_of
 from app.state import State
 from app.store import Store
@@ -22,9 +23,12 @@ MAIN = tuple(entry.key for entry in REGISTRY if entry.place == "main")
 
 
 class Window(QMainWindow):
-    """Top bar, controls, panels, status line; ``refresh`` is the whole live path."""
+    """Top bar, controls, panels, status line; ``refresh`` is the whole live path.
 
-    def __init__(self, state: State | None = None):
+    ``measured`` False leaves the accuracy of the picture unmeasured: no background work.
+    """
+
+    def __init__(self, state: State | None = None, measured: bool = True):
         super().__init__()
         self.setWindowTitle("P2SF Explorer")
         self.setAcceptDrops(True)
@@ -36,7 +40,7 @@ class Window(QMainWindow):
         self.frame_ms: float | None = None
         self._theme = None
         self._lay_out()
-        self.actions = Actions(self)
+        self.actions, self.measuring = Actions(self), Measuring(self, measured)
         self.store.changed.connect(self.refresh)
         self.store.refused.connect(self.refuse)
         self.tabs.currentChanged.connect(self._on_tab)
@@ -84,6 +88,7 @@ class Window(QMainWindow):
         for key in self._visible():
             self.panels[key].show(live)
         self.status.show_live(live, self.frame_ms)
+        self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._painted(begun))
 
     def refuse(self, sentence: str) -> None:
@@ -137,6 +142,11 @@ class Window(QMainWindow):
         self.setStyleSheet(stylesheet(theme))
         for part in (self.controls, self.status, *self.panels.values()):
             part.restyle(theme)
+
+    def closeEvent(self, event) -> None:
+        """End the background work with the window."""
+        self.measuring.stop()
+        super().closeEvent(event)
 
     def dragEnterEvent(self, event) -> None:
         """Welcome a lens file or a saved state."""

@@ -45,7 +45,12 @@ REGISTRY = (
     Entry("psf", "PSF", "app.panels.psf:PsfPanel", "main"),
     Entry("coefficients", "Coefficients", "app.panels.coefficients:CoefficientsPanel", "main"),
     Entry("profiles", "Profiles", "app.panels.profiles:ProfilesPanel", view="app.views.profiles:profiles"),
+    Entry("mtf", "MTF", "app.panels.mtf:MtfPanel", view="app.views.mtf:contrast"),
+    Entry("spot", "Spot", "app.panels.spot:SpotPanel", view="app.views.rays:spots"),
+    Entry("ray_fan", "Ray fan", "app.panels.fans:RayFanPanel", view="app.views.rays:ray_errors"),
+    Entry("opd_fan", "OPD fan", "app.panels.fans:OpdFanPanel", view="app.views.rays:path_errors"),
     Entry("seidel", "Seidel per surface", "app.panels.seidel:SeidelPanel", view="app.views.seidel:per_surface"),
+    Entry("accuracy", "Accuracy", "app.panels.accuracy:AccuracyPanel"),
 )
 
 

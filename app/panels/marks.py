@@ -2,7 +2,6 @@
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
 
 from app.layout import Layout, Mark
 from app.plots import small_font
@@ -51,6 +50,7 @@ class Marks:
         if name not in self._texts:
             text = pg.TextItem(name, color=self._theme.mark, anchor=(0.5, 1.0 if side > 0 else 0.0))
             text.setFont(small_font())
+            text.textItem.setCacheMode(text.textItem.CacheMode.DeviceCoordinateCache)
             self._plot.addItem(text, ignoreBounds=True)
             self._texts[name] = text
         return self._texts[name]
@@ -59,7 +59,7 @@ class Marks:
         """Take the colours of a theme."""
         self._theme = theme
         self.ticks.setPen(pg.mkPen(theme.mark, width=1.5))
-        self.pupils.setPen(pg.mkPen(theme.mark, width=1.2, style=Qt.PenStyle.DotLine))
+        self.pupils.setPen(pg.mkPen(theme.mark, width=1))
         self.image.setBrush(pg.mkBrush(theme.chief))
         self.image.setPen(pg.mkPen(theme.card, width=1))
         for text in self._texts.values():

@@ -39,6 +39,7 @@ class PsfPanel:
         self.widget.set_body(self.map)
         self.widget.add_footer(self.badge)
         self._half = self._airy = 0.0
+        self._r_squared: float | None = None
 
     def show(self, live: Live) -> None:
         """Paint the PSF."""
@@ -53,7 +54,7 @@ class PsfPanel:
         )
         self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.psf_units], labels(state, psf, peak))
         self._frame(count * step / 2, live)
-        self.show_badge(live, None, True)
+        self.show_badge(live, self._r_squared, True)
 
     def _frame(self, half: float, live: Live) -> None:
         if half != self._half:
@@ -68,7 +69,8 @@ class PsfPanel:
         self.arrow.setPos(0.86 * half, 0.9 * half)
 
     def show_badge(self, live: Live, r_squared: float | None, stale: bool) -> None:
-        """Name the method, its time, and its measured R² against the Huygens sum when that is known."""
+        """Name method, time and measured R² against the Huygens sum; grey while that is of an earlier picture."""
+        self._r_squared = r_squared
         psf = live.psf
         parts = [psf.method, f"{1e3 * psf.seconds:.1f} ms", live.quality]
         if r_squared is not None:

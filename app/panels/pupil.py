@@ -44,7 +44,8 @@ class PupilPanel:
             limit = self._limit(pupil.waves)
             labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
             self._paint(pupil.waves, (-limit, limit), labels)
-        self.numbers.set_text(f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ")
+        numbers = f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ"
+        self.numbers.set_text(f"{numbers} · {pupil.kind}")
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -10,18 +10,27 @@ from app.state import State
 from app.theme import configure_plots
 from app.window import Window
 
+FIRST = State(method="seidel", theme="light")
 
-@pytest.fixture
-def window(qtbot):
-    QApplication.instance().setStyle("Fusion")
+
+@pytest.fixture(scope="session")
+def only_window(qapp):
+    qapp.setStyle("Fusion")
     configure_plots()
-    made = Window(State(method="seidel", theme="light"))
-    qtbot.addWidget(made)
+    made = Window(FIRST, measured=False)
     made.resize(1440, 900)
     made.show()
-    qtbot.waitExposed(made)
     yield made
     made.close()
+
+
+@pytest.fixture
+def window(only_window, qtbot):
+    """Return the one window, back in the first state: to make a new one each time takes a second."""
+    only_window.store.replace(FIRST)
+    only_window.refresh(FIRST)
+    QApplication.processEvents()
+    return only_window
 
 
 @pytest.fixture

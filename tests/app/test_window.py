@@ -22,7 +22,7 @@ def pictures(window) -> dict[str, np.ndarray]:
         "pupil": window.panels["pupil"].map.image.image.copy(),
         "psf": window.panels["psf"].map.image.image.copy(),
         "coefficients": np.array(list(bars.values.values())),
-        "profiles": np.concatenate(window.panels["profiles"].y.getData()),
+        "profiles": np.concatenate(window.panels["profiles"].curves["along y"].getData()),
     }
 
 

@@ -1,0 +1,62 @@
+"""Measures every settled picture against the Huygens reference in the background, and tells the panels."""
+
+from PySide6.QtCore import QObject
+
+from app.compute import Live
+from app.reference import Accuracy, measure
+from app.worker import LatestWins
+
+
+class Measuring(QObject):
+    """Owns the worker; ``watch`` is told every answer, results go to the panels that show accuracy."""
+
+    def __init__(self, window, enabled: bool = True):
+        super().__init__(window)
+        self._enabled = enabled
+        self._window = window
+        self._last: Accuracy | None = None
+        self.worker = LatestWins(self)
+        self.worker.finished.connect(self._on_finished)
+        self.worker.failed.connect(self._on_failed)
+        self.worker.progressed.connect(self._on_progress)
+
+    def watch(self, live: Live) -> None:
+        """Measure a settled answer; show an earlier figure in grey meanwhile."""
+        if not self._enabled or live.quality != "settled":
+            return
+        ladder = live.state.tab == "accuracy"
+        if self._last and self._fits(self._last, live, ladder):
+            self._tell(self._last)
+            return
+        self.worker.submit(live, lambda cancelled, progress: measure(live, ladder, cancelled, progress))
+
+    @staticmethod
+    def _fits(known: Accuracy, live: Live, ladder: bool) -> bool:
+        """Return whether a known figure answers for this picture: it may differ in looks but not in optics."""
+        same = known.live.psf.method == live.psf.method and known.live.setting.source == live.setting.source
+        return same and known.live.setting.lens == live.setting.lens and bool(known.rungs or not ladder)
+
+    def _on_finished(self, key: Live, accuracy: Accuracy) -> None:
+        self._last = accuracy
+        self._tell(accuracy)
+
+    def _tell(self, accuracy: Accuracy) -> None:
+        live = self._window.live
+        stale = not self._fits(accuracy, live, False) or live.quality != "settled"
+        self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
+        self._each("show_accuracy", accuracy, stale)
+
+    def _on_failed(self, key: Live, sentence: str) -> None:
+        self._each("show_failure", sentence)
+
+    def _on_progress(self, key: Live, part: float) -> None:
+        self._each("show_progress", part)
+
+    def _each(self, method: str, *arguments) -> None:
+        panel = self._window.panels.get("accuracy")
+        if panel and self._window.live.state.tab == "accuracy":
+            getattr(panel, method)(*arguments)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.worker.stop()

@@ -1,0 +1,113 @@
+"""How good the picture is: the Huygens reference, the difference, and the ladder's time against error."""
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+
+from app.card import Card
+from app.compute import Live
+from app.panels.psf import PSF_MAP, stretched
+from app.plots import HeatMap, plot_widget, restyle_plot, small_font
+from app.readout import Readout
+from app.reference import Accuracy, Rung
+from app.scales import nice, significant
+from app.store import Store
+from app.theme import LIGHT, Tokens
+
+TIP = "Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens)."
+DIFFERENCE_MAP = "CET-D1A"
+SMALLEST_ERROR = 1e-9
+
+
+class AccuracyPanel:
+    """Reference and difference maps at the left, the ladder at the right; filled by the background worker."""
+
+    wants_ladder = True
+
+    def __init__(self, store: Store):
+        self.widget = Card("Accuracy", TIP)
+        self.reference = HeatMap("reference, µm", "y, µm", self.widget)
+        self.difference = HeatMap("picture − reference, µm", "y, µm", self.widget)
+        self.reference.set_map(PSF_MAP)
+        self.difference.set_map(DIFFERENCE_MAP)
+        self.ladder = plot_widget("time of one PSF, ms", "relative L2 error")
+        self.ladder.getPlotItem().setLogMode(True, True)
+        self.ladder.getPlotItem().getViewBox().setDefaultPadding(0.15)
+        self.points = pg.ScatterPlotItem(size=9)
+        self.ladder.addItem(self.points)
+        self.names: list[pg.TextItem] = []
+        self.message = Readout(self.widget, pill=True, colour="text")
+        self.body = QWidget(self.widget)
+        self.body.setVisible(False)
+        row = QHBoxLayout(self.body)
+        row.setContentsMargins(0, 0, 0, 0)
+        for part, share in ((self.reference, 4), (self.difference, 4), (self.ladder, 6)):
+            row.addWidget(part, share)
+        self.widget.set_body(self.body)
+        self.widget.add_footer(self.message)
+        self.message.set_text("the reference is summed when the sliders rest", "muted")
+        self._theme = LIGHT
+
+    def show(self, live: Live) -> None:
+        """Mark what is shown as belonging to an earlier picture until the worker answers."""
+        text = self.message.text().removesuffix(" · earlier picture")
+        if " vs " in text:
+            self.message.set_text(f"{text} · earlier picture", "muted")
+
+    def show_progress(self, part: float) -> None:
+        """Tell how far the reference is."""
+        self.message.set_text(f"summing the reference: {100 * part:.0f} %", "muted")
+
+    def show_failure(self, sentence: str) -> None:
+        """Say why there is no reference."""
+        self.message.set_text(sentence, "warning")
+
+    def show_accuracy(self, accuracy: Accuracy, stale: bool) -> None:
+        """Paint reference, difference and ladder."""
+        self.body.setVisible(True)
+        psf, reference = accuracy.live.psf, accuracy.reference
+        count, step = reference.values.shape[-1], reference.pixel_um
+        start = -(count // 2 + 0.5) * step
+        rect, peak = (start, start, count * step, count * step), float(reference.values.max())
+        scale = accuracy.live.state.psf_scale
+        self.reference.show_values(stretched(reference.values / peak, scale), (0.0, 1.0), rect)
+        self.reference.bar.show_scale(PSF_MAP, "peak = 1", ((0.0, "0"), (1.0, "1")))
+        delta = (psf.values - reference.values) / peak
+        limit = nice(max(1e-6, float(np.abs(delta).max())))
+        self.difference.show_values(delta, (-limit, limit), rect)
+        labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
+        self.difference.bar.show_scale(DIFFERENCE_MAP, "of peak", labels)
+        for chart in (self.reference, self.difference):
+            chart.set_extent(count * step / 2)
+        self._show_ladder(accuracy.rungs, psf.method)
+        r2 = f"{accuracy.r_squared:.5f}".replace("-", "−")
+        text = f"{psf.method} vs Huygens: R² {r2} · reference from {reference.rays} rays, {reference.seconds:.2f} s"
+        self.message.set_text(text + (" · earlier picture" if stale else ""), "muted" if stale else "text")
+
+    def _show_ladder(self, rungs: tuple[Rung, ...], shown: str) -> None:
+        for name in self.names:
+            self.ladder.removeItem(name)
+        self.names = []
+        brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in rungs]
+        places = [(np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in rungs]
+        self.points.setData([10**x for x, _ in places], [10**y for _, y in places], brush=brushes, pen=None)
+        for rung, place in zip(rungs, places, strict=True):
+            label = pg.TextItem(
+                f"{rung.method}  R² {significant(rung.r_squared, 4)}", self._theme.muted, anchor=(0, 0.5)
+            )
+            label.setFont(small_font())
+            label.setPos(place[0] + 0.06, place[1])
+            self.ladder.addItem(label, ignoreBounds=True)
+            self.names.append(label)
+        if places:
+            x, y = zip(*places, strict=True)
+            self.ladder.setRange(xRange=(min(x) - 0.3, max(x) + 1.2), yRange=(min(y) - 0.5, max(y) + 0.5), padding=0)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        for part in (self.reference, self.difference, self.message):
+            part.restyle(theme)
+        restyle_plot(self.ladder, theme)
+        for name in self.names:
+            name.setColor(theme.muted)

@@ -1,0 +1,86 @@
+"""How good the picture is: the Huygens reference at the same point, in the same window. No Qt in here."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from statistics import median
+from threading import Event
+
+from app.compute import Live
+from p2sf.accuracy import r_squared, relative_l2
+from p2sf.errors import SamplingError
+from p2sf.huygens import Filling, huygens_psf
+from p2sf.psf import Psf
+
+REFERENCE_TOLERANCE = 1e-3  # relative L2: R² is then known to 1e-6 or better
+REPEATS = 3  # of each rung, for a median time
+RUNGS = ("gaussian", "seidel", "fitted", "traced", "huygens")
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One method at this point: R² and relative L2 against the reference, median time, numbers and rays used."""
+
+    method: str
+    r_squared: float
+    relative_l2: float
+    milliseconds: float
+    numbers: int
+    rays: int
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """The reference beside the picture it belongs to, the picture's R², and the ladder when it was asked for."""
+
+    live: Live
+    reference: Psf
+    r_squared: float
+    rungs: tuple[Rung, ...] = ()
+
+
+def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[float], None]) -> Accuracy:
+    """Return the accuracy of an answer; ``ladder`` renders every rung too. Raises P2SFError, Cancelled among them."""
+    if live.psf.method == "geometric":
+        raise SamplingError("the blur is too large for a reference here; bring focus and source together")
+    share = 0.5 if ladder else 1.0
+    reference = huygens_psf(
+        live.setting.lens,
+        live.setting.source,
+        live.psf.values.shape[-1],
+        live.psf.pixel_um,
+        REFERENCE_TOLERANCE,
+        lambda part: progress(share * part),
+        cancelled.is_set,
+        Filling(clip=live.state.clip),
+    )
+    found = r_squared(live.psf.values, reference.values)
+    rungs = tuple(climb(live, reference, cancelled, lambda part: progress(0.5 + part / 2))) if ladder else ()
+    return Accuracy(live, reference, found, rungs)
+
+
+def climb(live: Live, reference: Psf, cancelled: Event, progress: Callable[[float], None]):
+    """Yield every rung's error and time at this point, until cancelled."""
+    for number, method in enumerate(RUNGS):
+        if cancelled.is_set():
+            return
+        psfs = [one(live, method, reference) for _ in range(REPEATS if method in ("seidel", "fitted") else 1)]
+        psf, milliseconds = psfs[-1], 1e3 * median(p.seconds for p in psfs)
+        error = relative_l2(psf.values, reference.values)
+        if method == "huygens":
+            error = reference.tolerance or error
+        yield Rung(method, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays)
+        progress((number + 1) / len(RUNGS))
+
+
+def one(live: Live, method: str, reference: Psf) -> Psf:
+    """Return this point's PSF by one method, in the reference's window."""
+    if method == "huygens":
+        return reference
+    if method == "gaussian":
+        from p2sf.gaussianfit import gaussian_psf
+
+        return gaussian_psf(reference)
+    from p2sf.ladder import render
+
+    pixels, pitch = reference.values.shape[-1], reference.pixel_um
+    return render(live.setting.lens, live.setting.source, method, pixels, pitch, clip=live.state.clip)
