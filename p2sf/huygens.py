@@ -15,7 +15,7 @@ from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens import Lens
 from p2sf.psf import Psf
 from p2sf.quadrature import SETTLED_TOLERANCE, disc_nodes
-from p2sf.rayfit import RayData, ray_data, steepness
+from p2sf.raydata import RayData, ray_data, steepness
 from p2sf.raytrace import pencil
 from p2sf.rendering import Made, counts_for, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.source import Source

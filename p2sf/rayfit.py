@@ -10,12 +10,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.lens import Lens
 from p2sf.pupils import Stop
 from p2sf.quadrature import disc_nodes
-from p2sf.raytrace import Pencil, diffraction_phase, pencil
+from p2sf.raydata import RayData, Steepness, ray_data, steepness
+from p2sf.raytrace import pencil
 from p2sf.source import Source
 from p2sf.zernike import basis, columns, evaluate, gradient, terms
 
@@ -60,34 +60,12 @@ LEVELS = (
 
 
 @dataclass(frozen=True)
-class RayData:
-    """What a fit is made of, per ray: phase (waves), f = n'(K − K chief)/λ (cycles/µm), landing point (µm)."""
-
-    phase: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
-    x_um: np.ndarray
-    y_um: np.ndarray
-
-
-@dataclass(frozen=True)
-class Steepness:
-    """What sampling must carry, in waves: steepest |∂w/∂ρ|, |∂w/∂θ|, |∂w/∂ξ|, |∂w/∂η|; ``spread``: largest |f|, /µm."""
-
-    radial: float
-    angular: float
-    across: float
-    along: float
-    spread: float
-
-
-@dataclass(frozen=True)
 class FittedPencil:
     """Coefficients of the orthonormal polynomials of `zernike`: phase in waves, fx and fy in cycles per µm.
 
     ``phase`` and ``fy`` go with the even terms, ``fx`` with the odd. ``residual_waves`` is the RMS error of the
-    phase where the rays land; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx for a field of unit
-    unaberrated peak.
+    phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm; ``rays`` counts all that were traced;
+    ``blur_um2`` is ∫|field|²dx at unit unaberrated peak.
     """
 
     level: Level
@@ -98,6 +76,7 @@ class FittedPencil:
     steepness: Steepness
     blur_um2: float
     rays: int
+    map_residual: float = np.nan
 
     @property
     def numbers(self) -> int:
@@ -125,17 +104,10 @@ class FittedPencil:
         return _determinant(self.fx, self.fy, gradient(order, xi, eta, odd=True), gradient(order, xi, eta))
 
 
-def ray_data(rays: Pencil) -> RayData:
-    """Return phase, spatial frequencies and landing points of a traced pencil."""
-    scale = rays.index / rays.wavelength_um
-    fx, fy = rays.kx * scale, (rays.ky - rays.chief_ky) * scale
-    return RayData(diffraction_phase(rays), fx, fy, rays.dx * UM_PER_MM, rays.dy * UM_PER_MM)
-
-
 def fit(
-    lens: Lens, source: Source, numbers: int | None = None, aim="paraxial", stop: Stop | None = None
+    lens: Lens, source: Source, numbers=None, aim="paraxial", stop: Stop | None = None, residual_waves=RESIDUAL_WAVES
 ) -> FittedPencil:
-    """Fit one source's pencil; the order rises until the residual is small, or is fixed by ``numbers``.
+    """Fit one source's pencil; the order rises until the residual is small enough, or is fixed by ``numbers``.
 
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
@@ -147,7 +119,7 @@ def fit(
             rays = _trace(lens, source, level, aim, stop)
             traced += level.rays
         found = fit_rays(rays, level, traced)
-        if numbers or found.residual_waves < RESIDUAL_WAVES:
+        if numbers or found.residual_waves < residual_waves:
             return found
     if traced == 0:
         offered = ", ".join(str(level.numbers) for level in LEVELS)
@@ -202,35 +174,25 @@ def fit_rays(rays: RayData, level: Level, traced: int) -> FittedPencil:
         inverse @ column[:used]
         for inverse, column in ((project.phase, rays.phase), (project.fy, rays.fy), (project.fx, rays.fx))
     )
+    miss_x, miss_y = fx @ project.odd - rays.fx, fy @ project.even[: fy.size] - rays.fy
     # At a ray's landing point x the phase of the integrand is w + f·x, so this is the error that matters there.
-    error = phase @ project.even[: phase.size] - rays.phase
-    error += (fx @ project.odd - rays.fx) * rays.x_um + (fy @ project.even[: fy.size] - rays.fy) * rays.y_um
-    blur = weight @ (1 / np.abs(_determinant(fx, fy, *_slope_basis(level)))) / np.pi
-    return FittedPencil(
-        level, phase, fx, fy, _residual(error, weight, phase.size), steepness(rays, xi, eta), float(blur), traced
-    )
+    error = phase @ project.even[: phase.size] - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
+    residual = _residual(error, weight, phase.size)
+    map_residual = np.sqrt(_residual(miss_x, weight, fx.size) ** 2 + _residual(miss_y, weight, fy.size) ** 2)
+    # Parseval: ∫|field|²dx is the area mean of 1/|∂(fx, fy)/∂(ξ, η)| over π.
+    blur = float(weight @ (1 / np.abs(_determinant(fx, fy, *_slope_basis(level)))) / np.pi)
+    steep = steepness(rays, xi, eta)
+    return FittedPencil(level, phase, fx, fy, residual, steep, blur, traced, float(map_residual))
 
 
 def _residual(error, weight, unknowns: int) -> float:
-    """Return RMS phase error in waves of the fit's own rays, corrected for what it bent to, or of those held out.
+    """Return the RMS error of the fit's own rays, corrected for what it bent to, or of those held out.
 
     What a polynomial leaves is four times its RMS at the rim; the held-out rays stand there and count half.
     """
     own, held = error[: weight.size], error[weight.size :]
     freedom = 1 - unknowns / weight.size
-    return float(max(np.sqrt(weight @ own**2 / freedom), np.sqrt(np.mean(held**2)) / 2))
-
-
-def steepness(rays: RayData, xi, eta) -> Steepness:
-    """Return how steep the phase is, from where the rays land: over f it has the gradient −x, dw = −x·df (Hamilton).
-
-    With f nearly proportional to (ξ, η) that needs no derivative. NaN rays are left out.
-    """
-    radial = np.nanmax(np.abs(rays.x_um * rays.fx + rays.y_um * rays.fy) / np.hypot(xi, eta))
-    angular = np.nanmax(np.abs(rays.x_um * rays.fy - rays.y_um * rays.fx))
-    spread = np.sqrt(np.nanmax(rays.fx * rays.fx + rays.fy * rays.fy))
-    across, along = (spread * np.nanmax(np.abs(axis)) for axis in (rays.x_um, rays.y_um))
-    return Steepness(*(float(value) for value in (radial, angular, across, along, spread)))
+    return float(np.sqrt(max(weight @ (own * own) / freedom, held @ held / (4 * held.size))))
 
 
 @lru_cache(maxsize=16)
@@ -242,8 +204,5 @@ def _slope_basis(level: Level):
 
 
 def _determinant(fx, fy, odd, even) -> np.ndarray:
-    """Return ∂(fx, fy)/∂(ξ, η) from the gradients of the odd and even terms.
-
-    By Parseval ∫|field|²dx is the area mean of its inverse over π, for a pupil of unit mean.
-    """
+    """Return ∂(fx, fy)/∂(ξ, η) from the gradients of the odd and even terms."""
     return (fx @ odd[0]) * (fy @ even[1]) - (fx @ odd[1]) * (fy @ even[0])

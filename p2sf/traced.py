@@ -14,7 +14,8 @@ from p2sf.huygens import PLAIN, Filling, first_counts, one_pass
 from p2sf.lens import Lens
 from p2sf.psf import Psf
 from p2sf.quadrature import SETTLED_TOLERANCE
-from p2sf.rayfit import RESIDUAL_WAVES, FittedPencil, fit, ray_data
+from p2sf.raydata import ray_data
+from p2sf.rayfit import RESIDUAL_WAVES, FittedPencil, fit
 from p2sf.raytrace import pencil
 from p2sf.rendering import Made, psf_from_intensity, resolved
 from p2sf.rows import FrequencyRows, rows_for

@@ -6,7 +6,8 @@ import pytest
 from p2sf.errors import GeometryError
 from p2sf.fitted import fit, fitted_psf
 from p2sf.quadrature import disc_nodes
-from p2sf.rayfit import LEVELS, ray_data
+from p2sf.raydata import ray_data
+from p2sf.rayfit import LEVELS
 from p2sf.raytrace import pencil
 from p2sf.zernike import basis, gradient, terms
 from tests.reference import LENSES, huygens_rows

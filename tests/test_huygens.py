@@ -11,7 +11,7 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.huygens import Filling, first_counts, huygens_field, huygens_psf, plain_sum
 from p2sf.lens import Aperture
 from p2sf.quadrature import disc_nodes
-from p2sf.rayfit import ray_data
+from p2sf.raydata import ray_data
 from p2sf.raytrace import pencil
 from p2sf.source import Source
 from p2sf.vignetting import clear_nodes, outline
