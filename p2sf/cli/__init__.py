@@ -13,6 +13,7 @@ COMMANDS = {
     "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
     "psf": ("images:psf", "The point spread function of one source, to a file or in a few figures."),
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
+    "tradeoff": ("studies:tradeoff", "What every method costs in time and in error, measured."),
     "paper": ("studies:paper", "Redo the paper's two figures on this machine."),
     "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),
     "database": ("databases:app", "Every PSF of a lens as a file: build one, look into one."),

@@ -1,14 +1,77 @@
-"""`p2sf paper`: the paper's two figures, redone on this machine."""
+"""`p2sf tradeoff` and `p2sf paper`: what each method costs in time and in error, measured on this machine."""
 
+from math import inf
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json
+from p2sf.cli.options import Json, LensName, Output
 from p2sf.cli.screen import print_json, print_table
-from p2sf.errors import ExportError
+from p2sf.errors import ExportError, RequestError
 from p2sf.export import write_beside, write_json
+from p2sf.library import find_lens
+
+WRITTEN = (".json", ".csv", ".png")
+Several = Parameter(consume_multiple=True, negative="")
+Fields = Annotated[list[float] | None, Several, Parameter(help="Field angles, °; the file's when not given.")]
+Depths = Annotated[list[float] | None, Several, Parameter(help="Object distances, mm, inf allowed; ∞ when not given.")]
+Waves = Annotated[list[float] | None, Several, Parameter(help="Wavelengths, nm; the file's middle one when not given.")]
+Pixels = Annotated[int, Parameter(help="Samples along each side of the compared window.")]
+
+
+def tradeoff(
+    lens: LensName,
+    /,
+    *,
+    fields_deg: Fields = None,
+    depths_mm: Depths = None,
+    wavelengths_nm: Waves = None,
+    pixels: Pixels = 64,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Measure every method against the exact reference: errors, numbers, rays, time and memory; .json, .csv or .png."""
+    from p2sf import ladder
+
+    _check(output, pixels, fields_deg, depths_mm, wavelengths_nm)
+    asked = find_lens(lens)
+    rows = ladder.tradeoff(asked, fields_deg, depths_mm or (inf,), wavelengths_nm, pixels=pixels)
+    head, *lines = ladder.table(rows)
+    title = f"{asked.title or asked.name}: each method against the Huygens sum, {pixels} × {pixels} samples"
+    if output:
+        _write_tradeoff(output, rows, (head, *lines), title)
+    if as_json:
+        return print(ladder.to_json(rows))
+    return print_table(title, head, lines)
+
+
+def _check(output: Path | None, pixels: int, fields_deg, depths_mm, wavelengths_nm) -> None:
+    """Refuse what cannot be before the work and not after it."""
+    if output is not None and output.suffix.lower() not in WRITTEN:
+        ending = f'its ending "{output.suffix}" is unknown'
+        raise ExportError(f"--output is {output}, {ending}; choose {', '.join(WRITTEN)}")
+    if not 8 <= pixels <= 512:
+        raise RequestError(f"--pixels is {pixels}; give a whole number from 8 to 512")
+    for field in fields_deg or ():
+        if not abs(field) < 90:
+            raise RequestError(f"--fields-deg has {field:g}°; give angles between −90 and 90°, both ends left out")
+    for name, values in (("--depths-mm", depths_mm), ("--wavelengths-nm", wavelengths_nm)):
+        for value in values or ():
+            if not value > 0:
+                raise RequestError(f"{name} has {value:g}; give positive numbers")
+
+
+def _write_tradeoff(output: Path, rows, lines, title: str) -> None:
+    from p2sf import ladder
+
+    contents = {
+        ".json": lambda handle: handle.write(ladder.to_json(rows).encode()),
+        ".csv": lambda handle: handle.write("".join(",".join(line) + "\n" for line in lines).encode()),
+        ".png": lambda handle: ladder.draw(handle, rows, title.replace(": ", "\n")),
+    }
+    write_beside(output, contents[output.suffix.lower()])
+
 
 Folder = Annotated[Path, Parameter(["--output", "-o"], negative="", help="Folder for the figures, made if missing.")]
 
