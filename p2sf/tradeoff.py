@@ -172,6 +172,6 @@ def _points(rows: list[Row]):
 
 
 def error(row: Row) -> float:
-    """Return the relative L2 error; the reference's own, which it cannot be compared for, is the agreement it reached."""
+    """Return the relative L2 error; of the reference itself, the agreement that it reached."""
     own = row.tolerance if row.method == "huygens" and row.tolerance else 0.0
     return max(row.errors.relative_l2, own, 1e-12)
