@@ -7,11 +7,10 @@ from app.card import Chooser, chooser, select
 from app.compute import Live
 from app.readout import Readout
 from app.scales import signed
-from app.setting import load, shipped
+from app.setting import shipped, title
 from app.state import CHOICES
 from app.store import Store
 from app.theme import Tokens
-from p2sf.errors import P2SFError
 
 OPEN = "open"
 METHOD_WORDS = {
@@ -88,14 +87,14 @@ class TopBar(QFrame):
     def fill_lenses(self) -> None:
         """List the shipped lenses by title, and the way to a file."""
         for name in shipped():
-            self.lens.addItem(lens_title(name), name)
+            self.lens.addItem(title(name), name)
         self.lens.insertSeparator(self.lens.count())
         self.lens.addItem("Open a lens file…", OPEN)
 
     def show_state(self, state, dark: bool) -> None:
         """Follow a state."""
         if self.lens.findData(state.lens) < 0:
-            self.lens.insertItem(0, lens_title(state.lens), state.lens)
+            self.lens.insertItem(0, title(state.lens), state.lens)
         select(self.lens, state.lens)
         select(self.method, state.method)
         if self.tolerance.findData(str(state.tolerance)) < 0:
@@ -117,15 +116,6 @@ class TopBar(QFrame):
             self.open_file.emit()
         else:
             self.lens_chosen.emit(chosen)
-
-
-def lens_title(name: str) -> str:
-    """Return how the chooser names a lens: its title, else its name; a file that cannot be read keeps its name."""
-    try:
-        lens = load(name)
-    except P2SFError:
-        return name
-    return lens.title or lens.name
 
 
 class StatusLine(QWidget):

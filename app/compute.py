@@ -18,7 +18,7 @@ from p2sf.raytrace import opd_map
 from p2sf.wavefront import wavefront
 
 PUPIL_SAMPLES = 96
-RAY_SAMPLES = 64  # across the pupil where every sample is a traced ray
+RAY_SAMPLES = {"preview": 40, "settled": 64}  # across the pupil where every sample is a traced ray
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def live(state: State, quality: str = "settled", views: Mapping[str, View] | Non
         state=state,
         setting=set_up,
         layout=drawn,
-        pupil=pupil(set_up, made.exact),
+        pupil=pupil(set_up, made.exact, quality),
         psf=psf,
         quality=quality,
         airy_radius_um=float(airy_radius_um(set_up.source.wavelength_um, set_up.coefficients.na)),
@@ -78,9 +78,10 @@ def with_views(answer: Live, views: Mapping[str, View], begun: float) -> Live:
     return replace(answer, views=results, milliseconds={**answer.milliseconds, "all": total})
 
 
-def pupil(set_up: Setting, exact: bool) -> PupilMap:
+def pupil(set_up: Setting, exact: bool, quality: str) -> PupilMap:
     """Return the wavefront that made the PSF: of the six coefficients for seidel, of exact rays for the other rungs."""
     xi, eta, inside = disc(PUPIL_SAMPLES)
     if not exact:
         return pupil_map(np.asarray(wavefront(set_up.coefficients, xi, eta)), inside, "six coefficients")
-    return pupil_map(opd_map(set_up.lens, set_up.source, RAY_SAMPLES), disc(RAY_SAMPLES)[2], "exact rays")
+    count = RAY_SAMPLES[quality]
+    return pupil_map(opd_map(set_up.lens, set_up.source, count), disc(count)[2], "exact rays")

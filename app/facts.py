@@ -21,10 +21,18 @@ def rows(live) -> tuple[tuple[str, str, str], ...]:
         ("Airy radius", f"{significant(live.airy_radius_um, 3)} µm", "First dark ring of a perfect lens, 0.61 λ/NA."),
         ("Paraxial image", length(float(c.image_distance)), "Paraxial image of this depth, from the last vertex."),
         ("Sensor", length(s.lens.sensor_mm), "Where the sensor stands, from the last vertex."),
-        ("Entrance pupil", pupil(p.entrance_from_first, p.entrance_diameter), "Diameter, place from the first vertex."),
+        (
+            "Entrance pupil",
+            pupil(p.entrance_from_first, p.entrance_diameter),
+            "Diameter, and place from the first vertex.",
+        ),
         ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), "Diameter, and place from the last vertex."),
         ("Stop", f"surface {int(s.stop.surface)} ({s.stop.chosen_by})", "The surface whose rim limits the light."),
-        ("Strehl ratio", f"{float(live.psf.strehl):.3f}", "Peak of the PSF over that of the same pupil with W = 0."),
+        (
+            "Strehl ratio",
+            significant(float(live.psf.strehl), 2),
+            "Peak of the PSF over that of the same pupil with W = 0.",
+        ),
     )
 
 

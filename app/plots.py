@@ -32,7 +32,8 @@ class Axis(pg.AxisItem):
         """Return the ticks' places; a logarithmic axis has whole decades only."""
         if not self.logMode:
             return super().tickValues(minVal, maxVal, size)
-        return [(1.0, [float(k) for k in range(ceil(minVal), floor(maxVal) + 1)])]
+        step = max(1, ceil((maxVal - minVal) / 5))
+        return [(float(step), [float(k) for k in range(ceil(minVal), floor(maxVal) + 1, step)])]
 
     def logTickStrings(self, values, scale, spacing):
         """Return decades as numbers near one, as powers of ten elsewhere."""

@@ -97,6 +97,13 @@ def signed(value: float, places: int) -> str:
     return text.lstrip("-") if float(text) == 0 else text.replace("-", "−")
 
 
+def written_r_squared(value: float) -> str:
+    """Return R² with as many digits as keep 1 − R² readable; what rounds to one is said to be above."""
+    if value > 0.99999:
+        return "> 0.99999"
+    return f"{value:.5f}" if value > 0.99 else f"{value:.3f}".replace("-", "−")
+
+
 def read_distance(text: str) -> float:
     """Return millimetres of "2 m", "350", "∞"; P2SFError otherwise."""
     plain = text.strip().lower()

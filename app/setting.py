@@ -1,5 +1,6 @@
 """The lens as the state sets it, its first-order facts, and the ranges the controls may run over. No Qt in here."""
 
+import tomllib
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, isfinite
@@ -61,6 +62,17 @@ def _load(name: str, _changed: int) -> Lens:
     from p2sf.library import find_lens
 
     return find_lens(name)
+
+
+def title(name: str) -> str:
+    """Return how a chooser names a lens: its file's title, read without looking up its glasses; else its name."""
+    from p2sf.library import lenses_folder
+
+    path = Path(name) if Path(name).is_file() else lenses_folder() / f"{name}.toml"
+    try:
+        return str(tomllib.loads(path.read_text(encoding="utf-8")).get("title", name))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
+        return name
 
 
 def shipped() -> tuple[str, ...]:

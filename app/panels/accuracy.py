@@ -10,7 +10,7 @@ from app.panels.psf import PSF_MAP, stretched
 from app.plots import HeatMap, plot_widget, restyle_plot, small_font
 from app.readout import Readout
 from app.reference import Accuracy, Rung
-from app.scales import nice, significant
+from app.scales import nice, written_r_squared
 from app.store import Store
 from app.theme import LIGHT, Tokens
 
@@ -80,7 +80,7 @@ class AccuracyPanel:
         for chart in (self.reference, self.difference):
             chart.set_extent(count * step / 2)
         self._show_ladder(accuracy.rungs, psf.method)
-        r2 = f"{accuracy.r_squared:.5f}".replace("-", "−")
+        r2 = written_r_squared(accuracy.r_squared)
         text = f"{psf.method} vs Huygens: R² {r2} · reference from {reference.rays} rays, {reference.seconds:.2f} s"
         self.message.set_text(text + (" · earlier picture" if stale else ""), "muted" if stale else "text")
 
@@ -90,10 +90,10 @@ class AccuracyPanel:
         self.names = []
         brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in rungs]
         places = [(np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in rungs]
-        self.points.setData([10**x for x, _ in places], [10**y for _, y in places], brush=brushes, pen=None)
+        self.points.setData([x for x, _ in places], [y for _, y in places], brush=brushes, pen=None)  # in decades
         for rung, place in zip(rungs, places, strict=True):
             label = pg.TextItem(
-                f"{rung.method}  R² {significant(rung.r_squared, 4)}", self._theme.muted, anchor=(0, 0.5)
+                f"{rung.method}  R² {written_r_squared(rung.r_squared)}", self._theme.muted, anchor=(0, 0.5)
             )
             label.setFont(small_font())
             label.setPos(place[0] + 0.06, place[1])

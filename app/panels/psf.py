@@ -8,6 +8,7 @@ from app.card import Card, chooser, select
 from app.compute import Live
 from app.plots import HeatMap
 from app.readout import Readout
+from app.scales import written_r_squared
 from app.store import Store
 from app.theme import Tokens
 
@@ -74,7 +75,7 @@ class PsfPanel:
         psf = live.psf
         parts = [psf.method, f"{1e3 * psf.seconds:.1f} ms", live.quality]
         if r_squared is not None:
-            parts.append(f"R² {r_squared:.3f} vs Huygens".replace("-", "−"))
+            parts.append(f"R² {written_r_squared(r_squared)} vs Huygens")
         self.badge.set_text(" · ".join(parts), "muted" if stale else "text")
         self.badge.setToolTip(f"{psf.numbers} numbers, {psf.rays} rays; sampling: {psf.sampling}")
 
@@ -98,10 +99,17 @@ def stretched(values: np.ndarray, scale: str) -> np.ndarray:
     return 1 + np.log10(np.maximum(values, 10.0**-DECADES)) / DECADES
 
 
+def power(top: float, decades: int) -> str:
+    """Return ``top``·10^−decades as people write it."""
+    if top == 1.0 and decades:
+        return "10⁻" + "⁰¹²³⁴⁵⁶⁷⁸⁹"[decades]
+    return f"{top * 10.0**-decades:.2g}".replace("e-0", "e−")
+
+
 def labels(state, psf, peak: float) -> tuple[tuple[float, str], ...]:
     """Return the colour bar's labels: parts of the bar and the value there in the chosen units."""
     top = {"peak": 1.0, "sum": peak, "strehl": float(psf.strehl)}[state.psf_units]
     if state.psf_scale == "log":
-        return tuple((1 - k / DECADES, f"{top * 10.0**-k:.0e}" if k else f"{top:.3g}") for k in range(DECADES + 1))
+        return tuple((1 - k / DECADES, power(top, k)) for k in range(DECADES + 1))
     power = 2 if state.psf_scale == "sqrt" else 1
     return tuple((part, f"{top * part**power:.2g}") for part in (0.0, 0.25, 0.5, 0.75, 1.0))

@@ -1,0 +1,36 @@
+"""The background measure: R² against the Huygens sum arrives by itself, and its ladder is in order."""
+
+import pytest
+
+from app.state import State
+from app.theme import configure_plots
+from app.window import Window
+
+
+@pytest.fixture
+def measured(qapp, qtbot):
+    configure_plots()
+    made = Window(State(method="seidel", theme="light", field_deg=0.0, f_number=8.0, tab="accuracy"))
+    made.show()
+    yield made
+    made.close()
+
+
+def test_the_badge_and_the_ladder_arrive_by_themselves(measured, qtbot):
+    badge = measured.panels["psf"].badge
+    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+    known = measured.measuring._last
+    rungs = {rung.method: rung for rung in known.rungs}
+    assert set(rungs) == {"gaussian", "seidel", "fitted", "traced", "huygens"}
+    assert rungs["fitted"].r_squared >= 0.998  # the rung's promise on every row
+    assert rungs["traced"].r_squared >= 0.9999
+    assert known.r_squared == pytest.approx(rungs["seidel"].r_squared, abs=1e-4)  # settled against its own repeat
+    assert "vs Huygens" in measured.panels["accuracy"].message.text()
+
+
+def test_the_figure_goes_grey_when_the_picture_moves_on(measured, qtbot):
+    badge = measured.panels["psf"].badge
+    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+    with measured.store.drag():
+        measured.store.update(field_deg=3.0)
+        assert badge._colour == "muted"
