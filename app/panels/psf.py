@@ -99,7 +99,7 @@ def stretched(values: np.ndarray, scale: str) -> np.ndarray:
     return 1 + np.log10(np.maximum(values, 10.0**-DECADES)) / DECADES
 
 
-def power(top: float, decades: int) -> str:
+def decade(top: float, decades: int) -> str:
     """Return ``top``·10^−decades as people write it."""
     if top == 1.0 and decades:
         return "10⁻" + "⁰¹²³⁴⁵⁶⁷⁸⁹"[decades]
@@ -110,6 +110,6 @@ def labels(state, psf, peak: float) -> tuple[tuple[float, str], ...]:
     """Return the colour bar's labels: parts of the bar and the value there in the chosen units."""
     top = {"peak": 1.0, "sum": peak, "strehl": float(psf.strehl)}[state.psf_units]
     if state.psf_scale == "log":
-        return tuple((1 - k / DECADES, power(top, k)) for k in range(DECADES + 1))
+        return tuple((1 - k / DECADES, decade(top, k)) for k in range(DECADES + 1))
     power = 2 if state.psf_scale == "sqrt" else 1
     return tuple((part, f"{top * part**power:.2g}") for part in (0.0, 0.25, 0.5, 0.75, 1.0))
