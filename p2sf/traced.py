@@ -15,7 +15,7 @@ from p2sf.lens import Lens
 from p2sf.psf import Psf
 from p2sf.quadrature import SETTLED_TOLERANCE
 from p2sf.raydata import ray_data
-from p2sf.rayfit import RESIDUAL_WAVES, FittedPencil, fit
+from p2sf.rayfit import FittedPencil, fit
 from p2sf.raytrace import pencil
 from p2sf.rendering import Made, psf_from_intensity, resolved
 from p2sf.rows import FrequencyRows, rows_for
@@ -23,6 +23,7 @@ from p2sf.source import Source
 
 # A fifth-order pupil map at least: what is second order in its miss is then below 1e-5 of R² on every stored row.
 FEWEST = 46
+RESIDUAL_WAVES = 1e-3  # of that map times the blur; what is left is second order in it
 
 
 def traced_psf(
@@ -55,7 +56,11 @@ def traced_psf(
 def _rows(lens, source, window, quality, aim) -> tuple[FittedPencil, FrequencyRows] | None:
     try:
         found = fit(lens, source, FEWEST, aim)
-        found = found if found.residual_waves < RESIDUAL_WAVES else fit(lens, source, aim=aim)
+        found = (
+            found
+            if found.residual_waves < RESIDUAL_WAVES
+            else fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
+        )
     except GeometryError:  # rays lost: the reference's nodes leave them out one by one
         return None
     nodes = rows_for(found, *window, quality)

@@ -20,7 +20,7 @@ FLOORS = (
     "fastpath psf measures",
     "database refraction rays entrance raytrace zernike",
     "raydata rayfit rendering vignetting rows",
-    "fitted huygens traced",
+    "fitted huygens traced vocabulary",
     "fitdatabase fitseries",
     "gaussianfit accuracy",
     "rungs tradeoff ladder paper",
