@@ -13,7 +13,13 @@ from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-FIRST_ORDER = ("tests/test_gaussian.py", "tests/test_pupils.py", "tests/test_seidel.py", "tests/extremes/test_named.py")
+FIRST_ORDER = (
+    "tests/test_gaussian.py",
+    "tests/test_pupils.py",
+    "tests/test_seidel.py",
+    "tests/extremes/test_named.py",
+    "tests/extremes/test_rounding.py",
+)
 TESTS = {
     "gaussian": FIRST_ORDER,
     "pupils": FIRST_ORDER,
@@ -29,6 +35,8 @@ pytest_add_cli_args_test_selection={tests}
 pytest_add_cli_args=
     -p
     no:cacheprovider
+    -W
+    error::RuntimeWarning
 also_copy=
     lenses
     app

@@ -36,5 +36,6 @@ def lenses(draw, most: int = 7, spherical: bool = False, air: bool = False) -> L
 
 
 depths = st.one_of(st.just(inf), between(1e-3, 1e15), between(5.0, 500.0))
-slopes = st.one_of(st.just(0.0), between(-0.6, 0.6), between(1e-12, 600.0))
+# 0, or at least 1e-12: the cube of a slope of 1e-103 is no ordinary number any more
+slopes = st.one_of(st.just(0.0), between(1e-12, 0.6), between(-0.6, -1e-12), between(1e-12, 600.0))
 wavelengths = between(0.2, 12.0)

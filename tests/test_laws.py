@@ -1,11 +1,11 @@
-"""Laws of optics as properties of random lenses; no golden numbers.
+"""Laws of optics as properties of random lenses, without golden numbers.
 
 Each tolerance is a multiple of what the quantity is made of: the sizes that cancel in it, times the rounding of
 a handful of surfaces (1e-13 ≈ 450 roundings).
 """
 
 from dataclasses import replace
-from math import inf, isfinite
+from math import inf
 
 import numpy as np
 from hypothesis import assume, given, settings
@@ -25,7 +25,7 @@ law = settings(max_examples=80, deadline=None, derandomize=True)
 
 
 def rays_or_skip(lens: Lens, *where):
-    """Return the paraxial rays of a case in which they exist and are no larger than a metre."""
+    """Return the paraxial rays of a case that has them, no larger than a metre."""
     try:
         rays = paraxial_rays(lens, *where)
     except P2SFError:
@@ -117,7 +117,7 @@ def test_a_reversed_lens_swaps_a_and_d_its_foci_and_its_pupils(lens, wavelength)
     size = np.abs([a, b, c, d]).max() + np.abs(basis_rays(lens, wavelength).b).max()
     np.testing.assert_allclose([a2, b2, c2, d2], [d, b, c, a], rtol=0, atol=ROUNDING * (1 + size) * 10)
     one, two = pupils(lens, wavelength), pupils(turned, wavelength)
-    assume(all(isfinite(x) and abs(x) < 1e3 for x in (*vars(one).values(), *vars(two).values())))
+    assume(all(abs(x) < 1e3 for x in (*vars(one).values(), *vars(two).values())))
     np.testing.assert_allclose(-two.exit_from_last, one.entrance_from_first, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(two.exit_diameter, one.entrance_diameter, rtol=1e-9)
 
@@ -125,7 +125,7 @@ def test_a_reversed_lens_swaps_a_and_d_its_foci_and_its_pupils(lens, wavelength)
 @law
 @given(lenses(), between(5.0, 500.0), wavelengths)
 def test_light_goes_back_the_way_it_came(lens, depth, wavelength):
-    """The image, taken as object of the reversed lens, is imaged onto the object, at 1/m (Helmholtz).
+    """The image, taken as object of the reversed lens, is imaged onto the object, at 1/m (Helmholtz), in any media.
 
     A bare plane 10 mm before the image stands in for the last vertex, so that virtual images serve too.
     """
@@ -135,7 +135,6 @@ def test_light_goes_back_the_way_it_came(lens, depth, wavelength):
     plane = Surface(inf, 10.0, last.medium)
     back = reversed_lens(replace(lens, surfaces=(*lens.surfaces[:-1], last, plane)))
     np.testing.assert_allclose(image_distance(back, 10.0, wavelength), depth, rtol=1e-8)
-    # m·m' = 1 whatever the two media: each is nu/(n'u') of the same ray
     np.testing.assert_allclose(magnification(back, 10.0, wavelength) * m, 1, rtol=1e-8)
 
 
@@ -200,7 +199,7 @@ def test_the_order_of_cemented_zero_power_surfaces_does_not_matter(lens, depth, 
 
 
 @law
-@given(lenses(), depths, between(0.0, 1.0), wavelengths)
+@given(lenses(), depths, slopes, wavelengths)
 def test_every_coefficient_is_its_own_power_of_the_field(lens, depth, slope, wavelength):
     rays_or_skip(lens, depth, wavelength)
     one, two = (coefficients(lens, depth, x, wavelength) for x in (slope, 2 * slope))
@@ -212,9 +211,9 @@ def test_every_coefficient_is_its_own_power_of_the_field(lens, depth, slope, wav
 @given(between(1.05, 2.5), between(5.0, 500.0), between(0.5, 3.0))
 def test_a_conic_of_minus_the_square_of_the_index_ratio_focuses_collimated_light(index, radius, rim):
     """Descartes: K = −(n/n')² images infinity perfectly on the axis."""
-    lens = Lens((Surface(radius, 10.0, ConstantIndex(index), -1 / index**2),), Aperture("stop_semi_diameter", rim), 1)
-    sphere = replace(lens, surfaces=(replace(lens.surfaces[0], conic=0.0),))
-    exact, plain = (float(coefficients(x, inf, 0.0, 0.5).w40) for x in (lens, sphere))
+    surface = Surface(radius, 10.0, ConstantIndex(index), -1 / index**2)
+    pair = (Lens((x,), Aperture("stop_semi_diameter", rim), 1) for x in (surface, replace(surface, conic=0.0)))
+    exact, plain = (float(coefficients(x, inf, 0.0, 0.5).w40) for x in pair)
     assert abs(exact) <= ROUNDING * abs(plain) * 100
 
 
@@ -238,8 +237,7 @@ def test_arrays_in_any_order_give_each_its_own_answer(lens, depth, wavelength):
 def test_no_public_function_of_the_core_returns_nan(lens, depth, slope, wavelength):
     """A number, an infinity, or an error that says why; never NaN."""
     calls = (
-        lambda: vars(cardinal_points(lens, wavelength)),
-        lambda: vars(pupils(lens, wavelength)),
+        lambda: vars(cardinal_points(lens, wavelength)) | vars(pupils(lens, wavelength)),
         lambda: {"image": image_distance(lens, depth, wavelength), "m": magnification(lens, depth, wavelength)},
         lambda: {"stop": find_stop(lens, depth, wavelength, "auto").limiting_surface},
         lambda: vars(coefficients(lens, depth, slope, wavelength)),
@@ -249,5 +247,4 @@ def test_no_public_function_of_the_core_returns_nan(lens, depth, slope, waveleng
             found = call()
         except P2SFError:
             continue
-        for name, value in found.items():
-            assert not np.isnan(value).any(), name
+        assert not any(np.isnan(value).any() for value in found.values()), found

@@ -192,8 +192,7 @@ def telecentric_cases():
 
 
 def cemented_cases():
-    for name in ("double_gauss_28", "achromat_f6"):
-        lens = base(name)
+    for lens in (base("double_gauss_28"), base("achromat_f6")):
         for j in range(len(lens.surfaces)):
             extra = Surface(35.0, 0.0, lens.surfaces[j].medium)
             surfaces = (*lens.surfaces[: j + 1], extra, *lens.surfaces[j + 1 :])
@@ -229,11 +228,8 @@ def scaling_cases():
 
 
 REGIMES = (
-    depth_cases,
-    focal_plane_cases,
-    field_cases,
-    aperture_cases,
-    wavelength_cases,
+    *(depth_cases, focal_plane_cases),
+    *(field_cases, aperture_cases, wavelength_cases),
     radius_cases,
     thickness_cases,
     index_step_cases,
