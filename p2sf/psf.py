@@ -225,10 +225,8 @@ def check_image(coefficients: Coefficients) -> None:
     c = coefficients
     if not np.isfinite(c.w40 + c.w31 + c.w22 + c.w20 + c.wd + c.reduced_slope).all():
         names = ("w40", "w31", "w22", "w20", "wd", "reduced_slope")
-        bad = next(name for name in names if not np.isfinite(getattr(c, name)).all())
-        raise GeometryError(
-            f"{bad} is not finite, so there is no wavefront; choose a depth, field or lens that has one"
-        )
+        bad = next((name for name in names if not np.isfinite(getattr(c, name)).all()), "their sum")
+        raise GeometryError(f"{bad} is not finite, so there is no wavefront; choose a depth, field or lens with one")
 
 
 def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import centred_axis
-from p2sf.errors import SamplingError
+from p2sf.errors import GeometryError, SamplingError
 from p2sf.fastpath import intensities, wave_number
 from p2sf.lens import with_f_number
 from p2sf.psf import fft_intensity, plain_intensity, seidel_psf
@@ -148,3 +148,9 @@ def test_scaling_lens_and_wavelength_leaves_the_picture_alone():
     for k in (1e-6, 1e6):
         again = seidel_psf(waves(*six, wavelength_um=WAVELENGTH_UM * k), 24, 0.3 * LAMBDA_NA * k).values
         np.testing.assert_allclose(again, first, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("six", [(np.inf,), (0.0, np.nan), (1e308, 1e308, 0.0)])
+def test_a_wavefront_without_numbers_is_refused_in_words(six):
+    with np.errstate(over="ignore", invalid="ignore"), pytest.raises(GeometryError, match="not finite"):
+        seidel_psf(waves(*six), 8, 1.0)
