@@ -99,9 +99,9 @@ def signed(value: float, places: int) -> str:
 
 def written_r_squared(value: float) -> str:
     """Return R² with as many digits as keep 1 − R² readable; what rounds to one is said to be above."""
-    if value > 0.99999:
-        return "> 0.99999"
-    return f"{value:.5f}" if value > 0.99 else f"{value:.3f}".replace("-", "−")
+    if value > 0.9999:
+        return "> 0.9999"
+    return f"{value:.4f}" if value > 0.99 else f"{value:.3f}".replace("-", "−")
 
 
 def read_distance(text: str) -> float:

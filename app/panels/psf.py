@@ -8,7 +8,7 @@ from app.card import Card, chooser, select
 from app.compute import Live
 from app.plots import HeatMap
 from app.readout import Readout
-from app.scales import written_r_squared
+from app.scales import significant, written_r_squared
 from app.store import Store
 from app.theme import Tokens
 
@@ -73,7 +73,7 @@ class PsfPanel:
         """Name method, time and measured R² against the Huygens sum; grey while that is of an earlier picture."""
         self._r_squared = r_squared
         psf = live.psf
-        parts = [psf.method, f"{1e3 * psf.seconds:.1f} ms", live.quality]
+        parts = [psf.method, f"{significant(1e3 * psf.seconds, 2)} ms", live.quality]
         if r_squared is not None:
             parts.append(f"R² {written_r_squared(r_squared)} vs Huygens")
         self.badge.set_text(" · ".join(parts), "muted" if stale else "text")
