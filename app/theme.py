@@ -119,7 +119,11 @@ def palette(theme: Tokens) -> QPalette:
 
 def stylesheet(theme: Tokens) -> str:
     """Return the style sheet of the window."""
-    t = theme
+    return _grounds(theme) + _inputs(theme)
+
+
+def _grounds(t: Tokens) -> str:
+    """Return the look of cards, labels and the banner."""
     return f"""
     QWidget {{ color: {t.text}; font-size: 13px; }}
     QMainWindow, QWidget#window {{ background: {t.window}; }}
@@ -135,6 +139,12 @@ def stylesheet(theme: Tokens) -> str:
     QLabel#warning {{ color: {t.warning}; font-size: 12px; }}
     QFrame#banner {{ background: {t.warning_back}; border: 1px solid {t.warning}; border-radius: 6px; }}
     QFrame#banner QLabel {{ color: {t.warning}; }}
+    """
+
+
+def _inputs(t: Tokens) -> str:
+    """Return the look of what is clicked, chosen and typed into."""
+    return f"""
     QLineEdit, QComboBox, QPushButton, QToolButton {{
         background: {t.raised}; border: 1px solid {t.line}; border-radius: 5px; padding: 3px 8px; min-height: 20px; }}
     QComboBox#small {{ padding: 1px 6px; font-size: 12px; min-height: 18px; }}
