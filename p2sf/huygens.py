@@ -62,15 +62,16 @@ def huygens_psf(
     """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
 
     The agreement reached (relative L2 in the window) is reported as the PSF's ``tolerance``, also where more nodes than
-    are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums as many rays as a 128² grid has
-    once, in float32, for a live picture that promises nothing. ``progress`` is told the fraction done;
-    ``cancelled`` is asked between blocks, and stops the work with `Cancelled`. Raises GeometryError where the
+    are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as a
+    128² grid has or as the blur needs, for a live picture that promises nothing. ``progress`` is told the fraction
+    done; ``cancelled`` is asked between blocks, and stops the work with `Cancelled`. Raises GeometryError where the
     chief ray, or every ray, fails. Without ``clip`` a ray that fails is left out, and counted in ``sampling``.
     """
     started = perf_counter()
     window = pixels, pixel_um
     if tolerance is None:
-        found, counts, reached, rays = *_once(lens, source, window, filling), None, LIVE[0] * LIVE[1] // 2
+        found, counts = _once(lens, source, window, filling)
+        reached, rays = None, _nodes(counts)
     else:
         watch = _Watch(progress, cancelled)
         found, counts, reached, rays = _settle(lens, source, window, filling, tolerance, watch)
@@ -81,7 +82,10 @@ def huygens_psf(
 
 
 def _once(lens, source, window, filling):
-    return huygens_field(lens, source, LIVE, window, filling, _Watch(live=True)), LIVE
+    """Return the field of one pass in float32: as many rays as a 128² grid, more where the blur needs more."""
+    needed = first_counts(lens, source, window, filling)
+    counts = LIVE if needed[0] <= LIVE[0] and needed[1] <= LIVE[1] else needed
+    return huygens_field(lens, source, counts, window, filling, _Watch(live=True)), counts
 
 
 def _settle(lens, source, window, filling, tolerance, watch: "_Watch"):

@@ -8,6 +8,9 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.raytrace import Pencil, diffraction_phase
 
+COARSE = 1.15  # what a maximum over some tens of rays may miss
+SMALLEST = 1e-12
+
 
 @dataclass(frozen=True)
 class RayData:
@@ -22,7 +25,11 @@ class RayData:
 
 @dataclass(frozen=True)
 class Steepness:
-    """What sampling must carry, in waves: steepest |∂w/∂ρ|, |∂w/∂θ|, |∂w/∂ξ|, |∂w/∂η|; ``spread``: largest |f|, /µm."""
+    """What sampling must carry, in waves; ``spread``: largest |f|, cycles per µm.
+
+    ``radial``, ``angular``: steepest |∂w/∂ρ| and |∂w/∂θ|, for disc nodes. ``across``, ``along``: steepest |∂w/∂s| and
+    |∂w/∂t| with η = cos t and ξ = sin s·sin t, for the columns and rows of `rows`: as in `wavefront.steepest_chords`.
+    """
 
     radial: float
     angular: float
@@ -43,10 +50,14 @@ def steepness(rays: RayData, xi, eta) -> Steepness:
 
     With f nearly proportional to (ξ, η) that needs no derivative. NaN rays are left out.
     """
-    radial = np.abs(rays.x_um * rays.fx + rays.y_um * rays.fy) / np.hypot(xi, eta)
+    rho2 = xi * xi + eta * eta
+    radial = np.abs(rays.x_um * rays.fx + rays.y_um * rays.fy) / np.sqrt(rho2)
     angular = np.abs(rays.x_um * rays.fy - rays.y_um * rays.fx)
+    sine = np.sqrt(np.maximum(1 - eta * eta, SMALLEST))
+    across = np.abs(rays.x_um) * np.sqrt(np.maximum(1 - rho2, 0))
+    along = np.abs(rays.x_um * (xi * eta / sine) - rays.y_um * sine)
     square = rays.fx * rays.fx + rays.fy * rays.fy
-    columns = radial, angular, np.abs(rays.x_um), np.abs(rays.y_um), square
-    radial, angular, across, along, square = (float(np.fmax.reduce(column)) for column in columns)
+    steepest = (float(np.fmax.reduce(column)) for column in (radial, angular, across, along, square))
+    radial, angular, across, along, square = steepest
     spread = sqrt(square)
-    return Steepness(radial, angular, spread * across, spread * along, spread)
+    return Steepness(radial, angular, COARSE * spread * across, COARSE * spread * along, spread)
