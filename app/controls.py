@@ -8,7 +8,7 @@ from app.facts import rows
 from app.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
 from app.readout import FactTable, Readout
 from app.scales import Vergence, short_distance, signed
-from app.setting import Ranges, default_state, load, ranges
+from app.setting import Ranges, default_state, prescription, ranges
 from app.slider import STEPS, Slider
 from app.store import Store
 from app.theme import SPACE, Tokens
@@ -65,7 +65,7 @@ class Row(QWidget):
 
     def reset(self) -> None:
         """Go back to the lens's own value."""
-        fresh = default_state(self._store.state.lens)
+        fresh = default_state(self._store.state.lens, self._store.state.lens_text)
         self._store.update(**{self.quantity.key: getattr(fresh, self.quantity.key)})
 
     def show_state(self, state, limits: Ranges) -> None:
@@ -186,7 +186,7 @@ class Controls(QWidget):
 
     def show_state(self, state) -> None:
         """Follow a state."""
-        limits = ranges(load(state.lens))
+        limits = ranges(prescription(state))
         for row in self.rows.values():
             row.show_state(state, limits)
 

@@ -64,6 +64,18 @@ def _load(name: str, _changed: int) -> Lens:
     return find_lens(name)
 
 
+def prescription(state: State) -> Lens:
+    """Return the state's lens before it is opened and focused: as edited, else as its file has it; LensFileError."""
+    return load(state.lens) if state.lens_text is None else _edited(state.lens_text)
+
+
+@lru_cache(maxsize=128)
+def _edited(text: str) -> Lens:
+    from p2sf.lensfile.toml import parse_toml
+
+    return parse_toml(text, "the edited lens")
+
+
 def title(name: str) -> str:
     """Return how a chooser names a lens: its file's title, read without looking up its glasses; else its name."""
     from p2sf.library import lenses_folder
@@ -84,7 +96,7 @@ def shipped() -> tuple[str, ...]:
 
 def setting(state: State) -> Setting:
     """Return everything paraxial about the state; a P2SFError in a sentence where there is no answer."""
-    on_axis = _on_axis(load(state.lens), _request(state))
+    on_axis = _on_axis(prescription(state), _request(state))
     slope = float(slope_from_degrees(state.field_deg))
     source = replace(on_axis.source, field_slope=slope)
     depth = source.depth_mm
@@ -119,7 +131,7 @@ def _on_axis(prescription: Lens, request: Request) -> Setting:
 
 def setup(state: State) -> Setup:
     """Return the state as the library's own setup, field included: what a file says about where it comes from."""
-    return set_up(load(state.lens), replace(_request(state), field_deg=state.field_deg))
+    return set_up(prescription(state), replace(_request(state), field_deg=state.field_deg))
 
 
 def _request(state: State) -> Request:
@@ -198,24 +210,29 @@ def _table_range(medium) -> tuple[float, float] | None:
     return (known[0], known[-1]) if known else None
 
 
-@lru_cache(maxsize=32)
-def default_state(name: str) -> State:
+def default_state(name: str, lens_text: str | None = None) -> State:
     """Return the state a lens is first shown in: its own focus, a field with something to say, its middle line."""
-    lens = load(name)
+    return _defaults(State(lens=name, lens_text=lens_text), prescription(State(lens=name, lens_text=lens_text)))
+
+
+@lru_cache(maxsize=32)
+def _defaults(state: State, lens: Lens) -> State:
     focused = focused_distance(lens)
     focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
     depth = inf if focused > 30 * focal or not isfinite(focal) else float(np.round(focused, 3))
     fields = sorted(abs(angle) for angle in lens.fields_deg)
     middle = fields[len(fields) // 2] or fields[-1]
-    return State(lens=name, depth_mm=depth, field_deg=middle, wavelength_nm=lens.reference_wavelength_um * NM_PER_UM)
+    wavelength = lens.reference_wavelength_um * NM_PER_UM
+    return replace(state, depth_mm=depth, field_deg=middle, wavelength_nm=wavelength)
 
 
-def with_lens(state: State, name: str) -> State:
+def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
     """Return the state moved to another lens: its defaults for the source, the person's choices for the rest."""
-    fresh = default_state(name)
+    fresh = default_state(name, lens_text)
     return replace(
         state,
         lens=name,
+        lens_text=lens_text,
         depth_mm=fresh.depth_mm,
         field_deg=fresh.field_deg,
         wavelength_nm=fresh.wavelength_nm,

@@ -32,9 +32,13 @@ OPTIONAL = ("focus_mm", "f_number")
 
 @dataclass(frozen=True)
 class State:
-    """The whole setup; ``focus_mm`` and ``f_number`` None mean: as the lens file has it."""
+    """The whole setup; ``focus_mm`` and ``f_number`` None mean: as the lens file has it.
+
+    ``lens_text`` is the TOML text of a lens edited in the window, None while it is as ``lens`` names it.
+    """
 
     lens: str = "double_gauss_28"
+    lens_text: str | None = None
     depth_mm: float = inf
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
@@ -59,6 +63,10 @@ class State:
                 raise P2SFError(f'{name} is "{getattr(self, name)}"; choose one of {", ".join(allowed)}')
         if not isinstance(self.lens, str) or not self.lens:
             raise P2SFError("the state names no lens; give the name of a shipped lens or a path")
+        if not isinstance(self.lens_text, str | None):
+            raise P2SFError(
+                "the state's edited lens is not text; leave lens_text out to take the lens as its file has it"
+            )
         if not isinstance(self.clip, bool) or not isinstance(self.tab, str):
             raise P2SFError("the state's clip must be true or false, and its tab a panel's name; correct them")
 

@@ -16,6 +16,7 @@ finite = {"allow_nan": False, "allow_infinity": False}
 STATES = st.builds(
     State,
     lens=st.sampled_from(["double_gauss_28", "/some where/lens.toml"]),
+    lens_text=st.none() | st.text(max_size=200),
     depth_mm=st.floats(1e-3, 1e12, **finite) | st.just(inf),
     focus_mm=st.none() | st.floats(1e-3, 1e12, **finite) | st.just(inf),
     sensor_shift_um=st.floats(-1e6, 1e6, **finite),
@@ -47,6 +48,7 @@ def test_infinity_is_plain_json():
         ({"field_deg": "wide"}, "field angle is 'wide'"),
         ({"method": "magic"}, 'method is "magic"; choose one of auto'),
         ({"lens": ""}, "names no lens"),
+        ({"lens_text": 3}, "edited lens is not text"),
         ({"clip": "yes"}, "clip must be true or false"),
     ],
 )
