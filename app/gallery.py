@@ -1,0 +1,68 @@
+"""Pictures of the window for the README and for whoever changes a panel: ``python -m app.gallery FOLDER``."""
+
+import sys
+from pathlib import Path
+
+from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtWidgets import QApplication
+
+from app.panels import REGISTRY
+from app.state import State
+from app.theme import configure_plots
+from app.window import Window
+
+SIZES = {"small": (1280, 800), "large": (1920, 1080)}
+LONGEST_MS = 20_000  # for the background measurement of one picture
+LOOK_MS = 50
+
+
+def states() -> dict[str, State]:
+    """Return the states to show: the first picture in both themes, and every other tab."""
+    tabs = [entry.key for entry in REGISTRY if entry.place != "main" and entry.key != State().tab]
+    shown = {"first_light": State(theme="light"), "first_dark": State(theme="dark")}
+    shown["close_up"] = State(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
+    shown["eye"] = State(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")
+    return shown | {f"tab_{tab}": State(tab=tab, theme="light") for tab in tabs}
+
+
+def settle(window: Window) -> None:
+    """Let the window paint, and its background measurement end."""
+    loop, looking, longest = QEventLoop(), QTimer(), QTimer()
+    looking.timeout.connect(lambda: None if window.measuring.worker.busy else loop.quit())
+    longest.setSingleShot(True)
+    longest.timeout.connect(loop.quit)
+    looking.start(LOOK_MS)
+    longest.start(LONGEST_MS)
+    loop.exec()
+
+
+def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
+    """Save a picture of the window in a state, its accuracy ``measured`` or not."""
+    window = Window(state, measured)
+    window.resize(*size)
+    window.show()
+    settle(window)
+    window.grab().save(str(path))
+    window.close()
+
+
+def main(arguments: list[str]) -> int:
+    """Write every picture into the folder named by the one argument."""
+    if len(arguments) != 1:
+        print("usage: python -m app.gallery FOLDER", file=sys.stderr)
+        return 2
+    folder = Path(arguments[0])
+    folder.mkdir(parents=True, exist_ok=True)
+    application = QApplication.instance() or QApplication(sys.argv[:1])
+    application.setStyle("Fusion")
+    configure_plots()
+    for name, state in states().items():
+        for size, pixels in SIZES.items():
+            if size == "small" or not name.startswith("tab_"):
+                picture(state, pixels, folder / f"{name}_{size}.png")
+                print(folder / f"{name}_{size}.png")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
