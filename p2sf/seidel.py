@@ -61,8 +61,12 @@ class Coefficients:
 
 
 def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope=1.0) -> SeidelSums:
-    """Return the five sums per surface at this field slope (Welford 1986, eqs 8.24 and 8.40 ff.)."""
-    unit = _unit_sums(lens, rays)
+    """Return the five sums per surface at these field slopes (Welford 1986, eqs 8.24 and 8.40 ff.).
+
+    ``field_slope`` broadcasts against the rays' (depth, wavelength); the surface stays the first axis.
+    """
+    missing = (1,) * max(0, np.ndim(field_slope) + 1 - rays.y.ndim)
+    unit = SeidelSums(*(x.reshape(len(x), *missing, *x.shape[1:]) for x in _unit_sums(lens, rays).columns()))
     powers = (1.0, field_slope, np.square(field_slope), np.square(field_slope), np.power(field_slope, 3))
     return SeidelSums(*(column * power for column, power in zip(unit.columns(), powers, strict=True)))
 

@@ -52,6 +52,20 @@ def test_grid_of_depth_field_wavelength_equals_the_loop():
             assert value == pytest.approx(getattr(one, key), rel=1e-13, abs=1e-12), key
 
 
+@pytest.mark.parametrize("wavelength", [0.55, np.array([0.48, 0.55, 0.65])], ids=["one colour", "three colours"])
+def test_sums_per_surface_take_as_many_fields_as_there_are_surfaces(wavelength):
+    """Eleven fields beside eleven surfaces would pair up, one field per surface, were the surface axis not kept."""
+    lens = prescription_lens("double_gauss_28", 587.5618)
+    slopes = np.linspace(0.0, 0.25, len(lens.surfaces)).reshape(-1, *[1] * np.ndim(wavelength))
+    rays = paraxial_rays(lens, inf, wavelength)
+    grid = seidel_sums(lens, rays, slopes)
+    for number, slope in enumerate(slopes.ravel()):
+        one = seidel_sums(lens, rays, slope)
+        for many, single in zip(grid.columns(), one.columns(), strict=True):
+            found = np.broadcast_to(many, (len(lens.surfaces), len(slopes), *np.shape(wavelength)))[:, number]
+            np.testing.assert_allclose(found, single, rtol=1e-15, atol=0)  # the same products in the same order
+
+
 def test_zero_field_has_exactly_no_field_aberration():
     c = coefficients(prescription_lens("tessar", 587.5618), 100.0, 0.0, 0.5875618)
     assert (c.w31, c.w22, c.w20, c.w11, c.image_height) == (0, 0, 0, 0, 0)
