@@ -148,7 +148,19 @@ def field_slope(lens: Lens, request: Request, wavelength, stop: Stop) -> float:
     else:
         slope = slope_from_degrees(request.field_deg or 0.0)
     paraxial_rays(lens, request.depth_mm, wavelength, stop)  # names the depths and stops that have no chief ray
+    _check_slope(request, float(slope))
     return float(slope)
+
+
+def _check_slope(request: Request, slope: float) -> None:
+    """Raise RequestError for a height so large that its chief ray is at right angles to the axis, to rounding."""
+    if abs(degrees_from_slope(slope)) < 90:
+        return
+    name = next(name for name in FIELDS if getattr(request, name) is not None)
+    raise RequestError(
+        f"{place_of(name)} is {getattr(request, name):g}{_unit(name)}, which needs a chief ray at 90° to the axis; "
+        "give a smaller one"
+    )
 
 
 def _opened(lens: Lens, f_number: float | None) -> Lens:

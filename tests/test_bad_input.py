@@ -90,6 +90,8 @@ OPTIONS = [
     ("coefficients", "--field-deg nan", ("--field-deg is nan°",)),
     ("coefficients", "--field-deg 3 --image-height-mm 4", ("--field-deg and --image-height-mm",)),
     ("coefficients", "--object-height-mm 4", ("--object-height-mm is 4 mm", "--depth-mm")),
+    ("coefficients", "--image-height-mm 1e308", ("--image-height-mm is 1e+308 mm", "90°")),
+    ("coefficients", "--object-height-mm -1e308 --depth-mm 9", ("--object-height-mm is -1e+308 mm", "90°")),
     ("info", "--depth-mm abc", ("--depth-mm", "abc")),
     ("info", "--depth-mm 0", ("--depth-mm is 0 mm",)),
     ("info", "--depth-mm -100", ("--depth-mm is -100 mm",)),
