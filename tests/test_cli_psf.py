@@ -74,3 +74,18 @@ def test_the_figures_are_measured_on_the_samples(answer, tmp_path):
 def test_a_table_for_people(said):
     text = said("psf", "asphere", "--method", "seidel", "--pixels", 31)
     assert "31 × 31" in text and "Strehl ratio" in text and "µm" in text
+
+
+@pytest.mark.parametrize("method", ["seidel", "fitted", "traced", "huygens", "gaussian"])
+def test_the_asked_rung_makes_the_picture(method, capsys):
+    assert main(["psf", "landscape", "--method", method, "--pixels", "16", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["method"] == method
+
+
+def test_auto_is_the_default_and_takes_the_cheapest_rung_that_holds(capsys):
+    """Six coefficients describe f/16 on axis and fail on the Double Gauss at 14° (DESIGN.md section 2)."""
+    found = []
+    for arguments in (["landscape"], ["double_gauss_28", "--field-deg", "14"]):
+        assert main(["psf", *arguments, "--pixels", "16", "--json"]) == 0
+        found.append(json.loads(capsys.readouterr().out)["method"])
+    assert found == ["seidel", "fitted"]

@@ -1,7 +1,6 @@
 """`p2sf psf`: one point spread function, computed and written to a file."""
 
 from dataclasses import dataclass
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -65,7 +64,6 @@ class Picture:
 
 
 USUAL = Picture()
-_LADDER = find_spec("p2sf.ladder") is not None
 
 
 def psf(
@@ -99,11 +97,9 @@ def psf(
 
 def render(setup: Setup, picture: Picture) -> Psf:
     """Return the asked PSF: by the ladder, or straight from the six coefficients when they are asked for."""
-    method = picture.method or ("auto" if _LADDER else "seidel")
+    method = picture.method or "auto"
     if picture.sampling or method == "seidel":
         return _from_coefficients(setup, picture)
-    if not _LADDER:
-        raise RequestError(f"--method is {method}, a rung that this version does not have yet; choose seidel")
     from p2sf import ladder
 
     grid = {"pixels": picture.pixels, "pixel_um": picture.pixel_um}
