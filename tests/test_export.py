@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -65,14 +66,19 @@ def test_csv_is_readable_by_a_plain_table_reader(tmp_path):
 
 
 def test_png_shows_the_spot_where_it_is(tmp_path):
+    """The spot lies 7 of 24 rows above its mirror image and 6 of 17 columns left of it; a picture's rows count down."""
     from matplotlib.image import imread
 
-    path = write_psf(blob(), tmp_path / "a.png", META)
-    brightness = imread(path)[..., :3].sum(-1)
-    assert min(brightness.shape) >= 600
-    inside = brightness[100:700, 130:700]  # the axes without labels
-    purple = np.argwhere((inside > 0.9) & (inside < 2.7))
-    assert purple[:, 0].mean() < 450  # y = 15 of 24 rows lies in the upper part, rows counting down in a picture
+    def coloured(values):
+        picture = imread(write_psf(replace(blob(), values=values), tmp_path / "a.png", META))[..., :3]
+        assert min(picture.shape[:2]) >= 600
+        half = picture[:, : picture.shape[1] * 3 // 4]  # without the colour bar
+        return np.argwhere(np.ptp(half, axis=-1) > 0.3).mean(0)
+
+    values = blob().values
+    row, column = coloured(values)
+    assert coloured(values[::-1])[0] - row > 100
+    assert coloured(values[:, ::-1])[1] - column > 50
 
 
 def test_png_says_what_it_shows(tmp_path):

@@ -22,6 +22,7 @@ from p2sf.pupils import (
     stop_rim,
     working_f_number,
 )
+from tests.dispersive import dispersive_lens
 from tests.reference import LENSES, prescription_lens, prescriptions, reference
 
 FIRST_ORDER = 1e-10  # the figure
@@ -113,8 +114,11 @@ def test_marginal_ray_is_positive_at_the_entrance_pupil_of_an_upright_and_an_inv
 
 
 def test_f_number_is_set_at_the_reference_wavelength():
-    lens = with_f_number(middle_lens("double_gauss_28"), 5.6)
+    lens = replace(dispersive_lens("double_gauss_28"), wavelengths_nm=(486.1, 587.6, 656.3))
+    lens = with_f_number(lens, 5.6)
     assert f_number(lens, lens.reference_wavelength_um) == pytest.approx(5.6, rel=1e-14)
+    # The rim is one at all wavelengths, so where the focal length differs the f-number does, here by 1.6 %.
+    assert f_number(lens, 0.4861) != pytest.approx(5.6, rel=1e-3)
 
 
 def test_working_f_number_grows_up_close_and_meets_the_na_at_infinity():
