@@ -75,6 +75,8 @@ def test_a_stop_index_beyond_the_last_surface(refused, broken):
 OPTIONS = [
     ("psf", "--pixels 63 --sampling fft", ("--pixels is 63", "even", "64")),
     ("psf", "--pixels 0", ("--pixels is 0",)),
+    ("psf", "--pixels 2.5", ("--pixels", "2.5")),
+    ("spot", "--rings 2.5", ("--rings", "2.5")),
     ("psf", "--pixels 1000000", ("--pixels is 1000000", "2048")),
     ("psf", "--pixel-um 0", ("--pixel-um is 0 µm",)),
     ("psf", "--pixel-um nan", ("--pixel-um is nan µm",)),
@@ -112,6 +114,10 @@ def test_an_option_that_cannot_be(refused, command, options, words):
 
 def test_a_command_that_is_none(refused):
     assert "coefficients" in refused("coeficients", "double_gauss_28")
+
+
+def test_a_command_that_is_like_none(refused):
+    assert ", database; p2sf --help" in refused("frobnicate")
 
 
 def test_a_lens_left_out(refused):

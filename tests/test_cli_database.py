@@ -119,6 +119,8 @@ def test_every_export_is_written_beside_the_database(said, file, to):
         (("--depths-mm", "500:inf:1"), "1 nodes; give from 2 to 4096"),
         (("--depths-mm=-5:inf:3",), "give distances in front of the lens"),
         (("--depths-mm", "nan"), "--depths-mm is nan; write"),
+        (("--depths-mm", "0:10:3"), "give distances in front of the lens"),
+        (("--stack", "--pixels", "9.5"), "--pixels"),
         (("--fields-deg", "0:inf:3"), "only a depth may reach to inf"),
         (("--fields-deg", "0:90:3"), "give angles from 0 to below 90 degrees"),
         (("--fields-deg", "5,2"), "put the numbers in ascending order"),

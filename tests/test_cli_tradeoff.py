@@ -34,6 +34,10 @@ def test_the_result_is_written_by_its_ending(tmp_path, capsys, ending):
     [
         (["-o", "x.bmp"], '".bmp" is unknown'),
         (["--fields-deg", "90"], "--fields-deg has 90°"),
+        (["--fields-deg"], "--fields-deg has no number"),
+        (["--depths-mm"], "--depths-mm has no number"),
+        (["--wavelengths-nm"], "--wavelengths-nm has no number"),
+        (["--pixels", "32.5"], '"32.5" is no whole number'),
         (["--depths-mm", "0"], "--depths-mm has 0"),
         (["--wavelengths-nm", "-5"], "--wavelengths-nm has -5"),
         (["--wavelengths-nm", "50"], "nm"),

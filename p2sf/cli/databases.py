@@ -10,7 +10,7 @@ import numpy as np
 from cyclopts import App, Parameter
 
 from p2sf.cli.images import MOST_PIXELS
-from p2sf.cli.options import Json, LensName
+from p2sf.cli.options import Json, LensName, Whole
 from p2sf.cli.screen import print_json, print_table, text
 from p2sf.cli.spans import even_span, span
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
@@ -85,7 +85,7 @@ class Kind:
     method: Literal["seidel", "fitted"] = "seidel"
     interpolant: Literal["exact", "table1", "linear"] = "exact"
     stack: bool = False
-    pixels: int = 64
+    pixels: Whole = 64
     pixel_um: float | None = None
     scheduler: str | None = None
 
@@ -147,9 +147,9 @@ def _built(setup, space: Space, kind: Kind):
 def space_of(nodes: Nodes, lens) -> Space:
     """Return the nodes that a person asked for; without fields, 21 up to the lens's widest. RequestError."""
     asked = span(nodes.depths_mm, "--depths-mm")
-    depths = asked if isinstance(asked, np.ndarray) else depth_nodes(*asked)
-    if not depths[0] > 0:
+    if not asked[0] > 0:
         raise RequestError(f"--depths-mm is {nodes.depths_mm}; give distances in front of the lens, above 0")
+    depths = asked if isinstance(asked, np.ndarray) else depth_nodes(*asked)
     fields = even_span(nodes.fields_deg or f"0:{max((1.0, *lens.fields_deg))!r}:21", "--fields-deg")
     if not (0 <= fields[0] and fields[-1] < 90):
         raise RequestError(f"--fields-deg is {nodes.fields_deg}; give angles from 0 to below 90 degrees")

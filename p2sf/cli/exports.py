@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from p2sf.cli.images import MOST_PIXELS
-from p2sf.cli.options import Json
+from p2sf.cli.options import Json, Whole
 from p2sf.cli.screen import print_json
 from p2sf.database.render import Sampling
 from p2sf.errors import RequestError
@@ -29,7 +29,7 @@ class Rendered:
         For ISETCam, which holds one object distance: which, mm; the farthest when not given.
     """
 
-    pixels: int | None = None
+    pixels: Whole | None = None
     pixel_um: float | None = None
     depth_mm: float | None = None
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from p2sf.cli.lookups import is_database, looked_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole
 from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.errors import ExportError, RequestError, SamplingError
 from p2sf.export import ENDINGS, describe, write_psf
@@ -41,7 +41,7 @@ class Picture:
     method: Literal["auto", "seidel", "fitted", "traced", "huygens", "gaussian"] | None = None
     tolerance: float = 0.99
     sampling: Literal["fft", "mdft"] | None = None
-    pixels: int = 64
+    pixels: Whole = 64
     pixel_um: float | None = None
 
     def __post_init__(self):

@@ -7,6 +7,16 @@ from cyclopts import Parameter
 
 from p2sf.request import Request
 
+
+def _whole(_, tokens) -> int:
+    """Return a whole number; cyclopts itself would round 2.5 to 2 and say nothing."""
+    try:
+        return int(tokens[0].value)
+    except ValueError as error:
+        raise ValueError(f'"{tokens[0].value}" is no whole number') from error
+
+
+Whole = Annotated[int, Parameter(converter=_whole)]
 LensName = Annotated[str, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
 Asked = Annotated[Request, Parameter(name="*")]
 Json = Annotated[bool, Parameter("--json", negative="", help="Print one JSON object, mm unless a name says otherwise.")]

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole
 from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.errors import ExportError, RequestError
 from p2sf.export import describe, write_beside, write_json
@@ -23,7 +23,7 @@ Aim = Annotated[
     Parameter(help="Fill the paraxial entrance pupil, or aim real rays so that the stop is filled."),
 ]
 Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
-Rings = Annotated[int, Parameter(help="Rings of rays over the pupil.")]
+Rings = Annotated[Whole, Parameter(help="Rings of rays over the pupil.")]
 
 
 def spot(

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, LensName, Output
+from p2sf.cli.options import Json, LensName, Output, Whole
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.export import write_beside, write_json
@@ -17,7 +17,7 @@ Several = Parameter(consume_multiple=True, negative="")
 Fields = Annotated[list[float] | None, Several, Parameter(help="Field angles, °; the file's when not given.")]
 Depths = Annotated[list[float] | None, Several, Parameter(help="Object distances, mm, inf allowed; ∞ when not given.")]
 Waves = Annotated[list[float] | None, Several, Parameter(help="Wavelengths, nm; the file's middle one when not given.")]
-Pixels = Annotated[int, Parameter(help="Samples along each side of the compared window.")]
+Pixels = Annotated[Whole, Parameter(help="Samples along each side of the compared window.")]
 
 
 def tradeoff(
@@ -56,6 +56,13 @@ def _check(output: Path | None, pixels: int, fields_deg, depths_mm, wavelengths_
     for field in fields_deg or ():
         if not abs(field) < 90:
             raise RequestError(f"--fields-deg has {field:g}°; give angles between −90 and 90°, both ends left out")
+    for name, values in (
+        ("--fields-deg", fields_deg),
+        ("--depths-mm", depths_mm),
+        ("--wavelengths-nm", wavelengths_nm),
+    ):
+        if values == []:
+            raise RequestError(f"{name} has no number behind it; give one or more, or leave it away")
     for name, values in (("--depths-mm", depths_mm), ("--wavelengths-nm", wavelengths_nm)):
         for value in values or ():
             if not value > 0:
