@@ -16,6 +16,7 @@ ROOT = Path(__file__).parent.parent
 FIRST_ORDER = (
     "tests/test_gaussian.py",
     "tests/test_pupils.py",
+    "tests/test_pupil_arguments.py",
     "tests/test_seidel.py",
     "tests/extremes/test_named.py",
     "tests/extremes/test_rounding.py",
