@@ -17,7 +17,7 @@ FLOORS = (
     "pupils",
     "seidel",
     "quadrature transform wavefront",
-    "fastpath psf measures",
+    "fastpath opdpath psf measures",
     "database refraction rays entrance raytrace zernike",
     "raydata rayfit rendering vignetting rows",
     "fitted huygens traced vocabulary",
