@@ -72,6 +72,15 @@ def test_a_gaussian_is_fitted_exactly(sigma_x, sigma_y, centre):
     assert (found.method, found.numbers) == ("gaussian", 3)
 
 
+def test_the_fitted_gaussian_keeps_the_references_strehl_scale():
+    """Both have the same light, so Strehl over the highest sample is one number for both, whatever the fit."""
+    (_, values, _), *_ = huygens_rows("double_gauss_28")
+    reference = made(values)
+    found = gaussian_psf(reference)
+    assert found.values.max() != pytest.approx(values.max(), rel=1e-3)
+    assert found.strehl / found.values.max() == pytest.approx(reference.strehl / reference.values.max(), rel=1e-14)
+
+
 @pytest.mark.parametrize("name", ["double_gauss_28", "eye_navarro", "tessar"])
 def test_no_neighbouring_gaussian_fits_a_real_psf_better(name):
     """The fit is a minimum: 2 % wider, narrower or shifted is never better."""

@@ -72,6 +72,15 @@ def test_the_files_stop_limits_at_infinity_and_a_tie_is_no_warning(name):
     assert stop.warning is None and stop.limiting_surface == stop.surface
 
 
+@pytest.mark.parametrize(("first_rim", "limiting"), [(5.0, 2), (5.0 - 1e-3, 1)])
+def test_of_two_rims_as_wide_as_the_cone_the_files_is_the_stop(first_rim, limiting):
+    front = Surface(semi_diameter=first_rim, thickness=1.0)  # a bare plane in collimated light: the same height
+    back = Surface(radius=-50.0, semi_diameter=5.0, thickness=100.0, medium=ConstantIndex(1.5))
+    lens = Lens((front, back), Aperture("stop_semi_diameter", 5.0), 2)
+    assert find_stop(lens).limiting_surface == find_stop(lens, mode="auto").surface == limiting
+    assert (find_stop(lens).warning is None) == (limiting == 2)
+
+
 def test_stop_search_over_arrays_equals_the_loop():
     lens = middle_lens("petzval")
     depth, wavelength = np.array([[40.0], [100.0], [400.0], [inf]]), np.array([0.5, 0.6])
