@@ -6,6 +6,7 @@ count rises until two successive pictures agree. Clear apertures (`vignetting`) 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from time import perf_counter
 
 import numpy as np
@@ -16,7 +17,7 @@ from p2sf.lens import Lens
 from p2sf.psf import Psf
 from p2sf.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.raydata import RayData, ray_data, steepness
-from p2sf.raytrace import pencil
+from p2sf.raytrace import hexapolar, pencil
 from p2sf.rendering import Made, counts_for, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.source import Source
 from p2sf.transform import sum_plane_waves
@@ -65,7 +66,7 @@ def huygens_psf(
     are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as a
     128² grid has or as the blur needs, for a live picture that promises nothing. ``progress`` is told the fraction
     done; ``cancelled`` is asked between blocks, and stops the work with `Cancelled`. Raises GeometryError where the
-    chief ray, or every ray, fails. Without ``clip`` a ray that fails is left out, and counted in ``sampling``.
+    chief ray, or every ray, fails. Where rays fail without ``clip`` the pupil ends where they begin to.
     """
     started = perf_counter()
     window = pixels, pixel_um
@@ -158,7 +159,17 @@ def one_pass(lens, source, counts, window, filling: Filling = PLAIN) -> Field:
 
 
 def _nodes_of(lens, source, counts, filling: Filling) -> ClearNodes:
-    return clear_nodes(lens, source, counts, filling.aim) if filling.clip else whole_nodes(counts)
+    """Return nodes that end where rays end: at the pupil's rim, at clear apertures, or where a surface is missed."""
+    if filling.clip or not all_reach(lens, source, filling.aim):
+        return clear_nodes(lens, source, counts, filling.aim, filling.clip)
+    return whole_nodes(counts)
+
+
+@lru_cache(maxsize=16)
+def all_reach(lens: Lens, source: Source, aim: str = "paraxial") -> bool:
+    """Return whether rays all over the pupil, its rim included, reach the sensor unclipped."""
+    xi, eta = hexapolar(PROBE[0])
+    return bool(pencil(lens, source, xi, eta, aim).passed.all())
 
 
 def _block(lens, source, nodes: ClearNodes, part: slice, aim) -> tuple[RayData, np.ndarray]:

@@ -10,6 +10,7 @@ from p2sf.raytrace import Pencil, diffraction_phase
 
 COARSE = 1.15  # what a maximum over some tens of rays may miss
 SMALLEST = 1e-12
+AIRY_RADIUS = 0.61  # over the largest spatial frequency
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,12 @@ class Steepness:
     across: float
     along: float
     spread: float
+
+    @property
+    def light_um(self) -> float:
+        """Return how far about its landing point a ray spreads its light, µm: Airy radius or blur/√(Fresnel number)."""
+        blur = self.radial / self.spread
+        return max(AIRY_RADIUS / self.spread, blur / sqrt(max(self.radial, 1.0)))
 
 
 def ray_data(rays: Pencil) -> RayData:

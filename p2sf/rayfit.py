@@ -83,6 +83,11 @@ class FittedPencil:
         """Return how many coefficients describe this pencil."""
         return self.level.numbers
 
+    @property
+    def error_waves(self) -> float:
+        """Return the RMS phase error over all the light: what the map misses counts where diffraction carries it."""
+        return float(np.hypot(self.residual_waves, self.map_residual * self.steepness.light_um))
+
     def at(self, xi, eta):
         """Return phase (waves), fx and fy (cycles/µm) at pupil points, each (points,)."""
         even = basis(max(self.level.wave_order, self.level.map_order), xi, eta)
@@ -119,7 +124,7 @@ def fit(
             rays = _trace(lens, source, level, aim, stop)
             traced += level.rays
         found = fit_rays(rays, level, traced)
-        if numbers or found.residual_waves < residual_waves:
+        if numbers or found.error_waves < residual_waves:
             return found
     if traced == 0:
         offered = ", ".join(str(level.numbers) for level in LEVELS)

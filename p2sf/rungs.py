@@ -23,7 +23,7 @@ from p2sf.huygens import Filling, huygens_psf
 from p2sf.lens import Lens
 from p2sf.psf import Psf, seidel_psf, suitable_pixel_um
 from p2sf.quadrature import SETTLED_TOLERANCE
-from p2sf.raydata import RayData, Steepness, ray_data, steepness
+from p2sf.raydata import RayData, ray_data, steepness
 from p2sf.rayfit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays
 from p2sf.raytrace import pencil
 from p2sf.seidel import Coefficients, coefficients
@@ -36,7 +36,7 @@ QUICK_LEVELS = LEVELS[:2]  # made from the same 64 rays
 # Measured at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, and 8 where one shows but its core.
 SAFETY = {"seidel": 5.0, "fitted": 8.0}
 TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
-AIRY_RADIUS = 0.61  # over the largest spatial frequency
+EDGE_ERROR = 1e-3  # of one pass over a pupil that ends at rims or where rays are lost
 
 
 @dataclass(frozen=True)
@@ -74,29 +74,29 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
         return _for_lost_rays(int((~rays.passed).sum()), xi.size, allowed)
     data = ray_data(rays)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    spread = spread_um(steepness(data, xi, eta), data)
+    spread = steepness(data, xi, eta).light_um
     errors = {"seidel": predicted_error(seidel_sigma(c, data, (xi, eta, weight), spread), "seidel")}
     if errors["seidel"] <= allowed:
         return Choice("seidel", errors["seidel"], 6, _sentence("six coefficients", errors["seidel"], allowed))
     for level in QUICK_LEVELS:
         found = fit_rays(data, level, level.rays)
-        sigma = np.hypot(found.residual_waves, found.map_residual * spread)
-        error = predicted_error(float(sigma), "fitted")
+        error = predicted_error(found.error_waves, "fitted")
         if error <= allowed:
             why = _sentence(f"{level.numbers} numbers from {level.rays} rays", error, allowed)
             return Choice("fitted", error, level.numbers, f"{why}; six coefficients: {errors['seidel']:.1e}")
         errors["fitted"] = error
-    return _by_rays(allowed, f"{QUICK_LEVELS[-1].numbers} fitted numbers leave 1 − R² ≤ {errors['fitted']:.1e} only")
+    because = f"{QUICK_LEVELS[-1].numbers} fitted numbers leave 1 − R² ≤ {errors['fitted']:.1e} only"
+    return _by_rays(allowed, TRACED_ERROR, because)
 
 
 def _for_lost_rays(lost: int, count: int, allowed: float) -> Choice:
-    """Return the rung that can leave rays out: neither six coefficients nor a fit know of an edge."""
-    return _by_rays(allowed, f"{lost} of {count} rays are lost, and a smooth pupil does not describe that")
+    """Return the rung that knows an edge: neither six coefficients nor a fit do."""
+    return _by_rays(allowed, EDGE_ERROR, f"{lost} of {count} rays are lost, and a smooth pupil does not describe that")
 
 
-def _by_rays(allowed: float, because: str) -> Choice:
-    if TRACED_ERROR <= allowed:
-        return Choice("traced", TRACED_ERROR, 0, f"exact rays, since {because}")
+def _by_rays(allowed: float, error: float, because: str) -> Choice:
+    if error <= allowed:
+        return Choice("traced", error, 0, f"exact rays, since {because}")
     return Choice("huygens", SETTLED_TOLERANCE**2, 0, f"the reference itself, since {because}")
 
 
@@ -115,12 +115,6 @@ def seidel_sigma(c: Coefficients, rays: RayData, points, spread: float) -> float
     variance = weight @ (error[own] - weight @ error[own]) ** 2
     departure = weight @ (miss_x[own] ** 2 + miss_y[own] ** 2)
     return float(np.sqrt(variance + departure * spread**2))
-
-
-def spread_um(steep: Steepness, rays: RayData) -> float:
-    """Return how far from where it lands a ray's light is spread: Airy radius, or blur over √(Fresnel number), µm."""
-    blur = float(np.sqrt(np.max(rays.x_um**2 + rays.y_um**2)))
-    return max(AIRY_RADIUS / steep.spread, blur / np.sqrt(max(steep.radial, 1.0)))
 
 
 def render(
@@ -142,15 +136,17 @@ def render(
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     if pixel_um is None:
         pixel_um = float(suitable_pixel_um(c, pixels))
+    numbers = None
     if method == "auto":
-        method = choose(lens, source, tolerance, clip).method
+        choice = choose(lens, source, tolerance, clip)
+        method, numbers = choice.method, choice.numbers
     if clip and method in ("seidel", "fitted"):
         _check_unclipped(lens, source, method)
     if method == "seidel":
         return seidel_psf(c, pixels, pixel_um, quality)
     if method == "fitted":
         started = perf_counter()
-        found = fit(lens, source, residual_waves=residual_for(tolerance))
+        found = fit(lens, source, numbers, residual_waves=residual_for(tolerance))
         return psf_of_fit(found, source.wavelength_um, (pixels, pixel_um), quality, started)
     return _by_tracing(lens, source, method, (pixels, pixel_um), quality, Filling(clip=clip))
 

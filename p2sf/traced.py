@@ -57,9 +57,7 @@ def _rows(lens, source, window, quality, aim) -> tuple[FittedPencil, FrequencyRo
     try:
         found = fit(lens, source, FEWEST, aim)
         found = (
-            found
-            if found.residual_waves < RESIDUAL_WAVES
-            else fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
+            found if found.error_waves < RESIDUAL_WAVES else fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
         )
     except GeometryError:  # rays lost: the reference's nodes leave them out one by one
         return None

@@ -24,6 +24,8 @@ SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/
 BISECTIONS = 36  # the pupil radius to 2e-11
 CORNER_BISECTIONS = 26  # a corner's direction to 2e-10
 FEWEST_PER_ARC = 6
+CLIPPED = "the rims clip every ray of this field; leave clip off or reduce the field"
+LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduce the field"
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
 
@@ -51,14 +53,16 @@ def whole_nodes(counts) -> ClearNodes:
     return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
 
 
-def clear_nodes(lens: Lens, source: Source, counts, aim: str = "paraxial") -> ClearNodes:
+def clear_nodes(lens: Lens, source: Source, counts, aim: str = "paraxial", clip: bool = True) -> ClearNodes:
     """Return nodes over the clear part of the pupil, about as dense as ``counts`` are over the whole.
+
+    Without ``clip`` the clear part ends where rays miss a surface or are totally reflected, not at rims.
 
     Raises GeometryError when nothing is clear.
     """
-    shape = outline(lens, source, aim)
+    shape = outline(lens, source, aim, clip)
     theta, share = _directions(shape.corners, counts[1])
-    radius, _ = _edge(lens, source, aim, shape.centre, theta)
+    radius, _ = _edge(lens, source, (aim, clip), shape.centre, theta)
     square, weight = gauss_legendre(counts[0])
     rho = np.sqrt((1 + square) / 2)[:, None] * radius
     # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half, over the whole pupil's area π.
@@ -79,37 +83,39 @@ def _directions(corners, count: int):
 
 
 @lru_cache(maxsize=16)
-def outline(lens: Lens, source: Source, aim: str = "paraxial") -> Outline:
+def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True) -> Outline:
     """Return centre and corners of the clear part of the pupil. Raises GeometryError when nothing is clear."""
     xi, eta = hexapolar(SEARCH_RINGS)
-    passed = pencil(lens, source, xi, eta, aim, clip=True).passed
+    passed = pencil(lens, source, xi, eta, aim, clip).passed
     if not passed.any():
-        raise GeometryError("the rims clip every ray of this field; leave clip off or reduce the field")
+        raise GeometryError(
+            "the rims clip every ray of this field; leave clip off or reduce the field" if clip else LOST
+        )
     centre = float(eta[passed].mean())
-    if not pencil(lens, source, [0.0], [centre], aim, clip=True).passed.all():
+    if not pencil(lens, source, [0.0], [centre], aim, clip).passed.all():
         raise GeometryError("the clear part of the pupil has no clear centre; leave clip off or reduce the field")
     theta = (np.arange(SCAN) + 0.5) * (np.pi / SCAN)
-    rim = _edge(lens, source, aim, centre, theta)[1]
+    rim = _edge(lens, source, (aim, clip), centre, theta)[1]
     change = np.flatnonzero(np.diff(rim))
     low, high, first = theta[change], theta[change + 1], rim[change]
     for _ in range(CORNER_BISECTIONS if change.size else 0):
         middle = (low + high) / 2
-        same = _edge(lens, source, aim, centre, middle)[1] == first
+        same = _edge(lens, source, (aim, clip), centre, middle)[1] == first
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return Outline(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
 
 
-def _edge(lens, source, aim, centre: float, theta):
-    """Return the clear radius along each angle, and the surface whose rim ends it (0: the pupil's own)."""
+def _edge(lens, source, way, centre: float, theta):
+    """Return the clear radius along each angle, and the surface that ends it (0: the pupil's own rim)."""
     sine, cosine = np.sin(theta), np.cos(theta)
     # The unit circle seen from the centre: |centre + r·direction| = 1.
     outer = np.sqrt(1 - (centre * sine) ** 2) - centre * cosine
-    rays = pencil(lens, source, outer * sine, centre + outer * cosine, aim, clip=True)
+    rays = pencil(lens, source, outer * sine, centre + outer * cosine, *way)
     whole, rim = rays.passed, rays.failed_surface.copy()
     low, high = np.zeros_like(outer), outer.copy()
     for _ in range(0 if whole.all() else BISECTIONS):
         middle = (low + high) / 2
-        rays = pencil(lens, source, middle * sine, centre + middle * cosine, aim, clip=True)
+        rays = pencil(lens, source, middle * sine, centre + middle * cosine, *way)
         low, high = np.where(rays.passed, middle, low), np.where(rays.passed, high, middle)
         rim = np.where(rays.passed, rim, rays.failed_surface)
     return np.where(whole, outer, low), np.where(whole, 0, rim)

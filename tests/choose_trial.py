@@ -6,17 +6,18 @@ reference. Never may the chosen one fall below the tolerance; how often a cheape
 """
 
 import argparse
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
 
 from p2sf.accuracy import r_squared
-from p2sf.errors import P2SFError
+from p2sf.errors import GeometryError, P2SFError
 from p2sf.fitted import fitted_psf
 from p2sf.gaussian import cardinal_points, image_distance
 from p2sf.huygens import huygens_psf
-from p2sf.ladder import choose, render
+from p2sf.ladder import Choice, choose, render
 from p2sf.lens import Lens, with_f_number, with_sensor
 from p2sf.library import find_lens, shipped_lenses
 from p2sf.psf import suitable_pixel_um
@@ -83,12 +84,18 @@ def trial(lens: Lens, source: Source, tolerance: float) -> Trial | None:
         return 1 - r_squared(psf.values, reference.values)
 
     chosen = render(lens, source, choice.method, PIXELS, pixel, tolerance=tolerance)
-    cheaper = [render(lens, source, "seidel", PIXELS, pixel)] if choice.method != "seidel" else []
+    errors = tuple(error(psf) for psf in _cheaper(lens, source, choice, pixel))
+    return Trial(lens.name, source, tolerance, choice.method, choice.predicted_error, error(chosen), errors)
+
+
+def _cheaper(lens: Lens, source: Source, choice: Choice, pixel: float):
+    """Yield the PSFs of all rungs below the chosen one; a fit that lost rays forbid is none."""
+    if choice.method != "seidel":
+        yield render(lens, source, "seidel", PIXELS, pixel)
     for level in QUICK_LEVELS:
         if choice.method in ("traced", "huygens") or level.numbers < choice.numbers:
-            cheaper.append(fitted_psf(lens, source, PIXELS, pixel, level.numbers))
-    errors = tuple(error(psf) for psf in cheaper)
-    return Trial(lens.name, source, tolerance, choice.method, choice.predicted_error, error(chosen), errors)
+            with suppress(GeometryError):
+                yield fitted_psf(lens, source, PIXELS, pixel, level.numbers)
 
 
 def trials(points: int, seed: int = 1):

@@ -8,8 +8,9 @@ import pytest
 
 from p2sf.conventions import centred_axis
 from p2sf.errors import Cancelled, GeometryError
+from p2sf.glass import ConstantIndex
 from p2sf.huygens import Filling, first_counts, huygens_field, huygens_psf, plain_sum
-from p2sf.lens import Aperture
+from p2sf.lens import Aperture, Lens, Surface
 from p2sf.quadrature import disc_nodes
 from p2sf.raydata import ray_data
 from p2sf.raytrace import pencil
@@ -146,3 +147,14 @@ def test_a_relay_and_the_eye_have_their_own_index_and_orientation():
     flipped = np.roll(psf.values[::-1], 1, axis=0)
     assert r_squared(psf.values, stored) > 0.999999 > 0.9 > r_squared(flipped, stored)
     assert lens.media[-1].index(0.543) == pytest.approx(1.3377, abs=2e-3)
+
+
+def test_where_rays_are_lost_the_pupil_ends_there_and_the_sum_still_converges():
+    """A bubble of almost no power, overfilled: beyond 5 mm rays miss it, and that edge is found, not sampled."""
+    front, back = Surface(5.0, 10.0, ConstantIndex(1 + 1e-6)), Surface(-5.0, 50.0)
+    lens = Lens((front, back), Aperture("stop_semi_diameter", 5.5), 1)
+    source = Source(inf, 0.0, 0.55)
+    psf = huygens_psf(lens, source, 32, 20.0, 1e-3)
+    assert psf.tolerance <= 1e-3
+    share = clear_nodes(lens, source, (8, 64), clip=False).share
+    assert share == pytest.approx((5.0 / 5.5) ** 2, rel=1e-9)
