@@ -83,6 +83,10 @@ OPTIONS = [
     ("psf", "--tolerance 1.5", ("--tolerance is 1.5",)),
     ("psf", "--sampling fft --method fitted", ("--sampling is fft", "--method fitted")),
     ("psf", "--method magic", ("magic", "--method", "huygens")),
+    ("psf", "-o nowhere/a.npz", ("nowhere/a.npz", "make the folder first")),
+    ("spot", "-o nowhere/a.csv", ("nowhere/a.csv", "make the folder first")),
+    ("tradeoff", "-o nowhere/a.json", ("nowhere/a.json", "make the folder first")),
+    ("database build", "-o nowhere/a.npz", ("nowhere/a.npz", "make the folder first")),
     ("psf", "-o spot.jpg", (".jpg", ".npz")),
     ("info", "--wavelength-nm 200000", ("200000 nm", "outside")),
     ("info", "--wavelength-nm 0", ("--wavelength-nm is 0 nm",)),
@@ -108,7 +112,7 @@ OPTIONS = [
 
 @pytest.mark.parametrize(("command", "options", "words"), OPTIONS, ids=[f"{c} {o}" for c, o, _ in OPTIONS])
 def test_an_option_that_cannot_be(refused, command, options, words):
-    message = refused(command, "double_gauss_28", *options.split())
+    message = refused(*command.split(), "double_gauss_28", *options.split())
     assert all(word in message for word in words), message
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import ExportError
-from p2sf.export import plain, read_psf, write_beside, write_json, write_psf
+from p2sf.export import check_place, plain, read_psf, write_beside, write_json, write_psf
 from p2sf.picture import edges_um, round_length
 from p2sf.psf import Psf
 
@@ -114,6 +114,14 @@ def test_a_stack_is_not_one_psf(tmp_path):
 def test_a_missing_folder_is_named(tmp_path):
     with pytest.raises(ExportError, match="make the folder"):
         write_psf(blob(), tmp_path / "nowhere" / "a.npz", META)
+
+
+def test_a_place_is_checked_before_the_work(tmp_path):
+    check_place(tmp_path / "a.npz")
+    with pytest.raises(ExportError, match=r"nowhere.*make the folder first"):
+        check_place(tmp_path / "nowhere" / "a.npz")
+    with pytest.raises(ExportError, match="give the name of a file in it"):
+        check_place(tmp_path)
 
 
 def test_a_folder_is_not_a_file(tmp_path):

@@ -18,6 +18,7 @@ from p2sf.database import Space, depth_nodes
 from p2sf.database.render import Sampling
 from p2sf.databasefile import load_database, save_database
 from p2sf.errors import ExportError, RequestError
+from p2sf.export import check_place
 from p2sf.library import find_lens
 from p2sf.request import Request, set_up
 
@@ -163,6 +164,8 @@ def _check_ending(output: Path, ending: str) -> None:
     if output.suffix.lower() != ending:
         wanted = "a stack is a .zarr folder" if ending == ".zarr" else "a database is a .npz file, a --stack a .zarr"
         raise ExportError(f"--output is {output}; {wanted}, choose a name that ends in {ending}")
+    if ending == ".npz":
+        check_place(output)
 
 
 def _write_stack(database, lens, output: Path, kind: Kind) -> None:

@@ -7,9 +7,9 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from p2sf.cli.lookups import is_database, looked_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
 from p2sf.cli.screen import heading, print_json, print_table, warn
-from p2sf.errors import ExportError, RequestError, SamplingError
+from p2sf.errors import RequestError, SamplingError
 from p2sf.export import ENDINGS, describe, write_psf
 from p2sf.export.record import facts
 from p2sf.library import find_lens
@@ -76,7 +76,7 @@ def psf(
     as_json: Json = False,
 ) -> None:
     """Compute the PSF of one source and write it as .npz, .tiff, .csv or .png."""
-    _check_output(output)
+    check_output(output, ENDINGS)
     if is_database(lens):
         if picture.sampling or picture.method not in (None, "auto"):
             raise RequestError(f"--method and --sampling need the lens, and {lens} is a database; leave them away")
@@ -113,12 +113,6 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     source = setup.source
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
     return seidel_psf(six, picture.pixels, picture.pixel_um, sampling=picture.sampling or "mdft")
-
-
-def _check_output(output: Path | None) -> None:
-    """Refuse an unknown ending before the work and not after it."""
-    if output is not None and output.suffix.lower() not in ENDINGS:
-        raise ExportError(f'--output is {output}, its ending "{output.suffix}" is unknown; choose {", ".join(ENDINGS)}')
 
 
 def figures(result: Psf) -> dict:

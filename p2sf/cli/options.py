@@ -1,10 +1,13 @@
 """The words that several commands share: how a lens, a setup and an output are asked for."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from p2sf.errors import ExportError
+from p2sf.export import check_place
 from p2sf.request import Request
 
 
@@ -23,3 +26,12 @@ Json = Annotated[bool, Parameter("--json", negative="", help="Print one JSON obj
 Output = Annotated[Path | None, Parameter(["--output", "-o"], negative="", help="File to write, by its ending.")]
 
 AS_IN_THE_FILE = Request()
+
+
+def check_output(output: Path | None, endings: Iterable[str]) -> None:
+    """Refuse an unknown ending or a missing folder before the work and not after it; ExportError."""
+    if output is None:
+        return
+    if output.suffix.lower() not in endings:
+        raise ExportError(f'--output is {output}, its ending "{output.suffix}" is unknown; choose {", ".join(endings)}')
+    check_place(output)

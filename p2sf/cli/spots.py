@@ -7,9 +7,9 @@ from typing import Annotated, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
 from p2sf.cli.screen import heading, print_json, print_table, warn
-from p2sf.errors import ExportError, RequestError
+from p2sf.errors import RequestError
 from p2sf.export import describe, write_beside, write_json
 from p2sf.library import find_lens
 from p2sf.measures import airy_radius_um
@@ -38,7 +38,8 @@ def spot(
     as_json: Json = False,
 ) -> None:
     """Trace exact rays and show the spot they make on the sensor; write it as .csv, .json or .png."""
-    _check(rings, output)
+    _check(rings)
+    check_output(output, WRITERS)
     setup = set_up(find_lens(lens), request)
     points, figures = trace_spot(setup, rings, aim, clip)
     if output:
@@ -78,11 +79,9 @@ def trace_spot(setup: Setup, rings: int, aim: str, clip: bool) -> tuple[np.ndarr
     }
 
 
-def _check(rings: int, output: Path | None) -> None:
+def _check(rings: int) -> None:
     if not 1 <= rings <= MOST_RINGS:
         raise RequestError(f"--rings is {rings}; give a whole number from 1 to {MOST_RINGS}")
-    if output is not None and output.suffix.lower() not in WRITERS:
-        raise ExportError(f'--output is {output}, its ending "{output.suffix}" is unknown; choose {", ".join(WRITERS)}')
 
 
 def _write(points: np.ndarray, record: dict, output: Path) -> None:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, LensName, Output, Whole
+from p2sf.cli.options import Json, LensName, Output, Whole, check_output
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.export import write_beside, write_json
@@ -34,7 +34,8 @@ def tradeoff(
     """Measure every method against the exact reference: errors, numbers, rays, time and memory; .json, .csv or .png."""
     from p2sf import ladder
 
-    _check(output, pixels, fields_deg, depths_mm, wavelengths_nm)
+    check_output(output, WRITTEN)
+    _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     asked = find_lens(lens)
     rows = ladder.tradeoff(asked, fields_deg, depths_mm or (inf,), wavelengths_nm, pixels=pixels)
     head, *lines = ladder.table(rows)
@@ -46,24 +47,18 @@ def tradeoff(
     return print_table(title, head, lines)
 
 
-def _check(output: Path | None, pixels: int, fields_deg, depths_mm, wavelengths_nm) -> None:
+def _check(pixels: int, fields_deg, depths_mm, wavelengths_nm) -> None:
     """Refuse what cannot be before the work and not after it."""
-    if output is not None and output.suffix.lower() not in WRITTEN:
-        ending = f'its ending "{output.suffix}" is unknown'
-        raise ExportError(f"--output is {output}, {ending}; choose {', '.join(WRITTEN)}")
     if not 8 <= pixels <= 512:
         raise RequestError(f"--pixels is {pixels}; give a whole number from 8 to 512")
     for field in fields_deg or ():
         if not abs(field) < 90:
             raise RequestError(f"--fields-deg has {field:g}°; give angles between −90 and 90°, both ends left out")
-    for name, values in (
-        ("--fields-deg", fields_deg),
-        ("--depths-mm", depths_mm),
-        ("--wavelengths-nm", wavelengths_nm),
-    ):
+    lengths = ("--depths-mm", depths_mm), ("--wavelengths-nm", wavelengths_nm)
+    for name, values in (("--fields-deg", fields_deg), *lengths):
         if values == []:
             raise RequestError(f"{name} has no number behind it; give one or more, or leave it away")
-    for name, values in (("--depths-mm", depths_mm), ("--wavelengths-nm", wavelengths_nm)):
+    for name, values in lengths:
         for value in values or ():
             if not value > 0:
                 raise RequestError(f"{name} has {value:g}; give positive numbers")

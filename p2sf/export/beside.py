@@ -54,6 +54,14 @@ def write_beside(path, write: Callable[[BinaryIO], object]) -> Path:
     return Path(path)
 
 
+def check_place(path) -> None:
+    """Raise ExportError where `write_beside` could only fail: the folder is missing, or ``path`` is itself one."""
+    target = Path(path).resolve()
+    wrong = errno.EISDIR if target.is_dir() else 0 if target.parent.is_dir() else errno.ENOENT
+    if wrong:
+        raise ExportError(_why_not(path, OSError(wrong, os.strerror(wrong))))
+
+
 def _why_not(path, error: OSError) -> str:
     reason = (error.strerror or str(error)).rstrip(".").lower()
     return f"{path} cannot be written, {reason}; {REMEDIES.get(error.errno, 'choose another place')}"
