@@ -10,6 +10,9 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError
 from p2sf.glass import AIR, Medium
 
+# Far below any atom, and far above where the cube of a curvature overflows.
+SMALLEST_RADIUS_MM = 1e-30
+
 ApertureKind = Literal["stop_semi_diameter", "entrance_pupil_diameter", "f_number"]
 
 
@@ -119,7 +122,7 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
     if not surfaces:
         raise GeometryError("the lens has no surfaces; give at least one")
     for number, surface in enumerate(surfaces, 1):
-        if surface.radius == 0 or surface.radius != surface.radius:
+        if not abs(surface.radius) >= SMALLEST_RADIUS_MM:
             raise GeometryError(f"surface {number}: radius {surface.radius} mm; write inf for a plane")
         if not isfinite(surface.thickness):
             raise GeometryError(f"surface {number}: thickness {surface.thickness} mm; give a finite number")

@@ -168,9 +168,9 @@ def paraxial_rays(
     n, a, close = rays.object_index, centre_nu[0], vergence(depth_mm)
     reach = a - n * close * centre_y[0]
     _check_field(field, a, close)
-    if np.any(np.abs(reach) <= OBJECT_IN_PUPIL * np.abs(a)):
+    if (abs(reach) <= OBJECT_IN_PUPIL * abs(a)).any():
         raise GeometryError("the object lies in the entrance pupil, so no cone of light is defined; move the object")
-    side = np.where(a < 0, -1.0, 1.0)
+    side = 1.0 - 2.0 * (a < 0)
     y, nu = _combine(rays, side * rim / reach, n * close * side * rim / reach)
     nu[-1] = settled_angle(rays.power, rays.gap, y, nu[1:])
     scale = n / a if field == "slope" else n * close / reach
@@ -179,9 +179,10 @@ def paraxial_rays(
 
 def _check_field(field: str, a, close) -> None:
     """Raise GeometryError where a slope (entrance pupil at infinity) or a height (object there) says nothing."""
-    if field == "slope" and np.any(a == 0):
+    if field == "slope" and (a == 0).any():
         raise GeometryError(
-            "the entrance pupil is at infinity, so a field angle says nothing; give an object height or move the stop"
+            "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, "
+            'or in Python state the field as an object height, field="height"'
         )
     if field == "height" and np.any(close == 0):
         raise GeometryError("an object at infinity has no height; give the field as an angle or an image height")
@@ -190,8 +191,9 @@ def _check_field(field: str, a, close) -> None:
 def _combine(rays: BasisRays, y1, nu1):
     """Return heights at, and reduced angles before and behind, every surface of the ray (y1, nu1)."""
     angle = rays.c * y1 + rays.d * nu1
-    first = np.broadcast_to(nu1, angle.shape[1:])[None]
-    return rays.a * y1 + rays.b * nu1, np.concatenate([first, angle])
+    nu = np.empty((len(angle) + 1, *angle.shape[1:]))
+    nu[0], nu[1:] = nu1, angle
+    return rays.a * y1 + rays.b * nu1, nu
 
 
 def f_number(lens: Lens, wavelength_um, stop: Stop | None = None) -> np.ndarray:

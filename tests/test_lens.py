@@ -18,6 +18,7 @@ LENS = Lens((Surface(50.0, 4.0, ConstantIndex(1.5)), Surface(-50.0, 48.0)), RIM,
     ("surface", "words"),
     [
         (Surface(radius=0.0), "surface 2: radius 0.0 mm; write inf"),
+        (Surface(radius=-1e-300), "surface 2: radius -1e-300 mm; write inf"),
         (Surface(radius=nan), "surface 2: radius nan mm; write inf"),
         (Surface(thickness=inf), "surface 2: thickness inf mm; give"),
         (Surface(thickness=nan), "surface 2: thickness nan mm; give"),
