@@ -152,6 +152,12 @@ def test_bad_files_and_questions_are_one_sentence(refused, file, tmp_path):
     assert "choose a name that ends in .npz" in refused("database", "build", "tessar", "-o", tmp_path / "a.zarr")
 
 
+def test_an_image_height_in_a_database_of_the_axis_is_one_sentence(said, refused, tmp_path):
+    axis = tmp_path / "axis.npz"
+    said("database", "build", "tessar", "--depths-mm", "inf", "--fields-deg", 0, "--wavelengths-nm", 550, "-o", axis)
+    assert "build one with fields" in refused("psf", axis, "--image-height-mm", 1)
+
+
 def test_spans():
     assert span("500:inf:20", "x") == (500, np.inf, 20)
     assert span("500, 800,inf", "x").tolist() == [500, 800, np.inf]

@@ -54,15 +54,22 @@ def source_of(database, request: Request) -> Source:
     colours = database.space.wavelengths_um
     colour = float(colours[len(colours) // 2]) if request.wavelength_nm is None else request.wavelength_nm / NM_PER_UM
     if request.image_height_mm is not None:
-        widest = float(database.space.field_slopes[-1])
-        slope = (
-            request.image_height_mm
-            / float(database.coefficients(request.depth_mm, widest, colour).image_height)
-            * widest
-        )
+        slope = _slope_of_height(database, request, colour)
     else:
         slope = float(slope_from_degrees(request.field_deg or 0.0))
     return Source(float(request.depth_mm), slope, colour)
+
+
+def _slope_of_height(database, request: Request, colour: float) -> float:
+    """Return the field slope of an image height, in proportion to that of the widest field; RequestError."""
+    widest = float(database.space.field_slopes[-1])
+    height = float(database.coefficients(request.depth_mm, widest, colour).image_height)
+    if height == 0:
+        raise RequestError(
+            f"--image-height-mm is {request.image_height_mm:g} mm, and this database lands no field off the axis; "
+            "leave it away, or build one with fields"
+        )
+    return request.image_height_mm / height * widest
 
 
 def description(stored: Stored, source: Source) -> dict:
