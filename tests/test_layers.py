@@ -24,9 +24,9 @@ FLOORS = (
     "fitdatabase fitseries",
     "gaussianfit accuracy",
     "rungs tradeoff ladder paper",
-    "request scene image",
+    "request kernels scene image deblur charts",
     "picture export",
-    "databasefile stack interchange",
+    "photos databasefile stack interchange",
     "cli __main__",
 )
 QT = {"PySide6", "pyqtgraph", "pyvista", "pyvistaqt", "app"}

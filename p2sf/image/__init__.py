@@ -1,0 +1,8 @@
+"""Space-variant image formation: a picture through a lens."""
+
+from p2sf.image.form import Forming, form_image, plan_lattice
+from p2sf.image.noise import with_noise
+from p2sf.image.preview import preview
+from p2sf.image.watch import Watch
+
+__all__ = ["Forming", "Watch", "form_image", "plan_lattice", "preview", "with_noise"]

@@ -1,0 +1,140 @@
+"""A picture through a lens, as its plan says: distortion, illumination, blur in field, colour and depth, pixels."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.errors import RequestError
+from p2sf.image.geometry import distorted, illumination
+from p2sf.image.lattice import Lattice, build_lattice
+from p2sf.image.layers import layer_weights, merged
+from p2sf.image.lowrank import decompose, low_rank_blur
+from p2sf.image.overlap import overlap_add
+from p2sf.image.watch import Watch
+from p2sf.scene.plan import Plan
+
+METHODS = ("patches", "lowrank")
+SURROUNDS = ("black", "edge")
+LIGHT_HEIGHTS = 4, 9  # where illumination is computed, for a preview and for good
+RANK_TOLERANCE = 0.1  # of the scene's tolerance: what a low rank may leave out
+
+
+@dataclass(frozen=True)
+class Forming:
+    """How a picture is formed.
+
+    ``method``: "patches" (overlap-add) or "lowrank". ``surround``: what is beyond the picture's rim, nothing
+    ("black") or its last pixels ("edge"). ``geometry``: with distortion and illumination, or blur alone;
+    ``spline``: order of the distortion's interpolation.
+    """
+
+    method: str = "patches"
+    surround: str = "edge"
+    geometry: bool = True
+    spline: int = 3
+
+    def __post_init__(self):
+        if self.method not in METHODS:
+            raise RequestError(f'image method "{self.method}" is unknown; choose {" or ".join(METHODS)}')
+        if self.surround not in SURROUNDS:
+            raise RequestError(f'surround "{self.surround}" is unknown; choose {" or ".join(SURROUNDS)}')
+
+
+USUAL = Forming()
+
+
+def form_image(
+    planned: Plan,
+    values: np.ndarray,
+    depth_mm: np.ndarray | None = None,
+    how: Forming = USUAL,
+    watch: Watch | None = None,
+) -> np.ndarray:
+    """Return what the sensor receives of a picture in linear light, (rows, columns, channels) float32.
+
+    ``values``: the paraxial image, (rows, columns, channels) on the scene's sensor, one channel for each of the
+    scene's; ``depth_mm``: (rows, columns), by default the scene's far end. Raises RequestError for shapes that do
+    not fit, Cancelled when ``watch`` says so.
+    """
+    values, watch = checked(planned, values), watch or Watch()
+    if depth_mm is None:
+        return _one_depth(planned, values, how, watch)
+    weights = layer_weights(np.asarray(depth_mm), np.array(planned.vergences), values.shape[:2])
+    if how.geometry:
+        weights = distorted(weights, planned.view(planned.vergences[0]), planned.scene.sensor, order=1)
+    lit = _placed(planned, values, planned.vergences[0], how)
+    used = [k for k in range(weights.shape[-1]) if weights[..., k].any()]
+    layers = []
+    for k in used:
+        both = np.concatenate([lit * weights[..., k : k + 1], weights[..., k : k + 1]], axis=-1)
+        layers.append(_cropped_blur(planned, both, planned.vergences[k], how, watch, doubled=True))
+    return merged(layers, used)
+
+
+def checked(planned: Plan, values: np.ndarray) -> np.ndarray:
+    """Return the picture as float32; RequestError unless it fits the scene."""
+    sensor, channels = planned.scene.sensor, len(planned.scene.channels)
+    values = np.asarray(values, np.float32)
+    if values.shape != (sensor.rows, sensor.columns, channels):
+        raise RequestError(
+            f"the picture has the shape {values.shape}, but the scene's sensor wants {sensor.rows} rows, "
+            f"{sensor.columns} columns and {channels} channels; resize it or change the scene"
+        )
+    if not np.isfinite(values).all():
+        raise RequestError("the picture holds values that are not finite; replace them first")
+    return values
+
+
+def _one_depth(planned: Plan, values, how: Forming, watch: Watch) -> np.ndarray:
+    """Return the picture at the scene's far end."""
+    vergence = planned.vergences[0]
+    return _cropped_blur(planned, _placed(planned, values, vergence, how), vergence, how, watch)
+
+
+def _placed(planned: Plan, values, vergence: float, how: Forming) -> np.ndarray:
+    """Return the picture distorted and shaded."""
+    if not how.geometry:
+        return values
+    sensor, seen = planned.scene.sensor, planned.view(vergence)
+    shade = illumination(planned.kernels(len(planned.colours) // 2, vergence), sensor, LIGHT_HEIGHTS[how.spline > 1])
+    return distorted(values, seen, sensor, how.spline) * shade[..., None]
+
+
+def plan_lattice(planned: Plan, vergence: float, watch: Watch | None = None) -> Lattice:
+    """Return the kernels of every channel on the plan's nodes at one depth."""
+    sensor = planned.scene.sensor
+    channels = [planned.kernels(number, vergence) for number in range(len(planned.colours))]
+
+    def kernel_at(row: float, column: float) -> np.ndarray:
+        x, y = float(sensor.x_mm(column)), float(sensor.y_mm(row))
+        half = max(kernels.half_width(float(np.hypot(x, y))) for kernels in channels)
+        return np.stack([kernels.at(x, y, half) for kernels in channels])
+
+    return build_lattice(kernel_at, (sensor.rows, sensor.columns), planned.counts, sensor.centred, watch)
+
+
+def _cropped_blur(
+    planned: Plan, values, vergence: float, how: Forming, watch: Watch, doubled: bool = False
+) -> np.ndarray:
+    """Return the blurred picture on its own pixels; ``doubled``: a weight rides along as one more channel."""
+    lattice = plan_lattice(planned, vergence, watch)
+    if doubled:
+        middle = lattice.channels // 2
+        lines = [[np.concatenate([k, k[middle : middle + 1]]) for k in line] for line in lattice.kernels]
+        lattice = Lattice(lattice.row_nodes, lattice.column_nodes, lines)
+    border = lattice.half if how.surround == "edge" else 0
+    if border:
+        values = np.pad(values, ((border, border), (border, border), (0, 0)), mode="edge")
+    whole = blur(values, lattice, how.method, RANK_TOLERANCE * planned.scene.relative_tolerance, watch, border)
+    cut = lattice.half + border
+    return whole[cut : whole.shape[0] - cut, cut : whole.shape[1] - cut]
+
+
+def blur(
+    values, lattice: Lattice, method: str, tolerance: float, watch: Watch | None = None, border: int = 0
+) -> np.ndarray:
+    """Return the blurred picture with all light that leaves it, by patches or by low rank."""
+    if method == "patches":
+        return overlap_add(values, lattice, watch, border)
+    parts = [decompose(lattice, channel, tolerance) for channel in range(lattice.channels)]
+    return low_rank_blur(values, parts, watch, border)

@@ -1,0 +1,48 @@
+"""Where a picture's points land and how bright: distortion and relative illumination, before any blur."""
+
+import numpy as np
+
+from p2sf.kernels import Kernels, View
+from p2sf.scene.sensor import Sensor
+
+VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is left out
+
+
+def distortion_px(seen: View, sensor: Sensor) -> float:
+    """Return how far distortion moves the farthest displaced point, pixels."""
+    heights = np.linspace(0, sensor.corners_mm()[1], 65)
+    return float(np.abs(seen.ideal_height(heights) - heights).max() / sensor.pixel_mm)
+
+
+def distorted(values: np.ndarray, seen: View, sensor: Sensor, order: int = 3) -> np.ndarray:
+    """Return the picture as real chief rays place it, (rows, columns, channels) float32.
+
+    ``values`` is the undistorted (paraxial) image on the same pixels; each pixel takes what lands on it, by a spline of
+    this ``order``. Beyond the picture's rim its last pixel goes on.
+    """
+    from scipy.ndimage import map_coordinates
+
+    if distortion_px(seen, sensor) <= VISIBLE_PX:
+        return values
+    x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
+    height = np.hypot(x, y[:, None])
+    ratio = seen.ideal_height(height) / np.maximum(height, 1e-12)
+    ratio[height < 1e-9] = 1.0
+    column = (ratio * x - sensor.centre_mm[0]) / sensor.pixel_mm + (sensor.columns - 1) / 2
+    row = (sensor.rows - 1) / 2 - (ratio * y[:, None] - sensor.centre_mm[1]) / sensor.pixel_mm
+    places = np.stack([row, column]).astype(np.float32)
+    planes = (map_coordinates(plane, places, order=order, mode="nearest") for plane in np.moveaxis(values, -1, 0))
+    return np.stack([*planes], axis=-1).astype(np.float32)
+
+
+def illumination(kernels: Kernels, sensor: Sensor, count: int = 9) -> np.ndarray:
+    """Return the irradiance of an even object over that on the axis, (rows, columns) float32.
+
+    It is the pencil's projected solid angle, ∫dKx dKy, hence cos⁴ for a pinhole and what pupil aberration makes of
+    it otherwise; nothing is clipped by rims.
+    """
+    heights = np.linspace(*sensor.corners_mm(), count)
+    light = np.array([kernels.light(float(h)) for h in heights]) / kernels.light(0.0)
+    x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
+    fit = np.polynomial.Polynomial.fit(heights**2, light, min(4, count - 1))
+    return fit(x * x + (y * y)[:, None]).astype(np.float32)

@@ -1,0 +1,81 @@
+"""Kernels on a lattice of nodes over a picture; between the nodes they are interpolated."""
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.image.watch import Watch
+from p2sf.kernels.nodes import nodes_along
+
+WORKERS = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Lattice:
+    """Nodes by row and column position in pixels, and the kernels on them, ``kernels[a][b]`` (channels, size, size).
+
+    Sizes are odd and may differ; row 0 of a kernel is its top; each kernel of each channel has unit sum.
+    """
+
+    row_nodes: np.ndarray
+    column_nodes: np.ndarray
+    kernels: list[list[np.ndarray]]
+
+    @property
+    def half(self) -> int:
+        """Return the largest half width of all kernels."""
+        return max(kernel.shape[-1] // 2 for line in self.kernels for kernel in line)
+
+    @property
+    def channels(self) -> int:
+        """Return how many channels every kernel has."""
+        return self.kernels[0][0].shape[0]
+
+
+def build_lattice(
+    kernel_at: Callable[[float, float], np.ndarray],
+    shape: tuple[int, int],
+    counts: tuple[int, int],
+    mirrored: bool = False,
+    watch: Watch | None = None,
+) -> Lattice:
+    """Return the lattice of ``kernel_at(row, column)`` over a picture of this shape.
+
+    ``mirrored``: the picture is centred on the axis of a lens, so that one quarter of the kernels gives the others.
+    """
+    rows, columns = (nodes_along(n, c) for n, c in zip(shape, counts, strict=True))
+    down, right = ((len(n) + 1) // 2 if mirrored else len(n) for n in (rows, columns))
+    wanted = [(a, b) for a in range(down) for b in range(right)]
+    watch = watch or Watch()
+    watch.expect(len(wanted))
+
+    def one(node):
+        watch.advance()
+        return kernel_at(float(rows[node[0]]), float(columns[node[1]]))
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        made = dict(zip(wanted, pool.map(one, wanted), strict=True))
+    lines = [[_mirror_of(made, a, b, len(rows), len(columns)) for b in range(len(columns))] for a in range(len(rows))]
+    return Lattice(rows, columns, lines)
+
+
+def _mirror_of(made: dict, a: int, b: int, rows: int, columns: int) -> np.ndarray:
+    """Return the kernel of a node, or the mirror image of the one across the axis."""
+    if (a, b) in made:
+        return made[a, b]
+    down, right = a >= (rows + 1) // 2, b >= (columns + 1) // 2
+    kernel = made[rows - 1 - a if down else a, columns - 1 - b if right else b]
+    return kernel[:, :: -1 if down else 1, :: -1 if right else 1]
+
+
+def common_size(lattice: Lattice, channel: int) -> np.ndarray:
+    """Return one channel's kernels with zeros to the largest size, (row nodes, column nodes, size, size)."""
+    size = 2 * lattice.half + 1
+    out = np.zeros((len(lattice.row_nodes), len(lattice.column_nodes), size, size), np.float32)
+    for a, line in enumerate(lattice.kernels):
+        for b, kernel in enumerate(line):
+            edge = (size - kernel.shape[-1]) // 2
+            out[a, b, edge : size - edge, edge : size - edge] = kernel[channel]
+    return out

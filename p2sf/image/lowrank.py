@@ -1,0 +1,105 @@
+"""Space-variant blur by few kernels: the mean, and the strongest departures from it with maps of their strength.
+
+The departures of a set of unit-sum kernels from their mean have zero sum, and so have the singular vectors:
+whatever the rank, all light is kept (PCA of PSFs, Lauer 2002; singular values as in Eckart & Young 1936).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.image.lattice import Lattice, common_size
+from p2sf.image.watch import Watch
+
+TILE = 256
+
+
+@dataclass(frozen=True, eq=False)
+class LowRank:
+    """One channel: ``mean`` (size, size), ``kernels`` (rank, size, size), ``strengths`` (rank, *nodes).
+
+    ``left`` is the relative L2 norm of what the rank leaves out, over all nodes.
+    """
+
+    mean: np.ndarray
+    kernels: np.ndarray
+    strengths: np.ndarray
+    row_nodes: np.ndarray
+    column_nodes: np.ndarray
+    left: float
+
+
+def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, rank: int | None = None) -> LowRank:
+    """Return the fewest kernels that keep the whole set to ``tolerance`` in relative L2, or ``rank`` of them."""
+    kernels = common_size(lattice, channel)
+    nodes, size = kernels.shape[:2], kernels.shape[-1]
+    flat = kernels.reshape(nodes[0] * nodes[1], -1).astype(float)
+    mean = flat.mean(0)
+    departure = flat - mean
+    # The nodes are fewer than the pixels, so the small Gram matrix has all the singular values.
+    values, vectors = np.linalg.eigh(departure @ departure.T)
+    values, vectors = np.maximum(values[::-1], 0), vectors[:, ::-1]
+    left = np.sqrt(np.append(values[::-1].cumsum()[::-1], 0) / np.square(flat).sum())
+    rank = int(np.argmax(left <= tolerance)) if rank is None else min(rank, len(values))
+    shapes = (vectors[:, :rank].T @ departure).reshape(rank, size, size).astype(np.float32)
+    strengths = vectors[:, :rank].T.reshape(rank, *nodes)
+    return LowRank(
+        mean.reshape(size, size).astype(np.float32), shapes, strengths,
+        lattice.row_nodes, lattice.column_nodes, float(left[rank]),
+    )  # fmt: skip
+
+
+def low_rank_blur(values: np.ndarray, parts: list[LowRank], watch: Watch | None = None, border: int = 0) -> np.ndarray:
+    """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
+
+    Strengths are cubic splines between the nodes. ``border`` as in `overlap.overlap_add`. Tiles bound the memory.
+    """
+    values, size = np.asarray(values, np.float32), parts[0].mean.shape[0]
+    rows, columns, channels = values.shape
+    out = np.zeros((rows + size - 1, columns + size - 1, channels), np.float32)
+    watch = watch or Watch()
+    watch.expect(channels * -(-rows // TILE) * -(-columns // TILE))
+    for channel, part in enumerate(parts):
+        maps = [_spline(n, np.arange(p) - border) for n, p in ((part.row_nodes, rows), (part.column_nodes, columns))]
+        fast, spectra = _spectra(part, min(TILE, rows), min(TILE, columns))
+        for top in range(0, rows, TILE):
+            for left in range(0, columns, TILE):
+                tile = values[top : top + TILE, left : left + TILE, channel]
+                cut = maps[0][top : top + TILE], maps[1][left : left + TILE]
+                blurred = _blur_tile(tile, part, cut, (fast, spectra))
+                height, width = (n + size - 1 for n in tile.shape)
+                out[top : top + height, left : left + width, channel] += blurred[:height, :width]
+                watch.advance()
+    return out
+
+
+def _spectra(part: LowRank, rows: int, columns: int):
+    import scipy.fft
+
+    size = part.mean.shape[0]
+    fast = tuple(scipy.fft.next_fast_len(n + size - 1, real=True) for n in (rows, columns))
+    return fast, scipy.fft.rfft2(np.concatenate([part.mean[None], part.kernels]), fast)
+
+
+def _blur_tile(tile, part: LowRank, maps, transform) -> np.ndarray:
+    """Return Σ_k (strength_k·tile) ⊛ kernel_k of one tile, summed in the spectrum."""
+    import scipy.fft
+
+    fast, spectra = transform
+    total = scipy.fft.rfft2(tile, fast) * spectra[0]
+    for number, strength in enumerate(part.strengths, 1):
+        weight = (maps[0] @ strength @ maps[1].T).astype(np.float32)
+        total += scipy.fft.rfft2(tile * weight, fast) * spectra[number]
+    return scipy.fft.irfft2(total, fast, overwrite_x=True)
+
+
+def _spline(nodes: np.ndarray, positions: np.ndarray) -> np.ndarray:
+    """Return the matrix (positions, nodes) of cubic-spline interpolation, constant beyond the outer nodes."""
+    from scipy.interpolate import CubicSpline
+
+    if len(nodes) == 1:
+        return np.ones((len(positions), 1))
+    inside = np.clip(positions, nodes[0], nodes[-1])
+    if len(nodes) == 2:
+        return np.stack([np.interp(inside, nodes, row) for row in np.eye(2)], axis=1)
+    return CubicSpline(nodes, np.eye(len(nodes)))(inside)

@@ -1,0 +1,67 @@
+"""Space-variant blur by patches: hat windows that sum to one, each convolved with its node's kernel, added up.
+
+That is the linear interpolation of kernels between nodes, exactly: a source pixel's light goes out with the
+weighted kernels of the four nodes around it, so that its sum is kept (overlap-add, Nagy & O'Leary 1998, §3).
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from p2sf.image.lattice import WORKERS, Lattice
+from p2sf.image.watch import Watch
+from p2sf.kernels.nodes import hats
+
+
+def overlap_add(values: np.ndarray, lattice: Lattice, watch: Watch | None = None, border: int = 0) -> np.ndarray:
+    """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
+
+    ``values``: (rows, columns, channels) float32, whose outer ``border`` pixels lie outside the lattice's picture and
+    take the kernels of its rim. Memory beyond the result is one patch.
+    """
+    values, half = np.asarray(values, np.float32), lattice.half
+    planes = np.moveaxis(values, -1, 0)
+    positions = (np.arange(n) - border for n in values.shape[:2])
+    by_row, by_column = (
+        hats(nodes, place) for nodes, place in zip((lattice.row_nodes, lattice.column_nodes), positions, strict=True)
+    )
+    out = np.zeros((len(planes), values.shape[0] + 2 * half, values.shape[1] + 2 * half), np.float32)
+    jobs = [(a, b) for a in range(len(by_row)) for b in range(len(by_column))]
+    watch = watch or Watch()
+    watch.expect(len(jobs))
+
+    def convolved(job):
+        a, b = job
+        rows, columns = _support(by_row[a]), _support(by_column[b])
+        weight = np.outer(by_row[a][rows], by_column[b][columns]).astype(np.float32)
+        kernel = lattice.kernels[a][b]
+        edge = half - kernel.shape[-1] // 2
+        return rows.start + edge, columns.start + edge, convolve(planes[:, rows, columns] * weight, kernel)
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        for first in range(0, len(jobs), 2 * WORKERS):  # few at a time, so that few patches wait in memory
+            for patch in pool.map(convolved, jobs[first : first + 2 * WORKERS]):
+                _add(out, *patch)
+                watch.advance()
+    return np.moveaxis(out, 0, -1)
+
+
+def _add(out, top: int, left: int, patch) -> None:
+    out[:, top : top + patch.shape[1], left : left + patch.shape[2]] += patch
+
+
+def _support(weight: np.ndarray) -> slice:
+    """Return the stretch where a window is not zero."""
+    inside = np.flatnonzero(weight)
+    return slice(int(inside[0]), int(inside[-1]) + 1) if inside.size else slice(0, 1)
+
+
+def convolve(planes: np.ndarray, kernels: np.ndarray) -> np.ndarray:
+    """Return full convolutions of (channels, rows, columns) with (channels, size, size), float32, by real FFTs."""
+    import scipy.fft
+
+    shape = tuple(n + k - 1 for n, k in zip(planes.shape[1:], kernels.shape[1:], strict=True))
+    fast = tuple(scipy.fft.next_fast_len(n, real=True) for n in shape)
+    spectra = scipy.fft.rfft2(planes, fast)
+    spectra *= scipy.fft.rfft2(np.ascontiguousarray(kernels), fast)
+    return scipy.fft.irfft2(spectra, fast, overwrite_x=True)[:, : shape[0], : shape[1]]

@@ -1,0 +1,35 @@
+"""Progress of long work, and whether it is still wanted."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from threading import Lock
+
+from p2sf.errors import Cancelled
+
+
+@dataclass(eq=False)
+class Watch:
+    """Counts steps done among those expected; ``progress`` is told the fraction, ``cancelled`` asked at each step."""
+
+    progress: Callable[[float], None] | None = None
+    cancelled: Callable[[], bool] | None = None
+    expected: int = 0
+    done: int = 0
+
+    def __post_init__(self):
+        self._lock = Lock()
+
+    def expect(self, steps: int) -> None:
+        """Note more work to come."""
+        with self._lock:
+            self.expected += steps
+
+    def advance(self, steps: int = 1) -> None:
+        """Note work done; raise Cancelled where it is no longer wanted."""
+        if self.cancelled and self.cancelled():
+            raise Cancelled("the picture was cancelled before it was done")
+        with self._lock:
+            self.done += steps
+            part = min(self.done / max(self.expected, 1), 1.0)
+        if self.progress:
+            self.progress(part)

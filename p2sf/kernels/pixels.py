@@ -1,0 +1,133 @@
+"""From a pupil to the light that each pixel of a small window receives from one point."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import ceil
+
+import numpy as np
+
+from p2sf.errors import SamplingError
+from p2sf.kernels.pupilmap import PupilMap, Turned, turned
+
+TAIL = 8.0  # of λ/NA: what of diffraction's wings is kept beyond where rays land
+LARGEST_WINDOW = 4096
+
+
+@dataclass(frozen=True)
+class Window:
+    """Pixels from the centre to the edge, their pitch in µm, and PSF samples across each pixel."""
+
+    half: int
+    pixel_um: float
+    samples: int
+
+    @property
+    def size(self) -> int:
+        """Return the odd number of pixels along each side."""
+        return 2 * self.half + 1
+
+
+def half_width(pupil: PupilMap, pixel_um: float, shift_um: float = 0.0) -> int:
+    """Return how many pixels on either side of the centre hold the rays and the nearest rings around them."""
+    return max(1, ceil((pupil.reach_um + abs(shift_um) + TAIL / pupil.radius) / pixel_um - 0.5))
+
+
+def samples_across(pupil: PupilMap, pixel_um: float, finest: float = 1.0) -> int:
+    """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 every fringe.
+
+    At least three, so that a pixel's edge falls near enough to where it is.
+    """
+    return max(3, ceil(2 * pupil.radius * pixel_um * finest))
+
+
+def pixel_kernel(pupil: PupilMap, angle: float, window: Window, shift_um=(0.0, 0.0)) -> np.ndarray:
+    """Return the share of a point's light per pixel, (size, size) float32 of unit sum, as a picture shows it.
+
+    The field lies ``angle`` radians from +y towards +x; row 0 is the top. ``shift_um``: where the point's chief ray
+    lands, x and y (up) from the centre of the middle pixel. Raises SamplingError for a window too large.
+    """
+    import scipy.fft
+
+    count, pitch = window.size * window.samples, window.pixel_um / window.samples
+    side = scipy.fft.next_fast_len(count)
+    if side > LARGEST_WINDOW:
+        raise SamplingError(
+            f"a blur of {window.size} pixels with {window.samples} samples each needs a {side}² transform; "
+            "bring the depths nearer to focus, stop down, or ask for larger pixels"
+        )
+    # Sample 0 of the transform is the window's lowest corner, and samples lie centrally in their pixel.
+    origin = (-(count - 1) / 2 * pitch - shift for shift in shift_um)
+    field = _field(turned(pupil, angle), side, 1 / (side * pitch), tuple(origin))
+    plane = scipy.fft.ifft2(field, overwrite_x=True)[:count, :count]
+    light = plane.real**2 + plane.imag**2
+    binned = light.reshape(window.size, window.samples, window.size, window.samples).sum((1, 3))
+    return np.ascontiguousarray(binned[::-1]) / binned.sum(dtype=float).astype(np.float32)
+
+
+def _field(pupil: Turned, side: int, step: float, origin) -> np.ndarray:
+    """Return the pupil's complex amplitude on ``side``² frequencies, complex64, as an inverse FFT wants them."""
+    half = int(pupil.radius / step) + 1
+    phase = pupil.phase.copy()
+    phase[1, 0] += pupil.radius * origin[0]
+    phase[0, 1] += pupil.radius * origin[1]
+    axis = np.arange(-half, half + 1) * (step / pupil.radius)
+    cell = step / pupil.radius
+    turns = _on_grid(phase, axis)
+    turns -= np.rint(turns)
+    turns = (2 * np.pi * turns).astype(np.float32)
+    amplitude = _amplitude(pupil, axis, cell)
+    field = np.empty(turns.shape, np.complex64)
+    np.multiply(amplitude, np.cos(turns), out=field.real)
+    np.multiply(amplitude, np.sin(turns), out=field.imag)
+    return _wrapped(field, half, side)
+
+
+def _amplitude(pupil: Turned, axis, cell: float) -> np.ndarray:
+    """Return |∂(ξ, η)/∂u| times each cell's share inside the pupil, float32.
+
+    Across the rim the share falls linearly over one cell, whose width in the pupil is the root of its area there.
+    """
+    xi, eta = (_on_grid(c, axis, np.float32) for c in (pupil.xi, pupil.eta))
+    slopes = (_on_grid(d, axis, np.float32) for c in (pupil.xi, pupil.eta) for d in _derivatives(c))
+    xi_u, xi_v, eta_u, eta_v = slopes
+    area = np.abs(xi_u * eta_v - xi_v * eta_u)
+    inside = (1 - np.sqrt(xi * xi + eta * eta)) / (np.sqrt(area) * np.float32(cell) + np.float32(1e-30)) + 0.5
+    inside *= axis[:, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials mean nothing
+    return area * np.clip(inside, 0, 1)
+
+
+def _derivatives(c: np.ndarray):
+    """Return the powers' derivatives by u and by v."""
+    n = np.arange(len(c))
+    by_u, by_v = np.zeros_like(c), np.zeros_like(c)
+    by_u[:-1] = c[1:] * n[1:, None]
+    by_v[:, :-1] = c[:, 1:] * n[1:]
+    return by_u, by_v
+
+
+def _on_grid(c: np.ndarray, axis: np.ndarray, dtype=np.float64) -> np.ndarray:
+    """Return Σ c[i, j]·uⁱvʲ, rows v and columns u: two small matrix products, since a grid separates."""
+    table = np.vander(axis, len(c), increasing=True)
+    return (table @ c.T).astype(dtype) @ table.T.astype(dtype)
+
+
+def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:
+    """Return the centred grid with frequency 0 at index 0, folded onto itself where it is wider than ``side``."""
+    plane = np.zeros((side, side), field.dtype)
+    pieces = _pieces(half, side)
+    for to_row, from_row in pieces:
+        for to_column, from_column in pieces:
+            plane[to_row, to_column] += field[from_row, from_column]
+    return plane
+
+
+@lru_cache(maxsize=64)
+def _pieces(half: int, side: int):
+    """Return (place in the plane, part of the centred axis) slices that cover −half…half modulo ``side``."""
+    out, start = [], -half
+    while start <= half:
+        place = start % side
+        length = min(side - place, half + 1 - start)
+        out.append((slice(place, place + length), slice(start + half, start + half + length)))
+        start += length
+    return tuple(out)

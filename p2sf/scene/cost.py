@@ -1,0 +1,61 @@
+"""What a plan costs, from counts; the constants are medians on one core of a plain 2020s machine."""
+
+from dataclasses import dataclass
+from math import ceil, log2
+
+PUPIL_SECONDS = {"seidel": 2.5e-3, "fitted": 5e-3}  # rays, fit and its change of variables, per wavelength and height
+TERM_SECONDS = 3e-5  # and this for each of the fit's numbers beyond the first 26
+SAMPLE_SECONDS = 2.2e-9  # per sample of a transform and binary digit of its side
+PIXEL_SECONDS = 3.2e-9  # the same for the convolutions, there and back
+BYTES = 4
+
+
+@dataclass(frozen=True)
+class Work:
+    """How much is computed: ``kernels`` of single wavelengths, each by a ``side``² transform; patches and pixels.
+
+    ``method`` and ``numbers`` describe the dearest rung in use. ``half``: pixels beside the middle of a kernel.
+    """
+
+    kernels: float
+    side: float
+    method: str
+    numbers: int
+    half: int
+    rows: int
+    columns: int
+    channels: int
+    nodes: tuple[int, int]
+    layers: int
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Predicted seconds on one core, for the kernels and for one picture, and bytes at the peak."""
+
+    kernel_seconds: float
+    picture_seconds: float
+    memory_bytes: float
+
+    @property
+    def seconds(self) -> float:
+        """Return seconds for kernels and one picture together."""
+        return self.kernel_seconds + self.picture_seconds
+
+
+def predicted_cost(work: Work) -> Cost:
+    """Return the cost of this much work."""
+    pupil = PUPIL_SECONDS[work.method] + TERM_SECONDS * max(0, work.numbers - 26)
+    kernel = pupil + SAMPLE_SECONDS * work.side**2 * log2(max(work.side, 2))
+    patch = [_support(n, count) + 2 * work.half for n, count in zip((work.rows, work.columns), work.nodes, strict=True)]
+    area = patch[0] * patch[1]
+    patches = work.nodes[0] * work.nodes[1] * work.channels * work.layers
+    picture = patches * area * log2(max(area, 2)) * PIXEL_SECONDS
+    held = work.rows * work.columns * work.channels * (3 + 2 * (work.layers > 1)) + 8 * area * work.channels
+    kernels = work.nodes[0] * work.nodes[1] * work.channels * work.layers * (2 * work.half + 1) ** 2
+    return Cost(work.kernels * kernel, picture, BYTES * (held + kernels) + 8 * 3 * work.side**2)
+
+
+def _support(pixels: int, count: int) -> int:
+    """Return the widest window's width in pixels."""
+    return pixels if count <= 2 else min(pixels, 2 * ceil(pixels / (count - 1)))

@@ -1,0 +1,107 @@
+"""The scene: which depths, which part of the field, which colours, and how much error is tolerable."""
+
+from dataclasses import dataclass
+from math import inf, isfinite, sqrt
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, vergence
+from p2sf.errors import RequestError
+from p2sf.lens import Lens
+from p2sf.request import Request, set_up
+from p2sf.scene.sensor import Sensor
+
+TIGHTEST = 3e-3  # relative error: below it stand the fits' own limits
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One colour of the sensor: wavelengths in nm and how much of its light each one brings."""
+
+    name: str
+    wavelengths_nm: tuple[float, ...]
+    weights: tuple[float, ...]
+
+    def __post_init__(self):
+        if not self.wavelengths_nm or len(self.wavelengths_nm) != len(self.weights):
+            raise RequestError(
+                f"channel {self.name} has {len(self.wavelengths_nm)} wavelengths and {len(self.weights)} weights; "
+                "give as many of both, at least one"
+            )
+        if not all(isfinite(w) and w > 0 for w in (*self.wavelengths_nm, *self.weights)):
+            raise RequestError(f"channel {self.name} has a wavelength or weight that is not positive; correct it")
+
+    @property
+    def wavelengths_um(self) -> np.ndarray:
+        """Return the wavelengths in µm."""
+        return np.array(self.wavelengths_nm) / NM_PER_UM
+
+    @property
+    def shares(self) -> np.ndarray:
+        """Return the weights with unit sum."""
+        return np.array(self.weights) / sum(self.weights)
+
+
+RGB = (
+    Channel("red", (590.0, 620.0, 650.0), (1.0, 2.0, 1.0)),
+    Channel("green", (510.0, 540.0, 570.0), (1.0, 2.0, 1.0)),
+    Channel("blue", (440.0, 465.0, 490.0), (1.0, 2.0, 1.0)),
+)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Sensor, colours, depths (mm from the first vertex, inf allowed) and the error that is tolerable.
+
+    ``tolerance``: relative L2 error of a pixel's kernel, which bounds a white picture's; or with ``measure`` "r2"
+    the least R². ``focus_mm`` puts the sensor at the paraxial image of that distance and ``f_number`` sets
+    the stop, None leaves both as the lens file has them. ``depth_map`` names a picture of depths in mm.
+    """
+
+    sensor: Sensor
+    channels: tuple[Channel, ...] = RGB
+    near_mm: float = inf
+    far_mm: float = inf
+    tolerance: float = 0.05
+    measure: str = "relative"
+    focus_mm: float | None = None
+    f_number: float | None = None
+    depth_map: str | None = None
+    name: str = "scene"
+
+    def __post_init__(self):
+        if not 0 < self.near_mm <= self.far_mm:
+            raise RequestError(
+                f"the scene reaches from {self.near_mm:g} mm to {self.far_mm:g} mm; "
+                "give positive depths, the near one first"
+            )
+        if self.measure not in ("relative", "r2"):
+            raise RequestError(f'the tolerance is measured as "{self.measure}"; choose "relative" or "r2"')
+        if not 0 < self.tolerance < 1:
+            raise RequestError(f"the tolerance is {self.tolerance:g}; give a number between 0 and 1")
+        if self.relative_tolerance < TIGHTEST:
+            raise RequestError(
+                f"the tolerance of {self.tolerance:g} ({self.measure}) is tighter than the {TIGHTEST:g} relative error "
+                "that polynomial pupils can promise; loosen it or render single PSFs with --method huygens"
+            )
+        if not self.channels:
+            raise RequestError("the scene has no channel; give at least one")
+
+    @property
+    def relative_tolerance(self) -> float:
+        """Return the tolerance as relative L2: √(1 − R²), less than which R² leaves for a kernel on a dark ground."""
+        return self.tolerance if self.measure == "relative" else sqrt(1 - self.tolerance)
+
+    def vergences(self, count: int) -> np.ndarray:
+        """Return ``count`` vergences (1/mm) from far to near, the middle for one."""
+        far, near = vergence(self.far_mm), vergence(self.near_mm)
+        return np.array([(far + near) / 2]) if count == 1 else np.linspace(far, near, count)
+
+    def camera(self, lens: Lens) -> Lens:
+        """Return the lens focused and stopped down as the scene has it."""
+        return set_up(lens, Request(focus_mm=self.focus_mm, f_number=self.f_number)).lens
+
+
+def depth_of(vergence_per_mm: float) -> float:
+    """Return the depth in mm of a vergence; infinite for none."""
+    return inf if vergence_per_mm == 0 else 1 / float(vergence_per_mm)

@@ -1,0 +1,56 @@
+"""The sensor's rectangle: where each pixel of a picture lies behind the lens."""
+
+from dataclasses import dataclass
+from math import hypot
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import RequestError
+
+LARGEST_SIDE = 2**15
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """Rows and columns of square pixels; the rectangle's centre lies at ``centre_mm`` (x, y up) from the axis."""
+
+    rows: int
+    columns: int
+    pixel_um: float
+    centre_mm: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self):
+        for name in ("rows", "columns"):
+            if not 1 <= getattr(self, name) <= LARGEST_SIDE:
+                raise RequestError(
+                    f"sensor {name} is {getattr(self, name)}; give a whole number from 1 to {LARGEST_SIDE}"
+                )
+        if not 0 < self.pixel_um < 1e5:
+            raise RequestError(f"sensor pixel_um is {self.pixel_um:g} µm; give a positive pitch below 0.1 m")
+        if not np.isfinite(self.centre_mm).all():
+            raise RequestError(f"sensor centre_mm is {self.centre_mm}; give two finite numbers")
+
+    @property
+    def pixel_mm(self) -> float:
+        """Return the pitch in mm."""
+        return self.pixel_um / UM_PER_MM
+
+    @property
+    def centred(self) -> bool:
+        """Return whether the axis goes through the middle, so that every quarter is the same but for a mirror."""
+        return self.centre_mm == (0.0, 0.0)
+
+    def x_mm(self, column):
+        """Return how far columns (from 0, fractions allowed) lie from the axis, mm to the right."""
+        return (np.asarray(column) - (self.columns - 1) / 2) * self.pixel_mm + self.centre_mm[0]
+
+    def y_mm(self, row):
+        """Return how far rows (from 0 at the top) lie from the axis, mm upwards."""
+        return ((self.rows - 1) / 2 - np.asarray(row)) * self.pixel_mm + self.centre_mm[1]
+
+    def corners_mm(self) -> tuple[float, float]:
+        """Return the least and the greatest distance of a pixel from the axis, mm."""
+        x, y = self.x_mm(np.array([-0.5, self.columns - 0.5])), self.y_mm(np.array([-0.5, self.rows - 0.5]))
+        nearest = (0.0 if values.min() <= 0 <= values.max() else float(np.abs(values).min()) for values in (x, y))
+        return hypot(*nearest), hypot(float(np.abs(x).max()), float(np.abs(y).max()))

@@ -1,0 +1,32 @@
+"""Fewer wavelengths for the same light: Gauss's rule for a channel's own spectrum."""
+
+import numpy as np
+
+from p2sf.kernels import Colour
+from p2sf.scene.scene import Channel
+
+
+def reduced(channel: Channel, count: int) -> Colour:
+    """Return ``count`` wavelengths and weights whose moments up to 2·count − 1 are the channel's.
+
+    Lanczos on the given wavelengths, then the eigenvectors of the Jacobi matrix (Golub & Welsch 1969). All of
+    them are given back as they are when as many are asked for.
+    """
+    waves, shares = channel.wavelengths_um, channel.shares
+    if count >= len(waves):
+        return Colour(tuple(waves.tolist()), tuple(shares.tolist()))
+    diagonal, beside = _lanczos(waves, np.sqrt(shares), count)
+    nodes, vectors = np.linalg.eigh(np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1))
+    return Colour(tuple(nodes.tolist()), tuple(np.square(vectors[0]).tolist()))
+
+
+def _lanczos(values, start, count: int):
+    """Return diagonal and off-diagonal of the Jacobi matrix of diag(values) from this start vector."""
+    q, before, diagonal, beside = start / np.linalg.norm(start), 0.0, [], [0.0]
+    for _ in range(count):
+        r = values * q
+        diagonal.append(float(q @ r))
+        r = r - diagonal[-1] * q - beside[-1] * before
+        beside.append(float(np.linalg.norm(r)))
+        before, q = q, r / max(beside[-1], 1e-300)
+    return np.array(diagonal), np.array(beside[1:-1])

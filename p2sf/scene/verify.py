@@ -1,0 +1,80 @@
+"""Holding a plan to its promise at random points, against exact rays summed without its approximations."""
+
+from dataclasses import dataclass
+from time import process_time
+
+import numpy as np
+
+from p2sf.kernels.nodes import hats, nodes_along
+from p2sf.scene.plan import Plan
+from p2sf.scene.reference import reference_kernel
+from p2sf.scene.study import distance, widened
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Measured relative errors at random points, (points,), and where: (x mm, y mm, vergence per mm, channel).
+
+    ``reference_seconds``: CPU time of one reference kernel of one wavelength, on average.
+    """
+
+    errors: np.ndarray
+    places: tuple[tuple[float, float, float, int], ...]
+    tolerance: float
+    reference_seconds: float
+
+    @property
+    def worst(self) -> float:
+        """Return the largest error."""
+        return float(self.errors.max())
+
+    @property
+    def kept(self) -> bool:
+        """Return whether every point keeps the tolerance."""
+        return self.worst <= self.tolerance
+
+
+def verify(planned: Plan, points: int = 5, seed: int = 0) -> Verdict:
+    """Return the errors of a plan's kernels at random places, depths and channels against the reference."""
+    random = np.random.default_rng(seed)
+    places = tuple(_place(planned, random) for _ in range(points))
+    found = [error_at(planned, *place) for place in places]
+    waves = sum(len(planned.scene.channels[channel].wavelengths_nm) for *_, channel in places)
+    seconds = sum(spent for _, spent in found) / max(waves, 1)
+    return Verdict(np.array([error for error, _ in found]), places, planned.scene.relative_tolerance, seconds)
+
+
+def _place(planned: Plan, random) -> tuple[float, float, float, int]:
+    scene = planned.scene
+    row, column = random.uniform(0, scene.sensor.rows - 1), random.uniform(0, scene.sensor.columns - 1)
+    near, far = scene.vergences(2)[::-1]
+    channel = int(random.integers(len(scene.channels)))
+    return float(scene.sensor.x_mm(column)), float(scene.sensor.y_mm(row)), float(random.uniform(far, near)), channel
+
+
+def error_at(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: int) -> tuple[float, float]:
+    """Return the relative L2 error of the plan's kernel at one place, and the reference's CPU seconds."""
+    kernel = planned_kernel(planned, x_mm, y_mm, vergence, channel)
+    own = planned.kernels(channel, vergence).half_width(float(np.hypot(x_mm, y_mm)))
+    half = max(own, kernel.shape[-1] // 2)
+    sensor, channels = planned.scene.sensor, planned.scene.channels
+    started = process_time()
+    good = reference_kernel(planned.view(vergence), channels[channel], x_mm, y_mm, half, sensor.pixel_um)
+    return distance(kernel, good), process_time() - started
+
+
+def planned_kernel(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: int) -> np.ndarray:
+    """Return the kernel that image formation uses for a point: interpolated between nodes of field and depth."""
+    sensor, made = planned.scene.sensor, []
+    row = (sensor.rows - 1) / 2 - (y_mm - sensor.centre_mm[1]) / sensor.pixel_mm
+    column = (sensor.columns - 1) / 2 + (x_mm - sensor.centre_mm[0]) / sensor.pixel_mm
+    rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), planned.counts, strict=True))
+    weights = (hats(nodes, np.array([at]))[:, 0] for nodes, at in ((rows, row), (columns, column)))
+    depth = hats(np.array(planned.vergences), np.array([vergence]))[:, 0]
+    table = np.multiply.outer(depth, np.multiply.outer(*weights))
+    for k, a, b in zip(*np.nonzero(table), strict=True):
+        kernels = planned.kernels(channel, planned.vergences[k])
+        one = kernels.at(float(sensor.x_mm(columns[b])), float(sensor.y_mm(rows[a])))
+        made.append((table[k, a, b], one))
+    size = max(kernel.shape[-1] for _, kernel in made)
+    return sum(weight * widened(kernel, size) for weight, kernel in made)

@@ -1,0 +1,144 @@
+"""Plans held to their promise over random scenes of every shipped lens: `python -m tests.plan_trial [SCENES] [LENS …]`.
+
+Each scene is planned, checked at random points against exact rays, and priced: against the full grid of the same
+nodes without any saving (predicted), and against that grid by the reference sum (its measured time per kernel).
+"""
+
+import sys
+from dataclasses import replace
+from time import process_time
+
+import numpy as np
+
+from p2sf.errors import P2SFError
+from p2sf.image import plan_lattice
+from p2sf.lens import lens_range_um, with_f_number
+from p2sf.library import find_lens, shipped_lenses
+from p2sf.pupils import f_number, numerical_aperture
+from p2sf.scene import Channel, Scene, Sensor, plan, verify
+from p2sf.scene.scene import depth_of
+from p2sf.seidel import coefficients
+
+SCENES, POINTS = 20, 2
+TOLERANCES = 0.2, 0.1, 0.05, 0.03
+SLOWEST_TRIED = 4.0  # f-number: faster lenses are stopped down to it or beyond, as their rims are not clipped here
+
+
+def random_scene(lens, random) -> tuple:
+    """Return a lens stopped down at random and a scene: a crop of its field, a few waves deep, one or two colours."""
+    wave = lens.reference_wavelength_um
+    fastest = max(float(f_number(lens, wave)), SLOWEST_TRIED)
+    lens = with_f_number(lens, fastest * random.uniform(1, 2))
+    near, far = _depths(lens, random)
+    na = float(numerical_aperture(lens, depth_of(far), wave))
+    pixel = random.uniform(1.5, 8) * wave / (2 * na)
+    rim = abs(float(coefficients(lens, depth_of(far), np.tan(np.deg2rad(max(lens.fields_deg))), wave).image_height))
+    rim = rim or 50 * pixel / 1000
+    columns, rows = (int(n) for n in random.integers(48, 400, 2))
+    size = float(np.hypot(rows, columns) / 2 * pixel / 1000)
+    place, angle = max(0.0, random.uniform(0, 0.75) * rim - size), random.uniform(0, 2 * np.pi)
+    centre = (place * np.sin(angle), place * np.cos(angle)) if random.random() < 0.5 else (0.0, 0.0)
+    tolerance = float(random.choice(TOLERANCES))
+    sensor = Sensor(rows, columns, float(pixel), centre)
+    return lens, Scene(sensor, _channels(lens, random), depth_of(near), depth_of(far), tolerance)
+
+
+def _depths(lens, random) -> tuple[float, float]:
+    """Return near and far vergence: from where the lens is focused, up to two waves towards it."""
+
+    def defocus(vergence):
+        return np.array(
+            [float(coefficients(lens, depth_of(v), 0.0, lens.reference_wavelength_um).wd) for v in vergence]
+        )
+
+    tried = np.append(0.0, np.geomspace(1e-6, 0.05, 400))
+    found = defocus(tried)
+    crossing = np.flatnonzero((found[:-1] < 0) != (found[1:] < 0))
+    focus = float(tried[crossing[-1]]) if crossing.size and abs(found[0]) > 2 else 0.0
+    step = 1e-7
+    slope = abs(float(np.diff(defocus([focus, focus + step]))[0])) / step
+    return focus + random.uniform(0, 2) / slope, focus
+
+
+def _channels(lens, random) -> tuple[Channel, ...]:
+    low, high = lens_range_um(lens) or (0.4, 0.7)
+    low, high = max(1000 * low, 420) + 20, min(1000 * high, 680) - 20
+    middles = random.uniform(low, max(low, high), random.integers(1, 3))
+    kinds = (0.0,), (-15.0, 15.0), (-20.0, 0.0, 20.0)
+    steps = kinds[int(random.integers(3))]
+    return tuple(
+        Channel(f"{m:.0f} nm", tuple(float(m + s) for s in steps), tuple(random.uniform(0.5, 1, len(steps)).tolist()))
+        for m in middles
+    )
+
+
+def trial(lens, scene, seed: int = 0) -> dict:
+    """Return one scene's figures; raises P2SFError where the lens cannot form it."""
+    started = process_time()
+    planned = plan(lens, scene)
+    planning = process_time() - started
+    started = process_time()
+    plan_lattice(planned, planned.vergences[0])
+    spent = (process_time() - started) * len(planned.vergences)
+    verdict = verify(planned, POINTS, seed)
+    nodes = planned.counts[0] * planned.counts[1] * len(planned.vergences)
+    grid = nodes * sum(len(channel.wavelengths_nm) for channel in scene.channels)
+    return {
+        "tolerance": scene.tolerance,
+        "predicted": planned.predicted_error,
+        "worst": verdict.worst,
+        "meets": planned.meets,
+        "kept": verdict.kept,
+        "planning_seconds": planning,
+        "kernel_seconds": spent,
+        "predicted_saving": planned.naive.kernel_seconds / planned.cost.kernel_seconds,
+        "measured_saving": grid * verdict.reference_seconds / max(spent, 1e-9),
+        "loosening_is_cheaper": loosened_cost(lens, scene) <= planned.cost.kernel_seconds if seed % 5 == 0 else None,
+        "what": [f"{d.what}: {d.choice} ({d.error:.2g})" for d in planned.decisions],
+    }
+
+
+def loosened_cost(lens, scene) -> float:
+    """Return the predicted cost at twice the tolerance."""
+    return plan(lens, replace(scene, tolerance=min(0.9, 2 * scene.tolerance))).cost.kernel_seconds
+
+
+def run(name: str, scenes: int) -> list[dict]:
+    """Return the figures of this many scenes of one lens, printing a line each; scenes no light reaches are redrawn."""
+    random, rows, refused = np.random.default_rng(sum(map(ord, name))), [], 0
+    while len(rows) < scenes and refused < 3 * scenes:
+        try:
+            rows.append(trial(*random_scene(find_lens(name), random), len(rows)))
+        except P2SFError as error:
+            refused += 1
+            print(f"  {name}: redrawn, {error}", flush=True)
+            continue
+        row = rows[-1]
+        print(
+            f"{name} {len(rows)}: tolerance {row['tolerance']:g}, predicted {row['predicted']:.3f}, "
+            f"worst {row['worst']:.4f}{'' if row['kept'] else ' MISSED'}{'' if row['meets'] else ' (said so)'}, saving "
+            f"{row['predicted_saving']:.1f}× predicted, {row['measured_saving']:.0f}× measured against the reference, "
+            f"looser is cheaper: {row['loosening_is_cheaper']}",
+            flush=True,
+        )
+        if not row["kept"]:
+            print("   ", "; ".join(row["what"]), flush=True)
+    return rows
+
+
+def main(arguments: list[str]) -> None:
+    """Run the trial and print its sums."""
+    scenes = int(arguments[0]) if arguments else SCENES
+    rows = [row for name in arguments[1:] or shipped_lenses() for row in run(name, scenes)]
+    missed = [row for row in rows if not row["kept"]]
+    print(f"{len(rows)} scenes, {len(missed)} missed, {sum(row['meets'] for row in missed)} of these unannounced")
+    if not rows:
+        return
+    for key in ("predicted_saving", "measured_saving"):
+        low, middle = np.percentile([row[key] for row in rows], [5, 50])
+        print(f"{key}: median {middle:.1f}, 5th percentile {low:.1f}")
+    print("dearer when looser:", sum(row["loosening_is_cheaper"] is False for row in rows))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
