@@ -106,8 +106,10 @@ def settled_angle(power, gap, y, nu):
     change of power bends by −δ·y, a change of gap lifts by δ·nu; a ray that ends parallel to the axis shares
     its Lagrange invariant with what they cause, so its last angle moves by Σ(|δpower|y² + |δgap|nu²)/y_last.
     """
-    last = np.asarray(nu[-1])
-    parallel = np.abs(last) <= SUSPICIOUS * np.abs(nu).max(0)
+    last = nu[-1]
+    # Plain numbers settle the usual case of one source a good deal faster.
+    largest = max(map(abs, nu.tolist())) if nu.ndim == 1 else np.abs(nu).max(0)
+    parallel = abs(last) <= SUSPICIOUS * largest
     if not parallel.any():
         return last
     noise = sum(np.abs(p) * h * h for p, h in zip(power, y, strict=False))
@@ -219,6 +221,6 @@ def axial_ray(rays: BasisRays, depth_mm):
 def check_depth(depth_mm) -> None:
     """Raise GeometryError unless every depth is positive; infinity is allowed."""
     depth = np.asarray(depth_mm, dtype=float)
-    if not np.all(depth > 0):
+    if not (depth > 0).all():
         bad = depth.ravel()[~(depth.ravel() > 0)][0]
         raise GeometryError(f"depth is {bad:g} mm; the object must stand a positive distance before the first vertex")
