@@ -72,6 +72,15 @@ def test_it_says_where_it_has_not_converged(monkeypatch):
     assert "not converged" in psf.sampling
 
 
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-7, 1e-11])
+def test_the_stated_tolerance_is_the_one_that_ends_the_sum(monkeypatch, tolerance):
+    """From few rays the agreement passes through every decade, so that a laxer end would show."""
+    lens, source, pixel, _ = off_axis()
+    monkeypatch.setattr("p2sf.huygens.first_counts", lambda *a: (16, 32))
+    psf = huygens_psf(lens, source, 16, pixel, tolerance=tolerance)
+    assert psf.tolerance <= tolerance and "not converged" not in psf.sampling
+
+
 def test_progress_rises_to_one_and_cancel_stops():
     lens, source, pixel, _ = off_axis()
     seen = []
