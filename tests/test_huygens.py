@@ -72,7 +72,7 @@ def test_it_says_where_it_has_not_converged(monkeypatch):
     assert "not converged" in psf.sampling
 
 
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-7, 1e-11])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
 def test_the_stated_tolerance_is_the_one_that_ends_the_sum(monkeypatch, tolerance):
     """From few rays the agreement passes through every decade, so that a laxer end would show."""
     lens, source, pixel, _ = off_axis()
