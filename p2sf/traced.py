@@ -36,7 +36,7 @@ def traced_psf(
 ) -> Psf:
     """Return the PSF of exact rays, one pass: "settled" in float64, "preview" fewer rays in float32.
 
-    Where rays are lost or clipped, or the pupil map is too curved for rows, the nodes are those of the reference.
+    Where rays are lost or clipped, or no fit puts them in rows well enough, the nodes are those of the reference.
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
     started = perf_counter()
@@ -60,6 +60,8 @@ def _rows(lens, source, window, quality, aim) -> tuple[FittedPencil, FrequencyRo
             found if found.error_waves < RESIDUAL_WAVES else fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
         )
     except GeometryError:  # rays lost: the reference's nodes leave them out one by one
+        return None
+    if found.error_waves > RESIDUAL_WAVES:  # no polynomial puts these rays in rows well enough
         return None
     nodes = rows_for(found, *window, quality)
     return nodes and (found, nodes)
