@@ -122,17 +122,24 @@ def _distance(before, after) -> float:
 
 def first_counts(lens, source, window, filling) -> tuple[int, int]:
     """Return node counts that should carry the phase, from a coarse pencil. Raises SamplingError for too many."""
-    nodes = disc_nodes(*PROBE)
-    rays = pencil(lens, source, nodes.xi, nodes.eta, filling.aim)
+    xi, eta = _probe()
+    rays = pencil(lens, source, xi, eta, filling.aim)
     if not rays.passed.any():
         raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
-    counts = counts_for(steepness(ray_data(rays), nodes.xi, nodes.eta), *window)
+    counts = counts_for(steepness(ray_data(rays), xi, eta), *window)
     if _nodes(counts) > MOST_NODES:
         raise SamplingError(
             f"this blur over {window[0]} pixels of {window[1]:g} µm needs {_nodes(counts)} rays; bring the sensor "
             "nearer to the image, stop down, or show a smaller window"
         )
     return tuple(2 * -(-count // 2) for count in counts)
+
+
+@lru_cache(maxsize=1)
+def _probe():
+    """Return pupil points (ξ, η) of the coarse pencil; the rim, where phases are steepest, is among them."""
+    nodes, angle = disc_nodes(*PROBE), np.linspace(0, np.pi, PROBE[1])
+    return np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
 
 
 def huygens_field(lens, source, counts, window, filling: Filling, watch: "_Watch") -> Field:
@@ -151,11 +158,6 @@ def huygens_field(lens, source, counts, window, filling: Filling, watch: "_Watch
         total = total + sum_plane_waves(amplitude, fx, fy, axis, axis)
         watch.advance(weight.size)
     return Field(total, blur if resolved(spread, window[1]) else None, lost)
-
-
-def one_pass(lens, source, counts, window, filling: Filling = PLAIN) -> Field:
-    """Return the field of one set of nodes in float64, unasked whether it has converged."""
-    return huygens_field(lens, source, counts, window, filling, _Watch())
 
 
 def _nodes_of(lens, source, counts, filling: Filling) -> ClearNodes:

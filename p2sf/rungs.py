@@ -36,7 +36,7 @@ QUICK_LEVELS = LEVELS[:2]  # made from the same 64 rays
 # Measured at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, and 8 where one shows but its core.
 SAFETY = {"seidel": 5.0, "fitted": 8.0}
 TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
-EDGE_ERROR = 1e-3  # of one pass over a pupil that ends at rims or where rays are lost
+EDGE_ERROR = 1e-4  # over a pupil that ends at rims or where rays are lost (`traced.FALLBACK_TOLERANCE`)
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,13 @@ its row's by what the fit leaves; since the phase over frequency has the gradien
 phase there by −y·(row − ray) is right to second order in that miss. Phase, fx and the area of every node are exact.
 """
 
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.huygens import PLAIN, Filling, first_counts, one_pass
+from p2sf.huygens import PLAIN, Filling, huygens_psf
 from p2sf.lens import Lens
 from p2sf.psf import Psf
 from p2sf.quadrature import SETTLED_TOLERANCE
@@ -25,6 +26,8 @@ from p2sf.source import Source
 FEWEST = 46
 RESIDUAL_WAVES = 1e-3  # of that map times the blur; what is left is second order in it
 
+FALLBACK_TOLERANCE = 3e-3  # relative L2 of node by node sums: R² to 1e-5
+
 
 def traced_psf(
     lens: Lens,
@@ -36,13 +39,15 @@ def traced_psf(
 ) -> Psf:
     """Return the PSF of exact rays, one pass: "settled" in float64, "preview" fewer rays in float32.
 
-    Where rays are lost or clipped, or no fit puts them in rows well enough, the nodes are those of the reference.
+    Where rays are lost or clipped, or no fit puts them in rows well enough, they are summed node by node as the
+    reference is, to FALLBACK_TOLERANCE.
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
     started = perf_counter()
     rows = None if filling.clip else _rows(lens, source, (pixels, pixel_um), quality, filling.aim)
     if rows is None:
-        return _by_disc(lens, source, (pixels, pixel_um), filling, started)
+        tolerance = FALLBACK_TOLERANCE if quality == "settled" else None
+        return replace(huygens_psf(lens, source, pixels, pixel_um, tolerance, filling=filling), method="traced")
     found, nodes = rows
     phase, fx = exact_rows(lens, source, nodes, filling.aim)
     intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
@@ -59,7 +64,7 @@ def _rows(lens, source, window, quality, aim) -> tuple[FittedPencil, FrequencyRo
         found = (
             found if found.error_waves < RESIDUAL_WAVES else fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
         )
-    except GeometryError:  # rays lost: the reference's nodes leave them out one by one
+    except GeometryError:  # rays lost: the reference's nodes end where they begin to be
         return None
     if found.error_waves > RESIDUAL_WAVES:  # no polynomial puts these rays in rows well enough
         return None
@@ -74,12 +79,3 @@ def exact_rows(lens: Lens, source: Source, nodes: FrequencyRows, aim: str = "par
     miss -= rays.fy
     miss *= rays.y_um
     return (rays.phase - miss).reshape(nodes.xi.shape), rays.fx.reshape(nodes.xi.shape)
-
-
-def _by_disc(lens, source, window, filling, started) -> Psf:
-    counts = first_counts(lens, source, window, filling)
-    field = one_pass(lens, source, counts, window, filling)
-    intensity = field.values.real**2 + field.values.imag**2
-    words = f"{counts[0]} radii × {counts[1]} directions" + (f", {field.lost} rays lost" if field.lost else "")
-    made = Made("traced", 0, counts[0] * counts[1] // 2, words, started)
-    return psf_from_intensity(intensity, window[1], source.wavelength_um, field.blur_um2, made)
