@@ -27,7 +27,7 @@ def read_scene(path) -> Scene:
         return scene_from(table, Path(path))
     except RequestError as error:
         raise RequestError(f"{path}: {error}") from error
-    except (TypeError, ValueError, KeyError) as error:
+    except (TypeError, ValueError, LookupError, AttributeError) as error:
         raise RequestError(
             f"{path}: a value is missing or of the wrong kind ({error}); see the README's scene"
         ) from error

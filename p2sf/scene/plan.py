@@ -116,7 +116,7 @@ def _rings(study: Study, budget: float):
     """Return (rim, rung) of every ring, and the decisions."""
     heights, found, decisions = study.heights(), [], []
     for inner, outer in pairwise(heights):
-        places = [(h, v) for h in (inner, outer) for v in study.depths()]
+        places = study.places((inner, outer))
         errors = (max(study.rung_error(n, *place) for place in places) for n in range(len(RUNGS)))
         number, error = _first(errors, SHARES["rung"] * budget)
         found.append((float(outer), number))
@@ -133,10 +133,9 @@ def _rings(study: Study, budget: float):
 def _terms(study: Study, budget: float) -> tuple[Decision, float]:
     """Return the decision on phase terms too weak to be seen, and their bound in waves."""
     drop = float(SHARES["terms"] * budget / from_phase(1.0))
-    vergence, height = study.depths()[0], study.farthest_mm
-    pupil = pupil_map(
-        study.lens, study.seen(vergence).source(height, study.reference_um), *RUNGS[study.best(height, vergence)]
-    )
+    height, wave = study.farthest_mm, study.reference_um
+    vergence = study.depths(wave)[0]
+    pupil = pupil_map(study.lens, study.seen(vergence).source(height, wave), *RUNGS[study.best(height, vergence, wave)])
     gone = dropped_terms(pupil, drop)
     kept = int(np.count_nonzero(pupil.phase)) - len(gone)
     strongest = f", the strongest (n={gone[-1][0]}, m={gone[-1][1]}) has {gone[-1][2]:.1e} waves" if gone else ""
@@ -148,7 +147,8 @@ def _colours(study: Study, budget: float):
     """Return the wavelengths of every channel, and the decisions."""
     colours, decisions = [], []
     for channel in study.scene.channels:
-        places = [(h, v) for h in (study.nearest_mm, study.farthest_mm) for v in study.depths()]
+        depths = study.depths(study.reference_um)
+        places = [(h, v) for h in (study.nearest_mm, study.farthest_mm) for v in depths]
         counts = range(1, len(channel.wavelengths_nm) + 1)
         errors = (max(study.colour_error(channel, n, *p) for p in places) for n in counts)
         number, error = _first(errors, SHARES["colour"] * budget)
@@ -161,7 +161,7 @@ def _colours(study: Study, budget: float):
 
 def _sampling(study: Study, budget: float) -> tuple[int, Decision]:
     heights = study.nearest_mm, (study.nearest_mm + study.farthest_mm) / 2, study.farthest_mm
-    places = [(h, v) for h in heights for v in study.depths()]
+    places = study.places(heights)
     errors = (max(study.sampling_error(n, *p) for p in places) for n in range(len(SAMPLINGS)))
     number, error = _first(errors, SHARES["sampling"] * budget)
     fineness, margin = SAMPLINGS[number]
@@ -210,7 +210,7 @@ def _work(study: Study, rings, colours, counts, layers: int) -> tuple[Work, Work
 def _widths(study: Study, rings):
     """Return half widths at the rings' rims over all depths, and transform sides: of the plan, and of every fringe."""
     pixel, halves, own, full = study.scene.sensor.pixel_um, [], [], []
-    for vergence in study.depths():
+    for vergence in study.depths(study.reference_um):
         for rim, recipe in rings:
             kernels = study.kernels(recipe, study.single, vergence)
             half, (pupil, _) = kernels.half_width(rim), kernels.pupils(rim)[0]

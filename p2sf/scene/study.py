@@ -36,6 +36,8 @@ class Study:
         self.reference_um = float(middle.wavelengths_um @ middle.shares)
         self.nearest_mm, self.farthest_mm = self.scene.sensor.corners_mm()
         self.single = Colour((self.reference_um,), (1.0,))
+        middles = [float(channel.wavelengths_um @ channel.shares) for channel in self.scene.channels]
+        self.waves = tuple(sorted({min(middles), self.reference_um, max(middles)}))
         self.levels: dict = {}
 
     def seen(self, vergence: float) -> View:
@@ -49,12 +51,18 @@ class Study:
         """Return the rims of the rings, mm from the axis."""
         return np.linspace(self.nearest_mm, self.farthest_mm, RINGS + 1)
 
-    def depths(self) -> list[float]:
-        """Return the vergences at which decisions are tried: both ends and the sharpest between them."""
+    def depths(self, wave: float) -> list[float]:
+        """Return the vergences at which decisions are tried: five over the scene and the sharpest, on axis and off."""
         scan = self.scene.vergences(SCAN)
-        six = coefficients(self.lens, np.array([depth_of(v) for v in scan]), 0.0, self.reference_um)
-        sharpest = scan[int(np.argmin(np.abs(six.wd + six.w40)))]
-        return sorted({float(scan[0]), float(scan[-1]), float(sharpest)})
+        depths = np.array([depth_of(v) for v in scan])[:, None]
+        slopes = self.seen(scan[0]).slope(np.array([0.0, 0.6, 1.0]) * self.farthest_mm)
+        six = coefficients(self.lens, depths, slopes, wave)
+        blur = np.abs(six.wd + six.w40 + six.w20 + six.w22 / 2)
+        return sorted({float(v) for v in (*scan[:: SCAN // 4], *scan[blur.argmin(0)])})
+
+    def places(self, heights) -> list[tuple[float, float, float]]:
+        """Return (height, vergence, wavelength) at which a decision is tried: every depth and the extreme colours."""
+        return [(float(h), v, wave) for wave in self.waves for h in heights for v in self.depths(wave)]
 
     def kernels(self, recipe: Recipe, colour: Colour, vergence: float) -> Kernels:
         """Return the kernels of one way of making them."""
@@ -63,57 +71,58 @@ class Study:
             self.made[key] = Kernels(self.seen(vergence), colour, self.scene.sensor.pixel_um, lambda height: recipe)
         return self.made[key]
 
-    def best(self, height_mm: float, vergence: float) -> int:
+    def best(self, height_mm: float, vergence: float, wave: float) -> int:
         """Return the first rung whose residual is converged here, or the last."""
-        key = (round(height_mm, 9), round(vergence, 15))
+        key = (round(height_mm, 9), round(vergence, 15), wave)
         if key not in self.levels:
-            source = self.seen(vergence).source(height_mm, self.reference_um)
+            source = self.seen(vergence).source(height_mm, wave)
             good = (
                 n for n in range(1, len(RUNGS)) if fit(self.lens, source, RUNGS[n][1]).residual_waves < CONVERGED_WAVES
             )
             self.levels[key] = next(good, len(RUNGS) - 1)
         return self.levels[key]
 
-    def recipe(self, height_mm: float, vergence: float, sampling=SAMPLINGS[1]) -> Recipe:
+    def recipe(self, height_mm: float, vergence: float, wave: float, sampling=SAMPLINGS[1]) -> Recipe:
         """Return the converged recipe at one place."""
-        return Recipe(*RUNGS[self.best(height_mm, vergence)], *sampling)
+        return Recipe(*RUNGS[self.best(height_mm, vergence, wave)], *sampling)
 
-    def rung_error(self, rung: int, height_mm: float, vergence: float) -> float:
+    def rung_error(self, rung: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the relative error of a rung's kernel against the converged one, and that one's own."""
-        best = self.best(height_mm, vergence)
-        left = self.residual(min(max(rung, 1), best), height_mm, vergence) if rung else 0.0
+        best = self.best(height_mm, vergence, wave)
+        left = self.residual(min(rung, best), height_mm, vergence, wave) if rung else 0.0
         if rung >= best:
             return from_phase(left)
         good, tried = (Recipe(*RUNGS[n], *SAMPLINGS[3]) for n in (best, rung))
-        return max(self.distance(tried, good, height_mm, vergence), 0.0)
+        return self.distance(tried, good, height_mm, vergence, wave)
 
-    def residual(self, rung: int, height_mm: float, vergence: float) -> float:
+    def residual(self, rung: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the phase residual of a fit in waves."""
-        source = self.seen(vergence).source(height_mm, self.reference_um)
+        source = self.seen(vergence).source(height_mm, wave)
         return fit(self.lens, source, RUNGS[rung][1]).residual_waves
 
-    def distance(self, tried: Recipe, good: Recipe, height_mm: float, vergence: float) -> float:
+    def distance(self, tried: Recipe, good: Recipe, height_mm: float, vergence: float, wave: float) -> float:
         """Return the relative L2 distance of two recipes' kernels at one place."""
-        one, two = (self.kernels(r, self.single, vergence).at(*_oblique(height_mm)) for r in (tried, good))
+        single = Colour((wave,), (1.0,))
+        one, two = (self.kernels(r, single, vergence).at(*_oblique(height_mm)) for r in (tried, good))
         return distance(one, two)
 
-    def sampling_error(self, number: int, height_mm: float, vergence: float) -> float:
+    def sampling_error(self, number: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the error of a sampling against the finest."""
-        tried, good = (self.recipe(height_mm, vergence, SAMPLINGS[n]) for n in (number, -1))
-        return self.distance(tried, good, height_mm, vergence)
+        tried, good = (self.recipe(height_mm, vergence, wave, SAMPLINGS[n]) for n in (number, -1))
+        return self.distance(tried, good, height_mm, vergence, wave)
 
     def colour_error(self, channel, count: int, height_mm: float, vergence: float) -> float:
         """Return the error of fewer wavelengths against all of a channel's."""
-        recipe = self.recipe(height_mm, vergence)
+        recipe = self.recipe(height_mm, vergence, self.reference_um)
         few, every = (reduced(channel, n) for n in (count, len(channel.wavelengths_nm)))
         return distance(*(self.kernels(recipe, c, vergence).at(*_oblique(height_mm)) for c in (few, every)))
 
-    def plain(self, vergence: float, x_mm: float, y_mm: float) -> np.ndarray:
+    def plain(self, vergence: float, x_mm: float, y_mm: float, wave: float) -> np.ndarray:
         """Return the kernel in one wavelength by one converged recipe for the whole field."""
-        recipe = self.recipe(self.farthest_mm, vergence)
-        key = ("kernel", round(vergence, 15), round(x_mm, 9), round(y_mm, 9))
+        recipe = self.recipe(self.farthest_mm, vergence, wave)
+        key = ("kernel", round(vergence, 15), round(x_mm, 9), round(y_mm, 9), wave)
         if key not in self.made:
-            self.made[key] = self.kernels(recipe, self.single, vergence).at(x_mm, y_mm)
+            self.made[key] = self.kernels(recipe, Colour((wave,), (1.0,)), vergence).at(x_mm, y_mm)
         return self.made[key]
 
 

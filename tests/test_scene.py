@@ -1,0 +1,106 @@
+"""A scene says what it tolerates, and its plan keeps it at the least price."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GeometryError, RequestError
+from p2sf.library import find_lens
+from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
+
+GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
+SCENE = """
+name = "desk"
+tolerance = 0.1
+focus_mm = 20000
+f_number = 4
+[sensor]
+rows = 48
+columns = 64
+pixel_um = 9.0
+[depth]
+near_mm = 15000
+far_mm = 25000
+[[channel]]
+name = "green"
+wavelengths_nm = [530, 560]
+"""
+
+
+@pytest.fixture(scope="module")
+def planned():
+    scene = Scene(Sensor(96, 128, 9.0), GREEN, 15000.0, 25000.0, 0.1, focus_mm=20000.0, f_number=4.0)
+    return plan(find_lens("double_gauss_28"), scene)
+
+
+def test_the_plan_keeps_its_promise_against_exact_rays(planned):
+    verdict = verify(planned, points=3, seed=1)
+    assert planned.meets and verdict.kept
+    assert verdict.worst > 0  # the two roads share no approximation
+
+
+def test_a_plan_without_what_it_decided_would_not(planned):
+    """One depth node instead of several: the verdict sees it, so it can fail."""
+    assert len(planned.vergences) > 1
+    assert not verify(replace(planned, vergences=planned.vergences[:1]), points=4, seed=1).kept
+
+
+def test_every_decision_has_a_reason_and_an_error(planned):
+    kinds = {decision.what.split()[0] for decision in planned.decisions}
+    assert kinds == {"rung", "terms", "sampling", "field", "depth", "colour"}
+    assert all(len(d.why) > 20 and 0 <= d.error < 0.1 for d in planned.decisions)
+    assert planned.naive.kernel_seconds > planned.cost.kernel_seconds
+
+
+@pytest.mark.parametrize("lens", ["double_gauss_28", "tessar"])
+def test_loosening_never_costs_more(lens):
+    scene = Scene(Sensor(60, 80, 4.0), GREEN, f_number=5.6)
+    costs = [plan(find_lens(lens), replace(scene, tolerance=t)).cost.seconds for t in (0.03, 0.06, 0.12, 0.3)]
+    assert costs == sorted(costs, reverse=True)
+
+
+def test_r2_is_the_square_of_the_relative_error():
+    assert Scene(Sensor(8, 8, 5.0), tolerance=0.99, measure="r2").relative_tolerance == pytest.approx(0.1)
+
+
+def test_a_scene_is_read_from_toml(tmp_path):
+    path = tmp_path / "desk.toml"
+    path.write_text(SCENE)
+    scene = read_scene(path)
+    assert scene.sensor == Sensor(48, 64, 9.0) and scene.channels == (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
+    assert (scene.near_mm, scene.far_mm, scene.focus_mm, scene.f_number) == (15000, 25000, 20000, 4)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("rows = 48", "rows = 0", "rows is 0"),
+        ("rows = 48", "rows = 'x'", "wrong kind"),
+        ("rows = 48\n", "", "lacks rows"),
+        ("pixel_um = 9.0", "pixel_um = -1", "positive pitch"),
+        ("tolerance = 0.1", "tolerance = 2", "between 0 and 1"),
+        ("tolerance = 0.1", "tolerance = 1e-5", "tighter"),
+        ("near_mm = 15000", "near_mm = 30000", "near one first"),
+        ("wavelengths_nm = [530, 560]", "wavelengths_nm = []", "at least one|wrong kind"),
+        ("name = \"desk\"", "nane = 1", "means nothing here"),
+        ("[depth]", "[depth", "no TOML"),
+    ],
+)
+def test_a_wrong_scene_is_one_sentence_with_its_file(tmp_path, old, new, words):
+    path = tmp_path / "desk.toml"
+    path.write_text(SCENE.replace(old, new))
+    with pytest.raises(RequestError, match=words) as caught:
+        read_scene(path)
+    assert "desk.toml" in str(caught.value)
+
+
+def test_a_sensor_beyond_the_lens_is_one_sentence():
+    with pytest.raises(GeometryError, match="sensor's corner"):
+        plan(find_lens("double_gauss_28"), Scene(Sensor(1000, 1000, 200.0), GREEN))
+
+
+def test_corners_are_the_nearest_and_farthest_pixels():
+    assert Sensor(3, 4, 1000.0).corners_mm() == (0.0, 2.5)
+    near, far = Sensor(2, 2, 1000.0, (4.0, 5.0)).corners_mm()
+    assert np.allclose((near, far), (5.0, np.hypot(5, 6)))
