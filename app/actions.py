@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox, QWidget
 
 from app.focus import best_shift_um
 from app.panels import REGISTRY
+from app.saving import ask_save_lens
 from app.setting import with_lens
 from app.snapshot import DATA_ENDINGS, side_car, write_data, write_picture, write_state
 from app.state import read_state
@@ -24,6 +25,7 @@ HELP = """<h3>P2SF Explorer</h3>
 <tr><td><b>Ctrl+Z</b>, <b>Ctrl+Shift+Z</b></td><td>undo, redo</td></tr>
 <tr><td><b>Ctrl+O</b></td><td>open a lens file or a saved state; dropping it on the window does the same</td></tr>
 <tr><td><b>Ctrl+F</b></td><td>autofocus</td></tr>
+<tr><td><b>Ctrl+Shift+S</b></td><td>save the lens as it is now: .toml, .zmx or ISET .json</td></tr>
 <tr><td><b>Ctrl+E</b></td><td>snapshot: PSF data or picture, with the state beside it</td></tr>
 <tr><td><b>F1</b></td><td>this page</td></tr>
 </table>"""
@@ -40,6 +42,7 @@ class Actions(QObject):
             ("Ctrl+Shift+Z", self.store.redo),
             ("Ctrl+Y", self.store.redo),
             ("Ctrl+O", self.ask_open),
+            ("Ctrl+Shift+S", self.ask_save_lens),
             ("Ctrl+F", self.autofocus),
             ("Ctrl+E", self.ask_snapshot),
             ("F1", self.help),
@@ -51,6 +54,7 @@ class Actions(QObject):
         window.top.help_asked.connect(self.help)
         window.controls.autofocus.connect(self.autofocus)
         window.top.set_snapshot_menu(self._menu())
+        self.store.said.connect(window.status.say)
 
     def attempt(self, action, *arguments) -> bool:
         """Run an action; say its refusal in the banner and return whether it went well."""
@@ -96,6 +100,10 @@ class Actions(QObject):
         if path:
             self.open_path(path)
 
+    def ask_save_lens(self) -> None:
+        """Ask for a name and save the lens as it is now."""
+        ask_save_lens(self.window, self.store)
+
     def ask_snapshot(self, kinds: str = SNAPSHOT_FILES, picture_of: QWidget | None = None) -> None:
         """Ask for a name and save the snapshot."""
         ending = kinds.split("*")[1].split(")")[0]
@@ -118,6 +126,7 @@ class Actions(QObject):
         pictures = menu.addMenu("Picture of one panel")
         for entry in REGISTRY:
             pictures.addAction(entry.title, lambda key=entry.key: self._ask_panel(key))
+        menu.addAction("Lens…\tCtrl+Shift+S", self.ask_save_lens)
         menu.addAction("State only…", lambda: self.ask_snapshot(STATE_FILES))
         return menu
 

@@ -42,6 +42,9 @@ class TopBar(QFrame):
         self.lens.setMinimumWidth(300)
         self.lens.setMaximumWidth(460)
         self.lens.activated.connect(self._on_lens)
+        self.edited = QLabel("edited", self)
+        self.edited.setObjectName("badge")
+        self.edited.setToolTip("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)")
         words = tuple((name, METHOD_WORDS[name]) for name in CHOICES["method"])
         self.method = chooser(words, METHOD_TIP, self)
         tolerances = tuple((str(t), f"R² ≥ {t:g}") for t in TOLERANCES)
@@ -62,6 +65,7 @@ class TopBar(QFrame):
         row.setContentsMargins(10, 6, 10, 6)
         row.setSpacing(8)
         row.addWidget(self.lens)
+        row.addWidget(self.edited)
         row.addSpacing(12)
         row.addWidget(QLabel("Method"))
         row.addWidget(self.method)
@@ -96,6 +100,7 @@ class TopBar(QFrame):
         if self.lens.findData(state.lens) < 0:
             self.lens.insertItem(0, title(state.lens), state.lens)
         select(self.lens, state.lens)
+        self.edited.setVisible(state.lens_text is not None)
         select(self.method, state.method)
         if self.tolerance.findData(str(state.tolerance)) < 0:
             self.tolerance.addItem(f"R² ≥ {state.tolerance:g}", str(state.tolerance))

@@ -10,13 +10,15 @@ from p2sf.errors import P2SFError
 
 
 class Store(QObject):
-    """Holds the present State; ``changed`` tells of every new one, ``refused`` carries a sentence.
+    """Holds the present State; ``changed`` tells of every new one.
 
+    ``refused`` carries a sentence on what cannot be, ``said`` one on what was done.
     A drag is one step of undo: what happens between ``begin`` and ``end`` is undone together.
     """
 
     changed = Signal(object)
     refused = Signal(str)
+    said = Signal(str)
 
     def __init__(self, state: State, parent: QObject | None = None):
         super().__init__(parent)

@@ -50,6 +50,7 @@ REGISTRY = (
     Entry("ray_fan", "Ray fan", "app.panels.fans:RayFanPanel", view="app.views.rays:ray_errors"),
     Entry("opd_fan", "OPD fan", "app.panels.fans:OpdFanPanel", view="app.views.rays:path_errors"),
     Entry("seidel", "Seidel per surface", "app.panels.seidel:SeidelPanel", view="app.views.seidel:per_surface"),
+    Entry("lens", "Lens table", "app.panels.lens_table:LensTablePanel", view="app.views.lens_table:rows"),
     Entry("accuracy", "Accuracy", "app.panels.accuracy:AccuracyPanel"),
 )
 
