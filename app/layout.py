@@ -6,12 +6,16 @@ from math import isfinite
 
 import numpy as np
 
+from app.meridional import path
+from app.scales import nice
 from app.setting import Setting
 from p2sf.lens import Lens, Surface, indices
 from p2sf.pupils import find_stop, paraxial_rays
-from p2sf.raytrace import Status, pupil_rays, trace
+from p2sf.raytrace import pupil_rays
+from p2sf.source import Source
 
 PROFILE_POINTS = 33
+HEIGHTS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 REACH = 3.0  # rays from afar begin so many lens lengths before the lens, outside any window
 
 
@@ -60,7 +64,10 @@ class Mark:
 
 @dataclass(frozen=True)
 class Layout:
-    """The drawing, the rays of the present source, and the marks; ``source`` (z, y) is None at infinity."""
+    """The drawing, the rays of the present source, and the marks; ``source`` (z, y) is None at infinity.
+
+    ``sensor_half``: half the height of the drawn sensor, mm; it holds the chief ray of every field of the lens file.
+    """
 
     drawing: Drawing
     rays: tuple[RayPath, ...]
@@ -69,21 +76,41 @@ class Layout:
     image: tuple[float, float] | None
     entrance_z: float
     slope: float
+    sensor_half: float
 
 
 def layout(setting: Setting) -> Layout:
     """Return everything the layout panel draws."""
     drawn = drawing(setting.lens, float(setting.stop.surface), float(setting.stop.semi_diameter))
     depth, height = setting.source.depth_mm, setting.object_height_mm
+    rays = tuple(ray_paths(setting, drawn))
     return Layout(
         drawing=drawn,
-        rays=tuple(ray_paths(setting, drawn)),
+        rays=rays,
         marks=tuple(marks(setting)),
         source=None if height is None else (-depth, -height),
         image=_image_point(setting),
         entrance_z=float(setting.pupils.entrance_from_first),
         slope=setting.source.field_slope,
+        sensor_half=sensor_half(setting.lens, rays),
     )
+
+
+def sensor_half(lens: Lens, rays: tuple[RayPath, ...]) -> float:
+    """Return half the sensor's height, mm: a round number that holds this chief ray and the widest field's."""
+    now = max((abs(float(ray.y[-1])) for ray in rays if ray.kind == "chief" and ray.passed), default=0.0)
+    return nice(1.04 * max(now, widest_image(lens), 1e-3), HEIGHTS)
+
+
+@lru_cache(maxsize=32)
+def widest_image(lens: Lens) -> float:
+    """Return how high the chief ray of the file's widest field meets the sensor, mm; 0 where it does not."""
+    slope = float(np.tan(np.deg2rad(max(abs(angle) for angle in lens.fields_deg))))
+    source = Source(np.inf, slope, lens.reference_wavelength_um)
+    rays = pupil_rays(lens, source, np.zeros(1), np.zeros(1))
+    start, direction = (a.reshape(-1, 3)[0, :0:-1].tolist() for a in (rays.origins, rays.directions))
+    _, y, passed = path(lens, indices(lens, source.wavelength_um).tolist(), start, direction)
+    return abs(y[-1]) if passed else 0.0
 
 
 def _image_point(setting: Setting) -> tuple[float, float] | None:
@@ -174,18 +201,18 @@ RAYS = (("marginal", 0, 1.0), ("marginal", 0, -1.0), ("rim", 1, 1.0), ("rim", 1,
 
 
 def ray_paths(setting: Setting, drawn: Drawing):
-    """Yield the exact meridional rays of `RAYS`, both sources in one trace."""
+    """Yield the exact meridional rays of `RAYS`."""
     source, etas = setting.source, np.array([1.0, -1.0, 0.0])
     both = replace(source, field_slope=np.array([0.0, source.field_slope]))
     rays = pupil_rays(setting.lens, both, np.zeros(3), etas, stop=setting.stop)
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
-    paths = trace(setting.lens, origins, directions, source.wavelength_um)
     starts = _start(origins, directions, min(source.depth_mm, REACH * (drawn.right - drawn.left)))
+    index = indices(setting.lens, source.wavelength_um).tolist()
     for kind, row, eta in RAYS:
         at = row, etas.tolist().index(eta)
-        points = np.concatenate([starts[at][None], paths.points[(slice(1, None), *at)]])
-        reached = points[np.isfinite(points[:, 1])]
-        yield RayPath(kind, reached[:, 2], reached[:, 1], bool(paths.status[at] == Status.PASSED))
+        start, direction = (a[at][:0:-1].tolist() for a in (starts, directions))  # z, y
+        z, y, passed = path(setting.lens, index, start, direction)
+        yield RayPath(kind, np.array([start[0], *z]), np.array([start[1], *y]), passed)
 
 
 def _start(origins: np.ndarray, directions: np.ndarray, reach: float) -> np.ndarray:

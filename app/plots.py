@@ -6,19 +6,13 @@ from math import ceil, floor
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QLinearGradient, QPainter, QPen
+from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
+from app.chart import Chart, small_font
 from app.theme import LIGHT, Tokens
 
-TRANSPARENT = 255  # the one index of a colour table that is kept for "no value"
-
-
-def small_font(size: int = 11) -> QFont:
-    """Return the font of ticks and labels."""
-    font = QFont()
-    font.setPixelSize(size)
-    return font
+EMPTY = 255  # the one index of a colour table that is kept for "no value"
 
 
 class Axis(pg.AxisItem):
@@ -80,18 +74,19 @@ def restyle_plot(plot: pg.PlotWidget, theme: Tokens) -> None:
 
 @lru_cache(maxsize=8)
 def lookup(name: str) -> np.ndarray:
-    """Return a colour table (256, 4) of uint8; its last entry is transparent, for samples without a value."""
-    table = np.full((256, 4), 255, dtype=np.uint8)
-    table[:255, :3] = pg.colormap.get(name).getLookupTable(nPts=255)[:, :3]
-    table[TRANSPARENT] = 0
+    """Return a colour table (256,) of 0xffRRGGBB; its last entry is for samples without a value."""
+    red, green, blue = pg.colormap.get(name).getLookupTable(nPts=255)[:, :3].astype(np.uint32).T
+    table = np.full(256, 0xFFFFFFFF, dtype=np.uint32)
+    table[:EMPTY] = 0xFF000000 | red << 16 | green << 8 | blue
     return table
 
 
 def as_indices(values: np.ndarray, low: float, high: float) -> np.ndarray:
-    """Return values as indices 0 to 254 of a colour table, TRANSPARENT where there is no value."""
+    """Return values as indices 0 to 254 of a colour table, EMPTY where there is no value."""
     scaled = (values - low) * (254.0 / (high - low) if high > low else 0.0)
-    known = np.isfinite(scaled)
-    return np.where(known, np.clip(np.where(known, scaled, 0.0), 0, 254), TRANSPARENT).astype(np.uint8)
+    np.clip(scaled, 0, 254, out=scaled)
+    scaled[np.isnan(scaled)] = EMPTY
+    return scaled.astype(np.uint8)
 
 
 class ColourBar(QWidget):
@@ -128,7 +123,7 @@ class ColourBar(QWidget):
         gradient = QLinearGradient(bar.bottomLeft(), bar.topLeft())
         table = lookup(self._name)
         for k in range(17):
-            gradient.setColorAt(k / 16, QColor(*(int(c) for c in table[min(254, round(254 * k / 16))])))
+            gradient.setColorAt(k / 16, QColor.fromRgb(int(table[min(254, round(254 * k / 16))])))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(gradient)
         painter.drawRect(bar)
@@ -141,37 +136,39 @@ class ColourBar(QWidget):
 
 
 class HeatMap(QWidget):
-    """An image in physical coordinates with its colour bar."""
+    """An image in physical coordinates with its colour bar; curves go on ``chart``."""
 
     def __init__(self, bottom: str, left: str, parent=None):
         super().__init__(parent)
-        self.plot, self.bar = plot_widget(bottom, left, aspect=True), ColourBar(self)
-        self.image = pg.ImageItem()
-        self.plot.addItem(self.image)
-        self._rect = None
+        self.chart, self.bar = Chart(bottom, left, aspect=True), ColourBar(self)
+        self.indices = np.zeros((1, 1), np.uint8)
+        self._name, self._rect = "CET-L4", None
+        self._table = lookup(self._name)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
-        row.addWidget(self.plot, 1)
+        row.addWidget(self.chart, 1)
         row.addWidget(self.bar)
 
     def show_values(self, values: np.ndarray, levels: tuple[float, float], rect: tuple[float, float, float, float]):
         """Show rows +y of ``values`` over (x, y, width, height)."""
-        self.image.setImage(as_indices(values, *levels), autoLevels=False)
-        if rect != self._rect:
-            self._rect = rect
-            self.image.setRect(QRectF(*rect))
+        self.indices, self._rect = as_indices(values, *levels), rect
+        self.chart.show_pixels(self._table[self.indices], rect)
 
     def set_extent(self, half: float) -> None:
         """Show −half to half on both axes."""
-        self.plot.setRange(xRange=(-half, half), yRange=(-half, half), padding=0.02)
+        self.chart.set_range((-1.04 * half, 1.04 * half), (-1.04 * half, 1.04 * half))
 
     def set_map(self, name: str) -> None:
         """Use a colour map by name."""
-        self.image.setLookupTable(lookup(name))
-        self.image.setLevels(None)
+        self._name = name
+        self._table = lookup(name).copy()
+        self._table[EMPTY] = QColor(self.chart.theme.card).rgb()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        restyle_plot(self.plot, theme)
+        self.chart.restyle(theme)
         self.bar.restyle(theme)
+        self.set_map(self._name)
+        if self._rect:
+            self.chart.show_pixels(self._table[self.indices], self._rect)

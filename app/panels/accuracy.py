@@ -5,9 +5,10 @@ import pyqtgraph as pg
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from app.card import Card
+from app.chart import small_font
 from app.compute import Live
 from app.panels.psf import PSF_MAP, stretched
-from app.plots import HeatMap, plot_widget, restyle_plot, small_font
+from app.plots import HeatMap, plot_widget, restyle_plot
 from app.readout import Readout
 from app.reference import Accuracy, Rung
 from app.scales import nice, written_r_squared

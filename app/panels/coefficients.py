@@ -5,8 +5,8 @@ from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
 from app.card import Card
+from app.chart import small_font
 from app.compute import Live
-from app.plots import small_font
 from app.pupil import FORMULAS, TERMS, WORDS
 from app.readout import Readout
 from app.scales import nice, signed

@@ -1,10 +1,9 @@
 """What the panels of curves have in common: a plot, coloured curves, a legend, still axes."""
 
 import numpy as np
-import pyqtgraph as pg
 
 from app.card import Card
-from app.plots import plot_widget, restyle_plot
+from app.chart import Chart
 from app.theme import Tokens
 
 
@@ -13,33 +12,26 @@ class CurvesPanel:
 
     def __init__(self, title: str, tip: str, axes: tuple[str, str], curves: dict[str, tuple[str, int]]):
         self.widget = Card(title, tip)
-        self.plot = plot_widget(*axes)
-        self.zero = pg.InfiniteLine(0, angle=0)
-        self.plot.addItem(self.zero)
-        self.curves = {name: pg.PlotCurveItem() for name in curves}
-        self._looks, self._range = curves, None
-        for curve in self.curves.values():
-            curve.setSegmentedLineMode("on")
-            self.plot.addItem(curve)
-        self.widget.set_body(self.plot)
+        self.chart = Chart(*axes)
+        self.zero = self.chart.add_curve("line")
+        self.curves = {name: self.chart.add_curve(token, width) for name, (token, width) in curves.items()}
+        self._looks = curves
+        self.widget.set_body(self.chart)
 
     def show_curves(self, x: np.ndarray, curves: dict[str, np.ndarray]) -> None:
         """Show curves over common positions."""
         for name, values in curves.items():
-            self.curves[name].setData(x, values)
+            self.curves[name].set_data(x, values)
+        self.chart.update()
 
     def set_range(self, x: tuple[float, float], y: tuple[float, float]) -> None:
         """Show these ranges; nothing is laid out again while they stay."""
-        if (x, y) != self._range:
-            self._range = (x, y)
-            self.plot.setRange(xRange=x, yRange=y, padding=0)
+        self.chart.set_range(x, y)
+        self.zero.set_data(x, (0.0, 0.0))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        restyle_plot(self.plot, theme)
-        self.zero.setPen(pg.mkPen(theme.line, width=1))
-        for name, (token, width) in self._looks.items():
-            self.curves[name].setPen(pg.mkPen(getattr(theme, token), width=width))
+        self.chart.restyle(theme)
         self.widget.set_readout(self.legend(theme))
 
     def legend(self, theme: Tokens) -> str:

@@ -1,22 +1,21 @@
 """The lens to scale, its rays, pupils and cardinal points, and the source to take hold of."""
 
 import numpy as np
-import pyqtgraph as pg
-from PySide6.QtCore import QPointF
-from PySide6.QtGui import QColor, QPainterPath, QPolygonF
-from PySide6.QtWidgets import QGraphicsPathItem
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtWidgets import QToolTip
 
 from app.card import Card
+from app.chart import Chart
 from app.compute import Live
-from app.layout import Drawing
-from app.panels.marks import Marks
+from app.layout import Drawing, Outline
+from app.panels.marks import paint_marks
 from app.panels.source import SourceHandle
-from app.plots import plot_widget, restyle_plot
 from app.store import Store
-from app.theme import LIGHT, Tokens
+from app.theme import Tokens
 
 TIP = "The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP."
-KINDS = ("marginal", "rim", "chief")
+KINDS = {"marginal": ("marginal", 2), "rim": ("chief", 1), "chief": ("chief", 2)}
 
 
 class LayoutPanel:
@@ -24,98 +23,131 @@ class LayoutPanel:
 
     def __init__(self, store: Store):
         self.widget = Card("Layout", TIP)
-        self.plot = plot_widget()
-        for side in ("bottom", "left"):
-            self.plot.getPlotItem().hideAxis(side)
-        self.view = self.plot.getPlotItem().getViewBox()
-        self.view.setAspectLocked(True)
-        self.widget.set_body(self.plot)
-        self._glass: list[QGraphicsPathItem] = []
-        self.axis = self.plot.addLine(y=0)
-        self.rays = {kind: pg.PlotCurveItem(connect="finite") for kind in KINDS}
-        self.stop, self.sensor = pg.PlotCurveItem(connect="finite"), pg.PlotCurveItem()
-        for item in (*self.rays.values(), self.stop, self.sensor):
-            item.setSegmentedLineMode("on")
-            self.plot.addItem(item)
-        self.marks = Marks(self.plot)
-        self.handle = SourceHandle(self.plot, store)
-        self._drawing: Drawing | None = None
-        self._theme = LIGHT
-        self._live: Live | None = None
-        self.view.sigResized.connect(self._on_resized)
+        self.chart = LayoutChart(store)
+        self.widget.set_body(self.chart)
+        self.rays = self.chart.rays
+
+    @property
+    def handle(self) -> SourceHandle:
+        """Return the source's handle."""
+        return self.chart.handle
 
     def show(self, live: Live) -> None:
         """Paint the lens when it has changed, rays and marks always."""
-        self._live = live
-        layout = live.layout
-        if layout.drawing is not self._drawing:
-            self._drawing = layout.drawing
-            self._draw_glass()
-            self._fit()
-        for kind in KINDS:
-            paths = [ray for ray in layout.rays if ray.kind == kind]
-            self.rays[kind].setData(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
-        self.marks.show(layout, self.view)
-        self.handle.show(live, self.view)
+        self.chart.show_live(live)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        self._theme = theme
-        restyle_plot(self.plot, theme)
-        self.axis.setPen(pg.mkPen(theme.line, width=1))
-        self.rays["marginal"].setPen(pg.mkPen(theme.marginal, width=1.5))
-        self.rays["rim"].setPen(pg.mkPen(theme.chief, width=1))
-        self.rays["chief"].setPen(pg.mkPen(theme.chief, width=2))
-        self.stop.setPen(pg.mkPen(theme.text, width=3))
-        self.sensor.setPen(pg.mkPen(theme.text, width=2))
-        self.marks.restyle(theme)
-        self.handle.restyle(theme)
+        self.chart.restyle(theme)
         self.widget.set_readout(legend(theme))
-        if self._drawing:
-            self._draw_glass()
 
-    def _on_resized(self) -> None:
-        if self._live:
+
+class LayoutChart(Chart):
+    """The picture: glass, stop and sensor stand still, rays are curves, names and the handle lie above."""
+
+    def __init__(self, store: Store):
+        super().__init__(aspect=True, framed=False)
+        self.rays = {kind: self.add_curve(*look) for kind, look in KINDS.items()}
+        self.handle = SourceHandle(store)
+        self.live: Live | None = None
+        self._drawn: tuple[Drawing, float] | None = None
+        self.setMouseTracking(True)
+
+    def show_live(self, live: Live) -> None:
+        """Show an answer."""
+        self.live, layout = live, live.layout
+        fresh = layout.drawing, layout.sensor_half
+        if self._drawn is None or fresh[0] is not self._drawn[0] or fresh[1] != self._drawn[1]:
+            self._drawn = fresh
+            self.forget_ground()
             self._fit()
-            self.marks.show(self._live.layout, self.view)
-            self.handle.show(self._live, self.view)
+        for kind, curve in self.rays.items():
+            paths = [ray for ray in layout.rays if ray.kind == kind]
+            curve.set_data(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
+        self.update()
 
-    def _draw_glass(self) -> None:
-        for item in self._glass:
-            self.plot.removeItem(item)
-        self._glass = [self._element(outline) for outline in self._drawing.outlines]
-        d = self._drawing
-        wedge = 0.18 * d.half_height + 0.25 * d.stop_rim
-        self.stop.setData(
-            np.array([d.stop_z, d.stop_z, np.nan, d.stop_z, d.stop_z]),
-            np.array([d.stop_rim, d.stop_rim + wedge, np.nan, -d.stop_rim, -d.stop_rim - wedge]),
-        )
-        self.sensor.setData(np.full(2, d.sensor_z), np.array([-d.half_height, d.half_height]))
+    def resizeEvent(self, event) -> None:
+        """Fit the lens to the new size."""
+        super().resizeEvent(event)
+        if self._drawn:
+            self._fit()
 
-    def _element(self, outline) -> QGraphicsPathItem:
-        path = QPainterPath()
-        path.addPolygon(QPolygonF([QPointF(z, y) for z, y in zip(outline.z, outline.y, strict=True)]))
-        item = QGraphicsPathItem(path)
-        fill = QColor(self._theme.glass)
-        fill.setAlphaF(min(0.75, max(0.12, 0.9 * (outline.index - 1.2))))  # denser glass is drawn denser
-        item.setBrush(fill)
-        item.setPen(pg.mkPen(self._theme.glass_edge, width=1))
-        item.setZValue(-10)
-        item.setCacheMode(item.CacheMode.DeviceCoordinateCache)
-        item.setToolTip(f"surfaces {outline.surfaces[0]} to {outline.surfaces[1]}, n = {outline.index:.4f}")
-        self.plot.addItem(item)
-        return item
+    def sensor(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the drawn sensor's ends, z and y in mm."""
+        drawing, half = self._drawn
+        return np.full(2, drawing.sensor_z), np.array([-half, half])
 
     def _fit(self) -> None:
-        """Fill the height or the width with the lens; the room that is left is to the left, where the source is."""
-        d, box = self._drawing, self.view.boundingRect()
-        if not box.width() or not box.height():
-            return
-        tall, length = 2.25 * d.half_height, d.right - d.left
+        """Fill the height or the width with lens and sensor; what is left is room at the left, where the source is."""
+        d, half = self._drawn
+        box, length = self.area, d.right - d.left
+        tall = 2.25 * max(d.half_height, half)
         wide = max(1.5 * length, tall * box.width() / box.height())
         right = d.right + 0.06 * wide + 0.2 * max(0.0, wide - 1.7 * length)
         half = max(tall, wide * box.height() / box.width()) / 2
-        self.view.setRange(xRange=(right - wide, right), yRange=(-half, half), padding=0)
+        self.set_range((right - wide, right), (-half, half))
+
+    def paint_ground(self, painter: QPainter) -> None:
+        """Paint axis, glass, stop and sensor."""
+        if not self._drawn:
+            return
+        d, half = self._drawn
+        painter.setPen(QPen(QColor(self.theme.line), 1))
+        axis = float(self.to_pixels(0.0, 0.0)[1])
+        painter.drawLine(QPointF(0, axis), QPointF(self.width(), axis))
+        for outline in d.outlines:
+            fill = QColor(self.theme.glass)
+            fill.setAlphaF(min(0.75, max(0.12, 0.9 * (outline.index - 1.2))))  # denser glass is drawn denser
+            painter.setBrush(fill)
+            painter.setPen(QPen(QColor(self.theme.glass_edge), 1))
+            painter.drawPolygon(self._polygon(outline))
+        wedge = 0.18 * d.half_height + 0.25 * d.stop_rim
+        for side in (-1, 1):
+            self._bar(painter, 3, d.stop_z, side * d.stop_rim, side * (d.stop_rim + wedge))
+        self._bar(painter, 2, d.sensor_z, -half, half)
+
+    def _bar(self, painter: QPainter, width: float, z: float, start: float, end: float) -> None:
+        painter.setPen(QPen(QColor(self.theme.text), width))
+        painter.drawLine(QPointF(*self.to_pixels(z, start)), QPointF(*self.to_pixels(z, end)))
+
+    def _polygon(self, outline: Outline) -> QPolygonF:
+        z, y = self.to_pixels(outline.z, outline.y)
+        return QPolygonF([QPointF(*point) for point in zip(z.tolist(), y.tolist(), strict=True)])
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint marks, names and the source."""
+        if self.live:
+            paint_marks(painter, self, self.live.layout)
+            self.handle.paint(painter, self)
+
+    def event(self, event) -> bool:
+        """Name the glass or the source under the pointer."""
+        if event.type() == QEvent.Type.ToolTip and self._drawn:
+            text = self.handle.tip(self, QPointF(event.pos())) or self._glass_tip(QPointF(event.pos()))
+            QToolTip.showText(event.globalPos(), text, self)
+            return True
+        return super().event(event)
+
+    def _glass_tip(self, point: QPointF) -> str:
+        for outline in self._drawn[0].outlines:
+            if self._polygon(outline).containsPoint(point, Qt.FillRule.OddEvenFill):
+                return f"surfaces {outline.surfaces[0]} to {outline.surfaces[1]}, n = {outline.index:.4f}"
+        return ""
+
+    def mousePressEvent(self, event) -> None:
+        """Take hold of the source."""
+        if event.button() == Qt.MouseButton.LeftButton and self.live:
+            self.handle.press(self, event.position())
+
+    def mouseMoveEvent(self, event) -> None:
+        """Move the source while held; show that it can be held."""
+        self.handle.move(self, event.position())
+        over = self.live and self.handle.near(self, event.position())
+        self.setCursor(Qt.CursorShape.SizeAllCursor if over else Qt.CursorShape.ArrowCursor)
+
+    def mouseReleaseEvent(self, event) -> None:
+        """Let go of the source."""
+        self.handle.release()
 
 
 def _joined(parts: list[np.ndarray]) -> np.ndarray:

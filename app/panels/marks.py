@@ -1,73 +1,60 @@
 """Pupils, principal and focal points and the image point on the layout, with names that do not collide."""
 
-import numpy as np
-import pyqtgraph as pg
+from functools import lru_cache
 
-from app.layout import Layout, Mark
-from app.plots import small_font
-from app.theme import Tokens
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
-LABEL_PX = 26.0  # how wide a name is, with air
+from app.chart import Chart, small_font
+from app.layout import Layout
+
 LINE_PX = 13.0
+GAP_PX = 4.0
+LINES = 6  # how far out a name may go for room of its own
 
 
-class Marks:
-    """One text per mark, ticks on the axis, dashed bars for the pupils; made once, moved ever after."""
-
-    def __init__(self, plot: pg.PlotWidget):
-        self._plot = plot
-        self.ticks, self.pupils = pg.PlotCurveItem(connect="finite"), pg.PlotCurveItem(connect="finite")
-        self.image = pg.ScatterPlotItem(size=8)
-        for item in (self.ticks, self.pupils, self.image):
-            plot.addItem(item)
-        self._texts: dict[str, pg.TextItem] = {}
-        self._theme: Tokens | None = None
-
-    def show(self, layout: Layout, view: pg.ViewBox) -> None:
-        """Move every mark to its place."""
-        pixel = view.viewPixelSize()[1]
-        points = [mark for mark in layout.marks if not mark.radius]
-        bars = [mark for mark in layout.marks if mark.radius]
-        self.ticks.setData(*_strokes([(m.z, -4 * pixel, 4 * pixel) for m in points]))
-        self.pupils.setData(*_strokes([(m.z, -m.radius, m.radius) for m in bars]))
-        self.image.setData(*([[v] for v in layout.image] if layout.image else ([], [])))
-        names = {mark.name for mark in layout.marks}
-        for name, text in self._texts.items():
-            text.setVisible(name in names)
-        self._place(points, 6 * pixel, -1, pixel)
-        self._place(bars, None, 1, pixel)
-
-    def _place(self, marks: list[Mark], offset: float | None, side: int, pixel: float) -> None:
-        """Write names beside their marks; one that would touch its left neighbour goes a line further out."""
-        last, line = -np.inf, 0
-        for mark in sorted(marks, key=lambda m: m.z):
-            line = line + 1 if mark.z - last < LABEL_PX * pixel else 0
-            last = mark.z
-            reach = mark.radius if offset is None else offset
-            self._text(mark.name, side).setPos(mark.z, side * (reach + (line % 3) * LINE_PX * pixel))
-
-    def _text(self, name: str, side: int) -> pg.TextItem:
-        if name not in self._texts:
-            text = pg.TextItem(name, color=self._theme.mark, anchor=(0.5, 1.0 if side > 0 else 0.0))
-            text.setFont(small_font())
-            text.textItem.setCacheMode(text.textItem.CacheMode.DeviceCoordinateCache)
-            self._plot.addItem(text, ignoreBounds=True)
-            self._texts[name] = text
-        return self._texts[name]
-
-    def restyle(self, theme: Tokens) -> None:
-        """Take the colours of a theme."""
-        self._theme = theme
-        self.ticks.setPen(pg.mkPen(theme.mark, width=1.5))
-        self.pupils.setPen(pg.mkPen(theme.mark, width=1))
-        self.image.setBrush(pg.mkBrush(theme.chief))
-        self.image.setPen(pg.mkPen(theme.card, width=1))
-        for text in self._texts.values():
-            text.setColor(theme.mark)
+def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
+    """Paint ticks for points, bars for pupils, a disc for the image, and a name for each."""
+    painter.setFont(small_font())
+    painter.setPen(QPen(QColor(chart.theme.mark), 1))
+    axis, taken = float(chart.to_pixels(0.0, 0.0)[1]), [sensor_room(chart, layout)]
+    for mark in sorted(layout.marks, key=lambda mark: (mark.radius > 0, mark.z)):
+        x, top = (float(v) for v in chart.to_pixels(mark.z, mark.radius))
+        reach = max(axis - top, 4.0)
+        if not -50 < x < chart.width() + 50:
+            continue
+        painter.drawLine(QPointF(x, axis - reach), QPointF(x, axis + reach))
+        room = free_room(mark.name, x, axis - reach if mark.radius else axis + reach, -1 if mark.radius else 1, taken)
+        taken.append(room)
+        painter.drawText(room, Qt.AlignmentFlag.AlignCenter, mark.name)
+    if layout.image:
+        painter.setPen(QPen(QColor(chart.theme.card), 1))
+        painter.setBrush(QColor(chart.theme.chief))
+        painter.drawEllipse(QPointF(*(float(v) for v in chart.to_pixels(*layout.image))).toPoint(), 4, 4)
 
 
-def _strokes(strokes: list[tuple[float, float, float]]) -> tuple[np.ndarray, np.ndarray]:
-    """Return upright strokes (z, from, to) as one broken polyline."""
-    z = [value for stroke in strokes for value in (stroke[0], stroke[0], np.nan)]
-    y = [value for stroke in strokes for value in (stroke[1], stroke[2], np.nan)]
-    return np.array(z), np.array(y)
+def sensor_room(chart: Chart, layout: Layout) -> QRectF:
+    """Return the strip the sensor's line takes, in pixels."""
+    x, top = (float(v) for v in chart.to_pixels(layout.drawing.sensor_z, layout.sensor_half))
+    bottom = float(chart.to_pixels(0.0, -layout.sensor_half)[1])
+    return QRectF(x - 1, top, 2, bottom - top)
+
+
+def free_room(name: str, x: float, y: float, side: int, taken: list[QRectF]) -> QRectF:
+    """Return a name's rectangle at (x, y), above (side −1) or below, moved out or aside until it touches no other."""
+    wide = name_width(name)
+    first = None
+    for line in range(LINES):
+        top = y + GAP_PX / 2 + line * LINE_PX if side > 0 else y - GAP_PX / 2 - (line + 1) * LINE_PX
+        for shift in (0.0, wide / 2 + GAP_PX, -wide / 2 - GAP_PX):
+            room = QRectF(x + shift - wide / 2, top, wide, LINE_PX)
+            first = first or room
+            if not any(room.intersects(other) for other in taken):
+                return room
+    return first
+
+
+@lru_cache(maxsize=32)
+def name_width(name: str) -> float:
+    """Return how wide a name is, with air, in pixels."""
+    return QFontMetricsF(small_font()).horizontalAdvance(name) + GAP_PX

@@ -1,8 +1,6 @@
 """The wavefront over the pupil: W in waves, or the phase it leaves."""
 
 import numpy as np
-import pyqtgraph as pg
-from PySide6.QtGui import QColor
 
 from app.card import Card, chooser, select
 from app.compute import Live
@@ -25,8 +23,8 @@ class PupilPanel:
         self.mode.activated.connect(lambda: store.update(phase=self.mode.currentData()))
         self.widget.add_tool(self.mode)
         self.map = HeatMap("ξ, pupil radii", "η, towards the field", self.widget)
-        self.rim = pg.PlotCurveItem(*(f(np.linspace(0, 2 * np.pi, 121)) for f in (np.cos, np.sin)))
-        self.map.plot.addItem(self.rim)
+        turn = np.linspace(0, 2 * np.pi, 121)
+        self.map.chart.add_curve("muted").set_data(np.cos(turn), np.sin(turn))
         self.map.set_extent(1.0)
         self.numbers = Readout(self.widget, pill=True, colour="text")
         self.widget.set_body(self.map)
@@ -51,7 +49,6 @@ class PupilPanel:
         """Take the colours of a theme."""
         self.map.restyle(theme)
         self.numbers.restyle(theme)
-        self.rim.setPen(pg.mkPen(QColor(theme.muted), width=1))
 
     @staticmethod
     def _limit(waves: np.ndarray) -> float:

@@ -15,14 +15,14 @@ KEYS = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um",
 def pictures(window) -> dict[str, np.ndarray]:
     """Return what each panel shows at this moment, as the painted items hold it."""
     layout, bars = window.panels["layout"], window.panels["coefficients"].bars
-    rays = np.concatenate([np.concatenate(curve.getData()) for curve in layout.rays.values()])
-    sensor = np.concatenate(layout.sensor.getData())
+    rays = np.concatenate([np.concatenate(curve.data()) for curve in layout.rays.values()])
+    sensor = np.concatenate(layout.chart.sensor())
     return {
         "layout": np.concatenate([rays, sensor]),
-        "pupil": window.panels["pupil"].map.image.image.copy(),
-        "psf": window.panels["psf"].map.image.image.copy(),
+        "pupil": window.panels["pupil"].map.indices.copy(),
+        "psf": window.panels["psf"].map.indices.copy(),
         "coefficients": np.array(list(bars.values.values())),
-        "profiles": np.concatenate(window.panels["profiles"].curves["along y"].getData()),
+        "profiles": np.concatenate(window.panels["profiles"].curves["along y"].data()),
     }
 
 
@@ -58,6 +58,7 @@ def test_a_drag_is_one_undo(window, drag, qtbot):
     drag(window.controls.rows["field_deg"].slider, 0.9)
     assert window.store.state != first
     window.activateWindow()
+    qtbot.waitUntil(window.isActiveWindow)  # shortcuts are for the active window
     qtbot.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert window.store.state == first
     qtbot.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
@@ -134,19 +135,16 @@ def test_autofocus_finds_the_smallest_rms(window, qtbot):
 
 
 def test_dragging_the_source_turns_the_field(window, qtbot):
-    panel = window.panels["layout"]
-    target, view = panel.handle.target, panel.plot.getPlotItem().getViewBox()
-    viewport = panel.plot.viewport()
+    chart = window.panels["layout"].chart
+    z, y = chart.handle.place(chart)
 
-    def at(point):
-        return panel.plot.mapFromScene(view.mapViewToScene(point))
+    def at(part):
+        return QPointF(*chart.to_pixels(z, y * (1 - 0.7 * part))).toPoint()
 
-    start = target.pos()
-    end = QPointF(start.x(), 0.3 * start.y())
-    qtbot.mousePress(viewport, Qt.MouseButton.LeftButton, pos=at(start))
+    qtbot.mousePress(chart, Qt.MouseButton.LeftButton, pos=at(0.0))
     for part in (0.3, 0.7, 1.0):
-        qtbot.mouseMove(viewport, at(start + (end - start) * part))
-    qtbot.mouseRelease(viewport, Qt.MouseButton.LeftButton, pos=at(end))
+        qtbot.mouseMove(chart, at(part))
+    qtbot.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=at(1.0))
     assert 0 < window.store.state.field_deg < 6
     window.store.undo()
     assert window.store.state.field_deg == 10.0

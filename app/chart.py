@@ -1,0 +1,224 @@
+"""A chart painted by hand: axes kept as a picture, an image, curves.
+
+A frame of the live path has some milliseconds for all its panels; a graphics scene takes two to five for each. Here
+what stands still (axes, labels, glass) is painted once, and a line of two pixels is three of one, which the
+rasteriser draws twenty times faster than an outline it must fill.
+"""
+
+from itertools import groupby
+from math import ceil, floor, isfinite
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPen, QPixmap, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from app.scales import nice, signed
+from app.theme import LIGHT, Tokens
+
+THICK = ((0.0, -0.45), (0.4, 0.25), (-0.4, 0.25))  # three fine lines side by side in every direction
+FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
+TICK_EVERY_PX = {"bottom": 66, "left": 34}
+
+
+def small_font(size: int = 11) -> QFont:
+    """Return the font of ticks and labels."""
+    font = QFont()
+    font.setPixelSize(size)
+    return font
+
+
+class Curve:
+    """A line through points, broken where one is NaN; ``token`` names its colour in the theme."""
+
+    def __init__(self, token: str, width: float = 1.0, alpha: int = 255):
+        self.token, self.width, self.alpha = token, width, alpha
+        self.x, self.y = np.array([]), np.array([])
+
+    def set_data(self, x, y) -> None:
+        """Take new points; the chart is told by whoever calls."""
+        self.x, self.y = np.asarray(x, float), np.asarray(y, float)
+
+    def data(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the points."""
+        return self.x, self.y
+
+    def paint(self, painter: QPainter, chart: "Chart") -> None:
+        """Paint the line."""
+        colour = QColor(getattr(chart.theme, self.token)) if not self.token.startswith("#") else QColor(self.token)
+        colour.setAlpha(self.alpha)
+        painter.setPen(QPen(colour, 1))
+        for part in polylines(*chart.to_pixels(self.x, self.y)):
+            if self.width <= 1:
+                painter.drawPolyline(part)
+                continue
+            for offset in THICK:
+                painter.drawPolyline(part.translated(*offset))
+
+
+def polylines(x: np.ndarray, y: np.ndarray):
+    """Yield the unbroken parts of a line in pixels."""
+    held = (np.clip(values, -FARTHEST_PX, FARTHEST_PX).tolist() for values in (x, y))
+    points = zip(*held, strict=True)
+    for whole, part in groupby(points, lambda point: isfinite(point[0] + point[1])):
+        if whole:
+            yield QPolygonF([QPointF(*point) for point in part])
+
+
+class Chart(QWidget):
+    """Labelled axes over a fixed range, an optional image, and curves; ``aspect`` keeps circles round."""
+
+    def __init__(self, bottom: str = "", left: str = "", aspect: bool = False, framed: bool = True, parent=None):
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setMinimumSize(120, 90)
+        self.theme: Tokens = LIGHT
+        self.curves: list[Curve] = []
+        self._labels, self._aspect, self._framed = (bottom, left), aspect, framed
+        self._asked = ((0.0, 1.0), (0.0, 1.0))
+        self._ground: QPixmap | None = None
+        self._image: tuple[np.ndarray, tuple[float, float, float, float]] | None = None
+
+    def add_curve(self, token: str, width: float = 1.0, alpha: int = 255) -> Curve:
+        """Return a new curve on top of the others."""
+        self.curves.append(Curve(token, width, alpha))
+        return self.curves[-1]
+
+    def set_range(self, x: tuple[float, float], y: tuple[float, float]) -> None:
+        """Show these ranges; nothing is painted anew while they stay."""
+        if (x, y) != self._asked:
+            self._asked = (x, y)
+            self.forget_ground()
+
+    def show_pixels(self, pixels: np.ndarray, rect: tuple[float, float, float, float]) -> None:
+        """Show 0xffRRGGBB pixels, rows +y, over (x, y, width, height)."""
+        self._image = np.ascontiguousarray(pixels[::-1]), rect
+        self.update()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.theme = theme
+        self.forget_ground()
+
+    def forget_ground(self) -> None:
+        """Have what stands still painted anew."""
+        self._ground = None
+        self.update()
+
+    @property
+    def area(self) -> QRectF:
+        """Return where data are shown, in pixels."""
+        if not self._framed:
+            return QRectF(self.rect())
+        left, bottom = 44 + (16 if self._labels[1] else 0), 20 + (16 if self._labels[0] else 0)
+        return QRectF(left, 5, max(10, self.width() - left - 9), max(10, self.height() - bottom - 5))
+
+    def ranges(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return the shown ranges: those asked for, one of them widened where circles must be round."""
+        if not self._aspect:
+            return self._asked
+        area, spans = self.area, [high - low for low, high in self._asked]
+        scale = max(spans[0] / area.width(), spans[1] / area.height())
+        room = scale * area.width(), scale * area.height()
+        middles = [(low + high) / 2 for low, high in self._asked]
+        return tuple((m - r / 2, m + r / 2) for m, r in zip(middles, room, strict=True))
+
+    def per_pixel(self) -> float:
+        """Return the length of one pixel along x, in data."""
+        (low, high), _ = self.ranges()
+        return (high - low) / self.area.width()
+
+    def to_pixels(self, x, y):
+        """Return where data lie, in pixels."""
+        area, ((left, right), (low, high)) = self.area, self.ranges()
+        wide, tall = area.width() / (right - left), area.height() / (high - low)
+        return area.left() + (x - left) * wide, area.bottom() - (y - low) * tall
+
+    def from_pixels(self, point: QPointF) -> tuple[float, float]:
+        """Return the data at a pixel."""
+        area, ((left, right), (low, high)) = self.area, self.ranges()
+        across, up = (point.x() - area.left()) / area.width(), (area.bottom() - point.y()) / area.height()
+        return left + across * (right - left), low + up * (high - low)
+
+    def resizeEvent(self, event) -> None:
+        """Paint everything anew in a new size."""
+        self._ground = None
+        super().resizeEvent(event)
+
+    def paintEvent(self, event) -> None:
+        """Paint what stands still, then image, curves, and what lies above."""
+        if self._ground is None or self._ground.devicePixelRatio() != self.devicePixelRatioF():
+            self._ground = self._painted_ground()
+        painter = QPainter(self)
+        painter.drawPixmap(0, 0, self._ground)
+        painter.setClipRect(self.area)
+        if self._image:
+            self._paint_image(painter)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for curve in self.curves:
+            curve.paint(painter, self)
+        self.paint_over(painter)
+
+    def paint_ground(self, painter: QPainter) -> None:
+        """Paint what stands still beside the axes; a kind of chart says what."""
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint what lies above the curves; a kind of chart says what."""
+
+    def _paint_image(self, painter: QPainter) -> None:
+        pixels, (x, y, width, height) = self._image
+        (left, right), (bottom, top) = self.to_pixels(np.array([x, x + width]), np.array([y, y + height]))
+        rows, columns = pixels.shape
+        image = QImage(pixels.data, columns, rows, 4 * columns, QImage.Format.Format_RGB32)
+        painter.drawImage(QRectF(left, top, right - left, bottom - top), image)
+
+    def _painted_ground(self) -> QPixmap:
+        ratio = self.devicePixelRatioF()
+        ground = QPixmap(self.size() * ratio)
+        ground.setDevicePixelRatio(ratio)
+        ground.fill(QColor(self.theme.card))
+        painter = QPainter(ground)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self._framed:
+            paint_axes(painter, self, self._labels)
+        self.paint_ground(painter)
+        painter.end()
+        return ground
+
+
+def paint_axes(painter: QPainter, chart: Chart, labels: tuple[str, str]) -> None:
+    """Paint two axes, their ticks and labels."""
+    area, theme = chart.area, chart.theme
+    painter.setFont(small_font())
+    painter.setPen(QPen(QColor(theme.line), 1))
+    painter.drawLine(area.bottomLeft(), area.bottomRight())
+    painter.drawLine(area.bottomLeft(), area.topLeft())
+    (x_range, y_range), centre = chart.ranges(), Qt.AlignmentFlag.AlignCenter
+    right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+    for value, text in ticks(*x_range, area.width() / TICK_EVERY_PX["bottom"]):
+        x = float(chart.to_pixels(value, 0.0)[0])
+        _tick(painter, theme, QPointF(x, area.bottom()), QPointF(x, area.bottom() - 4))
+        painter.drawText(QRectF(x - 40, area.bottom() + 3, 80, 15), centre, text)
+    for value, text in ticks(*y_range, area.height() / TICK_EVERY_PX["left"]):
+        y = float(chart.to_pixels(0.0, value)[1])
+        _tick(painter, theme, QPointF(area.left(), y), QPointF(area.left() + 4, y))
+        painter.drawText(QRectF(area.left() - 60, y - 8, 55, 16), right, text)
+    painter.drawText(QRectF(area.left(), area.bottom() + 18, area.width(), 16), centre, labels[0])
+    painter.rotate(-90)
+    painter.drawText(QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), centre, labels[1])
+    painter.rotate(90)
+
+
+def _tick(painter: QPainter, theme: Tokens, start: QPointF, end: QPointF) -> None:
+    painter.setPen(QPen(QColor(theme.line), 1))
+    painter.drawLine(start, end)
+    painter.setPen(QColor(theme.muted))
+
+
+def ticks(low: float, high: float, most: float):
+    """Return round places between two values, ``most`` of them at most (3 at least), each with its words."""
+    step = nice((high - low) / max(2.0, most))
+    places = max(0, -floor(np.log10(step) + 1e-9))
+    found = [step * k for k in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
+    return [(value, signed(value, places)) for value in found]
