@@ -15,6 +15,8 @@ COMMANDS = {
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
     "tradeoff": ("studies:tradeoff", "What every method costs in time and in error, measured."),
     "paper": ("studies:paper", "Redo the paper's two figures on this machine."),
+    "plan": ("scenes:plan_command", "The least model that a scene requires, each decision explained."),
+    "image": ("scenes:image", "A picture through the lens, blurred as field, depth and colour demand."),
     "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),
     "database": ("databases:app", "Every PSF of a lens as a file: build one, look into one."),
     "export": ("exports:export", "A database or stack for ISETCam, FITS or ImageJ readers, or as a table."),

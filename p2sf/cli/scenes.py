@@ -1,0 +1,174 @@
+"""`p2sf plan` and `p2sf image`: what a scene requires, and its picture through the lens."""
+
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from cyclopts import Parameter
+
+from p2sf.charts import CHARTS, draw_chart
+from p2sf.cli.options import Json, LensName, Output, Whole, check_output
+from p2sf.cli.screen import print_json, print_table, warn
+from p2sf.errors import RequestError
+from p2sf.library import find_lens
+from p2sf.photos import READABLE, read_photo, write_photo
+from p2sf.scene import Plan, Scene, plan, read_scene, verify
+from p2sf.scene.table import plan_facts, plan_rows, plan_sentences
+
+CHART = "chart:"
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
+SceneFile = Annotated[Path, Parameter(help="A scene as TOML: sensor, depths, channels and tolerance.")]
+
+
+def plan_command(
+    lens: LensName,
+    scene: SceneFile,
+    /,
+    *,
+    check: Annotated[Whole, Parameter(help="Measure the error at this many random points against exact rays.")] = 0,
+    as_json: Json = False,
+) -> None:
+    """Decide what a scene requires of a lens model, and say why."""
+    if not 0 <= check <= 1000:
+        raise RequestError(f"--check is {check}; give a whole number from 0 to 1000")
+    glass = find_lens(lens)
+    planned = plan(glass, read_scene(scene))
+    verdict = verify(planned, check) if check else None
+    measured = None if verdict is None else {"points": check, "worst": verdict.worst, "kept": verdict.kept}
+    if as_json:
+        return print_json({"lens": lens, "scene": planned.scene.name, **plan_facts(planned), "measured": measured})
+    warn(None if planned.meets else "the plan cannot keep the tolerance; loosen it or reduce the scene")
+    title = f"{glass.title or glass.name}: {planned.scene.name}"
+    print_table(title, ("decision", "choice", "error", "why"), plan_rows(planned))
+    sentences = plan_sentences(planned)
+    if verdict is not None:
+        held = "within" if verdict.kept else "beyond"
+        sentences.append(f"At {check} random points exact rays find {verdict.worst:.3g} at most, {held} the tolerance.")
+    print("\n".join(sentences))
+    return None
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How the picture is formed and written.
+
+    Attributes
+    ----------
+    method
+        By patches (overlap-add), or by few kernels (lowrank).
+    surround
+        What is beyond the picture: its last pixels (edge), or nothing (black).
+    deblur
+        Sharpen the formed picture again with the same kernels.
+    noise
+        Add noise of this standard deviation, white being 1.
+    encoding
+        What the picture file's numbers mean; whole numbers are sRGB and floats linear when not given.
+    preview
+        A coarse picture at once, without a plan.
+    """
+
+    method: Literal["patches", "lowrank"] = "patches"
+    surround: Literal["edge", "black"] = "edge"
+    deblur: Literal["wiener", "richardson-lucy"] | None = None
+    noise: float = 0.0
+    encoding: Literal["srgb", "linear"] | None = None
+    preview: bool = False
+
+    def __post_init__(self):
+        if not 0 <= self.noise < inf:
+            raise RequestError(f"--noise is {self.noise:g}; give a standard deviation from 0 on")
+        if self.deblur and self.preview:
+            raise RequestError("--deblur needs the plan's kernels, which --preview does without; leave one away")
+
+
+USUAL = Shown()
+
+
+def image(
+    lens: LensName,
+    scene: SceneFile,
+    picture: Annotated[str, Parameter(help=f"A PNG or TIFF, or one of {', '.join(CHART + name for name in CHARTS)}.")],
+    /,
+    *,
+    output: Output = None,
+    shown: Annotated[Shown, Parameter(name="*")] = USUAL,
+    as_json: Json = False,
+) -> None:
+    """Form the picture that the lens makes of a scene, and write it as .png or .tif."""
+    if output is None:
+        raise RequestError("there is no --output; say with -o where the picture goes, such as -o out.png")
+    check_output(output, READABLE)
+    glass, asked = find_lens(lens), read_scene(scene)
+    values, encoding = source_picture(picture, asked, shown)
+    formed, facts = _formed(glass, asked, values, shown)
+    written = _for_file(formed, asked)
+    write_photo(output, written, encoding)
+    rows, columns = written.shape[:2]
+    if as_json:
+        return print_json({"file": str(output), "rows": rows, "columns": columns, "encoding": encoding, **facts})
+    print(f"{output}: {columns} × {rows} pixels, {encoding}" + "".join(f", {k} {v}" for k, v in facts.items()))
+    return None
+
+
+def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray, str]:
+    """Return a chart or file as the scene's channels, and the encoding its copy is written in."""
+    if picture.startswith(CHART):
+        values, encoding = draw_chart(picture.removeprefix(CHART), scene.sensor.rows, scene.sensor.columns), "srgb"
+    else:
+        photo = read_photo(picture, shown.encoding)
+        values, encoding = photo.values, photo.encoding
+    wanted, given = len(scene.channels), values.shape[-1]
+    if given == wanted:
+        return values, encoding
+    if given == 1:
+        return np.repeat(values, wanted, axis=-1), encoding
+    if wanted == 1:
+        return (values @ LUMINANCE)[..., None], encoding
+    raise RequestError(f"{picture} has {given} channels and the scene {wanted}; give the scene 1 or {given}")
+
+
+def _formed(glass, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict]:
+    from p2sf.image import Forming, form_image, preview
+
+    if shown.preview:
+        return preview(glass, scene, values), {"method": "preview"}
+    planned, depth = plan(glass, scene), depth_map(scene)
+    warn(None if planned.meets else "the plan cannot keep the tolerance; loosen it or reduce the scene")
+    formed = form_image(planned, values, depth, Forming(shown.method, shown.surround))
+    if shown.noise:
+        formed = formed + np.random.default_rng(0).normal(0, shown.noise, formed.shape).astype(np.float32)
+    facts = {"method": shown.method, "predicted_error": planned.predicted_error}
+    if not shown.deblur:
+        return formed, facts
+    return _sharpened(planned, formed, shown), {**facts, "deblur": shown.deblur}
+
+
+def _sharpened(planned: Plan, formed: np.ndarray, shown: Shown) -> np.ndarray:
+    """Return the picture sharpened with the kernels of the scene's far end, assuming the noise of 8 bits at least."""
+    from p2sf.deblur import richardson_lucy, wiener
+    from p2sf.image import plan_lattice
+
+    lattice = plan_lattice(planned, planned.vergences[0])
+    if shown.deblur == "wiener":
+        return wiener(formed, lattice, max(shown.noise, 1e-3))
+    return richardson_lucy(formed, lattice)
+
+
+def depth_map(scene: Scene) -> np.ndarray | None:
+    """Return the scene's depth map in mm, None where it has none; a float TIFF, where zero means infinity."""
+    if scene.depth_map is None:
+        return None
+    photo = read_photo(scene.depth_map, "linear")
+    if photo.depth != "float":
+        raise RequestError(f"{scene.depth_map} holds whole numbers; give depths in mm as a float TIFF, 0 for infinity")
+    values = photo.values[..., 0].astype(float)
+    return np.where(values == 0, inf, values)
+
+
+def _for_file(values: np.ndarray, scene: Scene) -> np.ndarray:
+    if values.shape[-1] not in (1, 3):
+        raise RequestError(f"the scene has {len(scene.channels)} channels, and a picture file 1 or 3; change the scene")
+    return values

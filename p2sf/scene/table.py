@@ -1,0 +1,38 @@
+"""A plan as a person reads it: one row a decision, and what it all costs."""
+
+from p2sf.scene.plan import Plan
+
+MEBIBYTE = 2.0**20
+
+
+def plan_rows(planned: Plan) -> list[tuple[str, str, str, str]]:
+    """Return (what, choice, error, why) of every decision."""
+    return [(d.what, d.choice, f"{d.error:.2g}", d.why) for d in planned.decisions]
+
+
+def plan_sentences(planned: Plan) -> list[str]:
+    """Return what the plan promises and costs, and what the full grid would, in sentences."""
+    tolerance, cost, naive = planned.scene.relative_tolerance, planned.cost, planned.naive
+    verdict = "keeps" if planned.meets else "does NOT keep"
+    return [
+        f"The predicted relative error of {planned.predicted_error:.3g} {verdict} the tolerance of {tolerance:.3g}.",
+        f"Kernels take {cost.kernel_seconds:.2g} s of one core, a picture {cost.picture_seconds:.2g} s more, and "
+        f"{cost.memory_bytes / MEBIBYTE:.0f} MiB.",
+        "The full grid of the same nodes (every wavelength and fringe, no mirror images, the dearest rung all over) "
+        f"takes {naive.kernel_seconds:.2g} s for its kernels, {naive.kernel_seconds / cost.kernel_seconds:.1f} times "
+        "as long.",
+    ]
+
+
+def plan_facts(planned: Plan) -> dict:
+    """Return the plan as JSON carries it."""
+    return {
+        "tolerance": planned.scene.relative_tolerance,
+        "predicted_error": planned.predicted_error,
+        "meets": planned.meets,
+        "nodes": {"rows": planned.counts[0], "columns": planned.counts[1], "depths": len(planned.vergences)},
+        "wavelengths_nm": [[1000 * w for w in colour.wavelengths_um] for colour in planned.colours],
+        "decisions": [vars(decision) for decision in planned.decisions],
+        "cost": vars(planned.cost),
+        "full_grid_cost": vars(planned.naive),
+    }

@@ -1,0 +1,82 @@
+"""`p2sf plan` and `p2sf image`, run as a user runs them."""
+
+import json
+
+import numpy as np
+import pytest
+
+from p2sf.cli import main
+from p2sf.photos import read_photo, write_photo
+
+SCENE = """
+tolerance = 0.1
+f_number = 5.6
+[sensor]
+rows = 40
+columns = 60
+pixel_um = 60.0
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE)
+    return path
+
+
+def test_a_plan_explains_itself(scene, capsys):
+    assert main(["plan", "double_gauss_28", str(scene)]) == 0
+    told = capsys.readouterr().out
+    assert "keeps the tolerance" in told and "full grid" in told
+    assert main(["plan", "double_gauss_28", str(scene), "--check", "1", "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["meets"] and facts["measured"]["kept"] and facts["predicted_error"] <= 0.1
+    assert len(facts["decisions"]) == 4 + 4 + 3
+
+
+def test_a_picture_goes_through_the_lens(scene, tmp_path, capsys):
+    out = tmp_path / "out.tif"
+    assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(out), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["rows"] == 40
+    formed = read_photo(out, "srgb").values
+    assert formed.shape == (40, 60, 3)
+    write_photo(tmp_path / "grey.png", np.full((40, 60), 0.5, np.float32), "srgb", "16")
+    arguments = ["image", "double_gauss_28", str(scene), str(tmp_path / "grey.png"), "-o", str(tmp_path / "b.png")]
+    assert main([*arguments, "--noise", "0.002", "--deblur", "wiener", "--method", "lowrank"]) == 0
+    assert abs(read_photo(tmp_path / "b.png").values[15:25, 25:35].mean() - 0.5) < 0.02
+    assert main([*arguments, "--preview"]) == 0
+
+
+def test_depths_come_from_a_float_tiff(scene, tmp_path, capsys):
+    depth = np.zeros((40, 60), np.float32)
+    depth[:, :30] = 20000.0
+    write_photo(tmp_path / "depth.tif", depth, "linear", "float")
+    scene.write_text(SCENE + '[depth]\nnear_mm = 20000\nmap = "depth.tif"\nfar_mm = inf\n')
+    assert main(["image", "tessar", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 0
+    write_photo(tmp_path / "depth.tif", depth, "linear", "8")
+    assert main(["image", "tessar", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 2
+    assert "whole numbers" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["plan", "double_gauss_28", "absent.toml"], "absent.toml"),
+        (["plan", "double_gauss_28", "SCENE", "--check", "-1"], "--check"),
+        (["image", "double_gauss_28", "SCENE", "chart:text"], "--output"),
+        (["image", "double_gauss_28", "SCENE", "chart:text", "-o", "a.jpg"], ".jpg"),
+        (["image", "double_gauss_28", "SCENE", "chart:txt", "-o", "a.png"], "did you mean text"),
+        (["image", "double_gauss_28", "SCENE", "absent.png", "-o", "a.png"], "absent.png"),
+        (["image", "double_gauss_28", "SCENE", "chart:text", "-o", "a.png", "--noise", "-1"], "--noise"),
+        (
+            ["image", "double_gauss_28", "SCENE", "chart:text", "-o", "a.png", "--preview", "--deblur", "wiener"],
+            "--deblur",
+        ),
+    ],
+)
+def test_every_mistake_is_one_sentence(scene, tmp_path, capsys, monkeypatch, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    assert main([str(scene) if a == "SCENE" else a for a in arguments]) == 2
+    told = capsys.readouterr().err
+    assert words in told and told.count("\n") == 1 and "Traceback" not in told
