@@ -3,8 +3,9 @@
 import sys
 
 from app.display import display_problem
+from app.opening import is_file, opened
 from app.setting import default_state
-from app.state import State, read_state
+from app.state import State
 from p2sf.errors import P2SFError
 
 
@@ -12,9 +13,7 @@ def starting_state(argv: list[str]) -> State:
     """Return the state to open: a saved one, a lens by name or path, or the default."""
     if not argv:
         return State()
-    if argv[0].lower().endswith(".json"):
-        return read_state(argv[0])
-    return default_state(argv[0])
+    return opened(State(), argv[0]) if is_file(argv[0]) else default_state(argv[0])
 
 
 def main(argv: list[str]) -> int:

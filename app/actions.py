@@ -7,14 +7,15 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox, QWidget
 
 from app.focus import best_shift_um
+from app.opening import KINDS, REPORT_TAB, Refusal, opened, refusal
 from app.panels import REGISTRY
+from app.recent import recent_files, remember
 from app.saving import ask_save_lens
 from app.setting import with_lens
 from app.snapshot import DATA_ENDINGS, side_car, write_data, write_picture, write_state
-from app.state import read_state
+from app.watching import Watching
 from p2sf.errors import P2SFError
 
-LENS_FILES = "Lens files (*.toml)"
 STATE_FILES = "Explorer states (*.json)"
 SNAPSHOT_FILES = "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as CSV (*.csv);;Picture of the window (*.png)"
 HELP = """<h3>P2SF Explorer</h3>
@@ -23,7 +24,8 @@ HELP = """<h3>P2SF Explorer</h3>
 <tr><td><b>← → ↑ ↓</b>, <b>Page Up/Down</b></td><td>move the slider that has the focus</td></tr>
 <tr><td><b>double-click</b></td><td>back to the lens's own value</td></tr>
 <tr><td><b>Ctrl+Z</b>, <b>Ctrl+Shift+Z</b></td><td>undo, redo</td></tr>
-<tr><td><b>Ctrl+O</b></td><td>open a lens file or a saved state; dropping it on the window does the same</td></tr>
+<tr><td><b>Ctrl+O</b></td><td>open a lens file or a saved state; dropping it on the window does the same: Zemax
+.zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml</td></tr>
 <tr><td><b>Ctrl+F</b></td><td>autofocus</td></tr>
 <tr><td><b>Ctrl+Shift+S</b></td><td>save the lens as it is now: .toml, .zmx or ISET .json</td></tr>
 <tr><td><b>Ctrl+E</b></td><td>snapshot: PSF data or picture, with the state beside it</td></tr>
@@ -51,6 +53,9 @@ class Actions(QObject):
             QShortcut(QKeySequence(keys), window).activated.connect(action)
         window.top.lens_chosen.connect(self.open_lens)
         window.top.open_file.connect(self.ask_open)
+        window.top.recent_chosen.connect(self.open_path)
+        self._list_recent()
+        self.watching = Watching(window)
         window.top.help_asked.connect(self.help)
         window.controls.autofocus.connect(self.autofocus)
         window.top.set_snapshot_menu(self._menu())
@@ -66,10 +71,24 @@ class Actions(QObject):
         return True
 
     def open_path(self, path: str) -> bool:
-        """Open a lens file or a saved state."""
-        if Path(path).suffix.lower() == ".json":
-            return self.attempt(lambda: self.store.replace(read_state(path)))
-        return self.open_lens(path)
+        """Open a lens file of any known format or a saved state, told by its content."""
+        try:
+            self.store.replace(opened(self.store.state, path))
+        except P2SFError as error:
+            self._explain(refusal(path, str(error)))
+            return False
+        remember(path)
+        self._list_recent()
+        return True
+
+    def _explain(self, refused: Refusal) -> None:
+        """Show in the report why a file is not opened, and in the banner."""
+        self.window.open_panel(REPORT_TAB)
+        self.window.panels[REPORT_TAB].show_refusal(refused)
+        self.window.refuse(refused.sentence)
+
+    def _list_recent(self) -> None:
+        self.window.top.show_recent(recent_files())
 
     def open_lens(self, name: str) -> bool:
         """Move to another lens, shipped or a file."""
@@ -95,8 +114,7 @@ class Actions(QObject):
 
     def ask_open(self) -> None:
         """Ask for a file and open it."""
-        kinds = f"{LENS_FILES};;{STATE_FILES}"
-        path, _ = QFileDialog.getOpenFileName(self.window, "Open a lens or a state", "", kinds)
+        path, _ = QFileDialog.getOpenFileName(self.window, "Open a lens or a state", "", KINDS)
         if path:
             self.open_path(path)
 

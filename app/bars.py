@@ -1,5 +1,7 @@
 """The bar above (lens, method, steps, snapshot, theme), the line below (warnings, facts), the banner for refusals."""
 
+from pathlib import Path
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
@@ -30,6 +32,7 @@ class TopBar(QFrame):
 
     open_file = Signal()
     lens_chosen = Signal(str)
+    recent_chosen = Signal(str)
     help_asked = Signal()
 
     def __init__(self, store: Store, parent=None):
@@ -42,6 +45,9 @@ class TopBar(QFrame):
         self.lens.setMinimumWidth(300)
         self.lens.setMaximumWidth(460)
         self.lens.activated.connect(self._on_lens)
+        self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or one of the latest", None)
+        self.open.setMenu(QMenu(self))
+        self.open.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.edited = QLabel("edited", self)
         self.edited.setObjectName("badge")
         self.edited.setToolTip("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)")
@@ -65,6 +71,7 @@ class TopBar(QFrame):
         row.setContentsMargins(10, 6, 10, 6)
         row.setSpacing(8)
         row.addWidget(self.lens)
+        row.addWidget(self.open)
         row.addWidget(self.edited)
         row.addSpacing(12)
         row.addWidget(QLabel("Method"))
@@ -87,6 +94,19 @@ class TopBar(QFrame):
         """Give the snapshot button its choices."""
         self.snapshot.setMenu(menu)
         self.snapshot.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+
+    def show_recent(self, paths: tuple[str, ...]) -> None:
+        """List the way to a file, and the files opened lately."""
+        menu = self.open.menu()
+        menu.clear()
+        menu.addAction("Open a file…\tCtrl+O", self.open_file.emit)
+        menu.addSeparator()
+        for number, path in enumerate(paths, 1):
+            action = menu.addAction(
+                f"&{number % 10}  {Path(path).name}", lambda path=path: self.recent_chosen.emit(path)
+            )
+            action.setToolTip(path)
+        menu.setToolTipsVisible(True)
 
     def fill_lenses(self) -> None:
         """List the shipped lenses by title, and the way to a file."""

@@ -12,6 +12,7 @@ from app.bars import Banner, StatusLine, TopBar
 from app.compute import Live
 from app.controls import Controls
 from app.measuring import Measuring
+from app.opening import is_file
 from app.panels import REGISTRY, Panel, build, view_of
 from app.state import State
 from app.store import Store
@@ -160,9 +161,9 @@ class Window(QMainWindow):
 
 
 def dropped(event) -> str | None:
-    """Return the path of a dropped lens file or state, None for anything else."""
+    """Return the path of a dropped file, told by its content when opened; None for anything else."""
     paths = [url.toLocalFile() for url in event.mimeData().urls()]
-    return next((path for path in paths if path.lower().endswith((".toml", ".json"))), None)
+    return next((path for path in paths if is_file(path)), None)
 
 
 def page(key: str) -> QWidget:

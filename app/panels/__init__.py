@@ -51,6 +51,9 @@ REGISTRY = (
     Entry("opd_fan", "OPD fan", "app.panels.fans:OpdFanPanel", view="app.views.rays:path_errors"),
     Entry("seidel", "Seidel per surface", "app.panels.seidel:SeidelPanel", view="app.views.seidel:per_surface"),
     Entry("lens", "Lens table", "app.panels.lens_table:LensTablePanel", view="app.views.lens_table:rows"),
+    Entry(
+        "import", "Import report", "app.panels.import_report:ImportReportPanel", view="app.views.import_report:report"
+    ),
     Entry("accuracy", "Accuracy", "app.panels.accuracy:AccuracyPanel"),
 )
 

@@ -92,9 +92,6 @@ class LensTablePanel:
             f" padding: 0 2px; min-height: 0; }}"
             f"QHeaderView, QHeaderView::section, QTableCornerButton::section {{ background: {theme.card};"
             f" color: {theme.muted}; border: none; padding: 0 6px; font-size: 12px; }}"
-            f"QScrollBar:vertical {{ background: {theme.card}; width: 10px; }}"
-            f"QScrollBar::handle:vertical {{ background: {theme.line}; border-radius: 4px; min-height: 24px; }}"
-            f"QScrollBar::add-line, QScrollBar::sub-line {{ height: 0; }}"
         )
 
     def _typed(self, number: int, column: str, text: str) -> None:

@@ -10,6 +10,16 @@ from app.state import State
 from app.theme import configure_plots
 from app.window import Window
 
+
+@pytest.fixture(autouse=True, scope="session")
+def own_memory(tmp_path_factory):
+    """Keep the list of recent files of a test run out of the person's own."""
+    with pytest.MonkeyPatch.context() as patch:
+        path = tmp_path_factory.mktemp("memory") / "p2sf" / "recent.json"
+        patch.setattr("app.recent.recent_path", lambda: path)
+        yield path
+
+
 FIRST = State(method="seidel", theme="light")
 
 
