@@ -36,8 +36,8 @@ def _image_at_infinity(setting: Setting) -> str | None:
 def _lost(count: int) -> str | None:
     if not count:
         return None
-    rays = "one of the drawn rays misses" if count == 1 else f"{count} of the drawn rays miss"
-    return f"{rays} a surface or is totally reflected; the light that arrives is less than the picture assumes"
+    rays = "one of the drawn rays" if count == 1 else f"{count} of the drawn rays"
+    return f"{rays} cannot pass (surface missed, or total reflection); less light arrives than the picture assumes"
 
 
 def _defocus(setting: Setting) -> str | None:

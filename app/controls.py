@@ -28,7 +28,7 @@ class Row(QWidget):
         self.slider.setAccessibleName(quantity.title)
         self.edit.setAccessibleName(quantity.title)
         self.buttons = [self._button(*button) for button in quantity.buttons]
-        self._scale = None
+        self._scale = self._shown = None
         self._lay_out()
         self._connect()
 
@@ -75,6 +75,9 @@ class Row(QWidget):
             self._scale = scale
             self._set_marks(scale)
         value = self.quantity.shown(state, limits)
+        if (value, scale) == self._shown and self.edit.text() == self.edit.last:
+            return
+        self._shown = value, scale
         self.slider.blockSignals(True)
         self.slider.setValue(round(STEPS * scale.travel(value)))
         self.slider.blockSignals(False)
@@ -109,6 +112,8 @@ class Row(QWidget):
             self.edit.set_text(self.edit.last)
         else:
             self._store.update(**{self.quantity.key: value})
+            if getattr(self._store.state, self.quantity.key) != value:
+                self.edit.set_text(self.edit.last)  # refused: the number shown stays the picture's
 
 
 class ValueEdit(QLineEdit):

@@ -36,8 +36,10 @@ def _plain(key: str) -> Callable[[State, Ranges], float]:
     return lambda state, ranges: getattr(state, key)
 
 
-def _reader(words: str) -> Callable[[str], float]:
-    return lambda text: read_number(text, words)
+def _reader(words: str, **units: float) -> Callable[[str], float]:
+    """Return a reader of numbers in the quantity's own unit, bare or behind one of these units."""
+    known = {"": 1.0, **units}
+    return lambda text: read_number(text, words, known)
 
 
 def _f_ticks() -> tuple[tuple[float, str], ...]:
@@ -60,7 +62,7 @@ FIELD = Quantity(
     tip="Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field).",
     scale=lambda ranges: Linear(0.0, ranges.field_deg),
     write=lambda value: f"{signed(value, 2)}°",
-    read=_reader("field angle"),
+    read=_reader("field angle", **{"°": 1.0, "deg": 1.0}),
     shown=_plain("field_deg"),
 )
 WAVELENGTH = Quantity(
@@ -69,7 +71,7 @@ WAVELENGTH = Quantity(
     tip="Wavelength λ in vacuum; the index of each glass n(λ) follows it. F, d and C are Fraunhofer's lines.",
     scale=lambda ranges: Linear(*ranges.wavelength_nm),
     write=lambda value: f"{value:.1f} nm",
-    read=_reader("wavelength"),
+    read=_reader("wavelength", **{"nm": 1.0, "µm": 1e3, "um": 1e3}),
     shown=_plain("wavelength_nm"),
     ticks=((F_NM, "F"), (D_NM, "d"), (C_NM, "C")),
 )
@@ -89,7 +91,7 @@ SHIFT = Quantity(
     tip="Sensor shift Δz away from the lens, on top of focus; it adds defocus Wd = NA²Δz/(2n′λ).",
     scale=lambda ranges: Linear(-ranges.shift_um, ranges.shift_um),
     write=lambda value: f"{signed(value, 1)} µm",
-    read=_reader("sensor shift"),
+    read=_reader("sensor shift", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
     shown=_plain("sensor_shift_um"),
 )
 F_NUMBER = Quantity(

@@ -1,12 +1,14 @@
 """How a slider's travel, 0 to 1, maps to a quantity, and how quantities are written and read. No Qt in here."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import exp, floor, inf, isfinite, isinf, isnan, log, log10
 
 from p2sf.errors import P2SFError
 
 INFINITE = ("∞", "inf", "infinity")
-MM_PER_UNIT = {"": None, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
+MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
+NO_UNIT = {"": 1.0}
 
 
 @dataclass(frozen=True)
@@ -113,17 +115,25 @@ def read_distance(text: str) -> float:
     unit = plain[len(number) :].strip()
     if unit not in MM_PER_UNIT:
         raise P2SFError(f'the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞')
-    return read_number(number, "distance") * (MM_PER_UNIT[unit] or 1.0)
+    return read_number(number, "distance") * MM_PER_UNIT[unit]
 
 
-def read_number(text: str, words: str) -> float:
-    """Return the number a person typed, unit and true minus allowed; P2SFError otherwise."""
+def read_number(text: str, words: str, units: Mapping[str, float] = NO_UNIT) -> float:
+    """Return the number a person typed in the quantity's own unit; true minus and decimal comma allowed.
+
+    ``units`` says what may stand behind the number and what it multiplies by. P2SFError for anything else.
+    """
     plain = text.strip().replace("−", "-").replace(",", ".").lower().removeprefix("f/")
-    plain = plain.rstrip("abcdfghijklmnopqrstuvwxyzµ°λ/ ")
+    number = plain.rstrip("abcdfghijklmnopqrstuvwxyzµ°λ/ ")
+    unit = plain[len(number) :].strip()
     try:
-        value = float(plain)
+        value = float(number)
     except ValueError:
         value = inf
     if isnan(value) or isinf(value):
         raise P2SFError(f'the {words} "{text.strip()}" is not a number; write one such as 12.5')
-    return value
+    if unit not in units:
+        known = ", ".join(name for name in units if name)
+        remedy = f"write {known} or no unit" if known else "write the number alone"
+        raise P2SFError(f'the {words} "{text.strip()}" has the unit "{unit}"; {remedy}')
+    return value * units[unit]

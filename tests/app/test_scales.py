@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.scales import Linear, Logarithmic, Vergence, nice, read_distance, read_number, written_distance
+from app.quantities import QUANTITIES
+from app.scales import Linear, Logarithmic, Vergence, nice, read_distance, written_distance
 from p2sf.errors import P2SFError
 
 
@@ -14,6 +15,9 @@ from p2sf.errors import P2SFError
 @given(travel=st.floats(0, 1))
 def test_travel_and_value_invert_each_other(scale, travel):
     assert scale.travel(scale.value(travel)) == pytest.approx(travel, abs=1e-12)  # round-off of two divisions
+
+
+READERS = {quantity.key: quantity.read for quantity in QUANTITIES}
 
 
 def test_vergence_ends_at_infinity_and_is_even_in_dioptres():
@@ -35,9 +39,25 @@ def test_what_is_written_can_be_read(mm):
     assert read_distance(written_distance(mm)) == pytest.approx(mm, rel=1e-3)  # four digits are written
 
 
-@pytest.mark.parametrize(("text", "value"), [("f/2.8", 2.8), ("−10°", -10), ("587.6 nm", 587.6), ("1e3", 1000)])
-def test_numbers_with_units(text, value):
-    assert read_number(text, "number") == value
+@pytest.mark.parametrize(
+    ("key", "text", "value"),
+    [
+        ("f_number", "f/2.8", 2.8),
+        ("field_deg", "−10°", -10),
+        ("wavelength_nm", "0.55 µm", 550),
+        ("field_deg", "1e1", 10),
+    ],
+)
+def test_numbers_with_units(key, text, value):
+    assert READERS[key](text) == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("key", "text"), [("sensor_shift_um", "2 m"), ("field_deg", "2 m"), ("f_number", "550 nm"), ("depth_mm", "10°")]
+)
+def test_a_foreign_unit_is_refused_and_never_dropped(key, text):
+    with pytest.raises(P2SFError, match="unit"):
+        READERS[key](text)
 
 
 @pytest.mark.parametrize("text", ["", "abc", "1 parsec", "nan"])
