@@ -61,6 +61,7 @@ def test_a_zipped_lens_from_the_open_dialog_by_its_key(window, qtbot, tmp_path, 
         archive.write(zemax, "lens.zmx")
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(path), ""))
     window.activateWindow()
+    qtbot.waitUntil(window.isActiveWindow)  # a shortcut answers in the active window only
     qtbot.keyClick(window, Qt.Key.Key_O, Qt.KeyboardModifier.ControlModifier)
     assert window.live.state.lens == str(path)
     assert "lens.zmx" in window.panels["import"].text.toPlainText()
