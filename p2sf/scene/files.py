@@ -29,7 +29,7 @@ def read_scene(path) -> Scene:
         raise RequestError(f"{path}: {error}") from error
     except (TypeError, ValueError, LookupError, AttributeError) as error:
         raise RequestError(
-            f"{path}: a value is missing or of the wrong kind ({error}); numbers stand without quotes, lists in brackets"
+            f"{path}: a value is missing or of the wrong kind ({error}); numbers stand without quotes"
         ) from error
 
 
