@@ -24,6 +24,7 @@ HELP = """<h3>P2SF Explorer</h3>
 <tr><td><b>← → ↑ ↓</b>, <b>Page Up/Down</b></td><td>move the slider that has the focus</td></tr>
 <tr><td><b>double-click</b></td><td>back to the lens's own value</td></tr>
 <tr><td><b>Ctrl+Z</b>, <b>Ctrl+Shift+Z</b></td><td>undo, redo</td></tr>
+<tr><td><b>Ctrl+L</b></td><td>the gallery of shipped lenses</td></tr>
 <tr><td><b>Ctrl+O</b></td><td>open a lens file or a saved state; dropping it on the window does the same: Zemax
 .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml</td></tr>
 <tr><td><b>Ctrl+F</b></td><td>autofocus</td></tr>
@@ -44,6 +45,7 @@ class Actions(QObject):
             ("Ctrl+Shift+Z", self.store.redo),
             ("Ctrl+Y", self.store.redo),
             ("Ctrl+O", self.ask_open),
+            ("Ctrl+L", window.top.lens.open_gallery),
             ("Ctrl+Shift+S", self.ask_save_lens),
             ("Ctrl+F", self.autofocus),
             ("Ctrl+E", self.ask_snapshot),

@@ -5,16 +5,16 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
-from app.card import Chooser, chooser, select
+from app.card import chooser, select
 from app.compute import Live
+from app.lens_cards import shown_title
+from app.lens_chooser import LensChooser
 from app.readout import Readout
 from app.scales import signed
-from app.setting import shipped, title
 from app.state import CHOICES
 from app.store import Store
-from app.theme import Tokens
+from app.theme import DARK, LIGHT, Tokens
 
-OPEN = "open"
 METHOD_WORDS = {
     "auto": "auto",
     "seidel": "seidel: six coefficients",
@@ -39,12 +39,8 @@ class TopBar(QFrame):
         super().__init__(parent)
         self.setObjectName("bar")
         self._store = store
-        self.lens = Chooser(self)
-        self.lens.setAccessibleName("Lens")
-        self.lens.setToolTip("The lens: shipped ones, or a .toml file (Ctrl+O, or drop it on the window)")
-        self.lens.setMinimumWidth(300)
-        self.lens.setMaximumWidth(460)
-        self.lens.activated.connect(self._on_lens)
+        self.lens = LensChooser(self)
+        self.lens.chosen.connect(self.lens_chosen)
         self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or one of the latest", None)
         self.open.setMenu(QMenu(self))
         self.open.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
@@ -108,18 +104,9 @@ class TopBar(QFrame):
             action.setToolTip(path)
         menu.setToolTipsVisible(True)
 
-    def fill_lenses(self) -> None:
-        """List the shipped lenses by title, and the way to a file."""
-        for name in shipped():
-            self.lens.addItem(title(name), name)
-        self.lens.insertSeparator(self.lens.count())
-        self.lens.addItem("Open a lens file…", OPEN)
-
     def show_state(self, state, dark: bool) -> None:
         """Follow a state."""
-        if self.lens.findData(state.lens) < 0:
-            self.lens.insertItem(0, title(state.lens), state.lens)
-        select(self.lens, state.lens)
+        self.lens.show_lens(state.lens, shown_title(state), DARK if dark else LIGHT)
         self.edited.setVisible(state.lens_text is not None)
         select(self.method, state.method)
         if self.tolerance.findData(str(state.tolerance)) < 0:
@@ -133,14 +120,6 @@ class TopBar(QFrame):
 
     def _turn_theme(self) -> None:
         self._store.update(theme="light" if self._dark else "dark")
-
-    def _on_lens(self) -> None:
-        chosen = self.lens.currentData()
-        if chosen == OPEN:
-            select(self.lens, self._store.state.lens)
-            self.open_file.emit()
-        else:
-            self.lens_chosen.emit(chosen)
 
 
 class StatusLine(QWidget):

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import inf, isfinite
 
-from app.scales import INFINITE, read_number
+from app.scales import INFINITE, MM_PER_UNIT, read_number
 from app.setting import load, setting
 from app.state import State
 from p2sf.errors import GeometryError, P2SFError
@@ -57,11 +57,11 @@ def _opened_to(lens: Lens, number: int, surface: Surface) -> Lens:
 
 
 def read_length(text: str, words: str) -> float:
-    """Return the number a person typed, ∞ allowed; P2SFError otherwise."""
+    """Return a length in mm as a person typed it, ∞ allowed; P2SFError otherwise."""
     plain = text.strip().lower()
     if plain in (*INFINITE, "plane", ""):
         return inf
-    return -inf if plain in ("−∞", "-∞", "-inf") else read_number(text, words)
+    return -inf if plain in ("−∞", "-∞", "-inf") else read_number(text, words, MM_PER_UNIT)
 
 
 def read_medium(text: str) -> Medium:
@@ -80,7 +80,7 @@ def read_aspheric(text: str) -> tuple[float, ...]:
 
 READERS: dict[str, Callable[[str], object]] = {
     "radius": lambda text: read_length(text, "radius"),
-    "thickness": lambda text: read_number(text, "thickness"),
+    "thickness": lambda text: read_number(text, "thickness", MM_PER_UNIT),
     "medium": read_medium,
     "semi_diameter": lambda text: read_length(text, "semi-diameter"),
     "conic": lambda text: read_number(text, "conic constant"),

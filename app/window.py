@@ -46,7 +46,6 @@ class Window(QMainWindow):
         self.store.refused.connect(self.refuse)
         self.tabs.currentChanged.connect(self._on_tab)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_scheme)
-        self.top.fill_lenses()
         self.refresh(self.store.state)
 
     def _lay_out(self) -> None:

@@ -39,6 +39,7 @@ def window(only_window, qtbot):
     """Return the one window, back in the first state: to make a new one each time takes a second."""
     only_window.store.replace(FIRST)
     only_window.refresh(FIRST)
+    only_window.activateWindow()  # shortcuts and editors answer in the active window only
     QApplication.processEvents()
     return only_window
 
