@@ -146,6 +146,8 @@ class Window(QMainWindow):
     def closeEvent(self, event) -> None:
         """End the background work with the window."""
         self.measuring.stop()
+        for panel in self.panels.values():
+            getattr(panel, "stop", lambda: None)()
         super().closeEvent(event)
 
     def dragEnterEvent(self, event) -> None:

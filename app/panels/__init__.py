@@ -54,6 +54,7 @@ REGISTRY = (
     Entry(
         "import", "Import report", "app.panels.import_report:ImportReportPanel", view="app.views.import_report:report"
     ),
+    Entry("database", "Database", "app.panels.database:DatabasePanel", view="app.views.database:question"),
     Entry("accuracy", "Accuracy", "app.panels.accuracy:AccuracyPanel"),
 )
 
