@@ -5,6 +5,7 @@ from functools import lru_cache
 from math import isfinite
 
 from app.layout import Drawing, drawing
+from app.opening import stamp
 from app.scales import significant
 from app.setting import load, prescription, title
 from app.state import State
@@ -38,12 +39,18 @@ def lens_card(name: str) -> LensCard:
 
 
 def shown_title(state: State) -> str:
-    """Return how the top bar names the state's lens; a shipped one's glasses are not looked up for that."""
-    found = title(state.lens)
-    if state.lens_text is None and found != state.lens:
+    """Return how the top bar names the state's lens; read once, since a slider asks for it on every frame."""
+    return _shown_title(state.lens, state.lens_text, stamp(state.lens))
+
+
+@lru_cache(maxsize=128)
+def _shown_title(name: str, lens_text: str | None, _stamp: tuple[int, int]) -> str:
+    """Return a lens's title; a shipped one's glasses are not looked up for that."""
+    found = title(name)
+    if lens_text is None and found != name:
         return found
     try:
-        lens = prescription(state)
+        lens = prescription(State(lens=name, lens_text=lens_text))
     except P2SFError:  # the picture on show is of an earlier lens; the banner says why
         return found
     return lens.title or lens.name

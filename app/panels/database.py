@@ -95,7 +95,8 @@ class DatabasePanel:
         self._paint_error(found, term, rule)
         self.atlas.show_atlas(found.atlas)
         wide = f", {short(found.atlas.psfs.shape[-1] * found.atlas.pixel_um)} µm wide" if found.atlas else ""
-        for head, words in zip(self.heads, (name(term), f"error of {RULES[rule]}", f"PSFs{wide}, √ of peak = 1"), strict=True):
+        heads = name(term), f"error of {RULES[rule]}", f"PSFs{wide}, √ of peak = 1"
+        for head, words in zip(self.heads, heads, strict=True):
             head.setText(words)
         losses = " · ".join(f"{r} {found.largest[r][term]:.2g} λ" for r in ("exact", *LOSSY))
         depths, fields, colours = NODES
