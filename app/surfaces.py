@@ -34,15 +34,17 @@ class SurfaceModel(QAbstractTableModel):
 
     def show_rows(self, rows: Rows) -> None:
         """Follow a lens; a view keeps its place when the number of surfaces is the same."""
-        if self._rows and (rows.texts, rows.stop) == (self._rows.texts, self._rows.stop):
-            self._rows = rows
-        elif self._rows and len(rows.texts) == len(self._rows.texts):
-            self._rows = rows
-            self.dataChanged.emit(self.index(0, 0), self.index(len(rows.texts) - 1, len(KEYS) - 1))
-        else:
+        before = self._rows
+        if before is None or len(before.texts) != len(rows.texts):
             self.beginResetModel()
             self._rows = rows
             self.endResetModel()
+            return
+        self._rows = rows
+        for row in range(len(rows.texts)):  # a view paints a cell slowly, and an edit changes one
+            for column, (old, new) in enumerate(zip(entries(before, row), entries(rows, row), strict=True)):
+                if old != new:
+                    self.dataChanged.emit(self.index(row, column), self.index(row, column))
 
     def rowCount(self, parent=None) -> int:
         """Return the number of surfaces."""
@@ -71,10 +73,8 @@ class SurfaceModel(QAbstractTableModel):
         row, key = index.row(), KEYS[index.column()]
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return self._alignment(index.column())
-        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole) and key == "stop":
-            return "●" if row + 1 == self._rows.stop else "○"
-        if role == Qt.ItemDataRole.DisplayRole:
-            return self._rows.texts[row][COLUMNS.index(key)]
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
+            return entries(self._rows, row)[index.column()]
         if role == Qt.ItemDataRole.EditRole and key != "stop":
             return written(self._rows.lens.surfaces[row], key, full=True)
         return HEADS[key][1] if role == Qt.ItemDataRole.ToolTipRole else None
@@ -91,3 +91,9 @@ class SurfaceModel(QAbstractTableModel):
         if KEYS[column] == "stop":
             return Qt.AlignmentFlag.AlignCenter
         return WORDS if KEYS[column] in ("medium", "aspheric") else NUMBERS
+
+
+def entries(rows: Rows, row: int) -> tuple[str, ...]:
+    """Return a surface's entries in the order of the columns, the stop as a mark among them."""
+    texts = rows.texts[row]
+    return (*texts[:STOP], "●" if row + 1 == rows.stop else "○", *texts[STOP:])
