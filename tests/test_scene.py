@@ -83,7 +83,7 @@ def test_a_scene_is_read_from_toml(tmp_path):
         ("tolerance = 0.1", "tolerance = 1e-5", "tighter"),
         ("near_mm = 15000", "near_mm = 30000", "near one first"),
         ("wavelengths_nm = [530, 560]", "wavelengths_nm = []", "at least one|wrong kind"),
-        ("name = \"desk\"", "nane = 1", "means nothing here"),
+        ('name = "desk"', "nane = 1", "means nothing here"),
         ("[depth]", "[depth", "no TOML"),
     ],
 )
