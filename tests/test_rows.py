@@ -9,7 +9,7 @@ from p2sf.errors import SamplingError
 from p2sf.fitted import fit, fitted_intensity, fitted_psf
 from p2sf.huygens import Filling, huygens_psf
 from p2sf.quadrature import disc_nodes
-from p2sf.rows import cosines, frequency_rows, rows_for, sum_rows
+from p2sf.rows import FLOAT32_MULTIPLES, frequency_rows, rows_for, sum_across, sum_rows
 from p2sf.traced import traced_psf
 from p2sf.transform import sum_plane_waves
 from p2sf.zernike import basis, columns, evaluate
@@ -43,7 +43,12 @@ def test_rows_have_one_frequency_each_and_the_area_of_the_disc():
 
 def test_cosines_by_recurrence():
     angle = np.linspace(-40, 40, 501)
-    assert np.max(np.abs(cosines(angle, 200, np.float64) - np.cos(angle[:, None] * np.arange(200)))) < 1e-10
+    multiples = np.cos(angle[:, None] * np.arange(200))
+    sums = sum_across(np.full((angle.size, 1), 1 - 2j), angle[:, None], 200)
+    assert np.max(np.abs(sums - multiples[:, None] * [[[1.0], [-2.0]]])) < 1e-10
+    fine = sum_across(np.ones((angle.size, 1), np.complex64), angle[:, None], FLOAT32_MULTIPLES)
+    assert fine.dtype == np.float32
+    assert np.max(np.abs(fine[:, 0] - multiples[:, :FLOAT32_MULTIPLES])) < 1.2e-4  # m²·6e-8 at 39, and the angle's own
 
 
 @pytest.mark.parametrize("pixels", [1, 16, 17])
