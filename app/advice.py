@@ -8,13 +8,20 @@ from app.scales import significant
 from app.setting import Setting
 
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
+GEOMETRIC = (
+    "the blur is so large that the picture is ray density, no diffraction; bring focus and source together to see waves"
+)
 WIDE_DEG, FAST_NA = 25.0, 0.30  # tan and sin differ by 10 % at 25°; an NA of 0.3 is f/1.7
 
 
-def warnings(setting: Setting, exact: bool, lost_rays: int = 0) -> tuple[str, ...]:
-    """Return the sentences that hold for this setting, with or without exact rays, most important first."""
+def warnings(setting: Setting, exact: bool, lost_rays: int = 0, geometric: bool = False) -> tuple[str, ...]:
+    """Return the sentences that hold for this setting, with or without exact rays, most important first.
+
+    ``geometric``: the picture is the density of rays.
+    """
     found = [
         _image_at_infinity(setting),
+        GEOMETRIC if geometric else None,
         _lost(lost_rays),
         None if exact else _defocus(setting),
         None if exact else _paraxial(setting),

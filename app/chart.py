@@ -1,31 +1,23 @@
 """A chart painted by hand: axes kept as a picture, an image, curves.
 
 A frame of the live path has some milliseconds for all its panels; a graphics scene takes two to five for each. Here
-what stands still (axes, labels, glass) is painted once, and a line of two pixels is three of one, which the
+what stands still (axes, labels, glass) is painted once, and a thick line is two fine ones, which the
 rasteriser draws twenty times faster than an outline it must fill.
 """
 
-from itertools import groupby
-from math import ceil, floor, isfinite
+from math import ceil, floor
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPen, QPixmap, QPolygonF
+from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.ink import polylines, write
 from app.scales import nice, signed
 from app.theme import LIGHT, Tokens
 
-THICK = ((0.0, -0.45), (0.4, 0.25), (-0.4, 0.25))  # three fine lines side by side in every direction
-FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
+THICK = ((-0.25, -0.45), (0.25, 0.45))  # two fine lines side by side
 TICK_EVERY_PX = {"bottom": 66, "left": 34}
-
-
-def small_font(size: int = 11) -> QFont:
-    """Return the font of ticks and labels."""
-    font = QFont()
-    font.setPixelSize(size)
-    return font
 
 
 class Curve:
@@ -45,7 +37,9 @@ class Curve:
 
     def paint(self, painter: QPainter, chart: "Chart") -> None:
         """Paint the line."""
-        colour = QColor(getattr(chart.theme, self.token)) if not self.token.startswith("#") else QColor(self.token)
+        if not self.x.size:
+            return
+        colour = QColor(getattr(chart.theme, self.token, self.token))
         colour.setAlpha(self.alpha)
         painter.setPen(QPen(colour, 1))
         for part in polylines(*chart.to_pixels(self.x, self.y)):
@@ -54,15 +48,6 @@ class Curve:
                 continue
             for offset in THICK:
                 painter.drawPolyline(part.translated(*offset))
-
-
-def polylines(x: np.ndarray, y: np.ndarray):
-    """Yield the unbroken parts of a line in pixels."""
-    held = (np.clip(values, -FARTHEST_PX, FARTHEST_PX).tolist() for values in (x, y))
-    points = zip(*held, strict=True)
-    for whole, part in groupby(points, lambda point: isfinite(point[0] + point[1])):
-        if whole:
-            yield QPolygonF([QPointF(*point) for point in part])
 
 
 class Chart(QWidget):
@@ -77,6 +62,7 @@ class Chart(QWidget):
         self.curves: list[Curve] = []
         self._labels, self._aspect, self._framed = (bottom, left), aspect, framed
         self._asked = ((0.0, 1.0), (0.0, 1.0))
+        self._scale: tuple[float, float, float, float] | None = None
         self._ground: QPixmap | None = None
         self._image: tuple[np.ndarray, tuple[float, float, float, float]] | None = None
 
@@ -103,7 +89,7 @@ class Chart(QWidget):
 
     def forget_ground(self) -> None:
         """Have what stands still painted anew."""
-        self._ground = None
+        self._ground = self._scale = None
         self.update()
 
     @property
@@ -131,9 +117,12 @@ class Chart(QWidget):
 
     def to_pixels(self, x, y):
         """Return where data lie, in pixels."""
-        area, ((left, right), (low, high)) = self.area, self.ranges()
-        wide, tall = area.width() / (right - left), area.height() / (high - low)
-        return area.left() + (x - left) * wide, area.bottom() - (y - low) * tall
+        if self._scale is None:
+            area, ((left, right), (low, high)) = self.area, self.ranges()
+            wide, tall = area.width() / (right - left), area.height() / (high - low)
+            self._scale = area.left() - left * wide, wide, area.bottom() + low * tall, tall
+        x0, wide, y0, tall = self._scale
+        return x0 + x * wide, y0 - y * tall
 
     def from_pixels(self, point: QPointF) -> tuple[float, float]:
         """Return the data at a pixel."""
@@ -143,7 +132,7 @@ class Chart(QWidget):
 
     def resizeEvent(self, event) -> None:
         """Paint everything anew in a new size."""
-        self._ground = None
+        self._ground = self._scale = None
         super().resizeEvent(event)
 
     def paintEvent(self, event) -> None:
@@ -190,23 +179,21 @@ class Chart(QWidget):
 def paint_axes(painter: QPainter, chart: Chart, labels: tuple[str, str]) -> None:
     """Paint two axes, their ticks and labels."""
     area, theme = chart.area, chart.theme
-    painter.setFont(small_font())
     painter.setPen(QPen(QColor(theme.line), 1))
     painter.drawLine(area.bottomLeft(), area.bottomRight())
     painter.drawLine(area.bottomLeft(), area.topLeft())
-    (x_range, y_range), centre = chart.ranges(), Qt.AlignmentFlag.AlignCenter
-    right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+    x_range, y_range = chart.ranges()
     for value, text in ticks(*x_range, area.width() / TICK_EVERY_PX["bottom"]):
         x = float(chart.to_pixels(value, 0.0)[0])
         _tick(painter, theme, QPointF(x, area.bottom()), QPointF(x, area.bottom() - 4))
-        painter.drawText(QRectF(x - 40, area.bottom() + 3, 80, 15), centre, text)
+        write(painter, QRectF(x - 40, area.bottom() + 3, 80, 15), text)
     for value, text in ticks(*y_range, area.height() / TICK_EVERY_PX["left"]):
         y = float(chart.to_pixels(0.0, value)[1])
         _tick(painter, theme, QPointF(area.left(), y), QPointF(area.left() + 4, y))
-        painter.drawText(QRectF(area.left() - 60, y - 8, 55, 16), right, text)
-    painter.drawText(QRectF(area.left(), area.bottom() + 18, area.width(), 16), centre, labels[0])
+        write(painter, QRectF(area.left() - 60, y - 8, 55, 16), text, side=1)
+    write(painter, QRectF(area.left(), area.bottom() + 18, area.width(), 16), labels[0])
     painter.rotate(-90)
-    painter.drawText(QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), centre, labels[1])
+    write(painter, QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), labels[1])
     painter.rotate(90)
 
 

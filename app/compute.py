@@ -17,7 +17,7 @@ from p2sf.psf import Psf
 from p2sf.raytrace import opd_map
 from p2sf.wavefront import wavefront
 
-PUPIL_SAMPLES = 96
+PUPIL_SAMPLES = {"preview": 64, "settled": 96}
 RAY_SAMPLES = {"preview": 40, "settled": 64}  # across the pupil where every sample is a traced ray
 
 
@@ -25,7 +25,8 @@ RAY_SAMPLES = {"preview": 40, "settled": 64}  # across the pupil where every sam
 class Live:
     """One answer: setting, drawing, pupil, PSF, sentences, and what the open panels asked for in ``views``.
 
-    ``milliseconds`` names what each part took; ``quality`` is "preview" while a slider moves, else "settled".
+    ``rung`` is the method chosen, by a person or by ``auto``; ``milliseconds`` names what each part took; ``quality``
+    is "preview" while a slider moves, else "settled".
     """
 
     state: State
@@ -38,6 +39,7 @@ class Live:
     dominant: str
     warnings: tuple[str, ...]
     why: str
+    rung: str
     milliseconds: Mapping[str, float]
     views: Mapping[str, object] = field(default_factory=dict)
 
@@ -46,26 +48,30 @@ View = Callable[["Live"], object]
 """A function from the answer so far to what one panel shows; it names no Qt."""
 
 
-def live(state: State, quality: str = "settled", views: Mapping[str, View] | None = None) -> Live:
-    """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest."""
+def live(state: State, quality: str = "settled", views: Mapping[str, View] | None = None, held: str = "") -> Live:
+    """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest.
+
+    ``held`` names the rung that ``auto`` keeps while a slider moves.
+    """
     begun = perf_counter()
     set_up = setting(state)
     drawn = layout(set_up)
     placed = perf_counter()
-    made = rendered(state, set_up, quality)
+    made = rendered(state, set_up, quality, held)
     psf, finished = made.psf, perf_counter()
     lost = sum(not ray.passed for ray in drawn.rays)
     answer = Live(
         state=state,
         setting=set_up,
         layout=drawn,
-        pupil=pupil(set_up, made.exact, quality),
+        pupil=made.pupil or pupil(set_up, made.exact, quality),
         psf=psf,
         quality=quality,
         airy_radius_um=float(airy_radius_um(set_up.source.wavelength_um, set_up.coefficients.na)),
         dominant=dominant(set_up.coefficients),
-        warnings=warnings(set_up, made.exact, lost),
+        warnings=warnings(set_up, made.exact, lost, psf.method == "geometric"),
         why=made.why,
+        rung=made.rung,
         milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (finished - placed)},
     )
     return with_views(answer, views or {}, begun)
@@ -80,7 +86,7 @@ def with_views(answer: Live, views: Mapping[str, View], begun: float) -> Live:
 
 def pupil(set_up: Setting, exact: bool, quality: str) -> PupilMap:
     """Return the wavefront that made the PSF: of the six coefficients for seidel, of exact rays for the other rungs."""
-    xi, eta, inside = disc(PUPIL_SAMPLES)
+    xi, eta, inside = disc(PUPIL_SAMPLES[quality])
     if not exact:
         return pupil_map(np.asarray(wavefront(set_up.coefficients, xi, eta)), inside, "six coefficients")
     count = RAY_SAMPLES[quality]

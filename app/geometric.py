@@ -4,35 +4,45 @@ A wave sum over a blur of hundreds of wavelengths of slope takes seconds and sho
 density of rays; so the window shows that density at once and says so.
 """
 
+from functools import lru_cache
 from time import perf_counter
 
 import numpy as np
 
 from app.setting import Setting
 from p2sf.conventions import UM_PER_MM
+from p2sf.errors import GeometryError
 from p2sf.psf import Psf
 from p2sf.raytrace import pencil
 
-RADII, DIRECTIONS = 128, 360
-TRACED = 20, 48  # exact rays, interpolated to the above
+GRIDS = {"preview": (64, 180), "settled": (192, 540)}  # radii, directions of the half disc
+TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated to the above
 
 
-def geometric_psf(set_up: Setting, exact: bool, pixels: int, pixel_um: float) -> Psf:
-    """Return the ray density over ``pixels``² samples: of exact rays, or of the rays of the Seidel wavefront."""
-    begun = perf_counter()
-    x, y, weight = exact_landing(set_up) if exact else seidel_landing(set_up)
+def geometric_psf(
+    set_up: Setting, exact: bool, window: tuple[int, float], quality: str = "settled", clip: bool = False
+) -> Psf:
+    """Return the ray density over a window (pixels, µm per pixel): of exact rays, or of the Seidel wavefront's.
+
+    Raises GeometryError where no ray reaches the window.
+    """
+    begun, (pixels, pixel_um) = perf_counter(), window
+    x, y, weight = exact_landing(set_up, quality, clip) if exact else seidel_landing(set_up, quality)
     values = density(x, y, weight, pixels, pixel_um)
+    energy = float(values.sum())
+    if not energy:
+        raise GeometryError("no ray reaches the sensor; choose a smaller field, stop down, or leave clipping off")
     strehl = float(values.max()) / unaberrated(set_up, pixel_um)
-    words = f"density of {RADII} × {DIRECTIONS} rays; diffraction is too fine to see here"
+    words = "density of {} × {} rays; diffraction is too fine to see here".format(*GRIDS[quality])
     seconds, wavelength = perf_counter() - begun, set_up.source.wavelength_um
-    rays = TRACED[0] * TRACED[1] if exact else 2
-    return Psf(values, pixel_um, wavelength, "geometric", strehl, float(values.sum()), 0, rays, words, seconds)
+    rays = TRACED[quality][0] * TRACED[quality][1] if exact else 2
+    return Psf(values / energy, pixel_um, wavelength, "geometric", strehl, energy, 0, rays, words, seconds)
 
 
-def seidel_landing(set_up: Setting):
+def seidel_landing(set_up: Setting, quality: str = "settled"):
     """Return where the rays of W land, µm from the chief ray, and their weights: −∇W·λ/(n′u′) (Welford 1986, §7.2)."""
     c = set_up.coefficients
-    xi, eta, weight = polar(RADII, DIRECTIONS)
+    xi, eta, weight = polar(*GRIDS[quality])
     square, focus = xi * xi + eta * eta, float(c.w20 + c.wd)
     along_xi = 4 * c.w40 * square * xi + 2 * c.w31 * xi * eta + 2 * focus * xi
     along_eta = 4 * c.w40 * square * eta + c.w31 * (square + 2 * eta * eta) + 2 * c.w22 * eta + 2 * focus * eta
@@ -40,12 +50,15 @@ def seidel_landing(set_up: Setting):
     return scale * along_xi, scale * along_eta, weight
 
 
-def exact_landing(set_up: Setting):
-    """Return where exact rays land, µm from the chief ray, and their weights, interpolated between traced ones."""
-    xi, eta, _ = polar(*TRACED)
-    rays = pencil(set_up.lens, set_up.source, xi.ravel(), eta.ravel(), stop=set_up.stop)
-    finer = [np.nan_to_num(finely(UM_PER_MM * v.reshape(TRACED)), nan=np.inf) for v in (rays.dx, rays.dy)]
-    return *finer, polar(RADII, DIRECTIONS)[2]
+def exact_landing(set_up: Setting, quality: str = "settled", clip: bool = False):
+    """Return where exact rays land, µm from the chief ray, and their weights, interpolated between traced ones.
+
+    A cell of the pupil with a lost ray at a corner is lost: its place is infinite.
+    """
+    xi, eta, _ = polar(*TRACED[quality])
+    rays = pencil(set_up.lens, set_up.source, xi.ravel(), eta.ravel(), clip=clip)
+    places = (UM_PER_MM * values.reshape(xi.shape) for values in (rays.dx, rays.dy))
+    return *(finely(values, GRIDS[quality]) for values in places), polar(*GRIDS[quality])[2]
 
 
 def polar(radii: int, directions: int):
@@ -55,16 +68,30 @@ def polar(radii: int, directions: int):
     return rho * np.sin(theta), rho * np.cos(theta), np.full((radii, directions), 0.5 / (radii * directions))
 
 
-def finely(values: np.ndarray) -> np.ndarray:
-    """Return values of the coarse polar cells on the fine ones, straight lines in ρ and θ."""
-    coarse_rho, fine_rho = (np.sqrt((np.arange(n) + 0.5) / n) for n in (TRACED[0], RADII))
-    coarse, fine = ((np.arange(n) + 0.5) / n for n in (TRACED[1], DIRECTIONS))
-    along = np.stack([np.interp(fine, coarse, row) for row in values])
-    return np.stack([np.interp(fine_rho, coarse_rho, column) for column in along.T]).T
+def finely(values: np.ndarray, grid: tuple[int, int]) -> np.ndarray:
+    """Return values of coarse polar cells on the cells of a finer grid, straight lines in ρ and θ."""
+    radii, directions = _between(values.shape[0], grid[0], 0.5), _between(values.shape[1], grid[1], 1.0)
+    lost = ~np.isfinite(values)
+    found = radii @ np.where(lost, 0.0, values) @ directions.T
+    return np.where(np.abs(radii) @ lost @ np.abs(directions).T > 0, np.inf, found) if lost.any() else found
+
+
+@lru_cache(maxsize=8)
+def _between(coarse: int, fine: int, power: float) -> np.ndarray:
+    """Return the linear interpolation from ``coarse`` cell centres to ``fine`` ones, in a power of their place.
+
+    Beyond the outermost centres the lines go on straight: ρ reaches the rim, where the farthest rays are.
+    """
+    known, wanted = (((np.arange(n) + 0.5) / n) ** power for n in (coarse, fine))
+    left = np.clip(np.searchsorted(known, wanted) - 1, 0, coarse - 2)
+    part = (wanted - known[left]) / (known[left + 1] - known[left])
+    matrix = np.zeros((fine, coarse))
+    matrix[np.arange(fine), left], matrix[np.arange(fine), left + 1] = 1 - part, part
+    return matrix
 
 
 def density(x, y, weight, pixels: int, pixel_um: float) -> np.ndarray:
-    """Return the weights that fall on each pixel, mirror half included, unit sum; (pixels, pixels)."""
+    """Return the share of the light that falls on each pixel, mirror half included; (pixels, pixels)."""
     column, row = (np.rint(v / pixel_um).clip(-pixels, pixels) + pixels // 2 for v in (x, y))
     inside = (row >= 0) & (row < pixels)
     counted = np.zeros(pixels * pixels)
@@ -72,7 +99,7 @@ def density(x, y, weight, pixels: int, pixel_um: float) -> np.ndarray:
         kept = inside & (side >= 0) & (side < pixels)
         place = (row[kept] * pixels + side[kept]).astype(np.intp)
         counted += np.bincount(place, weight[kept], pixels * pixels)
-    return counted.reshape(pixels, pixels) / (counted.sum() or 1.0)
+    return counted.reshape(pixels, pixels)
 
 
 def unaberrated(set_up: Setting, pixel_um: float) -> float:

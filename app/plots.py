@@ -9,7 +9,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
-from app.chart import Chart, small_font
+from app.chart import Chart
+from app.ink import small_font
 from app.theme import LIGHT, Tokens
 
 EMPTY = 255  # the one index of a colour table that is kept for "no value"

@@ -4,10 +4,11 @@ from PySide6.QtCore import QEvent, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
-from app.chart import small_font
+from app.ink import set_text, small_font, write
 from app.theme import LIGHT, Tokens
 
 PAD = 7.0
+SIZE = 12
 
 
 class Readout(QWidget):
@@ -55,23 +56,24 @@ class Readout(QWidget):
 
     def _cut(self) -> str:
         room = self.width() - (2 * PAD if self._pill else 0)
-        return QFontMetricsF(small_font(12)).elidedText(self._text, Qt.TextElideMode.ElideRight, room)
+        if set_text(self._text, SIZE).size().width() <= room:
+            return self._text
+        return QFontMetricsF(small_font(SIZE)).elidedText(self._text, Qt.TextElideMode.ElideRight, room)
 
     def paintEvent(self, event) -> None:
         """Paint ground and text."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(getattr(self._theme, self.ground)))
-        painter.setFont(small_font(12))
         text, pad = self._cut(), PAD if self._pill else 0.0
         if self._pill and text:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(self._theme.faint))
-            wide = QFontMetricsF(small_font(12)).horizontalAdvance(text) + 2 * PAD
+            wide = set_text(text, SIZE).size().width() + 2 * PAD
             painter.drawRoundedRect(QRectF(0, 0, wide, self.height()), 4, 4)
         painter.setPen(QColor(getattr(self._theme, self._colour)))
         room = QRectF(pad, 0, self.width() - 2 * pad, self.height())
-        painter.drawText(room, self._align | Qt.AlignmentFlag.AlignVCenter, text)
+        write(painter, room, text, 1 if self._align == Qt.AlignmentFlag.AlignRight else -1, SIZE)
 
 
 class FactTable(QWidget):
@@ -112,10 +114,9 @@ class FactTable(QWidget):
         """Paint the rows."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(self._theme.card))
-        painter.setFont(small_font(12))
         for k, (name, value, _) in enumerate(self._rows):
             line = QRectF(0, k * self.ROW, self.width(), self.ROW)
             painter.setPen(QColor(self._theme.muted))
-            painter.drawText(line, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, name)
+            write(painter, line, name, -1, SIZE)
             painter.setPen(QColor(self._theme.text))
-            painter.drawText(line, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, value)
+            write(painter, line, value, 1, SIZE)

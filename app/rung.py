@@ -1,52 +1,79 @@
 """Which rung of the ladder makes the picture, and the picture itself. No Qt in here."""
 
 from dataclasses import dataclass
-
-import numpy as np
+from math import floor, log10
 
 from app.geometric import geometric_psf
+from app.pupil import PupilMap
+from app.quick import edge_points, landing_um, quick, quick_psf, quick_pupil
 from app.scales import nice
 from app.setting import Setting
 from app.state import State
-from p2sf.conventions import UM_PER_MM
 from p2sf.huygens import Filling, huygens_psf
 from p2sf.measures import airy_radius_um
 from p2sf.psf import Psf, seidel_psf, suitable_pixel_um
 from p2sf.raytrace import pencil
 from p2sf.wavefront import steepest_slope
 
-PIXELS = 64
+PIXELS = {"preview": 64, "settled": 128}
+WHOLE = 64  # samples over which the six coefficients are asked for a window that shows all of the PSF
 WINDOWS = (1, 1.5, 2, 3, 4, 5, 6, 8)
-STEEPEST = 80.0  # waves of slope: beyond, a pixel of the window is some four Airy radii wide
-BLURRED = "blur so large that rays alone describe it; bring focus and source together to see diffraction"
+STEEPEST = 80.0  # waves of slope: beyond, a sample of the window is some four Airy radii wide
+BLURRED = "geometric: ray density, no diffraction"
+MOVING = "fitted while the slider moves, {0} when it rests"
 ROOM = 5  # Airy radii around what rays say, for what diffraction adds
 
 
 @dataclass(frozen=True)
 class Made:
-    """A PSF, a sentence on why this rung made it, and whether exact rays describe it or six coefficients."""
+    """A PSF, why this rung made it, whether exact rays describe it or six coefficients, and which ``rung`` was chosen.
+
+    ``pupil`` is the wavefront where the picture's own rays gave it at once.
+    """
 
     psf: Psf
     why: str
-    exact: bool = True
+    exact: bool
+    rung: str
+    pupil: PupilMap | None = None
 
 
-def rendered(state: State, set_up: Setting, quality: str) -> Made:
-    """Return the PSF by the state's method, or by the rung ``auto`` chooses for it."""
-    method, why = chosen(state, set_up)
-    if quality == "preview" and method == "huygens":
-        method, why = "traced", "traced while the slider moves, huygens when it rests"
-    pitch = window_um(set_up, method) / PIXELS
+def rendered(state: State, set_up: Setting, quality: str, held: str = "") -> Made:
+    """Return the PSF by the state's method, or by the rung ``auto`` chooses, or by the one ``held`` while moving."""
+    method, why = (held, "") if held else chosen(state, set_up)
+    if quality == "preview" and method != "seidel":
+        return moving(state, set_up, method)
+    pixels = PIXELS[quality]
+    pitch = window_um(set_up, method) / pixels
     if too_blurred(set_up):
-        return Made(geometric_psf(set_up, method != "seidel", PIXELS, pitch), BLURRED, method != "seidel")
+        exact = method != "seidel"
+        return Made(geometric_psf(set_up, exact, (pixels, pitch), quality, state.clip), BLURRED, exact, method)
     if method == "seidel":
-        return Made(seidel_psf(set_up.coefficients, PIXELS, pitch, quality), why, exact=False)
-    if method == "huygens":  # the converged sum takes seconds and belongs to the accuracy worker
-        return Made(huygens_psf(set_up.lens, set_up.source, PIXELS, pitch, None, filling=Filling(clip=state.clip)), why)
+        return Made(seidel_psf(set_up.coefficients, pixels, pitch, quality), why, False, method)
+    return Made(by_rays(state, set_up, method, (pixels, pitch), quality), why, True, method)
+
+
+def moving(state: State, set_up: Setting, method: str) -> Made:
+    """Return what is shown in place of a slower rung while a slider moves; fitted, or traced where rays are lost."""
+    pixels, made = PIXELS["preview"], quick(set_up, state.clip)
+    rays = made.rays if made else edge_pencil(set_up)
+    pitch = ray_window_um(set_up, landing_um(rays)) / pixels
+    why = MOVING.format(method) if method != "fitted" else ""
+    pupil = quick_pupil(made) if made else None
+    if too_blurred(set_up):
+        return Made(geometric_psf(set_up, True, (pixels, pitch), "preview", state.clip), BLURRED, True, method, pupil)
+    if made:
+        return Made(quick_psf(made, pixels, pitch), why, True, method, pupil)
+    return Made(by_rays(state, set_up, "traced", (pixels, pitch), "preview"), "", True, method)
+
+
+def by_rays(state: State, set_up: Setting, method: str, window: tuple[int, float], quality: str) -> Psf:
+    """Return the PSF of a rung that traces rays; huygens in one pass, its converged sum is the accuracy worker's."""
+    if method == "huygens":
+        return huygens_psf(set_up.lens, set_up.source, *window, None, filling=Filling(clip=state.clip))
     from p2sf.ladder import render
 
-    psf = render(set_up.lens, set_up.source, method, PIXELS, pitch, quality, state.tolerance, state.clip)
-    return Made(psf, why)
+    return render(set_up.lens, set_up.source, method, *window, quality, state.tolerance, state.clip)
 
 
 def too_blurred(set_up: Setting) -> bool:
@@ -57,19 +84,19 @@ def too_blurred(set_up: Setting) -> bool:
 def window_um(set_up: Setting, method: str) -> float:
     """Return the width of the shown window, µm: a round number, so that axes stand still while sliders move."""
     if method == "seidel":
-        return nice(float(suitable_pixel_um(set_up.coefficients, PIXELS)) * PIXELS, WINDOWS)
-    reach = landing_um(set_up) + ROOM * float(airy_radius_um(set_up.source.wavelength_um, set_up.coefficients.na))
-    return nice(2 * reach, WINDOWS)
+        return nice(float(suitable_pixel_um(set_up.coefficients, WHOLE)) * WHOLE, WINDOWS)
+    return ray_window_um(set_up, landing_um(edge_pencil(set_up)))
 
 
-def landing_um(set_up: Setting) -> float:
-    """Return how far from the chief ray the farthest of a few exact rays lands, in x or y, µm."""
-    turn = np.linspace(0, np.pi, 9)
-    edge = np.stack([np.sin(turn), np.cos(turn)])
-    xi, eta = np.concatenate([edge, 0.7 * edge], axis=1)
-    rays = pencil(set_up.lens, set_up.source, xi, eta, stop=set_up.stop)
-    reach = np.abs(np.concatenate([rays.dx, rays.dy]))
-    return UM_PER_MM * float(np.nanmax(reach)) if np.isfinite(reach).any() else 0.0
+def ray_window_um(set_up: Setting, landing: float) -> float:
+    """Return the width of a window that shows rays landing so far out, and what diffraction adds, µm."""
+    airy = float(airy_radius_um(set_up.source.wavelength_um, set_up.coefficients.na))
+    return nice(2 * (landing + ROOM * airy), WINDOWS)
+
+
+def edge_pencil(set_up: Setting):
+    """Return the few rays that tell how far light reaches."""
+    return pencil(set_up.lens, set_up.source, *edge_points())
 
 
 def chosen(state: State, set_up: Setting) -> tuple[str, str]:
@@ -79,4 +106,26 @@ def chosen(state: State, set_up: Setting) -> tuple[str, str]:
     from p2sf.ladder import choose
 
     choice = choose(set_up.lens, set_up.source, state.tolerance, state.clip)
-    return choice.method, choice.why
+    return choice.method, reason(choice, state.tolerance)
+
+
+def reason(choice, tolerance: float) -> str:
+    """Return in words why ``auto`` took this rung."""
+    promise = f"predicted R² ≥ {at_least(1 - choice.predicted_error)}"
+    if choice.method == "seidel":
+        return f"seidel: six coefficients are enough, {promise}"
+    if choice.method == "fitted":
+        from p2sf.rayfit import LEVELS
+
+        rays = next(level.rays for level in LEVELS if level.numbers == choice.numbers)
+        numbers = f"fitted: {choice.numbers} numbers from {rays} rays, {promise}"
+        return f"{numbers}; the six Seidel coefficients would miss {tolerance:g}"
+    lost = "are lost" in choice.why
+    because = choice.why.partition("since ")[2] if lost else f"a smooth fit would miss {tolerance:g}"
+    return f"{choice.method}: exact rays, {promise}; {because}"
+
+
+def at_least(r_squared: float) -> str:
+    """Return R² rounded down, with two digits of what it lacks to one."""
+    places = 1 - floor(log10(max(1 - r_squared, 1e-9)))
+    return f"{floor(r_squared * 10**places) / 10**places:.{places}f}".rstrip("0")

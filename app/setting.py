@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, isfinite
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -33,7 +34,6 @@ class Setting:
     cardinal: CardinalPoints
     rays: ParaxialRays
     coefficients: Coefficients
-    f_number: float
     object_height_mm: float | None
     focal_length_mm: float
 
@@ -96,36 +96,37 @@ def shipped() -> tuple[str, ...]:
 
 def setting(state: State) -> Setting:
     """Return everything paraxial about the state; a P2SFError in a sentence where there is no answer."""
-    on_axis = _on_axis(prescription(state), _request(state))
+    fixed = _fixed(prescription(state), _request(state))
     slope = float(slope_from_degrees(state.field_deg))
-    source = replace(on_axis.source, field_slope=slope)
+    source = replace(fixed["source"], field_slope=slope)
     depth = source.depth_mm
-    gap = depth + float(on_axis.pupils.entrance_from_first)
-    return replace(
-        on_axis,
-        source=source,
-        coefficients=coefficients(on_axis.lens, depth, slope, source.wavelength_um, on_axis.stop),
-        object_height_mm=slope * gap if isfinite(depth) else None,
+    gap = depth + float(fixed["pupils"].entrance_from_first)
+    return Setting(
+        **fixed
+        | {
+            "source": source,
+            "coefficients": coefficients(fixed["lens"], depth, slope, source.wavelength_um, fixed["stop"]),
+            "object_height_mm": slope * gap if isfinite(depth) else None,
+        }
     )
 
 
 @lru_cache(maxsize=16)
-def _on_axis(prescription: Lens, request: Request) -> Setting:
-    """Return what does not depend on the field, so that dragging the field computes little."""
+def _fixed(prescription: Lens, request: Request) -> MappingProxyType:
+    """Return the entries of a Setting that do not depend on the field, so that dragging the field computes little."""
     made = set_up(prescription, request)
     lens, wavelength, stop = made.lens, made.source.wavelength_um, made.stop
     cardinal = cardinal_points(lens, wavelength)
-    return Setting(
-        lens=lens,
-        source=made.source,
-        stop=stop,
-        pupils=pupils(lens, wavelength, stop),
-        cardinal=cardinal,
-        rays=paraxial_rays(lens, made.source.depth_mm, wavelength, stop),
-        coefficients=coefficients(lens, made.source.depth_mm, 0.0, wavelength, stop),
-        f_number=float(f_number(lens, wavelength, stop)),
-        object_height_mm=None,
-        focal_length_mm=float(cardinal.effective_focal_length),
+    return MappingProxyType(
+        {
+            "lens": lens,
+            "source": made.source,
+            "stop": stop,
+            "pupils": pupils(lens, wavelength, stop),
+            "cardinal": cardinal,
+            "rays": paraxial_rays(lens, made.source.depth_mm, wavelength, stop),
+            "focal_length_mm": float(cardinal.effective_focal_length),
+        }
     )
 
 

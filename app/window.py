@@ -77,7 +77,7 @@ class Window(QMainWindow):
         self._bring_up(state.tab)
         try:
             self.controls.show_state(state)
-            live = compute.live(state, "preview" if self.store.moving else "settled", self._wanted())
+            live = self._answer(state)
         except P2SFError as error:
             self.refuse(str(error))
             return
@@ -90,6 +90,13 @@ class Window(QMainWindow):
         self.status.show_live(live, self.frame_ms)
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._painted(begun))
+
+    def _answer(self, state: State) -> Live:
+        """Return the settled answer, or while a slider moves a preview by the rung that ``auto`` had chosen."""
+        if not self.store.moving:
+            return compute.live(state, "settled", self._wanted())
+        held = self.live.rung if self.live and state.method == "auto" else ""
+        return compute.live(state, "preview", self._wanted(), held)
 
     def refuse(self, sentence: str) -> None:
         """Say in the banner why something cannot be; the last good picture stays."""

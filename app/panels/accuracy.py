@@ -5,8 +5,8 @@ import pyqtgraph as pg
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from app.card import Card
-from app.chart import small_font
 from app.compute import Live
+from app.ink import small_font
 from app.panels.psf import PSF_MAP, stretched
 from app.plots import HeatMap, plot_widget, restyle_plot
 from app.readout import Readout

@@ -5,8 +5,8 @@ from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
 from app.card import Card
-from app.chart import small_font
 from app.compute import Live
+from app.ink import write
 from app.pupil import FORMULAS, TERMS, WORDS
 from app.readout import Readout
 from app.scales import nice, signed
@@ -79,7 +79,6 @@ class Bars(QWidget):
             self._paint_row(painter, name, QRectF(0, row * height, self.width(), height), (left, right))
 
     def _paint_scale(self, painter: QPainter, left: float, right: float, bottom: float) -> None:
-        painter.setFont(small_font())
         for part in (-1.0, -0.5, 0.0, 0.5, 1.0):
             x = (left + right) / 2 + part * (right - left) / 2
             painter.setPen(QPen(QColor(self._theme.line if part == 0 else self._theme.faint), 1))
@@ -87,7 +86,7 @@ class Bars(QWidget):
             if part in (-1.0, 0.0, 1.0):
                 painter.setPen(QColor(self._theme.muted))
                 text = f"{self.limit * part:+g}".replace("-", "−") if part else "0"
-                painter.drawText(QRectF(x - 40, bottom + 2, 80, 16), Qt.AlignmentFlag.AlignCenter, text)
+                write(painter, QRectF(x - 40, bottom + 2, 80, 16), text)
 
     def _paint_row(self, painter: QPainter, name: str, row: QRectF, ends: tuple[float, float]) -> None:
         theme, value = self._theme, self.values[name]
@@ -111,17 +110,12 @@ class Bars(QWidget):
             painter.drawLine(QPointF(x - 3, y + thick / 2 + 1), QPointF(x + 3, y - thick / 2 - 1))
 
     def _paint_words(self, painter: QPainter, name: str, row: QRectF) -> None:
-        centre = Qt.AlignmentFlag.AlignVCenter
-        painter.setFont(small_font(13))
         painter.setPen(QColor(self._theme.text))
-        painter.drawText(QRectF(0, row.top(), 40, row.height()), centre, NAMES[name])
+        write(painter, QRectF(0, row.top(), 40, row.height()), NAMES[name], -1, 13)
         number = f"{signed(self.values[name], 2)} λ"
-        painter.drawText(
-            QRectF(row.right() - 62, row.top(), 62, row.height()), centre | Qt.AlignmentFlag.AlignRight, number
-        )
-        painter.setFont(small_font())
+        write(painter, QRectF(row.right() - 62, row.top(), 62, row.height()), number, 1, 13)
         painter.setPen(QColor(self._theme.muted))
-        painter.drawText(QRectF(38, row.top(), 76, row.height()), centre, SHORT[name])
+        write(painter, QRectF(38, row.top(), 76, row.height()), SHORT[name], -1)
 
 
 SHORT = {

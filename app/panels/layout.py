@@ -1,20 +1,26 @@
 """The lens to scale, its rays, pupils and cardinal points, and the source to take hold of."""
 
+from math import ceil
+
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QToolTip
 
 from app.card import Card
 from app.chart import Chart
 from app.compute import Live
+from app.ink import polygon
 from app.layout import Drawing, Outline
 from app.panels.marks import paint_marks
 from app.panels.source import SourceHandle
+from app.scales import nice
 from app.store import Store
 from app.theme import Tokens
 
 TIP = "The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP."
+WIDTHS = (1, 1.1, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.3, 7.1, 8, 9)  # mm, tenfold
+STEP = 0.02  # of the width
 KINDS = {"marginal": ("marginal", 2), "rim": ("chief", 1), "chief": ("chief", 2)}
 
 
@@ -56,11 +62,10 @@ class LayoutChart(Chart):
     def show_live(self, live: Live) -> None:
         """Show an answer."""
         self.live, layout = live, live.layout
-        fresh = layout.drawing, layout.sensor_half
-        if self._drawn is None or fresh[0] is not self._drawn[0] or fresh[1] != self._drawn[1]:
-            self._drawn = fresh
+        before, self._drawn = self._drawn, (layout.drawing, layout.sensor_half)
+        if before is None or not same_glass(before[0], layout.drawing):
             self.forget_ground()
-            self._fit()
+        self._fit()
         for kind, curve in self.rays.items():
             paths = [ray for ray in layout.rays if ray.kind == kind]
             curve.set_data(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
@@ -82,41 +87,45 @@ class LayoutChart(Chart):
         d, half = self._drawn
         box, length = self.area, d.right - d.left
         tall = 2.25 * max(d.half_height, half)
-        wide = max(1.5 * length, tall * box.width() / box.height())
+        wide = nice(max(1.5 * length, tall * box.width() / box.height()), WIDTHS)
         right = d.right + 0.06 * wide + 0.2 * max(0.0, wide - 1.7 * length)
-        half = max(tall, wide * box.height() / box.width()) / 2
+        right = STEP * wide * ceil(right / (STEP * wide))  # in steps, so that glass stands still while the sensor moves
+        half = wide * box.height() / box.width() / 2
         self.set_range((right - wide, right), (-half, half))
 
     def paint_ground(self, painter: QPainter) -> None:
-        """Paint axis, glass, stop and sensor."""
+        """Paint axis and glass."""
         if not self._drawn:
             return
-        d, half = self._drawn
         painter.setPen(QPen(QColor(self.theme.line), 1))
         axis = float(self.to_pixels(0.0, 0.0)[1])
         painter.drawLine(QPointF(0, axis), QPointF(self.width(), axis))
-        for outline in d.outlines:
+        for outline in self._drawn[0].outlines:
             fill = QColor(self.theme.glass)
             fill.setAlphaF(min(0.75, max(0.12, 0.9 * (outline.index - 1.2))))  # denser glass is drawn denser
             painter.setBrush(fill)
             painter.setPen(QPen(QColor(self.theme.glass_edge), 1))
             painter.drawPolygon(self._polygon(outline))
+
+    def _paint_bars(self, painter: QPainter) -> None:
+        """Paint stop and sensor."""
+        d, half = self._drawn
         wedge = 0.18 * d.half_height + 0.25 * d.stop_rim
         for side in (-1, 1):
             self._bar(painter, 3, d.stop_z, side * d.stop_rim, side * (d.stop_rim + wedge))
         self._bar(painter, 2, d.sensor_z, -half, half)
 
     def _bar(self, painter: QPainter, width: float, z: float, start: float, end: float) -> None:
-        painter.setPen(QPen(QColor(self.theme.text), width))
-        painter.drawLine(QPointF(*self.to_pixels(z, start)), QPointF(*self.to_pixels(z, end)))
+        (x, top), (_, bottom) = self.to_pixels(z, max(start, end)), self.to_pixels(z, min(start, end))
+        painter.fillRect(QRectF(x - width / 2, top, width, bottom - top), QColor(self.theme.text))
 
     def _polygon(self, outline: Outline) -> QPolygonF:
-        z, y = self.to_pixels(outline.z, outline.y)
-        return QPolygonF([QPointF(*point) for point in zip(z.tolist(), y.tolist(), strict=True)])
+        return polygon(np.stack(self.to_pixels(outline.z, outline.y), axis=-1))
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint marks, names and the source."""
         if self.live:
+            self._paint_bars(painter)
             paint_marks(painter, self, self.live.layout)
             self.handle.paint(painter, self)
 
@@ -148,6 +157,12 @@ class LayoutChart(Chart):
     def mouseReleaseEvent(self, event) -> None:
         """Let go of the source."""
         self.handle.release()
+
+
+def same_glass(before: Drawing, now: Drawing) -> bool:
+    """Return whether the outlines are still the same: the elements, and what fills the space up to the sensor."""
+    filled = len(now.outlines) > len(now.glass.outlines)
+    return before.glass is now.glass and not (filled and before.sensor_z != now.sensor_z)
 
 
 def _joined(parts: list[np.ndarray]) -> np.ndarray:

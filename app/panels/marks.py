@@ -2,10 +2,11 @@
 
 from functools import lru_cache
 
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QColor, QPainter, QPen
 
-from app.chart import Chart, small_font
+from app.chart import Chart
+from app.ink import set_text, write
 from app.layout import Layout
 
 LINE_PX = 13.0
@@ -15,7 +16,6 @@ LINES = 6  # how far out a name may go for room of its own
 
 def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
     """Paint ticks for points, bars for pupils, a disc for the image, and a name for each."""
-    painter.setFont(small_font())
     painter.setPen(QPen(QColor(chart.theme.mark), 1))
     axis, taken = float(chart.to_pixels(0.0, 0.0)[1]), [sensor_room(chart, layout)]
     for mark in sorted(layout.marks, key=lambda mark: (mark.radius > 0, mark.z)):
@@ -26,7 +26,7 @@ def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
         painter.drawLine(QPointF(x, axis - reach), QPointF(x, axis + reach))
         room = free_room(mark.name, x, axis - reach if mark.radius else axis + reach, -1 if mark.radius else 1, taken)
         taken.append(room)
-        painter.drawText(room, Qt.AlignmentFlag.AlignCenter, mark.name)
+        write(painter, room, mark.name)
     if layout.image:
         painter.setPen(QPen(QColor(chart.theme.card), 1))
         painter.setBrush(QColor(chart.theme.chief))
@@ -57,4 +57,4 @@ def free_room(name: str, x: float, y: float, side: int, taken: list[QRectF]) -> 
 @lru_cache(maxsize=32)
 def name_width(name: str) -> float:
     """Return how wide a name is, with air, in pixels."""
-    return QFontMetricsF(small_font()).horizontalAdvance(name) + GAP_PX
+    return set_text(name).size().width() + GAP_PX

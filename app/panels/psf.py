@@ -12,6 +12,8 @@ from app.theme import Tokens
 
 PSF_MAP = "inferno"
 DECADES = 5  # what the logarithmic scale shows below the peak
+METHOD_WORDS = {"geometric": "geometric: ray density, no diffraction"}
+QUALITIES = ("preview", "settled")
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
 ARROW = np.array([[0.86, 0.86, 0.83, 0.86, 0.89], [0.74, 0.92, 0.84, 0.92, 0.84]])
 TIP = "Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW)."
@@ -38,6 +40,7 @@ class PsfPanel:
         self.widget.add_footer(self.badge)
         self._half = self._airy = 0.0
         self._r_squared: float | None = None
+        self._times: dict[str, str] = {}
 
     def show(self, live: Live) -> None:
         """Paint the PSF."""
@@ -66,11 +69,16 @@ class PsfPanel:
         self.arrow.set_data(shown * ARROW[0], shown * ARROW[1])
 
     def show_badge(self, live: Live, r_squared: float | None, stale: bool) -> None:
-        """Name method, time and measured R² against the Huygens sum; grey while that is of an earlier picture."""
+        """Name method, times and measured R² against the Huygens sum; grey while that is of an earlier picture.
+
+        Of the preview while a slider moves and of the settled picture, the last time of each.
+        """
         self._r_squared = r_squared
         psf = live.psf
-        parts = [psf.method, f"{significant(1e3 * psf.seconds, 2)} ms", live.quality]
-        if r_squared is not None:
+        self._times[live.quality] = significant(1e3 * psf.seconds, 2)
+        times = " / ".join(f"{name} {self._times[name]}" for name in QUALITIES if name in self._times)
+        parts = [METHOD_WORDS.get(psf.method, psf.method), f"{times} ms"]
+        if r_squared is not None and psf.method != "geometric":
             parts.append(f"R² {written_r_squared(r_squared)} vs Huygens")
         self.badge.set_text(" · ".join(parts), "muted" if stale else "text")
         self.badge.setToolTip(f"{psf.numbers} numbers, {psf.rays} rays; sampling: {psf.sampling}")

@@ -2,10 +2,11 @@
 
 from math import atan2, degrees, inf, isfinite
 
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from app.chart import Chart, small_font
+from app.chart import Chart
+from app.ink import write
 from app.scales import written_distance
 from app.store import Store
 
@@ -44,9 +45,8 @@ class SourceHandle:
         painter.setBrush(QColor(theme.card))
         painter.drawEllipse(at, RADIUS_PX, RADIUS_PX)
         painter.setPen(QColor(theme.muted))
-        painter.setFont(small_font())
-        words = QRectF(at.x() - 40, at.y() + RADIUS_PX + 2, 80, 14)
-        painter.drawText(words, Qt.AlignmentFlag.AlignCenter, written_distance(chart.live.state.depth_mm))
+        room = QRectF(at.x() - 40, at.y() + RADIUS_PX + 2, 80, 14)
+        write(painter, room, written_distance(chart.live.state.depth_mm))
 
     def near(self, chart: Chart, point: QPointF) -> bool:
         """Return whether a pixel is close enough to take hold of the ring."""

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF
 
-from app.chart import Chart, polylines, ticks
+from app.chart import Chart, ticks
+from app.ink import polylines
 from app.panels.marks import free_room
 from app.plots import EMPTY, as_indices
 from app.theme import LIGHT

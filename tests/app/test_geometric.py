@@ -1,0 +1,76 @@
+import numpy as np
+import pytest
+
+from app.compute import live
+from app.geometric import exact_landing, finely, geometric_psf, polar
+from app.setting import setting
+from app.state import State
+from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.quadrature import disc_nodes
+from p2sf.raytrace import pencil
+
+BLURRED = State(depth_mm=1500.0, focus_mm=None, field_deg=8.0, method="fitted")
+
+
+def moments(psf) -> np.ndarray:
+    """Return mean y and the variances of x and y, µm and µm², each pixel a square of even light."""
+    axis = centred_axis(psf.values.shape[0], psf.pixel_um)
+    across, along = psf.values.sum(0), psf.values.sum(1)
+    mean = along @ axis
+    return np.array([mean, across @ axis**2, along @ (axis - mean) ** 2])
+
+
+def test_the_density_has_the_moments_of_the_spot():
+    set_up, nodes = setting(BLURRED), disc_nodes(24, 48)
+    rays = pencil(set_up.lens, set_up.source, nodes.xi, nodes.eta)
+    x, y = UM_PER_MM * rays.dx, UM_PER_MM * rays.dy
+    mean = nodes.weight @ y
+    exact = np.array([mean, nodes.weight @ x**2, nodes.weight @ (y - mean) ** 2])
+    pixel = 2.2 * max(np.abs(x).max(), np.abs(y).max()) / 128
+    psf = geometric_psf(set_up, True, (128, pixel))
+    assert psf.values.sum() == pytest.approx(1)
+    assert psf.energy == pytest.approx(1)
+    found = moments(psf)
+    # Rounding to pixels moves the mean by less than a tenth of one and adds pixel²/12 to a variance.
+    assert found[0] == pytest.approx(exact[0], abs=0.1 * pixel)
+    assert found[1:] == pytest.approx(exact[1:] + pixel**2 / 12, rel=5e-3)
+
+
+def test_pure_defocus_is_an_even_disc_of_the_known_size():
+    set_up = setting(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
+    c = set_up.coefficients
+    radius = abs(2 * float(c.wd + c.w40) * set_up.source.wavelength_um / float(c.reduced_slope))
+    psf = geometric_psf(set_up, False, (64, 2.4 * radius / 64))
+    assert moments(psf)[1] == pytest.approx(radius**2 / 4, rel=0.01)  # W40 is a thousandth of Wd here
+    lit = psf.values[psf.values > 0.5 * psf.values.max()]
+    assert lit.size == pytest.approx(np.pi * radius**2 / psf.pixel_um**2, rel=0.03)
+
+
+def test_lost_rays_leave_less_light_and_stay_where_they_are_lost():
+    values = np.ones((6, 8))
+    values[5, 7] = np.nan
+    fine = finely(values, (24, 32))
+    assert np.isinf(fine[-1, -1])
+    assert np.isfinite(fine[:12]).all()
+    assert fine[np.isfinite(fine)] == pytest.approx(1)
+
+
+def test_interpolated_rays_land_where_traced_ones_do():
+    set_up = setting(BLURRED)
+    x, y, weight = exact_landing(set_up)
+    xi, eta, _ = polar(*x.shape)
+    some = slice(None, None, 997)
+    rays = pencil(set_up.lens, set_up.source, xi.ravel()[some], eta.ravel()[some])
+    reach = UM_PER_MM * np.abs(rays.dy).max()
+    assert 2 * weight.sum() == pytest.approx(1)
+    # Straight lines between 20 × 48 rays: the curvature of a blur of aberrations leaves some thousandths of its reach.
+    assert np.abs(x.ravel()[some] - UM_PER_MM * rays.dx).max() < 5e-3 * reach
+    assert np.abs(y.ravel()[some] - UM_PER_MM * rays.dy).max() < 5e-3 * reach
+
+
+def test_the_window_says_that_it_shows_rays_only():
+    answer = live(BLURRED)
+    assert answer.psf.method == "geometric"
+    assert "ray density, no diffraction" in answer.why
+    assert any("ray density, no diffraction" in sentence for sentence in answer.warnings)
+    assert not any("ray density" in sentence for sentence in live(State(method="fitted")).warnings)
