@@ -1,10 +1,11 @@
 """Everything the window shows, as one frozen value that goes to JSON and back. No Qt in here."""
 
 import json
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 from math import inf, isfinite, isnan
 from pathlib import Path
 
+from app.pupil import TERMS
 from p2sf.errors import P2SFError
 
 SCHEMA = "p2sf-explorer-state"
@@ -16,6 +17,7 @@ CHOICES = {
     "psf_units": ("sum", "peak", "strehl"),
     "phase": ("waves", "wrapped"),
     "theme": ("system", "light", "dark"),
+    "shown": ("a", "b", "difference"),
 }
 # Smallest and largest value that can mean something, and how a sentence writes the quantity.
 RANGES = {
@@ -26,7 +28,13 @@ RANGES = {
     "wavelength_nm": (100.0, 20000.0, "wavelength", "nm"),
     "f_number": (0.2, 1000.0, "f-number", ""),
     "tolerance": (0.0, 1.0, "tolerance R²", ""),
+    "play_seconds": (0.1, 600.0, "duration of a sweep", "s"),
 }
+MOST_WAVES = 1000.0
+DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
+LINKABLE = (*DRAGGED, "method", "added_waves")
+ADDED = "added_"  # before a term's name: the slider that adds waves to it
+PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
 OPTIONAL = ("focus_mm", "f_number")
 
 
@@ -35,6 +43,11 @@ class State:
     """The whole setup; ``focus_mm`` and ``f_number`` None mean: as the lens file has it.
 
     ``lens_text`` is the TOML text of a lens edited in the window, None while it is as ``lens`` names it.
+    ``windows`` names the panels that stand in windows of their own.
+    What if: ``added_waves`` on top of the lens's own six coefficients (`app.pupil.TERMS` in order), or alone in a
+    ``free_pupil``; ``muted`` terms count as zero, and with any ``solo`` all others do. Compare: ``pinned`` is the
+    setup B, ``shown`` which of the two is on screen, ``linked`` what moves both. ``play`` is the slider that is
+    swept, over ``play_range`` (None: all of its travel) in ``play_seconds``.
     """
 
     lens: str = "double_gauss_28"
@@ -54,6 +67,17 @@ class State:
     phase: str = "waves"
     theme: str = "system"
     tab: str = "profiles"
+    windows: tuple[str, ...] = ()
+    added_waves: tuple[float, ...] = (0.0,) * len(TERMS)
+    muted: tuple[str, ...] = ()
+    solo: tuple[str, ...] = ()
+    free_pupil: bool = False
+    pinned: "State | None" = None
+    shown: str = "a"
+    linked: tuple[str, ...] = ()
+    play: str = ""
+    play_range: tuple[float, float] | None = None
+    play_seconds: float = 4.0
 
     def __post_init__(self):
         for name, (low, high, words, unit) in RANGES.items():
@@ -69,6 +93,47 @@ class State:
             )
         if not isinstance(self.clip, bool) or not isinstance(self.tab, str):
             raise P2SFError("the state's clip must be true or false, and its tab a panel's name; correct them")
+        object.__setattr__(self, "windows", _names(self.windows))
+        _check_what_if(self)
+        _check_pinned(self)
+        _check_play(self)
+
+
+def _check_what_if(state: State) -> None:
+    waves = state.added_waves
+    if not isinstance(waves, tuple) or len(waves) != len(TERMS):
+        raise P2SFError(f"the added waves are {waves!r}; give {len(TERMS)} numbers, for {', '.join(TERMS)}")
+    for term, value in zip(TERMS, waves, strict=True):
+        _check_number(value, term, (-MOST_WAVES, MOST_WAVES), f"what is added to {term}", "λ")
+    for name in ("muted", "solo"):
+        _check_names(getattr(state, name), name, TERMS)
+    if not isinstance(state.free_pupil, bool):
+        raise P2SFError(f"free_pupil is {state.free_pupil!r}; give true or false")
+
+
+def _check_names(found, name: str, allowed: tuple[str, ...]) -> None:
+    if not isinstance(found, tuple) or [item for item in allowed if item in found] != list(found):
+        raise P2SFError(f"{name} is {found!r}; list some of {', '.join(allowed)}, each once and in this order")
+
+
+def _check_pinned(state: State) -> None:
+    _check_names(state.linked, "linked", LINKABLE)
+    if not isinstance(state.pinned, State | None) or (state.pinned and state.pinned.pinned):
+        raise P2SFError("what is pinned as B must be one state with nothing pinned in it; pin it again")
+    if state.shown != "a" and not state.pinned:
+        raise P2SFError(f'shown is "{state.shown}" and nothing is pinned as B; pin a state first (Ctrl+B)')
+
+
+def _check_play(state: State) -> None:
+    if state.play not in PLAYABLE:
+        raise P2SFError(f'play is "{state.play}"; name a slider: {", ".join(PLAYABLE[1:])}')
+    if state.play_range is None:
+        return
+    if not isinstance(state.play_range, tuple) or len(state.play_range) != 2:
+        raise P2SFError(f"the range to play is {state.play_range!r}; give where it begins and where it ends")
+    low, high, words, unit = RANGES.get(state.play, (-MOST_WAVES, MOST_WAVES, "an end of the sweep", "λ"))
+    for value in state.play_range:
+        _check_number(value, "play_range", (low, high), words, unit)
 
 
 def _check_number(value, name: str, limits: tuple[float, float], words: str, unit: str) -> None:
@@ -83,9 +148,32 @@ def _check_number(value, name: str, limits: tuple[float, float], words: str, uni
         )
 
 
+def _names(value) -> tuple[str, ...]:
+    """Return the names of panels as a tuple, which a file's list becomes."""
+    if not isinstance(value, list | tuple) or not all(isinstance(name, str) for name in value):
+        raise P2SFError("the state's windows must be a list of panels' names; correct it or leave it out")
+    return tuple(value)
+
+
 def state_to_dict(state: State) -> dict:
     """Return the state as plain JSON values; infinity is written "inf"."""
-    return {name: "inf" if value == inf else value for name, value in asdict(state).items()}
+    return {field.name: _plain(getattr(state, field.name)) for field in fields(state)}
+
+
+def _plain(value):
+    if isinstance(value, State):
+        return state_to_dict(value)
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    return "inf" if value == inf else value
+
+
+def _read(name: str, value):
+    if isinstance(value, list):
+        return tuple(_read("", item) for item in value)
+    if name == "pinned" and isinstance(value, dict):
+        return state_from_dict(value)
+    return inf if value == "inf" else value
 
 
 def state_from_dict(values: dict) -> State:
@@ -94,7 +182,7 @@ def state_from_dict(values: dict) -> State:
     unknown = sorted(set(values) - known)
     if unknown:
         raise P2SFError(f'the state has an unknown entry "{unknown[0]}"; known are {", ".join(sorted(known))}')
-    return replace(State(), **{name: inf if value == "inf" else value for name, value in values.items()})
+    return replace(State(), **{name: _read(name, value) for name, value in values.items()})
 
 
 def state_to_json(state: State, **extra) -> str:

@@ -9,12 +9,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.state import CHOICES, State, read_state, state_from_json, state_to_json
+from app.pupil import TERMS
+from app.state import CHOICES, LINKABLE, State, read_state, state_from_json, state_to_json
 from p2sf.errors import P2SFError
 
 finite = {"allow_nan": False, "allow_infinity": False}
-STATES = st.builds(
-    State,
+
+
+def some_of(names):
+    return st.sets(st.sampled_from(names)).map(lambda found: tuple(name for name in names if name in found))
+
+
+WAVES = st.floats(-1000, 1000, **finite)
+ALONE = dict(
     lens=st.sampled_from(["double_gauss_28", "/some where/lens.toml"]),
     lens_text=st.none() | st.text(max_size=200),
     depth_mm=st.floats(1e-3, 1e12, **finite) | st.just(inf),
@@ -25,7 +32,22 @@ STATES = st.builds(
     f_number=st.none() | st.floats(0.2, 1000, **finite),
     clip=st.booleans(),
     tolerance=st.floats(0, 1, **finite),
-    **{name: st.sampled_from(values) for name, values in CHOICES.items()},
+    added_waves=st.tuples(*[WAVES] * len(TERMS)),
+    muted=some_of(TERMS),
+    solo=some_of(TERMS),
+    free_pupil=st.booleans(),
+    linked=some_of(LINKABLE),
+    play_seconds=st.floats(0.1, 600, **finite),
+    **{name: st.sampled_from(values) for name, values in CHOICES.items() if name != "shown"},
+)
+PLAYED = st.builds(dict, play=st.just("depth_mm"), play_range=st.none() | st.just((500.0, inf)))
+PLAYED |= st.builds(dict, play=st.just("added_w31"), play_range=st.tuples(WAVES, WAVES))
+STATES = st.builds(
+    lambda alone, other, played, shown: State(**alone, **played, pinned=other, shown=shown if other else "a"),
+    st.builds(dict, **ALONE),
+    st.none() | st.builds(State, **ALONE),
+    PLAYED,
+    st.sampled_from(CHOICES["shown"]),
 )
 
 
@@ -50,6 +72,17 @@ def test_infinity_is_plain_json():
         ({"lens": ""}, "names no lens"),
         ({"lens_text": 3}, "edited lens is not text"),
         ({"clip": "yes"}, "clip must be true or false"),
+        ({"added_waves": (1.0,)}, "give 6 numbers, for w40"),
+        ({"added_waves": (float("nan"), 0.0, 0.0, 0.0, 0.0, 0.0)}, "added to w40 is nan λ"),
+        ({"muted": ("w31", "w40")}, "each once and in this order"),
+        ({"solo": ("piston",)}, "list some of w40"),
+        ({"free_pupil": 1}, "free_pupil is 1"),
+        ({"pinned": State(pinned=State())}, "nothing pinned in it"),
+        ({"shown": "b"}, "nothing is pinned as B"),
+        ({"linked": ("theme",)}, "linked is"),
+        ({"play": "theme"}, "name a slider"),
+        ({"play": "depth_mm", "play_range": (-1.0, inf)}, "source depth is -1 mm"),
+        ({"play_seconds": 0.0}, "duration of a sweep is 0 s"),
     ],
 )
 def test_a_value_that_cannot_be_is_a_sentence(changes, words):
