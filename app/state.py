@@ -18,6 +18,7 @@ CHOICES = {
     "phase": ("waves", "wrapped"),
     "theme": ("system", "light", "dark"),
     "shown": ("a", "b", "difference"),
+    "photo_show": ("lens", "sharpened", "axis"),
 }
 # Smallest and largest value that can mean something, and how a sentence writes the quantity.
 RANGES = {
@@ -29,13 +30,17 @@ RANGES = {
     "f_number": (0.2, 1000.0, "f-number", ""),
     "tolerance": (0.0, 1.0, "tolerance R²", ""),
     "play_seconds": (0.1, 600.0, "duration of a sweep", "s"),
+    "photo_pixel_um": (0.1, 1000.0, "pixel of the photo", "µm"),
+    "photo_split": (0.0, 1.0, "split of the photo", ""),
+    "lesson_step": (0, 1000, "step of the lesson", ""),
 }
 MOST_WAVES = 1000.0
 DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
 LINKABLE = (*DRAGGED, "method", "added_waves")
 ADDED = "added_"  # before a term's name: the slider that adds waves to it
 PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
-OPTIONAL = ("focus_mm", "f_number")
+KINDS = {str: "a text", bool: "true or false", int: "a whole number"}
+OPTIONAL = ("focus_mm", "f_number", "photo_pixel_um")
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,8 @@ class State:
     ``free_pupil``; ``muted`` terms count as zero, and with any ``solo`` all others do. Compare: ``pinned`` is the
     setup B, ``shown`` which of the two is on screen, ``linked`` what moves both. ``play`` is the slider that is
     swept, over ``play_range`` (None: all of its travel) in ``play_seconds``.
+    ``photo`` is a chart's name or a file, ``photo_pixel_um`` None shows the lens's whole field. ``lesson`` is the one
+    under way, none for "", and ``lesson_told`` whether its step's answer is shown.
     """
 
     lens: str = "double_gauss_28"
@@ -78,6 +85,13 @@ class State:
     play: str = ""
     play_range: tuple[float, float] | None = None
     play_seconds: float = 4.0
+    photo: str = "landscape"
+    photo_pixel_um: float | None = 4.0
+    photo_show: str = "lens"
+    photo_split: float = 0.5
+    lesson: str = ""
+    lesson_step: int = 0
+    lesson_told: bool = False
 
     def __post_init__(self):
         for name, (low, high, words, unit) in RANGES.items():
@@ -93,6 +107,9 @@ class State:
             )
         if not isinstance(self.clip, bool) or not isinstance(self.tab, str):
             raise P2SFError("the state's clip must be true or false, and its tab a panel's name; correct them")
+        for name, kind in (("photo", str), ("lesson", str), ("lesson_told", bool), ("lesson_step", int)):
+            if type(getattr(self, name)) is not kind:
+                raise P2SFError(f"{name} is {getattr(self, name)!r}; give {KINDS[kind]}")
         object.__setattr__(self, "windows", _names(self.windows))
         _check_what_if(self)
         _check_pinned(self)
