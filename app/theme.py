@@ -156,6 +156,10 @@ def _inputs(t: Tokens) -> str:
     QPushButton:hover, QToolButton:hover, QComboBox:hover {{ border: 1px solid {t.muted}; }}
     QPushButton:disabled, QToolButton:disabled {{ color: {t.muted}; background: {t.card}; }}
     QPushButton#small, QToolButton#small {{ padding: 1px 7px; font-size: 12px; min-height: 18px; }}
+    QPushButton#group {{ padding: 1px 9px; font-size: 12px; min-height: 17px; background: transparent;
+        border: 1px solid transparent; color: {t.muted}; }}
+    QPushButton#group:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}
+    QPushButton#group:hover, QPushButton#group:focus {{ border: 1px solid {t.accent}; }}
     QToolButton::menu-indicator {{ image: none; width: 0; }}
     QComboBox {{ padding-right: 20px; }}
     QComboBox#small {{ padding-right: 18px; }}

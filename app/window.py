@@ -4,23 +4,26 @@ from time import perf_counter
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter, QVBoxLayout, QWidget
 
 from app import compute
 from app.actions import Actions
 from app.bars import Banner, StatusLine, TopBar
 from app.compute import Live
 from app.controls import Controls
+from app.floating import Floating
 from app.measuring import Measuring
 from app.opening import is_file
 from app.panels import REGISTRY, Panel, build, view_of
 from app.state import State
 from app.store import Store
+from app.tabs import Tabs
 from app.theme import SPACE, palette, stylesheet, tokens
 from p2sf.errors import P2SFError
 
 ENTRIES = {entry.key: entry for entry in REGISTRY}
 MAIN = tuple(entry.key for entry in REGISTRY if entry.place == "main")
+TABS = tuple(entry for entry in REGISTRY if entry.place != "main")
 
 
 class Window(QMainWindow):
@@ -35,7 +38,8 @@ class Window(QMainWindow):
         self.setAcceptDrops(True)
         self.store = Store(state or State(), self)
         self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
-        self.status, self.banner, self.tabs = StatusLine(self), Banner(self), QTabWidget(self)
+        self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(TABS, self)
+        self.floating = Floating(self, self.store, self.tabs, {entry.key: entry.title for entry in TABS})
         self.panels: dict[str, Panel] = {key: build(ENTRIES[key], self.store) for key in MAIN}
         self.live: Live | None = None
         self.frame_ms: float | None = None
@@ -45,13 +49,11 @@ class Window(QMainWindow):
         self.store.changed.connect(self.refresh)
         self.store.refused.connect(self.refuse)
         self.tabs.currentChanged.connect(self._on_tab)
+        self.tabs.chosen.connect(self.open_panel)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_scheme)
         self.refresh(self.store.state)
 
     def _lay_out(self) -> None:
-        for entry in REGISTRY:
-            if entry.place != "main":
-                self.tabs.addTab(page(entry.key), entry.title)
         row = splitter(Qt.Orientation.Horizontal, [self.panels[key].widget for key in MAIN[1:]], (19, 19, 17))
         self.stack = splitter(Qt.Orientation.Vertical, [self.panels[MAIN[0]].widget, row, self.tabs], (27, 41, 32))
         middle = QHBoxLayout()
@@ -74,7 +76,7 @@ class Window(QMainWindow):
         """Compute an answer and paint it; a refusal keeps the last good picture."""
         begun = perf_counter()
         self._restyle(state)
-        self._bring_up(state.tab)
+        self._bring_up(state)
         try:
             self.controls.show_state(state)
             live = self._answer(state)
@@ -112,29 +114,27 @@ class Window(QMainWindow):
         self.frame_ms = 1e3 * (perf_counter() - begun)
 
     def _visible(self) -> tuple[str, ...]:
-        """Return the panels on show: the main ones and the open tab."""
-        return (*MAIN, self.tabs.currentWidget().objectName())
+        """Return the panels on show: the main ones, the open tab, and those in windows of their own."""
+        return tuple(dict.fromkeys((*MAIN, self.tabs.current(), *self.floating.open)))
 
     def _wanted(self) -> dict[str, compute.View]:
         views = {key: view_of(ENTRIES[key]) for key in self._visible()}
         return {key: view for key, view in views.items() if view}
 
-    def _bring_up(self, key: str) -> None:
-        """Bring the state's tab to the front, building its panel the first time."""
-        pages = {self.tabs.widget(k).objectName(): self.tabs.widget(k) for k in range(self.tabs.count())}
-        key = key if key in pages else next(iter(pages))
-        if key not in self.panels:
-            panel = build(ENTRIES[key], self.store)
-            panel.restyle(self._theme)
-            pages[key].layout().addWidget(panel.widget)
-            self.panels[key] = panel
-        if self.tabs.currentWidget() is not pages[key]:
-            self.tabs.blockSignals(True)
-            self.tabs.setCurrentWidget(pages[key])
-            self.tabs.blockSignals(False)
+    def _bring_up(self, state: State) -> None:
+        """Bring the state's tab to the front and its panels into their own windows, building each the first time."""
+        pages = self.tabs.pages()
+        key = state.tab if state.tab in pages else next(iter(pages))
+        apart = tuple(name for name in state.windows if name in pages)
+        for name in {key, *apart} - set(self.panels):
+            self.panels[name] = build(ENTRIES[name], self.store)
+            self.panels[name].restyle(self._theme)
+            self.floating.place(name, self.panels[name].widget)
+        self.floating.follow(apart, self.panels)
+        self.tabs.bring_up(key)
 
     def _on_tab(self) -> None:
-        self.store.update(tab=self.tabs.currentWidget().objectName())
+        self.store.update(tab=self.tabs.current())
 
     def _on_scheme(self) -> None:
         if self.store.state.theme == "system":
@@ -153,6 +153,7 @@ class Window(QMainWindow):
     def closeEvent(self, event) -> None:
         """End the background work with the window."""
         self.measuring.stop()
+        self.floating.stop()
         for panel in self.panels.values():
             getattr(panel, "stop", lambda: None)()
         super().closeEvent(event)
@@ -172,14 +173,6 @@ def dropped(event) -> str | None:
     """Return the path of a dropped file, told by its content when opened; None for anything else."""
     paths = [url.toLocalFile() for url in event.mimeData().urls()]
     return next((path for path in paths if is_file(path)), None)
-
-
-def page(key: str) -> QWidget:
-    """Return an empty tab page that a panel is put on when first opened."""
-    made = QWidget()
-    made.setObjectName(key)
-    QVBoxLayout(made).setContentsMargins(0, 0, 0, 0)
-    return made
 
 
 def splitter(orientation: Qt.Orientation, widgets: list[QWidget], shares: tuple[int, ...]) -> QSplitter:

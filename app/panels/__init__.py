@@ -30,13 +30,25 @@ class Panel(Protocol):
 
 @dataclass(frozen=True)
 class Entry:
-    """One registered panel: module:class, place "main" or "tab", and module:function of its view."""
+    """One registered panel: module:class, place "main" or "tab", module:function of its view.
+
+    ``group``: the one of `GROUPS` whose tabs it stands among.
+    """
 
     key: str
     title: str
     panel: str
     place: str = "tab"
     view: str = ""
+    group: str = "Tools"
+
+
+GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
+
+
+def tab(group: str, key: str, title: str, panel: str, view: str = "") -> Entry:
+    """Return the line of a tab: its group, key and title, and module:name of panel and view in their folders."""
+    return Entry(key, title, f"app.panels.{panel}", "tab", view and f"app.views.{view}", group)
 
 
 REGISTRY = (
@@ -44,18 +56,16 @@ REGISTRY = (
     Entry("pupil", "Pupil", "app.panels.pupil:PupilPanel", "main"),
     Entry("psf", "PSF", "app.panels.psf:PsfPanel", "main"),
     Entry("coefficients", "Coefficients", "app.panels.coefficients:CoefficientsPanel", "main"),
-    Entry("profiles", "Profiles", "app.panels.profiles:ProfilesPanel", view="app.views.profiles:profiles"),
-    Entry("mtf", "MTF", "app.panels.mtf:MtfPanel", view="app.views.mtf:contrast"),
-    Entry("spot", "Spot", "app.panels.spot:SpotPanel", view="app.views.rays:spots"),
-    Entry("ray_fan", "Ray fan", "app.panels.fans:RayFanPanel", view="app.views.rays:ray_errors"),
-    Entry("opd_fan", "OPD fan", "app.panels.fans:OpdFanPanel", view="app.views.rays:path_errors"),
-    Entry("seidel", "Seidel per surface", "app.panels.seidel:SeidelPanel", view="app.views.seidel:per_surface"),
-    Entry("lens", "Lens table", "app.panels.lens_table:LensTablePanel", view="app.views.lens_table:rows"),
-    Entry(
-        "import", "Import report", "app.panels.import_report:ImportReportPanel", view="app.views.import_report:report"
-    ),
-    Entry("database", "Database", "app.panels.database:DatabasePanel", view="app.views.database:question"),
-    Entry("accuracy", "Accuracy", "app.panels.accuracy:AccuracyPanel"),
+    tab("PSF", "profiles", "Profiles", "profiles:ProfilesPanel", "profiles:profiles"),
+    tab("PSF", "mtf", "MTF", "mtf:MtfPanel", "mtf:contrast"),
+    tab("Rays", "spot", "Spot", "spot:SpotPanel", "rays:spots"),
+    tab("Rays", "ray_fan", "Ray fan", "fans:RayFanPanel", "rays:ray_errors"),
+    tab("Rays", "opd_fan", "OPD fan", "fans:OpdFanPanel", "rays:path_errors"),
+    tab("Aberrations", "seidel", "Seidel per surface", "seidel:SeidelPanel", "seidel:per_surface"),
+    tab("Lens", "lens", "Lens table", "lens_table:LensTablePanel", "lens_table:rows"),
+    tab("Lens", "import", "Import report", "import_report:ImportReportPanel", "import_report:report"),
+    tab("Tools", "database", "Database", "database:DatabasePanel", "database:question"),
+    tab("Tools", "accuracy", "Accuracy", "accuracy:AccuracyPanel"),
 )
 
 

@@ -1,0 +1,164 @@
+"""The tabs: five groups, the panels of one of them at a time, and panels that stand in windows of their own."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QPushButton,
+    QTabWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.panels import GROUPS, Entry
+from app.theme import SPACE
+
+OWN_WINDOW = "Open in its own window (double-click the tab, or Ctrl+D)"
+ALL = "Every panel by its group (Alt+0)"
+SIZE = 720, 480
+
+
+class Tabs(QTabWidget):
+    """Every panel has a page; the bar shows those of one group, the buttons before it the groups, the menu all."""
+
+    detach_asked = Signal(str)
+    chosen = Signal(str)
+
+    def __init__(self, entries: tuple[Entry, ...], parent=None):
+        super().__init__(parent)
+        self._groups = {entry.key: entry.group for entry in entries}
+        self._last: dict[str, str] = {}
+        for entry in entries:
+            self.addTab(page(entry.key), entry.title)
+        self.buttons = GroupButtons(tuple(g for g in GROUPS if g in self._groups.values()), self)
+        self.buttons.chosen.connect(self.open_group)
+        self.setCornerWidget(self.buttons, Qt.Corner.TopLeftCorner)
+        self.menu = self._all_panels(entries)
+        self.setCornerWidget(self._tools(), Qt.Corner.TopRightCorner)
+        self.setUsesScrollButtons(True)
+        self.tabBar().setElideMode(Qt.TextElideMode.ElideNone)
+        self.tabBarDoubleClicked.connect(lambda at: self.detach_asked.emit(self.widget(at).objectName()))
+        self.currentChanged.connect(self._show_group)
+        self._show_group()
+
+    def pages(self) -> dict[str, QWidget]:
+        """Return the page of every panel."""
+        return {self.widget(k).objectName(): self.widget(k) for k in range(self.count())}
+
+    def current(self) -> str:
+        """Return the panel at the front."""
+        return self.currentWidget().objectName()
+
+    def bring_up(self, key: str) -> None:
+        """Bring a panel to the front, and its group with it, without telling anybody."""
+        if self.current() != key:
+            self.blockSignals(True)
+            self.setTabVisible(self.indexOf(self.pages()[key]), True)
+            self.setCurrentWidget(self.pages()[key])
+            self.blockSignals(False)
+            self._show_group()
+
+    def open_group(self, group: str) -> None:
+        """Open the panel of a group that was last in front, else its first."""
+        first = next(key for key, own in self._groups.items() if own == group)
+        self.chosen.emit(self._last.get(group, first))
+
+    def _show_group(self) -> None:
+        """Show the tabs of the group in front and hide the others."""
+        group = self._groups[self.current()]
+        self._last[group] = self.current()
+        self.buttons.mark(group)
+        for k in range(self.count()):
+            self.setTabVisible(k, self._groups[self.widget(k).objectName()] == group)
+
+    def _all_panels(self, entries: tuple[Entry, ...]) -> QMenu:
+        menu = QMenu(self)
+        for group in GROUPS:
+            menu.addSection(group)
+            for entry in (entry for entry in entries if entry.group == group):
+                menu.addAction(entry.title, lambda key=entry.key: self.chosen.emit(key))
+        return menu
+
+    def _tools(self) -> QWidget:
+        holder = QWidget(self)
+        row = QHBoxLayout(holder)
+        row.setContentsMargins(0, 1, 0, 3)
+        row.setSpacing(SPACE // 2)
+        for text, tip in (("Own window", OWN_WINDOW), ("All panels", ALL)):
+            button = QToolButton(holder)
+            button.setObjectName("small")
+            button.setText(text)
+            button.setToolTip(tip)
+            button.setAccessibleName(tip)
+            row.addWidget(button)
+        own, everything = holder.findChildren(QToolButton)
+        own.setShortcut("Ctrl+D")
+        everything.setShortcut("Alt+0")
+        own.clicked.connect(lambda: self.detach_asked.emit(self.current()))
+        everything.setMenu(self.menu)
+        everything.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        return holder
+
+
+class GroupButtons(QWidget):
+    """One button a group, one of them down; Alt+1, Alt+2 … press them."""
+
+    chosen = Signal(str)
+
+    def __init__(self, groups: tuple[str, ...], parent=None):
+        super().__init__(parent)
+        self._group, self.named = QButtonGroup(self), {}
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 1, SPACE, 3)
+        row.setSpacing(2)
+        for number, group in enumerate(groups, 1):
+            button = QPushButton(group, self)
+            button.setObjectName("group")
+            button.setCheckable(True)
+            button.setShortcut(f"Alt+{number}")
+            button.setToolTip(f"Panels of the group {group} (Alt+{number})")
+            button.clicked.connect(lambda _, group=group: self.chosen.emit(group))
+            self._group.addButton(button)
+            self.named[group] = button
+            row.addWidget(button)
+
+    def mark(self, group: str) -> None:
+        """Show which group is in front."""
+        self.named[group].setChecked(True)
+
+
+class OwnWindow(QWidget):
+    """A panel in a window of its own; closing it asks to have the panel back."""
+
+    closed = Signal(str)
+
+    def __init__(self, key: str, title: str, parent: QWidget):
+        super().__init__(parent, Qt.WindowType.Window)
+        self.setObjectName("window")
+        self.setWindowTitle(f"{title} · P2SF Explorer")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.key = key
+        QVBoxLayout(self).setContentsMargins(SPACE, SPACE, SPACE, SPACE)
+        self.resize(*SIZE)
+
+    def closeEvent(self, event) -> None:
+        """Give the panel back to its tab."""
+        self.closed.emit(self.key)
+        event.accept()
+
+
+def page(key: str) -> QWidget:
+    """Return a tab's page: a note for when its panel stands elsewhere, to be covered by the panel."""
+    made = QWidget()
+    made.setObjectName(key)
+    column = QVBoxLayout(made)
+    column.setContentsMargins(0, 0, 0, 0)
+    note = QLabel("This panel stands in its own window; close that window to have it back here.", made)
+    note.setObjectName("muted")
+    note.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    note.hide()
+    column.addWidget(note)
+    return made
