@@ -6,7 +6,9 @@ from PySide6.QtCore import QBuffer, QIODevice, QObject
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox, QWidget
 
+from app.commands import Command
 from app.focus import best_shift_um
+from app.helping import help_text
 from app.opening import KINDS, REPORT_TAB, Refusal, opened, refusal
 from app.panels import REGISTRY
 from app.recent import recent_files, remember
@@ -14,24 +16,11 @@ from app.saving import ask_save_lens
 from app.setting import with_lens
 from app.snapshot import DATA_ENDINGS, side_car, write_data, write_picture, write_state
 from app.watching import Watching
+from app.words import tr
 from p2sf.errors import P2SFError
 
 STATE_FILES = "Explorer states (*.json)"
 SNAPSHOT_FILES = "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as CSV (*.csv);;Picture of the window (*.png)"
-HELP = """<h3>P2SF Explorer</h3>
-<p>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</p>
-<table cellpadding="3">
-<tr><td><b>← → ↑ ↓</b>, <b>Page Up/Down</b></td><td>move the slider that has the focus</td></tr>
-<tr><td><b>double-click</b></td><td>back to the lens's own value</td></tr>
-<tr><td><b>Ctrl+Z</b>, <b>Ctrl+Shift+Z</b></td><td>undo, redo</td></tr>
-<tr><td><b>Ctrl+L</b></td><td>the gallery of shipped lenses</td></tr>
-<tr><td><b>Ctrl+O</b></td><td>open a lens file or a saved state; dropping it on the window does the same: Zemax
-.zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml</td></tr>
-<tr><td><b>Ctrl+F</b></td><td>autofocus</td></tr>
-<tr><td><b>Ctrl+Shift+S</b></td><td>save the lens as it is now: .toml, .zmx or ISET .json</td></tr>
-<tr><td><b>Ctrl+E</b></td><td>snapshot: PSF data or picture, with the state beside it</td></tr>
-<tr><td><b>F1</b></td><td>this page</td></tr>
-</table>"""
 
 
 class Actions(QObject):
@@ -40,19 +29,9 @@ class Actions(QObject):
     def __init__(self, window):
         super().__init__(window)
         self.window, self.store = window, window.store
-        for keys, action in (
-            ("Ctrl+Z", self.store.undo),
-            ("Ctrl+Shift+Z", self.store.redo),
-            ("Ctrl+Y", self.store.redo),
-            ("Ctrl+O", self.ask_open),
-            ("Ctrl+L", window.top.lens.open_gallery),
-            ("Ctrl+Shift+S", self.ask_save_lens),
-            ("Ctrl+F", self.autofocus),
-            ("Ctrl+E", self.ask_snapshot),
-            ("F1", self.help),
-            ("Ctrl+Q", window.close),
-        ):
-            QShortcut(QKeySequence(keys), window).activated.connect(action)
+        self.commands: list[Command] = []
+        for command in self._first():
+            self.add(command)
         window.top.lens_chosen.connect(self.open_lens)
         window.top.open_file.connect(self.ask_open)
         window.top.recent_chosen.connect(self.open_path)
@@ -62,6 +41,27 @@ class Actions(QObject):
         window.controls.autofocus.connect(self.autofocus)
         window.top.set_snapshot_menu(self._menu())
         self.store.said.connect(window.status.say)
+
+    def _first(self) -> tuple[Command, ...]:
+        """Return what can be done from the start; other parts of the window `add` theirs."""
+        store, top = self.store, self.window.top
+        return (
+            Command("Undo", store.undo, ("Ctrl+Z",), "Steps"),
+            Command("Redo", store.redo, ("Ctrl+Shift+Z", "Ctrl+Y"), "Steps"),
+            Command("Open a lens file or a saved state…", self.ask_open, ("Ctrl+O",), "Files"),
+            Command("Choose a shipped lens…", top.lens.open_gallery, ("Ctrl+L",), "Files"),
+            Command("Save the lens as it is now…", self.ask_save_lens, ("Ctrl+Shift+S",), "Files"),
+            Command("Snapshot: PSF data or picture, with the state…", self.ask_snapshot, ("Ctrl+E",), "Files"),
+            Command("Autofocus: best RMS wavefront", self.autofocus, ("Ctrl+F",), "Lens"),
+            Command("Shortcuts", self.help, ("F1", "?")),
+            Command("Close the window", self.window.close, ("Ctrl+Q",)),
+        )
+
+    def add(self, command: Command) -> None:
+        """Add something to do: its keys work from now on, and help and palette list it."""
+        self.commands.append(command)
+        for keys in command.keys:
+            QShortcut(QKeySequence(keys), self.window).activated.connect(command.run)
 
     def attempt(self, action, *arguments) -> bool:
         """Run an action; say its refusal in the banner and return whether it went well."""
@@ -110,13 +110,13 @@ class Actions(QObject):
         else:
             went = self.attempt(write_picture, self.store.state, png_of(picture_of or self.window), path)
         if went:
-            beside = "" if ending == ".json" else f", and its state as {side_car(path).name}"
-            self.window.status.say(f"Saved {Path(path).name}{beside}")
+            text = "Saved {name}" if ending == ".json" else "Saved {name}, and its state as {beside}"
+            self.window.status.say(tr(text, name=Path(path).name, beside=side_car(path).name))
         return went
 
     def ask_open(self) -> None:
         """Ask for a file and open it."""
-        path, _ = QFileDialog.getOpenFileName(self.window, "Open a lens or a state", "", KINDS)
+        path, _ = QFileDialog.getOpenFileName(self.window, tr("Open a lens or a state"), "", tr(KINDS))
         if path:
             self.open_path(path)
 
@@ -128,7 +128,7 @@ class Actions(QObject):
         """Ask for a name and save the snapshot."""
         ending = kinds.split("*")[1].split(")")[0]
         first = f"{Path(self.store.state.lens).stem}{ending}"
-        path, chosen = QFileDialog.getSaveFileName(self.window, "Save a snapshot", first, kinds)
+        path, chosen = QFileDialog.getSaveFileName(self.window, tr("Save a snapshot"), first, tr(kinds))
         if path:
             named = path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0]
             self.save(named, picture_of)
@@ -136,18 +136,18 @@ class Actions(QObject):
     def help(self) -> None:
         """Show shortcuts and what they do."""
         box = QMessageBox(self.window)
-        box.setWindowTitle("Help")
-        box.setText(HELP)
+        box.setWindowTitle(tr("Help"))
+        box.setText(help_text(tuple(self.commands)))
         box.open()
 
     def _menu(self) -> QMenu:
         menu = QMenu(self.window)
-        menu.addAction("PSF data or window…\tCtrl+E", self.ask_snapshot)
-        pictures = menu.addMenu("Picture of one panel")
+        menu.addAction(tr("PSF data or window…") + "\tCtrl+E", self.ask_snapshot)
+        pictures = menu.addMenu(tr("Picture of one panel"))
         for entry in REGISTRY:
-            pictures.addAction(entry.title, lambda key=entry.key: self._ask_panel(key))
-        menu.addAction("Lens…\tCtrl+Shift+S", self.ask_save_lens)
-        menu.addAction("State only…", lambda: self.ask_snapshot(STATE_FILES))
+            pictures.addAction(tr(entry.title), lambda key=entry.key: self._ask_panel(key))
+        menu.addAction(tr("Lens…") + "\tCtrl+Shift+S", self.ask_save_lens)
+        menu.addAction(tr("State only…"), lambda: self.ask_snapshot(STATE_FILES))
         return menu
 
     def _ask_panel(self, key: str) -> None:

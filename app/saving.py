@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from app.setting import prescription
 from app.store import Store
+from app.words import tr
 from p2sf.errors import P2SFError
 from p2sf.lensfile.writing import write_lens
 
@@ -25,13 +26,13 @@ def save_lens(store: Store, path: str) -> bool:
         return False
     if Path(path).suffix.lower() == ".toml":
         store.replace(replace(store.state, lens=str(Path(path).resolve()), lens_text=None))
-    store.said.emit(f"Saved {Path(path).name}")
+    store.said.emit(tr("Saved {name}", name=Path(path).name))
     return True
 
 
 def ask_save_lens(parent: QWidget, store: Store) -> None:
     """Ask for a name and save the lens."""
     first = f"{Path(store.state.lens).stem}.toml"
-    path, chosen = QFileDialog.getSaveFileName(parent, "Save the lens", first, KINDS)
+    path, chosen = QFileDialog.getSaveFileName(parent, tr("Save the lens"), first, tr(KINDS))
     if path:
         save_lens(store, path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))

@@ -1,0 +1,30 @@
+"""The page of shortcuts, made from the commands themselves. No Qt in here."""
+
+from html import escape
+
+from app.commands import Command
+from app.words import tr
+
+HANDS = (
+    ("← → ↑ ↓, Page Up/Down", "move the slider that has the focus"),
+    ("double-click", "back to the lens's own value"),
+    ("Tab, Shift+Tab", "to the next or the previous control"),
+    ("drop a file", "open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, "
+     ".csv with named columns, .toml, or a saved state"),
+)  # fmt: skip
+LEAD = "Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition."
+
+
+def help_text(commands: tuple[Command, ...]) -> str:
+    """Return the page as HTML: what hands do, then every command with keys, group by group."""
+    rows = [_row(keys, tr(words)) for keys, words in HANDS]
+    for group in dict.fromkeys(command.group for command in commands):
+        known = [command for command in commands if command.group == group and command.keys]
+        if known:
+            rows.append(f'<tr><td colspan="2"><b>{escape(tr(group))}</b></td></tr>')
+            rows += [_row(", ".join(command.keys), tr(command.title)) for command in known]
+    return f'<h3>P2SF Explorer</h3><p>{escape(tr(LEAD))}</p><table cellpadding="2">{"".join(rows)}</table>'
+
+
+def _row(keys: str, words: str) -> str:
+    return f"<tr><td><code>{escape(keys)}</code>&nbsp;&nbsp;</td><td>{escape(words)}</td></tr>"
