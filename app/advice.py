@@ -6,6 +6,7 @@ import numpy as np
 
 from app.scales import significant
 from app.setting import Setting
+from app.whatif import NOTE
 
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
 GEOMETRIC = (
@@ -20,6 +21,7 @@ def warnings(setting: Setting, exact: bool, lost_rays: int = 0, geometric: bool 
     ``geometric``: the picture is the density of rays.
     """
     found = [
+        _by_hand(setting),
         _image_at_infinity(setting),
         GEOMETRIC if geometric else None,
         _lost(lost_rays),
@@ -32,6 +34,10 @@ def warnings(setting: Setting, exact: bool, lost_rays: int = 0, geometric: bool 
 
 def _sentence(text: str) -> str:
     return text[0].upper() + text[1:] + ("" if text.endswith(".") else ".")
+
+
+def _by_hand(setting: Setting) -> str | None:
+    return f"{NOTE}; rays, spots and fans stay the lens's own" if setting.altered else None
 
 
 def _image_at_infinity(setting: Setting) -> str | None:

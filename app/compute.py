@@ -88,6 +88,7 @@ def pupil(set_up: Setting, exact: bool, quality: str) -> PupilMap:
     """Return the wavefront that made the PSF: of the six coefficients for seidel, of exact rays for the other rungs."""
     xi, eta, inside = disc(PUPIL_SAMPLES[quality])
     if not exact:
-        return pupil_map(np.asarray(wavefront(set_up.coefficients, xi, eta)), inside, "six coefficients")
+        words = "what-if" if set_up.altered else "six coefficients"
+        return pupil_map(np.asarray(wavefront(set_up.coefficients, xi, eta)), inside, words)
     count = RAY_SAMPLES[quality]
     return pupil_map(opd_map(set_up.lens, set_up.source, count), disc(count)[2], "exact rays")

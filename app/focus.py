@@ -6,6 +6,7 @@ import numpy as np
 
 from app.setting import Setting, setting
 from app.state import State
+from app.whatif import check_focusable, is_altered
 from p2sf.errors import GeometryError
 from p2sf.quadrature import disc_nodes
 from p2sf.raytrace import displayed_opd
@@ -17,11 +18,13 @@ STEPS = 3  # the reference sphere turns a little with the sensor, so the project
 def best_shift_um(state: State) -> float:
     """Return the sensor shift of smallest RMS wavefront, µm: of W for seidel, of exact rays for every other method.
 
-    Raises GeometryError when the image is at infinity, where no shift can focus.
+    Raises GeometryError where no shift can focus: the image is at infinity, or the what-if sets Wd aside.
     """
-    for _ in range(1 if state.method == "seidel" else STEPS):
+    check_focusable(state)
+    by_coefficients = state.method == "seidel" or is_altered(state)
+    for _ in range(1 if by_coefficients else STEPS):
         set_up = setting(state)
-        focus = seidel_focus(set_up.coefficients) if state.method == "seidel" else traced_focus(set_up)
+        focus = seidel_focus(set_up.coefficients) if by_coefficients else traced_focus(set_up)
         na = float(set_up.coefficients.na)
         if not na:
             raise GeometryError("the image is at infinity, so no sensor position is in focus; move the source")

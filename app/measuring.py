@@ -4,6 +4,7 @@ from PySide6.QtCore import QObject
 
 from app.compute import Live
 from app.reference import Accuracy, measure
+from app.whatif import NO_REFERENCE
 from app.worker import LatestWins
 
 
@@ -24,11 +25,20 @@ class Measuring(QObject):
         """Measure a settled answer; show an earlier figure in grey meanwhile."""
         if not self._enabled or live.quality != "settled":
             return
+        if live.setting.altered:
+            self._refuse_altered(live)
+            return
         ladder = live.state.tab == "accuracy"
         if self._last and self._fits(self._last, live, ladder):
             self._tell(self._last)
             return
         self.worker.submit(live, lambda cancelled, progress: measure(live, ladder, cancelled, progress))
+
+    def _refuse_altered(self, live: Live) -> None:
+        """Show no figure: what was measured is the lens, and this picture is not the lens's."""
+        self.worker.cancel()
+        self._window.panels["psf"].show_badge(live, None, False)
+        self._each("show_failure", NO_REFERENCE)
 
     @staticmethod
     def _fits(known: Accuracy, live: Live, ladder: bool) -> bool:
@@ -42,6 +52,8 @@ class Measuring(QObject):
 
     def _tell(self, accuracy: Accuracy) -> None:
         live = self._window.live
+        if live.setting.altered:
+            return
         stale = not self._fits(accuracy, live, False) or live.quality != "settled"
         self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
         self._each("show_accuracy", accuracy, stale)

@@ -6,6 +6,7 @@ from statistics import median
 from threading import Event
 
 from app.compute import Live
+from app.whatif import NO_REFERENCE
 from p2sf.accuracy import r_squared, relative_l2
 from p2sf.errors import SamplingError
 from p2sf.huygens import Filling, huygens_psf
@@ -40,6 +41,8 @@ class Accuracy:
 
 def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[float], None]) -> Accuracy:
     """Return the accuracy of an answer; ``ladder`` renders every rung too. Raises P2SFError, Cancelled among them."""
+    if live.setting.altered:
+        raise SamplingError(NO_REFERENCE)
     if live.psf.method == "geometric":
         raise SamplingError("the blur is too large for a reference here; bring focus and source together")
     share = 0.5 if ladder else 1.0

@@ -9,6 +9,7 @@ from app.quick import edge_points, landing_um, quick, quick_psf, quick_pupil
 from app.scales import nice
 from app.setting import Setting
 from app.state import State
+from app.whatif import NOTE
 from p2sf.huygens import Filling, huygens_psf
 from p2sf.measures import airy_radius_um
 from p2sf.psf import Psf, seidel_psf, suitable_pixel_um
@@ -39,8 +40,14 @@ class Made:
 
 
 def rendered(state: State, set_up: Setting, quality: str, held: str = "") -> Made:
-    """Return the PSF by the state's method, or by the rung ``auto`` chooses, or by the one ``held`` while moving."""
-    method, why = (held, "") if held else chosen(state, set_up)
+    """Return the PSF by the state's method, or by the rung ``auto`` chooses, or by the one ``held`` while moving.
+
+    What is altered by hand has no rays: the six coefficients make its picture.
+    """
+    if set_up.altered:
+        method, why = "seidel", f"seidel from the six coefficients ({NOTE})"
+    else:
+        method, why = (held, "") if held else chosen(state, set_up)
     if quality == "preview" and method != "seidel":
         return moving(state, set_up, method)
     pixels = PIXELS[quality]

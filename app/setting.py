@@ -9,23 +9,25 @@ from types import MappingProxyType
 
 import numpy as np
 
+from app.reach import closest_distance, focused_distance, wavelength_range
 from app.scales import nice
 from app.state import State
+from app.whatif import altered
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
-from p2sf.gaussian import CardinalPoints, basis_rays, cardinal_points
+from p2sf.gaussian import CardinalPoints, cardinal_points
 from p2sf.lens import Lens
 from p2sf.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
 from p2sf.request import Request, Setup, set_up
 from p2sf.seidel import Coefficients, coefficients
 from p2sf.source import Source
 
-VISIBLE_NM = (400.0, 700.0)
-AS_GOOD_AS_INFINITE_MM = 1e6  # a file's six digits cannot tell a focus at a kilometre from one at infinity
-
 
 @dataclass(frozen=True)
 class Setting:
-    """One lens, opened and focused as the state says, and everything paraxial about it at this source."""
+    """One lens, opened and focused as the state says, and everything paraxial about it at this source.
+
+    ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand.
+    """
 
     lens: Lens
     source: Source
@@ -34,8 +36,14 @@ class Setting:
     cardinal: CardinalPoints
     rays: ParaxialRays
     coefficients: Coefficients
+    own: Coefficients
     object_height_mm: float | None
     focal_length_mm: float
+
+    @property
+    def altered(self) -> bool:
+        """Return whether the coefficients are not the lens's own."""
+        return self.coefficients is not self.own
 
 
 @dataclass(frozen=True)
@@ -101,11 +109,13 @@ def setting(state: State) -> Setting:
     source = replace(fixed["source"], field_slope=slope)
     depth = source.depth_mm
     gap = depth + float(fixed["pupils"].entrance_from_first)
+    own = coefficients(fixed["lens"], depth, slope, source.wavelength_um, fixed["stop"])
     return Setting(
         **fixed
         | {
             "source": source,
-            "coefficients": coefficients(fixed["lens"], depth, slope, source.wavelength_um, fixed["stop"]),
+            "coefficients": altered(own, state),
+            "own": own,
             "object_height_mm": slope * gap if isfinite(depth) else None,
         }
     )
@@ -164,51 +174,6 @@ def ranges(lens: Lens) -> Ranges:
         focused_mm=focused_distance(lens),
         shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,
     )
-
-
-def closest_distance(lens: Lens) -> float:
-    """Return the closest sensible source distance in mm: outside the front focus by a fifth of the focal length.
-
-    For a lens that is focused closer than that (a relay), half of the distance it is focused at.
-    """
-    cardinal = cardinal_points(lens, lens.reference_wavelength_um)
-    focal = abs(float(cardinal.effective_focal_length))
-    focus = -float(cardinal.front_focal_distance)
-    if not isfinite(focal):
-        return nice(2 * sum(surface.thickness for surface in lens.surfaces) + 10)
-    closest = nice(max(focus + 0.2 * focal, 0.5 * focal), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8))
-    focused = focused_distance(lens)
-    if focused > 1.5 * closest:
-        return closest
-    return 0.5 * (focus + focused) if 0 < focus < focused else 0.5 * focused
-
-
-def focused_distance(lens: Lens) -> float:
-    """Return the object distance in mm whose paraxial image lies on the file's sensor; inf when at or beyond infinity.
-
-    Solves the height of the axial ray on the sensor, linear in the vergence, for zero.
-    """
-    rays = basis_rays(lens, lens.reference_wavelength_um)
-    reach = lens.sensor_mm / rays.image_index
-    parallel, divergent = rays.a[-1] + reach * rays.c[-1], rays.b[-1] + reach * rays.d[-1]
-    vergence = -float(parallel / (divergent * rays.object_index)) if divergent else 0.0
-    return 1 / vergence if vergence > 1 / AS_GOOD_AS_INFINITE_MM else inf
-
-
-@lru_cache(maxsize=32)
-def wavelength_range(lens: Lens) -> tuple[float, float]:
-    """Return the visible wavelengths every glass of the lens has data for, nm."""
-    low, high = VISIBLE_NM
-    for medium in lens.media:
-        limits = getattr(medium, "range_um", None) or _table_range(medium)
-        if limits:
-            low, high = max(low, NM_PER_UM * limits[0]), min(high, NM_PER_UM * limits[1])
-    return (low, high) if low < high else VISIBLE_NM
-
-
-def _table_range(medium) -> tuple[float, float] | None:
-    known = getattr(medium, "wavelengths_um", None)
-    return (known[0], known[-1]) if known else None
 
 
 def default_state(name: str, lens_text: str | None = None) -> State:

@@ -160,6 +160,7 @@ def _inputs(t: Tokens) -> str:
         border: 1px solid transparent; color: {t.muted}; }}
     QPushButton#group:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}
     QPushButton#group:hover, QPushButton#group:focus {{ border: 1px solid {t.accent}; }}
+    QToolButton#small:checked {{ background: {t.accent}; color: {t.accent_text}; border: 1px solid {t.accent}; }}
     QToolButton::menu-indicator {{ image: none; width: 0; }}
     QComboBox {{ padding-right: 20px; }}
     QComboBox#small {{ padding-right: 18px; }}

@@ -55,7 +55,7 @@ class PsfPanel:
         )
         self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.psf_units], labels(state, psf, peak))
         self._frame(count * step / 2, live)
-        self.show_badge(live, self._r_squared, True)
+        self.show_badge(live, self._r_squared, not live.setting.altered)
 
     def _frame(self, half: float, live: Live) -> None:
         if half != self._half:
@@ -78,7 +78,9 @@ class PsfPanel:
         self._times[live.quality] = significant(1e3 * psf.seconds, 2)
         times = " / ".join(f"{name} {self._times[name]}" for name in QUALITIES if name in self._times)
         parts = [METHOD_WORDS.get(psf.method, psf.method), f"{times} ms"]
-        if r_squared is not None and psf.method != "geometric":
+        if live.setting.altered:
+            parts.insert(0, "what-if")
+        elif r_squared is not None and psf.method != "geometric":
             parts.append(f"R² {written_r_squared(r_squared)} vs Huygens")
         self.badge.set_text(" · ".join(parts), "muted" if stale else "text")
         self.badge.setToolTip(f"{psf.numbers} numbers, {psf.rays} rays; sampling: {psf.sampling}")
