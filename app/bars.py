@@ -14,6 +14,7 @@ from app.scales import signed
 from app.state import CHOICES
 from app.store import Store
 from app.theme import DARK, LIGHT, Tokens
+from app.words import tr
 
 METHOD_WORDS = {
     "auto": "auto",
@@ -44,9 +45,9 @@ class TopBar(QFrame):
         self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or one of the latest", None)
         self.open.setMenu(QMenu(self))
         self.open.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.edited = QLabel("edited", self)
+        self.edited = QLabel(tr("edited"), self)
         self.edited.setObjectName("badge")
-        self.edited.setToolTip("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)")
+        self.edited.setToolTip(tr("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)"))
         words = tuple((name, METHOD_WORDS[name]) for name in CHOICES["method"])
         self.method = chooser(words, METHOD_TIP, self)
         tolerances = tuple((str(t), f"R² ≥ {t:g}") for t in TOLERANCES)
@@ -70,7 +71,7 @@ class TopBar(QFrame):
         row.addWidget(self.open)
         row.addWidget(self.edited)
         row.addSpacing(12)
-        row.addWidget(QLabel("Method"))
+        row.addWidget(QLabel(tr("Method")))
         row.addWidget(self.method)
         row.addWidget(self.tolerance)
         row.addStretch(1)
@@ -79,8 +80,8 @@ class TopBar(QFrame):
 
     def _tool(self, text: str, tip: str, action) -> QToolButton:
         button = QToolButton(self)
-        button.setText(text)
-        button.setToolTip(tip)
+        button.setText(tr(text))
+        button.setToolTip(tr(tip))
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         if action:
             button.clicked.connect(action)
@@ -95,7 +96,7 @@ class TopBar(QFrame):
         """List the way to a file, and the files opened lately."""
         menu = self.open.menu()
         menu.clear()
-        menu.addAction("Open a file…\tCtrl+O", self.open_file.emit)
+        menu.addAction(tr("Open a file…") + "\tCtrl+O", self.open_file.emit)
         menu.addSeparator()
         for number, path in enumerate(paths, 1):
             action = menu.addAction(
@@ -115,7 +116,7 @@ class TopBar(QFrame):
         self.tolerance.setVisible(state.method == "auto")
         self.undo.setEnabled(self._store.can_undo)
         self.redo.setEnabled(self._store.can_redo)
-        self.theme.setText("Light" if dark else "Dark")
+        self.theme.setText(tr("Light") if dark else tr("Dark"))
         self._dark = dark
 
     def _turn_theme(self) -> None:
@@ -157,10 +158,10 @@ class StatusLine(QWidget):
 def facts(live: Live, frame_ms: float | None) -> str:
     """Return the line of figures at the right."""
     c = live.setting.coefficients
-    parts = [f"image height {signed(float(c.image_height), 3)} mm", f"NA {float(c.na):.4f}"]
-    parts.append(f"{live.milliseconds['all']:.1f} ms computing")
+    parts = [tr("image height {h} mm", h=signed(float(c.image_height), 3)), f"NA {float(c.na):.4f}"]
+    parts.append(tr("{ms} ms computing", ms=f"{live.milliseconds['all']:.1f}"))
     if frame_ms is not None:
-        parts.append(f"{frame_ms:.1f} ms/frame")
+        parts.append(tr("{ms} ms/frame", ms=f"{frame_ms:.1f}"))
     return " · ".join(parts)
 
 
@@ -173,7 +174,7 @@ class Banner(QFrame):
         self.text = QLabel(self)
         self.text.setWordWrap(True)
         close = QToolButton(self)
-        close.setText("Dismiss")
+        close.setText(tr("Dismiss"))
         close.clicked.connect(self.hide)
         row = QHBoxLayout(self)
         row.setContentsMargins(12, 6, 8, 6)

@@ -4,6 +4,8 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QPainter, QPalette, QPen, QPolygonF
 from PySide6.QtWidgets import QComboBox, QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from app.words import tr
+
 
 class Card(QFrame):
     """A titled frame; ``readout`` is a line of numbers at the right of the title."""
@@ -12,9 +14,9 @@ class Card(QFrame):
         super().__init__(parent)
         self.setObjectName("card")
         self.setMinimumSize(180, 120)
-        self.title, self.readout = QLabel(title, self), QLabel(self)
+        self.title, self.readout = QLabel(tr(title), self), QLabel(self)
         self.title.setObjectName("title")
-        self.title.setToolTip(tip)
+        self.title.setToolTip(tr(tip))
         self.readout.setObjectName("readout")
         self.readout.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -67,10 +69,10 @@ def chooser(choices: tuple[tuple[str, str], ...], tip: str, parent=None) -> QCom
     """Return a small combo box of (value, words)."""
     box = Chooser(parent)
     box.setObjectName("small")
-    box.setToolTip(tip)
-    box.setAccessibleName(tip)
+    box.setToolTip(tr(tip))
+    box.setAccessibleName(tr(tip))
     for value, words in choices:
-        box.addItem(words, value)
+        box.addItem(tr(words), value)
     return box
 
 

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.ink import polylines, write
 from app.scales import nice, signed
 from app.theme import LIGHT, Tokens
+from app.words import tr
 
 THICK = ((-0.25, -0.45), (0.25, 0.45))  # two fine lines side by side
 TICK_EVERY_PX = {"bottom": 66, "left": 34}
@@ -60,7 +61,7 @@ class Chart(QWidget):
         self.setMinimumSize(120, 90)
         self.theme: Tokens = LIGHT
         self.curves: list[Curve] = []
-        self._labels, self._aspect, self._framed = (bottom, left), aspect, framed
+        self._labels, self._aspect, self._framed = (tr(bottom), tr(left)), aspect, framed
         self._asked = ((0.0, 1.0), (0.0, 1.0))
         self._scale: tuple[float, float, float, float] | None = None
         self._ground: QPixmap | None = None

@@ -12,6 +12,7 @@ from app.setting import Ranges, default_state, prescription, ranges
 from app.slider import STEPS, Slider
 from app.store import Store
 from app.theme import SPACE, Tokens
+from app.words import tr
 from p2sf.errors import P2SFError
 
 WIDTH = 292
@@ -23,10 +24,10 @@ class Row(QWidget):
     def __init__(self, quantity: Quantity, store: Store, parent=None):
         super().__init__(parent)
         self.quantity, self._store = quantity, store
-        self.setToolTip(quantity.tip)
+        self.setToolTip(tr(quantity.tip))
         self.slider, self.edit, self.note = Slider(self), ValueEdit(self), Readout(self)
-        self.slider.setAccessibleName(quantity.title)
-        self.edit.setAccessibleName(quantity.title)
+        self.slider.setAccessibleName(tr(quantity.title))
+        self.edit.setAccessibleName(tr(quantity.title))
         self.buttons = [self._button(*button) for button in quantity.buttons]
         self._scale = self._shown = None
         self._lay_out()
@@ -35,7 +36,7 @@ class Row(QWidget):
     def _lay_out(self) -> None:
         head = QHBoxLayout()
         head.setSpacing(SPACE // 2)
-        head.addWidget(QLabel(self.quantity.title))
+        head.addWidget(QLabel(tr(self.quantity.title)))
         head.addStretch(1)
         for button in self.buttons:
             head.addWidget(button)
@@ -57,9 +58,9 @@ class Row(QWidget):
         self.edit.reset.connect(self.reset)
 
     def _button(self, label: str, value: float | None, tip: str) -> QPushButton:
-        button = QPushButton(label, self)
+        button = QPushButton(tr(label), self)
         button.setObjectName("small")
-        button.setToolTip(tip)
+        button.setToolTip(tr(tip))
         button.clicked.connect(lambda: self._store.update(**{self.quantity.key: value}))
         return button
 
@@ -166,8 +167,8 @@ class Controls(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedWidth(WIDTH)
         self.rows = {quantity.key: Row(quantity, store, self) for quantity in QUANTITIES}
-        self.focus_button = QPushButton("Autofocus: best RMS wavefront", self)
-        self.focus_button.setToolTip("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F).")
+        self.focus_button = QPushButton(tr("Autofocus: best RMS wavefront"), self)
+        self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
         self.focus_button.clicked.connect(self.autofocus)
         self.sentence, self.detail, self.facts = QLabel(self), QLabel(self), FactTable(self)
         self._lay_out()
@@ -199,8 +200,8 @@ class Controls(QWidget):
         """Show what follows from the state: heights, sensor position, the dominant term."""
         height = live.setting.object_height_mm
         image = float(live.setting.coefficients.image_height)
-        object_text = "object at infinity" if height is None else f"object {signed(height, 2)} mm"
-        self.rows["field_deg"].show_note(f"{object_text} · image {signed(image, 3)} mm")
+        object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
+        self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
         self.sentence.setText(live.dominant)
         self.detail.setText(live.why)
         self.facts.show_rows(rows(live))

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 from app.chart import Chart
 from app.ink import small_font
 from app.theme import LIGHT, Tokens
+from app.words import tr
 
 EMPTY = 255  # the one index of a colour table that is kept for "no value"
 
@@ -58,7 +59,7 @@ def plot_widget(bottom: str = "", left: str = "", aspect: bool = False) -> pg.Pl
         axis.enableAutoSIPrefix(False)
         axis.setCacheMode(axis.CacheMode.DeviceCoordinateCache)  # an axis changes far less often than what it frames
         if text:
-            axis.setLabel(text)
+            axis.setLabel(tr(text))
             axis.label.setFont(small_font())
     return plot
 
@@ -129,7 +130,7 @@ class ColourBar(QWidget):
         painter.setBrush(gradient)
         painter.drawRect(bar)
         painter.setPen(QPen(QColor(self._theme.muted)))
-        painter.drawText(QPointF(3, 12), self._unit)
+        painter.drawText(QPointF(3, 12), tr(self._unit))
         for part, text in self._labels:
             y = bar.bottom() - part * bar.height()
             painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + 4, y))

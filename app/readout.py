@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from app.ink import set_text, small_font, write
 from app.theme import LIGHT, Tokens
+from app.words import tr
 
 PAD = 7.0
 SIZE = 12
@@ -106,7 +107,7 @@ class FactTable(QWidget):
         if event.type() == QEvent.Type.ToolTip:
             row = int(event.pos().y() // self.ROW)
             if row < len(self._rows):
-                QToolTip.showText(event.globalPos(), self._rows[row][2], self)
+                QToolTip.showText(event.globalPos(), tr(self._rows[row][2]), self)
             return True
         return super().event(event)
 
@@ -117,6 +118,6 @@ class FactTable(QWidget):
         for k, (name, value, _) in enumerate(self._rows):
             line = QRectF(0, k * self.ROW, self.width(), self.ROW)
             painter.setPen(QColor(self._theme.muted))
-            write(painter, line, name, -1, SIZE)
+            write(painter, line, tr(name), -1, SIZE)
             painter.setPen(QColor(self._theme.text))
             write(painter, line, value, 1, SIZE)

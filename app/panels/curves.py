@@ -5,6 +5,7 @@ import numpy as np
 from app.card import Card
 from app.chart import Chart
 from app.theme import Tokens
+from app.words import tr
 
 
 class CurvesPanel:
@@ -36,7 +37,5 @@ class CurvesPanel:
 
     def legend(self, theme: Tokens) -> str:
         """Return the curves' names in their colours."""
-        marks = (
-            f'<span style="color:{getattr(theme, token)}">━</span> {name}' for name, (token, _) in self._looks.items()
-        )
-        return " &nbsp; ".join(marks)
+        marks = ((getattr(theme, token), tr(name)) for name, (token, _) in self._looks.items())
+        return " &nbsp; ".join(f'<span style="color:{colour}">━</span> {name}' for colour, name in marks)
