@@ -1,6 +1,6 @@
 """Rays as they enter: through the paraxial entrance pupil, or aimed so that the real stop is filled."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -11,10 +11,12 @@ from p2sf.gaussian import check_depth
 from p2sf.lens import Lens, indices
 from p2sf.pupils import Stop, find_stop, pupils
 from p2sf.rays import launch, per_ray, run
+from p2sf.refraction import Status
 from p2sf.source import Source
 
 AIM_STEPS = 12
 AIM_RESIDUAL = 1e-11  # of the stop's rim: the path error is its square, far below any wave
+AIM_ACCEPTED = 1e-9  # of the rim: what rounding leaves where the search cannot reach the residual
 CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
 
 
@@ -25,6 +27,7 @@ class PupilRays:
     ``x``, ``y``: (…, ray) mm in that plane, which lies ``plane`` mm behind the first vertex. ``slope_x``, ``slope_y``:
     dx/dz, dy/dz. ``path``: optical path from the source, mm, less that to the pupil's centre; from
     infinity, from the plane wavefront through that centre. ``index``: per surface, object space first.
+    ``stop_surface``: the stop at which rays were aimed, 0 where they were not; one that no search brought there is NaN.
     """
 
     x: np.ndarray
@@ -34,6 +37,7 @@ class PupilRays:
     path: np.ndarray
     plane: np.ndarray
     index: list
+    stop_surface: int = 0
 
     @property
     def origins(self) -> np.ndarray:
@@ -126,7 +130,10 @@ def _through(enter: Entrance, x, y, slope=None) -> PupilRays:
 def start(rays: PupilRays):
     """Return a fresh beam of these rays, positions from the first vertex."""
     scale = 1 / np.sqrt(1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
-    return launch(rays.x, rays.y, rays.plane, rays.slope_x * scale, rays.slope_y * scale, scale, rays.index[0])
+    beam = launch(rays.x, rays.y, rays.plane, rays.slope_x * scale, rays.slope_y * scale, scale, rays.index[0])
+    if rays.stop_surface:
+        beam.fail(np.isnan(beam.x), Status.UNAIMED, rays.stop_surface)
+    return beam
 
 
 def _aimed(lens: Lens, enter: Entrance, xi, eta) -> PupilRays:
@@ -136,16 +143,21 @@ def _aimed(lens: Lens, enter: Entrance, xi, eta) -> PupilRays:
     thin = run(lens, start(_through(enter, 0 * xi, 0 * xi + 1e-6 * enter.radius, 0.0)), enter.index, last=surface)
     goal = rim * np.sign(thin.y) * xi, rim * np.sign(thin.y) * eta
     guess = enter.radius * xi + 0 * enter.slope, enter.radius * eta + 0 * enter.slope
-    found = _newton(lens, enter, goal, guess, 1.0)
-    if np.isnan(found[0]).any():
+    found, missed = _newton(lens, enter, goal, guess, 1.0)
+    if missed.any():
         for part in CONTINUATION:
-            guess = _newton(lens, enter, goal, guess, part)
-        found = guess
-    return _through(enter, *found)
+            guess, still = _newton(lens, enter, goal, guess, part)
+        found = [np.where(missed, late, early) for late, early in zip(guess, found, strict=True)]
+        missed &= still
+    aimed = _through(enter, *(np.where(missed, np.nan, part) for part in found))
+    return replace(aimed, stop_surface=surface)
 
 
 def _newton(lens: Lens, enter: Entrance, goal, guess, part: float):
-    """Return entrance points (x, y) whose rays, at this part of the field slope, meet the stop at ``goal``; mm."""
+    """Return entrance points (x, y), mm, whose rays at this part of the field slope meet the stop at ``goal``.
+
+    Beside them, which rays do not come to within AIM_ACCEPTED of the rim.
+    """
     rim, surface = float(np.max(enter.stop.semi_diameter)), int(np.max(enter.stop.surface))
     step = 1e-5 * float(np.max(enter.radius))
     x, y = guess
@@ -153,11 +165,16 @@ def _newton(lens: Lens, enter: Entrance, goal, guess, part: float):
         trial = _through(enter, np.stack([x, x + step, x]), np.stack([y, y, y + step]), enter.slope * part)
         beam = run(lens, start(trial), enter.index, last=surface)
         miss = goal[0] - beam.x[0], goal[1] - beam.y[0]
-        if not np.nanmax(np.hypot(*miss), initial=0.0) > AIM_RESIDUAL * rim:
+        far = np.hypot(*miss)
+        if not np.nanmax(far, initial=0.0) > AIM_RESIDUAL * rim:
             break
-        a, c = (beam.x[1] - beam.x[0]) / step, (beam.y[1] - beam.y[0]) / step
-        b, d = (beam.x[2] - beam.x[0]) / step, (beam.y[2] - beam.y[0]) / step
-        with np.errstate(invalid="ignore", divide="ignore"):
-            x = x + (d * miss[0] - b * miss[1]) / (a * d - b * c)
-            y = y + (a * miss[1] - c * miss[0]) / (a * d - b * c)
-    return x, y
+        x, y = (now + move for now, move in zip((x, y), _move(beam, miss, step), strict=True))
+    return (x, y), ~(far <= AIM_ACCEPTED * rim)
+
+
+def _move(beam, miss, step: float):
+    """Return Newton's step (x, y), mm, from the landing points of a ray and its two neighbours ``step`` away."""
+    a, c = (beam.x[1] - beam.x[0]) / step, (beam.y[1] - beam.y[0]) / step
+    b, d = (beam.x[2] - beam.x[0]) / step, (beam.y[2] - beam.y[0]) / step
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return (d * miss[0] - b * miss[1]) / (a * d - b * c), (a * miss[1] - c * miss[0]) / (a * d - b * c)

@@ -14,6 +14,7 @@ _REASONS = {
     Status.REFLECTED: "is totally reflected at surface {0}",
     Status.CLIPPED: "is stopped by the rim of surface {0}",
     Status.REFUSED: "meets the asphere on surface {0} where no safe intersection was found",
+    Status.UNAIMED: "could not be aimed at its place in the stop, surface {0}",
 }
 
 

@@ -26,6 +26,7 @@ class Status(IntEnum):
     REFLECTED = 2
     CLIPPED = 3
     REFUSED = 4
+    UNAIMED = 5
 
 
 class Beam:

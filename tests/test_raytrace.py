@@ -13,6 +13,7 @@ from p2sf.glass import ConstantIndex
 from p2sf.lens import Aperture, Lens, Surface, with_sensor
 from p2sf.pupils import numerical_aperture
 from p2sf.raytrace import (
+    Status,
     diffraction_phase,
     displayed_opd,
     opd_fan,
@@ -135,6 +136,40 @@ def test_rays_are_aimed_step_by_step_where_the_paraxial_pupil_is_no_start():
     at_stop = trace(lens, rays.origins, rays.directions, 0.5875618).points[lens.stop_surface]
     wanted = lens.aperture.value * np.stack([xi, eta], -1)
     np.testing.assert_allclose(at_stop[:, :2], wanted, atol=1e-9)  # mm; the search stops at 1e-11 of the rim
+
+
+def test_a_ray_that_no_search_brings_onto_the_stop_is_nan_and_says_so():
+    """At 40° through the meniscus many pupil points have no ray: not one may pass off as aimed."""
+    lens, wavelength = prescription_lens("landscape", 587.5618), 0.5875618
+    angle = 2 * np.pi * np.arange(24) / 24
+    source, xi, eta = Source(inf, np.tan(np.deg2rad(40)), wavelength), np.sin(angle), np.cos(angle)
+    rays = pupil_rays(lens, source, xi, eta, aim="real")
+    aimed = np.isfinite(rays.x)
+    assert 0 < aimed.sum() < 24
+    at_stop = trace(lens, rays.origins, rays.directions, wavelength).points[lens.stop_surface, :, :2]
+    wanted = lens.aperture.value * np.stack([xi, eta], -1)
+    np.testing.assert_allclose(at_stop[aimed], wanted[aimed], atol=1e-9 * lens.aperture.value)
+    with pytest.raises(GeometryError, match="chief ray could not be aimed at its place in the stop, surface"):
+        pencil(lens, replace(source, field_slope=np.tan(np.deg2rad(60))), xi, eta, aim="real")
+
+
+def test_a_pencil_says_which_of_its_rays_could_not_be_aimed():
+    lens, angle = prescription_lens("asphere", 587.5618), 2 * np.pi * np.arange(24) / 24
+    source = Source(inf, np.tan(np.deg2rad(70)), 0.5875618)
+    rays = pencil(lens, source, np.sin(angle), np.cos(angle), aim="real")
+    lost = rays.status == Status.UNAIMED
+    assert 0 < lost.sum() < 24 and (rays.failed_surface[lost] == lens.stop_surface).all()
+    assert np.isnan(rays.path[lost]).all() and np.isfinite(rays.path[rays.passed]).all()
+
+
+def test_rays_found_directly_are_kept_when_others_are_lost():
+    """Only the lost go by way of smaller fields, where others may go astray."""
+    lens, wavelength = prescription_lens("petzval", 587.5618), 0.5875618
+    source = Source(inf, np.tan(np.deg2rad(20)), wavelength)
+    angle = 2 * np.pi * np.arange(24) / 24
+    alone = [pupil_rays(lens, source, [np.sin(a)], [np.cos(a)], aim="real") for a in angle]
+    together = pupil_rays(lens, source, np.sin(angle), np.cos(angle), aim="real")
+    np.testing.assert_allclose(together.y, [one.y[0] for one in alone], atol=1e-9)
 
 
 def test_opd_is_even_across_the_field_and_the_map_uses_it():
