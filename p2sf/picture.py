@@ -4,6 +4,8 @@ from math import floor, log10
 
 import numpy as np
 
+from p2sf.colour import srgb_from_linear
+from p2sf.polychromatic import faint_rgb
 from p2sf.psf import Psf
 
 BAR_SHARE = 0.25  # the scale bar takes at most this share of the width
@@ -27,6 +29,23 @@ def draw_psf(handle, psf: Psf, title: str = "", metadata: dict | None = None) ->
         picture, ax=axes, ticks=[0, 0.01, 0.1, 0.25, 0.5, 1], label="intensity / peak (square-root colours)"
     )
     _draw_scale_bar(axes, psf)
+    FigureCanvasAgg(figure).print_png(handle, metadata=metadata)
+
+
+def draw_colour_psf(handle, found, title: str = "", metadata: dict | None = None) -> None:
+    """Write a `polychromatic.ColourPsf` as a PNG into an open binary file: sRGB, µm axes, scale bar.
+
+    The light's square root is shown, so that faint colours show. ``metadata`` becomes the PNG's text entries.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(5.6, 5.4), dpi=150, layout="constrained")
+    axes = figure.add_subplot()
+    axes.imshow(srgb_from_linear(faint_rgb(found)), extent=edges_um(found), origin="lower", interpolation="nearest")
+    axes.set(xlabel="x on the sensor, µm", ylabel="y on the sensor, µm")
+    axes.set_title(title, fontsize=9, loc="left")
+    _draw_scale_bar(axes, found)
     FigureCanvasAgg(figure).print_png(handle, metadata=metadata)
 
 

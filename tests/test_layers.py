@@ -11,7 +11,7 @@ ROOT = Path(__file__).parent.parent
 # DESIGN: each module may import only what stands on a line before its own (or earlier on its own line).
 FLOORS = (
     "conventions errors",
-    "dispersion catalogue glass",
+    "spectrum colour dispersion catalogue glass",
     "lens source",
     "lensfile library gaussian",
     "pupils",
@@ -23,7 +23,7 @@ FLOORS = (
     "fitted huygens traced vocabulary",
     "fitdatabase fitseries",
     "gaussianfit accuracy",
-    "rungs tradeoff ladder paper",
+    "rungs tradeoff ladder paper polychromatic",
     "request kernels scene image deblur charts",
     "picture export",
     "photos databasefile stack interchange",

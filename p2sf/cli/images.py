@@ -16,6 +16,7 @@ from p2sf.library import find_lens
 from p2sf.measures import centroid, radius_of_energy
 from p2sf.psf import Psf
 from p2sf.request import Setup, set_up
+from p2sf.spectrum import WORDS
 
 MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine
 
@@ -64,6 +65,7 @@ class Picture:
 
 
 USUAL = Picture()
+SpectrumName = Annotated[str | None, Parameter(help=f"Colour PSF of a point with this spectrum: {WORDS}.")]
 
 
 def psf(
@@ -72,10 +74,13 @@ def psf(
     *,
     request: Asked = AS_IN_THE_FILE,
     picture: Annotated[Picture, Parameter(name="*")] = USUAL,
+    spectrum: SpectrumName = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
-    """Compute the PSF of one source and write it as .npz, .tiff, .csv or .png."""
+    """Compute the PSF of one source and write it as .npz, .tiff, .csv or .png; with a spectrum as .npz or .png."""
+    if spectrum is not None:
+        return _in_colour(lens, request, picture, spectrum, output, as_json)
     check_output(output, ENDINGS)
     if is_database(lens):
         if picture.sampling or picture.method not in (None, "auto"):
@@ -93,6 +98,14 @@ def psf(
         return print_json({"file": file, "pixels": picture.pixels, **facts(result), **figures(result)})
     warn(warning)
     return print_table(title, ("point spread function", "value", "unit"), summary(result, output))
+
+
+def _in_colour(lens: str, request, picture: Picture, spectrum: str, output: Path | None, as_json: bool) -> None:
+    from p2sf.cli.colours import colour
+
+    if is_database(lens):
+        raise RequestError(f"--spectrum needs the lens, and {lens} is a database; leave it away or name the lens")
+    return colour(set_up(find_lens(lens), request), spectrum, picture, output, as_json)
 
 
 def render(setup: Setup, picture: Picture) -> Psf:

@@ -1,0 +1,140 @@
+"""The colour PSF: one PSF a wavelength, laid over one another where they fall, as the eye and a screen see it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.colour import bands, displayable, linear_rgb
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, centred_axis
+from p2sf.errors import RequestError
+from p2sf.ladder import render
+from p2sf.lens import Lens, lens_range_um
+from p2sf.psf import Psf
+from p2sf.raytrace import pencil
+from p2sf.source import Source
+from p2sf.spectrum import Spectrum
+
+COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm
+MOST = 400
+
+Renderer = Callable[[Lens, Source, int, float], Psf]
+"""What makes one PSF: (lens, source at one wavelength, pixels, µm per pixel)."""
+
+
+@dataclass(frozen=True)
+class ColourPsf:
+    """X, Y, Z of a point's image, ``xyz`` (y, x, 3), rows +y; sample N//2 is the reference wavelength's chief ray.
+
+    Y sums to the share of all light that falls into the window, or to 1 where no share is known. ``wavelengths_um``:
+    what was rendered, by ``methods``; ``shift_um``: how far above the reference's each chief ray lands.
+    """
+
+    xyz: np.ndarray
+    pixel_um: float
+    spectrum: str
+    wavelengths_um: np.ndarray
+    shift_um: np.ndarray
+    methods: tuple[str, ...]
+    seconds: float
+
+    @property
+    def x_um(self) -> np.ndarray:
+        """Column positions, µm."""
+        return centred_axis(self.xyz.shape[1], self.pixel_um)
+
+    @property
+    def y_um(self) -> np.ndarray:
+        """Row positions, µm."""
+        return centred_axis(self.xyz.shape[0], self.pixel_um)
+
+
+def colour_psf(
+    lens: Lens,
+    source: Source,
+    spectrum: Spectrum,
+    window: tuple[int, float],
+    method: str | Renderer = "auto",
+    count: int = COUNT,
+) -> ColourPsf:
+    """Return the PSF of a point with this spectrum over (pixels, µm per pixel), centred on the source's own wavelength.
+
+    ``method``: a rung of the ladder or what makes one PSF. Each wavelength's PSF is shifted by where its chief ray
+    lands (lateral colour), by straight lines between samples, which keeps light and sign. Raises RequestError for
+    a count that is none, GlassError for a line outside the glasses' data.
+    """
+    started = perf_counter()
+    if not 1 <= count <= MOST:
+        raise RequestError(f"{count} wavelengths for a colour PSF; give a whole number from 1 to {MOST}")
+    make = method if callable(method) else by_ladder(method)
+    wavelengths, weights = bands(spectrum, count, *_limits(lens))
+    shifts = chief_shifts_um(lens, source, wavelengths)
+    made = [make(lens, replace(source, wavelength_um=float(wave)), *window) for wave in wavelengths]
+    layers = (shifted_up(lit(psf), shift / window[1]) for psf, shift in zip(made, shifts, strict=True))
+    xyz = sum(layer[..., None] * weight for layer, weight in zip(layers, weights, strict=True))
+    methods = tuple(dict.fromkeys(psf.method for psf in made))
+    return ColourPsf(xyz, window[1], spectrum.name, wavelengths, shifts, methods, perf_counter() - started)
+
+
+def by_ladder(method: str) -> Renderer:
+    """Return what renders by a rung of the ladder."""
+    return lambda lens, source, pixels, pixel_um: render(lens, source, method, pixels, pixel_um)
+
+
+def _limits(lens: Lens) -> tuple[tuple[float, float], ...]:
+    known = lens_range_um(lens)
+    return (known,) if known else ()
+
+
+def lit(psf: Psf) -> np.ndarray:
+    """Return the PSF with the share of all light in its window as its sum, 1 where no share is known."""
+    return psf.values * (1.0 if psf.energy is None else min(1.0, float(psf.energy)))
+
+
+def chief_shifts_um(lens: Lens, source: Source, wavelengths_um) -> np.ndarray:
+    """Return how far above the source's own each wavelength's exact chief ray lands, µm: lateral colour."""
+    waves = np.append(np.asarray(wavelengths_um, dtype=float), source.wavelength_um)
+    landed = pencil(lens, replace(source, wavelength_um=waves), np.zeros(1), np.zeros(1)).chief_y[..., 0]
+    return UM_PER_MM * (landed[:-1] - landed[-1])
+
+
+def shifted_up(values: np.ndarray, rows: float) -> np.ndarray:
+    """Return samples moved up by a number of rows, fractions by a straight line; what leaves the window is lost."""
+    whole = int(np.floor(rows))
+    part = rows - whole
+    return (1 - part) * _moved(values, whole) + (part * _moved(values, whole + 1) if part else 0.0)
+
+
+def _moved(values: np.ndarray, rows: int) -> np.ndarray:
+    out = np.zeros_like(values)
+    count = len(values)
+    if abs(rows) < count:
+        out[max(0, rows) : count + min(0, rows)] = values[max(0, -rows) : count - max(0, rows)]
+    return out
+
+
+def screen_rgb(found: ColourPsf) -> np.ndarray:
+    """Return linear sRGB, (y, x, 3), the brightest channel 1."""
+    rgb = displayable(linear_rgb(found.xyz))
+    return rgb / (float(rgb.max()) or 1.0)
+
+
+def faint_rgb(found: ColourPsf, stretch: Callable[[np.ndarray], np.ndarray] = np.sqrt) -> np.ndarray:
+    """Return linear sRGB as `screen_rgb` does, with the brightest channel of each sample stretched, its hue kept."""
+    rgb = screen_rgb(found)
+    top = rgb.max(-1, keepdims=True)
+    return rgb * np.divide(stretch(top), top, out=np.zeros_like(top), where=top > 0)
+
+
+def record(found: ColourPsf) -> dict:
+    """Return what a colour PSF knows about itself but the samples."""
+    return {
+        "spectrum": found.spectrum,
+        "pixel_um": found.pixel_um,
+        "wavelengths_nm": found.wavelengths_um * NM_PER_UM,
+        "chief_ray_shift_um": found.shift_um,
+        "methods": list(found.methods),
+        "light_in_window": float(found.xyz[..., 1].sum()),
+        "seconds": found.seconds,
+    }
