@@ -16,14 +16,14 @@ class Errors:
     """A PSF against a reference, both normalised to unit sum in the window they share.
 
     ``r_squared`` is 1 − Σ(reference − psf)²/Σ(reference − mean)², negative where the mean itself fits better;
-    ``relative_l2`` the root of Σ(reference − psf)²/Σreference². ``strehl`` is the difference of Strehl ratios,
-    ``radius_50_um`` and ``radius_80_um`` of encircled-energy radii about each one's centroid, ``centroid_um`` the
-    distance between the centroids. Differences are this PSF less the reference.
+    ``relative_l2`` the root of Σ(reference − psf)²/Σreference². ``strehl`` is the difference of Strehl ratios, None
+    where one has none, ``radius_50_um`` and ``radius_80_um`` of encircled-energy radii about each one's centroid,
+    ``centroid_um`` the distance between the centroids. Differences are this PSF less the reference.
     """
 
     r_squared: float
     relative_l2: float
-    strehl: float
+    strehl: float | None
     radius_50_um: float
     radius_80_um: float
     centroid_um: float
@@ -37,7 +37,7 @@ def compare(psf: Psf, reference: Psf) -> Errors:
     return Errors(
         r_squared=r_squared(psf.values, reference.values),
         relative_l2=relative_l2(psf.values, reference.values),
-        strehl=float(psf.strehl - reference.strehl),
+        strehl=None if None in (psf.strehl, reference.strehl) else float(psf.strehl - reference.strehl),
         radius_50_um=radii[0],
         radius_80_um=radii[1],
         centroid_um=float(np.hypot(x - x_reference, y - y_reference)),

@@ -45,7 +45,7 @@ def airy_radius_um(wavelength_um, na):
 
 
 def strehl(psf: Psf):
-    """Return the highest sample over the unaberrated peak of the same pupil: the peak, wherever it lies."""
+    """Return the highest sample over the unaberrated peak of the same pupil, wherever it lies; None without one."""
     return psf.strehl
 
 

@@ -38,8 +38,8 @@ class Psf:
     """One PSF, or a stack of them, and how it was made.
 
     ``values``: (…, y, x), unit sum in the window, rows +y (the field's direction), sample N//2 the chief ray.
-    ``strehl``: peak over the unaberrated peak of the same pupil. ``energy``: fraction of all light that falls
-    into the window. ``numbers``: how many coefficients describe it; ``rays``: how many were traced.
+    ``strehl``: peak over the unaberrated peak of the same pupil, None where no pupil is behind it. ``energy``: fraction
+    of all light that falls into the window. ``numbers``: how many coefficients describe it; ``rays``: how many traced.
     ``sampling`` says in words what grid was used; ``seconds`` how long it took; ``tolerance`` what the method
     itself promises (relative L2 in the window), None where it promises nothing.
     """
@@ -48,7 +48,7 @@ class Psf:
     pixel_um: float
     wavelength_um: float
     method: str
-    strehl: float | np.ndarray
+    strehl: float | np.ndarray | None
     energy: float | np.ndarray | None = None
     numbers: int = 0
     rays: int = 0

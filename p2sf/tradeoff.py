@@ -132,9 +132,10 @@ def _texts(row: Row) -> tuple[str, ...]:
     place = "∞" if isinf(row.depth_mm) else f"{row.depth_mm:g}", f"{row.field_deg:g}", f"{row.wavelength_nm:g}"
     r_squared = f"{e.r_squared:.4f}" if e.r_squared < 0.999 else f"1 − {1 - e.r_squared:.0e}"
     radii = f"{e.radius_50_um:+.2g}", f"{e.radius_80_um:+.2g}", f"{e.centroid_um:.2g}"
+    strehl = "–" if e.strehl is None else f"{e.strehl:+.1e}"
     cost = str(row.numbers), str(row.rays), f"{1e3 * row.seconds:.3g}", f"{row.bytes / 1e3:.0f}"
     name = row.method if row.quality == "settled" else f"{row.method} ({row.quality})"
-    return name, *place, r_squared, f"{e.relative_l2:.1e}", f"{e.strehl:+.1e}", *radii, *cost
+    return name, *place, r_squared, f"{e.relative_l2:.1e}", strehl, *radii, *cost
 
 
 def front(rows: list[Row]) -> list[Row]:

@@ -79,7 +79,15 @@ def test_a_table_for_people(said):
 @pytest.mark.parametrize("method", ["seidel", "fitted", "traced", "huygens", "gaussian"])
 def test_the_asked_rung_makes_the_picture(method, capsys):
     assert main(["psf", "landscape", "--method", method, "--pixels", "16", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["method"] == method
+    found = json.loads(capsys.readouterr().out)
+    assert found["method"] == method and (found["strehl"] is None) == (method == "gaussian")
+
+
+def test_a_fitted_gaussian_has_a_dash_for_its_strehl_ratio(said, tmp_path):
+    where = tmp_path / "psf.png"
+    text = said("psf", "landscape", "--method", "gaussian", "--pixels", 16, "-o", where)
+    assert where.stat().st_size > 1000
+    assert any(line.split()[:3] == ["Strehl", "ratio", "–"] for line in text.splitlines())
 
 
 def test_auto_is_the_default_and_takes_the_cheapest_rung_that_holds(capsys):

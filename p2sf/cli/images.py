@@ -142,7 +142,7 @@ def summary(result: Psf, output: Path | None) -> list[tuple]:
         ("method", result.method, ""),
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", ""),
         ("pixel", result.pixel_um, "µm"),
-        ("Strehl ratio", known["strehl"], ""),
+        ("Strehl ratio", known["strehl"], "not defined for a fitted shape" if known["strehl"] is None else ""),
         ("light inside the window", known["energy"], ""),
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
         ("radius of 50 % of that light", measured["radius_50_um"], "µm"),

@@ -77,4 +77,5 @@ def caption(meta: dict) -> str:
     where = f"object at {depth}, field {setup['field_deg']:g}°, " if setup else ""
     lens = meta.get("lens", {})
     name = lens.get("title") or lens.get("name") or "point spread function"
-    return f"{name}\n{where}{psf['wavelength_um'] * NM_PER_UM:g} nm · {psf['method']} · Strehl {psf['strehl']:.3g}"
+    peak = "" if psf["strehl"] is None else f" · Strehl {psf['strehl']:.3g}"
+    return f"{name}\n{where}{psf['wavelength_um'] * NM_PER_UM:g} nm · {psf['method']}{peak}"
