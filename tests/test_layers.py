@@ -19,7 +19,7 @@ FLOORS = (
     "quadrature transform wavefront",
     "fastpath opdpath psf measures",
     "database refraction rays entrance raytrace zernike",
-    "raydata rayfit rendering vignetting rows",
+    "raydata rayfit rendering vignetting rows fieldcurves",
     "fitted huygens traced vocabulary",
     "fitdatabase fitseries",
     "gaussianfit accuracy",
