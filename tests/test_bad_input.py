@@ -7,32 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from p2sf.cli import main
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.library import find_lens
+from tests.conftest import sentence
 
 ROOT = Path(__file__).parent.parent
-
-
-@pytest.fixture
-def refused(capsys):
-    """Return a function that runs a command line which must fail, and returns its one sentence."""
-
-    def run(*arguments) -> str:
-        assert main([str(x) for x in arguments]) == 2
-        output, error = capsys.readouterr()
-        assert output == ""
-        return sentence(error)
-
-    return run
-
-
-def sentence(error: str) -> str:
-    """Return the one line on standard error, checked to be a sentence that ends with a remedy."""
-    assert "Traceback" not in error
-    assert error.count("\n") == 1 and error.startswith("p2sf: ") and error.endswith((".\n", "?\n"))
-    assert "; " in error  # what is wrong; what to do
-    return error
 
 
 @pytest.fixture

@@ -1,6 +1,5 @@
 """The commands print what the witness computed, under exactly the promised names."""
 
-import json
 import subprocess
 import sys
 from math import inf
@@ -39,29 +38,6 @@ INFO_KEYS = [
     "magnification",
 ]
 CASE_KEYS = ["w40", "w31", "w22", "w20", "w11", "wd", "na", "image_distance", "image_height"]
-
-
-@pytest.fixture
-def said(capsys):
-    """Return a function that runs a command line which must succeed, and returns what it printed."""
-
-    def run(*arguments) -> str:
-        assert main([str(x) for x in arguments]) == 0, capsys.readouterr().err
-        return capsys.readouterr().out
-
-    return run
-
-
-@pytest.fixture
-def answer(said):
-    """Return a function that runs a command line with --json and returns the one object it printed."""
-
-    def run(*arguments) -> dict:
-        text = said(*arguments, "--json")
-        assert text.count("\n") == 1
-        return json.loads(text, parse_constant=pytest.fail)  # NaN and Infinity are not JSON
-
-    return run
 
 
 def depth(case: dict) -> float:

@@ -5,7 +5,6 @@ import json
 import numpy as np
 import pytest
 
-from p2sf.cli import main
 from p2sf.cli.spans import even_span, span
 from p2sf.databasefile import load_database
 from p2sf.errors import RequestError
@@ -14,31 +13,6 @@ from p2sf.stack import open_stack
 from tests.test_databasefile import damaged
 
 GRID = ("--depths-mm", "500:inf:5", "--fields-deg", "0:14:3", "--wavelengths-nm", "450:650:3")
-
-
-@pytest.fixture
-def said(capsys):
-    """Return a function that runs a command line which must succeed, and returns what it printed."""
-
-    def run(*arguments) -> str:
-        assert main([str(x) for x in arguments]) == 0, capsys.readouterr().err
-        return capsys.readouterr().out
-
-    return run
-
-
-@pytest.fixture
-def refused(capsys):
-    """Return a function that runs a command line which must fail with code 2 and one sentence, and returns that."""
-
-    def run(*arguments) -> str:
-        assert main([str(x) for x in arguments]) == 2
-        sentence = capsys.readouterr().err
-        assert sentence.count("\n") == 1
-        assert "Traceback" not in sentence
-        return sentence
-
-    return run
 
 
 @pytest.fixture

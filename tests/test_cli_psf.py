@@ -9,29 +9,6 @@ from p2sf.cli import main
 from p2sf.export import read_psf
 
 
-@pytest.fixture
-def said(capsys):
-    """Return a function that runs a command line which must succeed, and returns what it printed."""
-
-    def run(*arguments) -> str:
-        assert main([str(x) for x in arguments]) == 0, capsys.readouterr().err
-        return capsys.readouterr().out
-
-    return run
-
-
-@pytest.fixture
-def answer(said):
-    """Return a function that runs a command line with --json and returns the one object it printed."""
-
-    def run(*arguments) -> dict:
-        text = said(*arguments, "--json")
-        assert text.count("\n") == 1
-        return json.loads(text, parse_constant=pytest.fail)  # NaN and Infinity are not JSON
-
-    return run
-
-
 @pytest.mark.parametrize("ending", ["npz", "tiff", "csv", "png"])
 def test_psf_writes_what_it_says(answer, tmp_path, ending):
     path = tmp_path / f"spot.{ending}"

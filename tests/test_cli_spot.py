@@ -11,15 +11,6 @@ PLACE = ("spot", "double_gauss_28", "--field-deg", "14")
 FIGURES = ["rms_um", "largest_um", "centroid_y_um", "airy_radius_um", "rays", "lost"]
 
 
-@pytest.fixture
-def answer(capsys):
-    def run(*arguments) -> dict:
-        assert main([*map(str, arguments), "--json"]) == 0, capsys.readouterr().err
-        return json.loads(capsys.readouterr().out)
-
-    return run
-
-
 def test_the_figures_are_those_of_the_points(answer):
     found = answer(*PLACE, "--rings", 6)
     assert list(found) == ["file", *FIGURES, "points_um"]
