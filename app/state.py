@@ -7,6 +7,7 @@ from pathlib import Path
 
 from app.pupil import TERMS
 from p2sf.errors import P2SFError
+from p2sf.spectrum import spectrum_of
 
 SCHEMA = "p2sf-explorer-state"
 VERSION = 1
@@ -15,7 +16,7 @@ CHOICES = {
     "method": ("auto", "seidel", "fitted", "traced", "huygens"),
     "psf_scale": ("linear", "sqrt", "log"),
     "psf_units": ("sum", "peak", "strehl"),
-    "phase": ("waves", "wrapped"),
+    "phase": ("waves", "contour", "wrapped"),
     "theme": ("system", "light", "dark"),
     "shown": ("a", "b", "difference"),
     "photo_show": ("lens", "sharpened", "axis"),
@@ -29,6 +30,8 @@ RANGES = {
     "wavelength_nm": (100.0, 20000.0, "wavelength", "nm"),
     "f_number": (0.2, 1000.0, "f-number", ""),
     "tolerance": (0.0, 1.0, "tolerance R²", ""),
+    "pixel_um": (0.01, 1000.0, "pixel", "µm"),
+    "blur_um": (0.01, 10000.0, "blur to tolerate", "µm"),
     "play_seconds": (0.1, 600.0, "duration of a sweep", "s"),
     "photo_pixel_um": (0.1, 1000.0, "pixel of the photo", "µm"),
     "photo_split": (0.0, 1.0, "split of the photo", ""),
@@ -48,7 +51,8 @@ class State:
     """The whole setup; ``focus_mm`` and ``f_number`` None mean: as the lens file has it.
 
     ``lens_text`` is the TOML text of a lens edited in the window, None while it is as ``lens`` names it.
-    ``windows`` names the panels that stand in windows of their own.
+    ``windows`` names the panels that stand in windows of their own. ``pixel_um`` is a sensor's pixel, ``blur_um`` the
+    blur's diameter still called sharp, ``spectrum`` the colour PSF's light (`p2sf.spectrum`).
     What if: ``added_waves`` on top of the lens's own six coefficients (`app.pupil.TERMS` in order), or alone in a
     ``free_pupil``; ``muted`` terms count as zero, and with any ``solo`` all others do. Compare: ``pinned`` is the
     setup B, ``shown`` which of the two is on screen, ``linked`` what moves both. ``play`` is the slider that is
@@ -75,6 +79,9 @@ class State:
     theme: str = "system"
     tab: str = "profiles"
     windows: tuple[str, ...] = ()
+    pixel_um: float = 4.0
+    blur_um: float = 30.0
+    spectrum: str = "d65"
     added_waves: tuple[float, ...] = (0.0,) * len(TERMS)
     muted: tuple[str, ...] = ()
     solo: tuple[str, ...] = ()
@@ -111,6 +118,7 @@ class State:
             if type(getattr(self, name)) is not kind:
                 raise P2SFError(f"{name} is {getattr(self, name)!r}; give {KINDS[kind]}")
         object.__setattr__(self, "windows", _names(self.windows))
+        spectrum_of(self.spectrum)
         _check_what_if(self)
         _check_pinned(self)
         _check_play(self)

@@ -41,7 +41,7 @@ class Spectrum:
 
 def spectrum_of(text: str) -> Spectrum:
     """Return the spectrum that a word means, such as "d65", "planck:5600" or "lines:486,588,656"; RequestError."""
-    kind, _, rest = text.strip().lower().partition(":")
+    kind, _, rest = str(text).strip().lower().partition(":")
     try:
         return Spectrum(kind, tuple(float(part) for part in rest.split(",")) if rest else ())
     except RequestError:
