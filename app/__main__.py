@@ -1,31 +1,38 @@
-"""Start the explorer: ``p2sf explore [LENS|STATE.json]`` or ``python -m app``."""
+"""Start the explorer: ``p2sf explore [LENS|STATE.json|SNAPSHOT|LINK]`` or ``python -m app``."""
 
 import sys
 
 from app.display import display_problem
+from app.link import is_link, state_of_link
 from app.opening import is_file, opened
+from app.session import last_session
 from app.setting import default_state
 from app.state import State
 from p2sf.errors import P2SFError
 
 
 def starting_state(argv: list[str]) -> State:
-    """Return the state to open: a saved one, a lens by name or path, or the default."""
+    """Return the state to open: a saved one, one from a link, a lens by name or path, or the default."""
     if not argv:
         return State()
+    if is_link(argv[0]):
+        return state_of_link(argv[0])
     return opened(State(), argv[0]) if is_file(argv[0]) else default_state(argv[0])
 
 
 def main(argv: list[str]) -> int:
-    """Open the window on ``argv`` (a lens or a state file), return Qt's exit code; P2SFError when it cannot open."""
+    """Open the window on ``argv`` (a lens, a state, a snapshot or a link), else as it was left; return Qt's exit code.
+
+    Raises P2SFError when it cannot open.
+    """
     problem = display_problem()
     if problem:
         raise P2SFError(problem)
-    state = starting_state(argv)
+    state, geometry = (starting_state(argv), {}) if argv else last_session()
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(limits=1):  # two BLAS threads double these small products
-        return _open(state)
+        return _open(state, geometry)
 
 
 def run(argv: list[str]) -> int:
@@ -37,9 +44,10 @@ def run(argv: list[str]) -> int:
         return 2
 
 
-def _open(state: State) -> int:
+def _open(state: State, geometry: dict[str, str]) -> int:
     from PySide6.QtWidgets import QApplication
 
+    from app.keeping import Keeping
     from app.theme import configure_plots
     from app.window import Window
 
@@ -48,6 +56,7 @@ def _open(state: State) -> int:
     application.setStyle("Fusion")
     configure_plots()
     window = Window(state)
+    Keeping(window, geometry)
     window.show()
     return application.exec()
 

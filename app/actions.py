@@ -20,7 +20,10 @@ from app.words import tr
 from p2sf.errors import P2SFError
 
 STATE_FILES = "Explorer states (*.json)"
-SNAPSHOT_FILES = "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as CSV (*.csv);;Picture of the window (*.png)"
+SNAPSHOT_FILES = (
+    "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as FITS (*.fits);;PSF as CSV (*.csv);;"
+    "Picture of the window (*.png)"
+)
 
 
 class Actions(QObject):

@@ -1,19 +1,22 @@
-"""What a file a person gives turns out to be: a saved state, a lens of any known format, or a reason why not. No Qt."""
+"""What a file a person gives turns out to be: a state, a snapshot, a lens, or a reason why not. No Qt in here."""
 
 import os
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
+from app.embedded import state_inside
 from app.setting import with_lens
 from app.state import SCHEMA, State, read_state
 from p2sf.errors import P2SFError
 from p2sf.lensfile.importing import Import, import_lens
 from p2sf.lensfile.toml import lens_to_toml
 
+SNAPSHOTS = "*.png *.npz *.tiff *.fits *.csv"
 KINDS = (
-    "Lenses and states (*.toml *.zmx *.zip *.seq *.json *.dat *.txt *.csv);;P2SF lens (*.toml);;Zemax (*.zmx *.zip);;"
-    "CODE V (*.seq);;ISET lens, or a state (*.json *.dat);;Optical Bench or table (*.txt *.csv);;All files (*)"
+    f"Lenses, states, snapshots (*.toml *.zmx *.zip *.seq *.json *.dat *.txt {SNAPSHOTS});;P2SF lens (*.toml);;"
+    "Zemax (*.zmx *.zip);;CODE V (*.seq);;ISET lens, or a state (*.json *.dat);;Optical Bench or table (*.txt *.csv);;"
+    f"Snapshot ({SNAPSHOTS});;All files (*)"
 )
 HEAD = 4096  # a state names its schema in its first lines
 OWN_FORMAT = "P2SF lens (TOML)"
@@ -37,6 +40,9 @@ def opened(state: State, path: str) -> State:
     path = os.path.abspath(path)
     if is_state(path):
         return read_state(path)
+    inside = state_inside(path)
+    if inside:
+        return inside
     fresh = with_lens(state, path)
     return fresh if imported(path).report.format == OWN_FORMAT else replace(fresh, tab=REPORT_TAB)
 

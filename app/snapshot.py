@@ -1,15 +1,17 @@
-"""What a snapshot writes: the PSF's data or a picture, and beside it the state that made it. No Qt in here."""
+"""What a snapshot writes: the PSF's data or a picture, the state that made it inside and beside. No Qt in here."""
 
 from dataclasses import replace
 from pathlib import Path
 
 from app.compute import Live
+from app.embedded import with_state
 from app.setting import setup
 from app.state import State, state_to_json
 from p2sf.errors import ExportError
 from p2sf.export import describe, versions, write_beside, write_psf
+from p2sf.interchange.fitspsf import write_psf_fits
 
-DATA_ENDINGS = (".npz", ".tiff", ".csv")
+DATA_ENDINGS = (".npz", ".tiff", ".fits", ".csv")
 
 
 def side_car(path) -> Path:
@@ -24,11 +26,13 @@ def write_state(state: State, path, **extra) -> Path:
 
 
 def write_data(live: Live, path) -> tuple[Path, Path]:
-    """Write the PSF on screen as .npz, .tiff or .csv and its state beside; return both paths. ExportError."""
+    """Write the PSF on screen as .npz, .tiff, .fits or .csv and its state beside; return both paths. ExportError."""
     if Path(path).suffix.lower() not in DATA_ENDINGS:
         ending = Path(path).suffix
         raise ExportError(f'{path}: PSF data has no ending "{ending}"; choose {", ".join(DATA_ENDINGS)}')
-    written = write_psf(live.psf, path, {**describe(setup(live.state)), "state": _entries(live.state)})
+    meta = {**describe(setup(live.state)), "state": _entries(live.state)}
+    write = write_psf_fits if Path(path).suffix.lower() == ".fits" else write_psf
+    written = write(live.psf, path, meta)
     return written, write_state(live.state, side_car(path), exported=Path(path).name)
 
 
@@ -38,7 +42,8 @@ def write_picture(state: State, png: bytes, path) -> tuple[Path, Path]:
         raise ExportError(
             f'{path}: a picture of the window ends in ".png", not "{Path(path).suffix}"; change the ending'
         )
-    written = write_beside(path, lambda handle: handle.write(png))
+    whole = with_state(png, _entries(state))
+    written = write_beside(path, lambda handle: handle.write(whole))
     return written, write_state(state, side_car(path), exported=Path(path).name)
 
 

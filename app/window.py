@@ -12,9 +12,11 @@ from app.bars import Banner, StatusLine, TopBar
 from app.compute import Live
 from app.controls import Controls
 from app.floating import Floating
+from app.link import is_link
 from app.measuring import Measuring
 from app.opening import is_file
 from app.panels import REGISTRY, Panel, build, view_of
+from app.sharing import Sharing
 from app.state import State
 from app.store import Store
 from app.tabs import Tabs
@@ -46,6 +48,7 @@ class Window(QMainWindow):
         self._theme = None
         self._lay_out()
         self.actions, self.measuring = Actions(self), Measuring(self, measured)
+        self.sharing = Sharing(self)
         self.store.changed.connect(self.refresh)
         self.store.refused.connect(self.refuse)
         self.tabs.currentChanged.connect(self._on_tab)
@@ -159,20 +162,23 @@ class Window(QMainWindow):
         super().closeEvent(event)
 
     def dragEnterEvent(self, event) -> None:
-        """Welcome a lens file or a saved state."""
+        """Welcome a lens file, a saved state, a snapshot, or a link."""
         if dropped(event):
             event.acceptProposedAction()
 
     def dropEvent(self, event) -> None:
         """Open what was dropped."""
         event.acceptProposedAction()
-        self.actions.open_path(dropped(event))
+        found = dropped(event)
+        (self.sharing.open if is_link(found) else self.actions.open_path)(found)
 
 
 def dropped(event) -> str | None:
-    """Return the path of a dropped file, told by its content when opened; None for anything else."""
-    paths = [url.toLocalFile() for url in event.mimeData().urls()]
-    return next((path for path in paths if is_file(path)), None)
+    """Return a dropped link, or the path of a file, told by its content when opened; None for anything else."""
+    data = event.mimeData()
+    if is_link(data.text()):
+        return data.text()
+    return next((path for path in (url.toLocalFile() for url in data.urls()) if is_file(path)), None)
 
 
 def splitter(orientation: Qt.Orientation, widgets: list[QWidget], shares: tuple[int, ...]) -> QSplitter:

@@ -7,11 +7,11 @@ from cyclopts import Parameter
 
 from p2sf.errors import P2SFError
 
-What = Annotated[str | None, Parameter(help="A lens, or a STATE.json that the explorer wrote.")]
+What = Annotated[str | None, Parameter(help="A lens, or a STATE.json, a snapshot or a p2sf:… link of the explorer.")]
 
 
 def explore(what: What = None, /) -> int:
-    """Open the explorer on a lens, or on a saved state; return its exit code."""
+    """Open the explorer on a lens, a saved state, a snapshot or a link, else as it was left; return its exit code."""
     missing = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
     if missing:
         raise P2SFError(f"the explorer needs {' and '.join(missing)}, not installed here; run pip install 'p2sf[app]'")

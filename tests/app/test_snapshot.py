@@ -2,11 +2,19 @@
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent, QImage
 
 from app.__main__ import starting_state
 from app.display import display_problem
+from app.embedded import state_inside
+from app.snapshot import DATA_ENDINGS
 from app.state import read_state
 from p2sf.export import read_psf
+from p2sf.interchange.fitspsf import read_psf_fits
+from p2sf.lensfile.toml import lens_to_toml
+from p2sf.library import find_lens
+from tests.app.conftest import FIRST
 
 
 @pytest.fixture
@@ -27,12 +35,66 @@ def test_the_state_beside_a_snapshot_reopens_identically(busy, tmp_path, ending)
     assert busy.store.state == before
 
 
-@pytest.mark.parametrize("ending", [".npz", ".csv"])
-def test_the_data_is_the_psf_on_screen(busy, tmp_path, ending):
-    busy.actions.save(str(tmp_path / f"shot{ending}"))
-    psf, _ = read_psf(tmp_path / f"shot{ending}")
-    assert np.array_equal(psf.values, busy.live.psf.values)
-    assert psf.pixel_um == busy.live.psf.pixel_um
+def exported(path) -> np.ndarray:
+    """Return the samples in a snapshot of data."""
+    return (read_psf_fits if path.suffix == ".fits" else read_psf)(path)[0].values
+
+
+def drop(window, path) -> None:
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path))])
+    buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    window.dropEvent(QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, buttons, keys))
+
+
+SETUPS = {
+    "plain": {},
+    "by hand": {"added_waves": (0.5, -1.0, 0.0, 0.0, 0.25, 0.0), "muted": ("w22",), "free_pupil": True},
+    "edited": {"lens_text": lens_to_toml(find_lens("cooke_triplet")).replace("Cooke", "Cooke & Söhne's ")},
+}
+
+
+@pytest.mark.parametrize("setup", SETUPS)
+@pytest.mark.parametrize("ending", [".npz", ".tiff", ".fits", ".csv", ".png", ".json"])
+def test_a_snapshot_dropped_on_the_window_is_the_same_state_and_the_same_psf(busy, tmp_path, ending, setup):
+    busy.store.update(**SETUPS[setup])
+    path = (tmp_path / "shot").with_suffix(ending)
+    assert busy.actions.save(str(path))
+    state, psf = busy.store.state, busy.live.psf.values
+    if ending != ".json":
+        (tmp_path / "shot.json").unlink()
+    busy.store.replace(FIRST)
+    drop(busy, path)
+    assert busy.store.state == state
+    assert np.array_equal(busy.live.psf.values, psf)
+    if ending in DATA_ENDINGS:
+        kind = np.float32 if ending == ".tiff" else float
+        assert np.array_equal(exported(path), busy.live.psf.values.astype(kind))
+
+
+def test_the_picture_is_of_the_window_pixel_by_pixel(busy, tmp_path):
+    before = busy.grab().toImage()
+    busy.actions.save(str(tmp_path / "shot.png"))
+    after = QImage(str(tmp_path / "shot.png")).convertToFormat(before.format())
+    assert after.size() == before.size()
+    assert bytes(after.constBits()) == bytes(before.constBits())
+
+
+def test_a_picture_without_a_state_is_no_lens_and_says_so(window, tmp_path):
+    plain = QImage(8, 8, QImage.Format.Format_RGB32)
+    plain.save(str(tmp_path / "photo.png"))
+    assert state_inside(tmp_path / "photo.png") is None
+    assert not window.actions.open_path(str(tmp_path / "photo.png"))
+    assert window.banner.isVisible()
+
+
+@pytest.mark.parametrize("ending", [".npz", ".tiff", ".fits", ".csv", ".png"])
+def test_a_torn_snapshot_is_a_sentence(busy, tmp_path, ending):
+    path = (tmp_path / "shot").with_suffix(ending)
+    busy.actions.save(str(path))
+    path.write_bytes(path.read_bytes()[:700])
+    assert not busy.actions.open_path(str(path))
+    assert busy.banner.isVisible()
 
 
 def test_the_side_car_names_the_versions(busy, tmp_path):

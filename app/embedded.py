@@ -1,0 +1,76 @@
+"""The state inside a snapshot: found again by what a file is, not by its name. No Qt in here."""
+
+import io
+from pathlib import Path
+from zipfile import BadZipFile
+
+from app.state import State, state_from_json
+from p2sf.export.psf_files import READERS
+
+KEYWORD = "p2sf-state"  # of the PNG text chunk
+HEAD = 128
+CSV_HEAD = b"# point spread function"
+BEGINNINGS = (
+    (b"\x89PNG", "png"),
+    (b"PK\x03\x04", ".npz"),
+    (b"II*\0", ".tiff"),
+    (b"MM\0*", ".tiff"),
+    (b"SIMPLE  =", "fits"),
+    (CSV_HEAD, ".csv"),
+)
+
+
+def state_inside(path) -> State | None:
+    """Return the state that a snapshot holds; None for a file without one. P2SFError for one that cannot be."""
+    text = text_inside(path)
+    return None if text is None else state_from_json(text, f"the state inside {Path(path).name}")
+
+
+def text_inside(path) -> str | None:
+    """Return the state file's text that a snapshot holds, None where there is none."""
+    kind = kind_of(path)
+    if kind is None:
+        return None
+    try:
+        found = PICTURES[kind](path) if kind in PICTURES else READERS[kind](path)[1].get("state")
+    except (OSError, BadZipFile, EOFError, ValueError, KeyError, TypeError, AttributeError):
+        return None  # whoever reads it as something else says what is wrong with it
+    return found if isinstance(found, str) else None
+
+
+def kind_of(path) -> str | None:
+    """Return which snapshot a file may be by its first bytes, None for none."""
+    try:
+        with open(path, "rb") as stream:
+            head = stream.read(HEAD)
+    except OSError:
+        return None
+    return next((kind for beginning, kind in BEGINNINGS if head.startswith(beginning)), None)
+
+
+def with_state(png: bytes, text: str) -> bytes:
+    """Return a PNG with the state in its text chunk, compressed (PNG 1.2, 11.3.4.5); the pixels stay as they are."""
+    from PIL import Image
+    from PIL.PngImagePlugin import PngInfo
+
+    about, made = PngInfo(), io.BytesIO()
+    about.add_itxt(KEYWORD, text, zip=True)
+    Image.open(io.BytesIO(png)).save(made, "PNG", pnginfo=about)
+    return made.getvalue()
+
+
+def _in_png(path) -> str | None:
+    from PIL import Image
+
+    with Image.open(path) as picture:
+        picture.load()
+        return picture.info.get(KEYWORD)
+
+
+def _in_fits(path) -> str | None:
+    from p2sf.interchange.fitspsf import read_psf_fits
+
+    return read_psf_fits(path)[1].get("state")
+
+
+PICTURES = {"png": _in_png, "fits": _in_fits}
