@@ -122,8 +122,14 @@ def test_bad_files_and_questions_are_one_sentence(refused, file, tmp_path):
     assert "depth 100 mm is outside this database" in refused("psf", file, "--depth-mm", 100)
     assert "--f-number needs the lens" in refused("psf", file, "--f-number", 4)
     assert "leave them away" in refused("psf", file, "--method", "huygens")
-    assert "not 33" in refused("export", file, "--to", "iset", "--pixels", 33)
+    assert "33 samples a side" in refused("export", file, "--to", "iset", "--pixels", 33)
     assert "choose a name that ends in .npz" in refused("database", "build", "tessar", "-o", tmp_path / "a.zarr")
+
+
+def test_an_export_under_another_formats_ending_is_refused_and_writes_nothing(refused, file, tmp_path):
+    said = refused("export", file, "--to", "fits", "-o", tmp_path / "x.txt")
+    assert 'its ending ".txt" is unknown; choose .fits, .fit, .fts' in said
+    assert not (tmp_path / "x.txt").exists()
 
 
 def test_an_image_height_in_a_database_of_the_axis_is_one_sentence(said, refused, tmp_path):

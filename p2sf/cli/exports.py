@@ -7,12 +7,13 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from p2sf.cli.images import MOST_PIXELS
-from p2sf.cli.options import Json, Whole
+from p2sf.cli.options import Json, Whole, check_output
 from p2sf.cli.screen import print_json
 from p2sf.database.render import Sampling
 from p2sf.errors import RequestError
 
-ENDINGS = {"iset": ".mat", "fits": ".fits", "tiff": ".tif", "csv": ".csv"}
+# The first is what a file gets that is not named; its readers know the format by it.
+ENDINGS = {"iset": (".mat",), "fits": (".fits", ".fit", ".fts"), "tiff": (".tif", ".tiff"), "csv": (".csv",)}
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,8 @@ def export(
     as_json: Json = False,
 ) -> None:
     """Write a database (.npz) or stack (.zarr) as ISETCam optics, FITS, an ImageJ TIFF, or a table."""
-    target = output or file.with_suffix(ENDINGS[to])
+    check_output(output, ENDINGS[to])
+    target = output or file.with_suffix(ENDINGS[to][0])
     _WRITERS[to](file, target, picture)
     if as_json:
         print_json({"file": str(target), "to": to, "bytes": target.stat().st_size})

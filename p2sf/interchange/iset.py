@@ -47,7 +47,7 @@ def write_iset(stored: Stored, path, options: IsetOptions = USUAL) -> Path:
 
     if options.pixels % 2 or not 2 <= options.pixels <= MOST_PIXELS:
         raise ExportError(
-            f"{options.pixels} samples a side, and ISETCam takes an even number up to {MOST_PIXELS}; give --pixels 64"
+            f"{options.pixels} samples a side, but ISETCam takes an even number of samples up to {MOST_PIXELS}; give 64"
         )
     if stored.database.space.field_slopes[0] > 0:
         raise ExportError("ISETCam's field heights start at 0 and this database does not; build it from field 0 on")
