@@ -158,7 +158,11 @@ def test_a_database_carries_its_error(interpolant):
     ("point", "words"),
     [
         ((499.0, 0.1, 0.55), "depth 499 mm is outside this database, which covers 500 to inf mm"),
-        ((1000.0, 0.3, 0.55), "field 16.6992 degrees is outside this database, which covers 0 to 14 degrees"),
+        (
+            (1000.0, 0.3, 0.55),
+            "field 16.6992 degrees is outside this database, which covers 0 to 14 degrees; ask inside",
+        ),
+        ((1000.0, -0.1, 0.55), "ask for 5.71059 degrees, whose PSF is the same upside down"),
         (
             (np.inf, 0.1, np.array([0.5, 0.71])),
             "wavelength 710 nm is outside this database, which covers 400 to 700 nm",

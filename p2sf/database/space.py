@@ -76,11 +76,13 @@ def _widened(low: float, high: float) -> tuple[float, float]:
 def _check_axis(values: np.ndarray, limits, name: str, unit: str, shown) -> None:
     inside = (values >= limits[0]) & (values <= limits[1])
     if not inside.all():
-        bad = shown(values[~inside].ravel()[0])
-        low, high = (shown(x) for x in limits)
+        wrong = values[~inside].ravel()[0]
+        bad, low, high = (shown(x) for x in (wrong, *limits))
+        mirrored = name == "field" and limits[0] <= -wrong <= limits[1]
+        way = f"ask for {-bad:.6g} {unit}, whose PSF is the same upside down" if mirrored else "ask inside"
         raise DatabaseError(
             f"{name} {bad:.6g} {unit} is outside this database, which covers {low:.6g} to {high:.6g} {unit}; "
-            "ask inside, or build one that reaches there"
+            f"{way}, or build one that reaches there"
         )
 
 
