@@ -93,7 +93,7 @@ class State:
     play_range: tuple[float, float] | None = None
     play_seconds: float = 4.0
     photo: str = "landscape"
-    photo_pixel_um: float | None = 4.0
+    photo_pixel_um: float | None = 8.0
     photo_show: str = "lens"
     photo_split: float = 0.5
     lesson: str = ""

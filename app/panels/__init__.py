@@ -62,8 +62,16 @@ REGISTRY = (
     tab("Rays", "ray_fan", "Ray fan", "fans:RayFanPanel", "rays:ray_errors"),
     tab("Rays", "opd_fan", "OPD fan", "fans:OpdFanPanel", "rays:path_errors"),
     tab("Aberrations", "seidel", "Seidel per surface", "seidel:SeidelPanel", "seidel:per_surface"),
+    tab("Aberrations", "field", "Field curves", "field:FieldPanel", "field:field_curves"),
+    tab("Aberrations", "chromatic", "Chromatic shift", "chromatic:ChromaticPanel", "chromatic:chromatic"),
     tab("Lens", "lens", "Lens table", "lens_table:LensTablePanel", "lens_table:rows"),
+    tab("Lens", "first_order", "First-order data", "first_order:FirstOrderPanel", "first_order:first_order"),
+    tab("Lens", "ybar", "y–ȳ diagram", "ybar:YBarPanel", "ybar:ybar"),
+    tab(
+        "Lens", "depth_of_field", "Depth of field", "depth_of_field:DepthOfFieldPanel", "depth_of_field:depth_of_field"
+    ),
     tab("Lens", "import", "Import report", "import_report:ImportReportPanel", "import_report:report"),
+    tab("Tools", "image", "Image", "image:ImagePanel", "image:question"),
     tab("Tools", "database", "Database", "database:DatabasePanel", "database:question"),
     tab("Tools", "accuracy", "Accuracy", "accuracy:AccuracyPanel"),
 )

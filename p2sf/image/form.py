@@ -49,16 +49,19 @@ def form_image(
     depth_mm: np.ndarray | None = None,
     how: Forming = USUAL,
     watch: Watch | None = None,
+    lattice: Lattice | None = None,
 ) -> np.ndarray:
     """Return what the sensor receives of a picture in linear light, (rows, columns, channels) float32.
 
     ``values``: the paraxial image, (rows, columns, channels) on the scene's sensor, one channel for each of the
-    scene's; ``depth_mm``: (rows, columns), by default the scene's far end. Raises RequestError for shapes that do
-    not fit, Cancelled when ``watch`` says so.
+    scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given when it is
+    known. Raises RequestError for shapes that do not fit, Cancelled when ``watch`` says so.
     """
     values, watch = checked(planned, values), watch or Watch()
     if depth_mm is None:
-        return _one_depth(planned, values, how, watch)
+        vergence = planned.vergences[0]
+        lattice = lattice or plan_lattice(planned, vergence, watch)
+        return _cropped_blur(planned, _placed(planned, values, vergence, how), lattice, how, watch)
     weights = layer_weights(np.asarray(depth_mm), np.array(planned.vergences), values.shape[:2])
     if how.geometry:
         weights = distorted(weights, planned.view(planned.vergences[0]), planned.scene.sensor, order=1)
@@ -67,7 +70,8 @@ def form_image(
     layers = []
     for k in used:
         both = np.concatenate([lit * weights[..., k : k + 1], weights[..., k : k + 1]], axis=-1)
-        layers.append(_cropped_blur(planned, both, planned.vergences[k], how, watch, doubled=True))
+        lattice = _doubled(plan_lattice(planned, planned.vergences[k], watch))
+        layers.append(_cropped_blur(planned, both, lattice, how, watch))
     return merged(layers, used)
 
 
@@ -83,12 +87,6 @@ def checked(planned: Plan, values: np.ndarray) -> np.ndarray:
     if not np.isfinite(values).all():
         raise RequestError("the picture holds values that are not finite; replace them first")
     return values
-
-
-def _one_depth(planned: Plan, values, how: Forming, watch: Watch) -> np.ndarray:
-    """Return the picture at the scene's far end."""
-    vergence = planned.vergences[0]
-    return _cropped_blur(planned, _placed(planned, values, vergence, how), vergence, how, watch)
 
 
 def _placed(planned: Plan, values, vergence: float, how: Forming) -> np.ndarray:
@@ -113,15 +111,15 @@ def plan_lattice(planned: Plan, vergence: float, watch: Watch | None = None) -> 
     return build_lattice(kernel_at, (sensor.rows, sensor.columns), planned.counts, sensor.centred, watch)
 
 
-def _cropped_blur(
-    planned: Plan, values, vergence: float, how: Forming, watch: Watch, doubled: bool = False
-) -> np.ndarray:
-    """Return the blurred picture on its own pixels; ``doubled``: a weight rides along as one more channel."""
-    lattice = plan_lattice(planned, vergence, watch)
-    if doubled:
-        middle = lattice.channels // 2
-        lines = [[np.concatenate([k, k[middle : middle + 1]]) for k in line] for line in lattice.kernels]
-        lattice = Lattice(lattice.row_nodes, lattice.column_nodes, lines)
+def _doubled(lattice: Lattice) -> Lattice:
+    """Return a lattice whose middle channel comes once more at the end: a weight rides along with the picture."""
+    middle = lattice.channels // 2
+    lines = [[np.concatenate([k, k[middle : middle + 1]]) for k in line] for line in lattice.kernels]
+    return Lattice(lattice.row_nodes, lattice.column_nodes, lines)
+
+
+def _cropped_blur(planned: Plan, values, lattice: Lattice, how: Forming, watch: Watch) -> np.ndarray:
+    """Return the blurred picture on its own pixels."""
     border = lattice.half if how.surround == "edge" else 0
     if border:
         values = np.pad(values, ((border, border), (border, border), (0, 0)), mode="edge")

@@ -1,5 +1,6 @@
 """The plan: the least model of a lens that keeps a scene's error, each decision with its reason."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -77,14 +78,15 @@ def _view(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -
     return view(lens, depth_mm, wavelength_um, height_mm)
 
 
-def plan(lens: Lens, scene: Scene) -> Plan:
+def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> Plan:
     """Return the cheapest plan whose measured errors stay within the scene's tolerance.
 
     Each decision takes the first entry of its list, cheapest first, that keeps its share; where none does, the
-    last, and `Plan.meets` is False. Raises P2SFError where the lens cannot form the scene's image.
+    last, and `Plan.meets` is False. ``check`` is called now and then and may raise, to stop. Raises P2SFError where
+    the lens cannot form the scene's image.
     """
     camera = scene.camera(lens)
-    study = Study(camera, scene)
+    study = Study(camera, scene, check or (lambda: None))
     budget = scene.relative_tolerance
     rings, rung = _rings(study, budget)
     colours, colour = _colours(study, budget)

@@ -3,6 +3,7 @@
 No estimate here depends on the tolerance, so that a looser one can only stop earlier in a list and never costs more.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -25,10 +26,11 @@ SCAN = 65
 
 @dataclass(eq=False)
 class Study:
-    """Kernels of one lens and scene, made once each."""
+    """Kernels of one lens and scene, made once each; ``check`` may raise before each measurement."""
 
     lens: Lens
     scene: Scene
+    check: Callable[[], None] = lambda: None
     made: dict = field(default_factory=dict)
 
     def __post_init__(self):
@@ -73,6 +75,7 @@ class Study:
 
     def best(self, height_mm: float, vergence: float, wave: float) -> int:
         """Return the first rung whose residual is converged here, or the last."""
+        self.check()
         key = (round(height_mm, 9), round(vergence, 15), wave)
         if key not in self.levels:
             source = self.seen(vergence).source(height_mm, wave)
