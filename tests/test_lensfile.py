@@ -154,7 +154,15 @@ MISTAKES = [
     ("[aperture]\nf_number = 8\n", "aperture = 8\n", 7, ["aperture is 8", "write [aperture]"]),
     ("[aperture]", "[aperture", 7, ["this is not TOML", "correct the line"]),
     ("radius = 50\n", "radius = 50 mm\n", 11, ["this is not TOML", "correct the line"]),
-    ("radius = 50\n", "radius = 50,0\n", 11, ["this is not TOML", "correct the line"]),
+    (
+        "radius = 50\n",
+        "radius = -50,5e1\n",
+        11,
+        ["this is not TOML", 'write -50.5e1 with a decimal point, not "-50,5e1"'],
+    ),
+    ("radius = 50\n", 'radius = "50,5"\n', 11, ['radius is "50,5"; write the number 50.5 without quotation marks']),
+    ("radius = 50\n", 'radius = "-1e3"\n', 11, ["write the number -1e3 without quotation marks"]),
+    ("radius = 50\n", 'radius = "50 mm"\n', 11, ["write a number that is not 0, inf for a plane"]),
     ('glass = "SCHOTT N-BK7"', 'glass = "SCHOTT', 13, ["this is not TOML"]),
 ]
 

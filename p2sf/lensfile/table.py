@@ -10,6 +10,8 @@ from p2sf.errors import GlassError, LensFileError
 from p2sf.glass import Medium
 from p2sf.lensfile.media import read_medium
 
+NUMBER = r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?|[-+]?inf"
+
 
 @dataclass(frozen=True)
 class Rule:
@@ -83,8 +85,16 @@ class Table:
     def _checked(self, key: str, value, rule: Rule) -> float:
         number = as_float(value)
         if not rule.holds(number):
-            self.fail(f"{key} is {shown(value)}; {rule.remedy}", key)
+            self.fail(f"{key} is {shown(value)}; {quoted_number(value) or rule.remedy}", key)
         return number
+
+
+def quoted_number(value) -> str:
+    """Return the remedy for a number written as a text, "" for anything else."""
+    if not isinstance(value, str):
+        return ""
+    plain = value.strip().replace(",", ".")
+    return f"write the number {plain} without quotation marks" if re.fullmatch(NUMBER, plain) else ""
 
 
 def as_float(value) -> float:

@@ -82,9 +82,20 @@ def _values(text: str, path: str) -> dict:
         found = re.search(r" \(at line (\d+), column \d+\)", str(error))
         line = int(found[1]) if found else text.count("\n") + 1
         problem = re.sub(r" \(at .*\)$", "", str(error)).rstrip(".")
-        raise LensFileError(f"this is not TOML ({problem}); correct the line", path, line) from None
+        raise LensFileError(f"this is not TOML ({problem}); {_remedy(text, line)}", path, line) from None
     except (ValueError, RecursionError):
         raise LensFileError("a number is too long or lists are nested too deep; this is no lens file", path) from None
+
+
+def _remedy(text: str, line: int) -> str:
+    """Return what to do about a line that is not TOML; a number with a decimal comma is the likeliest reason."""
+    wrong = "".join(text.split("\n")[line - 1 : line])
+    found = re.search(r"=\s*([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)", wrong)
+    return (
+        f'write {found[1]}.{found[2]} with a decimal point, not "{found[1]},{found[2]}"'
+        if found
+        else "correct the line"
+    )
 
 
 def _scale(top: Table) -> float:
