@@ -9,9 +9,9 @@ from app.card import chooser, select
 from app.compute import Live
 from app.lens_cards import shown_title
 from app.lens_chooser import LensChooser
+from app.limits import CHOICES
 from app.readout import Readout
 from app.scales import signed
-from app.state import CHOICES
 from app.store import Store
 from app.theme import DARK, LIGHT, Tokens
 from app.words import tr
@@ -58,6 +58,7 @@ class TopBar(QFrame):
         self.tolerance.activated.connect(lambda: store.update(tolerance=float(self.tolerance.currentData())))
         self.undo = self._tool("Undo", "Take back one step (Ctrl+Z)", store.undo)
         self.redo = self._tool("Redo", "Take the step again (Ctrl+Shift+Z)", store.redo)
+        self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it (Ctrl+B)", None)
         self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
         self.theme = self._tool("Light", "Light or dark", self._turn_theme)
         self.help = self._tool("?", "Shortcuts and terms (F1)", self.help_asked.emit)
@@ -75,7 +76,7 @@ class TopBar(QFrame):
         row.addWidget(self.method)
         row.addWidget(self.tolerance)
         row.addStretch(1)
-        for tool in (self.undo, self.redo, self.snapshot, self.theme, self.help):
+        for tool in (self.undo, self.redo, self.pin, self.snapshot, self.theme, self.help):
             row.addWidget(tool)
 
     def _tool(self, text: str, tip: str, action) -> QToolButton:
@@ -116,6 +117,7 @@ class TopBar(QFrame):
         self.tolerance.setVisible(state.method == "auto")
         self.undo.setEnabled(self._store.can_undo)
         self.redo.setEnabled(self._store.can_redo)
+        self.pin.setVisible(state.pinned is None)
         self.theme.setText(tr("Light") if dark else tr("Dark"))
         self._dark = dark
 

@@ -5,45 +5,13 @@ from dataclasses import dataclass, fields, replace
 from math import inf, isfinite, isnan
 from pathlib import Path
 
+from app.limits import CHOICES, KINDS, LINKABLE, MOST_WAVES, OPTIONAL, PLAIN, PLAYABLE, RANGES
 from app.pupil import TERMS
 from p2sf.errors import P2SFError
 from p2sf.spectrum import spectrum_of
 
 SCHEMA = "p2sf-explorer-state"
 VERSION = 1
-CHOICES = {
-    "stop": ("file", "auto"),
-    "method": ("auto", "seidel", "fitted", "traced", "huygens"),
-    "psf_scale": ("linear", "sqrt", "log"),
-    "psf_units": ("sum", "peak", "strehl"),
-    "phase": ("waves", "contour", "wrapped"),
-    "theme": ("system", "light", "dark"),
-    "shown": ("a", "b", "difference"),
-    "photo_show": ("lens", "sharpened", "axis"),
-}
-# Smallest and largest value that can mean something, and how a sentence writes the quantity.
-RANGES = {
-    "depth_mm": (1e-3, inf, "source depth", "mm"),
-    "focus_mm": (1e-3, inf, "focus distance", "mm"),
-    "sensor_shift_um": (-1e6, 1e6, "sensor shift", "µm"),
-    "field_deg": (-89.0, 89.0, "field angle", "°"),
-    "wavelength_nm": (100.0, 20000.0, "wavelength", "nm"),
-    "f_number": (0.2, 1000.0, "f-number", ""),
-    "tolerance": (0.0, 1.0, "tolerance R²", ""),
-    "pixel_um": (0.01, 1000.0, "pixel", "µm"),
-    "blur_um": (0.01, 10000.0, "blur to tolerate", "µm"),
-    "play_seconds": (0.1, 600.0, "duration of a sweep", "s"),
-    "photo_pixel_um": (0.1, 1000.0, "pixel of the photo", "µm"),
-    "photo_split": (0.0, 1.0, "split of the photo", ""),
-    "lesson_step": (0, 1000, "step of the lesson", ""),
-}
-MOST_WAVES = 1000.0
-DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
-LINKABLE = (*DRAGGED, "method", "added_waves")
-ADDED = "added_"  # before a term's name: the slider that adds waves to it
-PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
-KINDS = {str: "a text", bool: "true or false", int: "a whole number"}
-OPTIONAL = ("focus_mm", "f_number", "photo_pixel_um")
 
 
 @dataclass(frozen=True)
@@ -58,7 +26,8 @@ class State:
     setup B, ``shown`` which of the two is on screen, ``linked`` what moves both. ``play`` is the slider that is
     swept, over ``play_range`` (None: all of its travel) in ``play_seconds``.
     ``photo`` is a chart's name or a file, ``photo_pixel_um`` None shows the lens's whole field. ``lesson`` is the one
-    under way, none for "", and ``lesson_told`` whether its step's answer is shown.
+    under way, none for "", and ``lesson_told`` whether its step's answer is shown. ``language`` is a file of
+    `app.languages`, "en", or the system's; ``colours`` the heat maps'; ``eye_`` says where the 3D view is seen from.
     """
 
     lens: str = "double_gauss_28"
@@ -99,6 +68,11 @@ class State:
     lesson: str = ""
     lesson_step: int = 0
     lesson_told: bool = False
+    language: str = "system"
+    colours: str = "standard"
+    eye_turn_deg: float = 40.0
+    eye_tilt_deg: float = 18.0
+    eye_near: float = 1.0
 
     def __post_init__(self):
         for name, (low, high, words, unit) in RANGES.items():
@@ -114,7 +88,7 @@ class State:
             )
         if not isinstance(self.clip, bool) or not isinstance(self.tab, str):
             raise P2SFError("the state's clip must be true or false, and its tab a panel's name; correct them")
-        for name, kind in (("photo", str), ("lesson", str), ("lesson_told", bool), ("lesson_step", int)):
+        for name, kind in PLAIN.items():
             if type(getattr(self, name)) is not kind:
                 raise P2SFError(f"{name} is {getattr(self, name)!r}; give {KINDS[kind]}")
         object.__setattr__(self, "windows", _names(self.windows))
