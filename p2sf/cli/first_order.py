@@ -8,6 +8,7 @@ from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.gaussian import abcd, cardinal_points, image_distance, magnification
 from p2sf.library import find_lens
+from p2sf.oddities import oddities
 from p2sf.pupils import f_number, numerical_aperture, paraxial_rays, pupils
 from p2sf.request import Setup, set_up
 from p2sf.seidel import Coefficients, coefficients, seidel_sums
@@ -48,7 +49,8 @@ def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = 
     facts = first_order(setup)
     if as_json:
         return print_json(facts)
-    warn(setup.stop.warning)
+    for sentence in (setup.stop.warning, *oddities(setup.prescription)):
+        warn(sentence)
     chosen = {"file": "as the file says", "auto": "the narrowest rim"}[setup.stop.chosen_by]
     notes = {"stop_surface": chosen}
     rows = [(label, _look_up(facts, key), unit or notes.get(key, "")) for key, label, unit in INFO_ROWS]
