@@ -1,0 +1,14 @@
+"""How bright a value of the PSF is shown: linear, square root, logarithmic. No Qt in here."""
+
+import numpy as np
+
+DECADES = 5  # what the logarithmic scale shows below the peak
+
+
+def stretched(values: np.ndarray, scale: str) -> np.ndarray:
+    """Return brightness 0 to 1 of values 0 to 1 on a scale."""
+    if scale == "linear":
+        return values
+    if scale == "sqrt":
+        return np.sqrt(np.maximum(values, 0.0))
+    return 1 + np.log10(np.maximum(values, 10.0**-DECADES)) / DECADES
