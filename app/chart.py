@@ -12,7 +12,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.ink import polylines, write
+from app.ink import polylines, set_text, write
 from app.scales import nice, signed
 from app.theme import LIGHT, Tokens
 from app.words import tr
@@ -61,6 +61,7 @@ class Chart(QWidget):
         self.setMinimumSize(120, 90)
         self.theme: Tokens = LIGHT
         self.curves: list[Curve] = []
+        self.bottom_ticks: tuple[tuple[float, str], ...] = ()  # in place of round numbers
         self._labels, self._aspect, self._framed = (tr(bottom), tr(left)), aspect, framed
         self._asked = ((0.0, 1.0), (0.0, 1.0))
         self._scale: tuple[float, float, float, float] | None = None
@@ -184,10 +185,11 @@ def paint_axes(painter: QPainter, chart: Chart, labels: tuple[str, str]) -> None
     painter.drawLine(area.bottomLeft(), area.bottomRight())
     painter.drawLine(area.bottomLeft(), area.topLeft())
     x_range, y_range = chart.ranges()
-    for value, text in ticks(*x_range, area.width() / TICK_EVERY_PX["bottom"]):
+    for value, text in chart.bottom_ticks or ticks(*x_range, area.width() / TICK_EVERY_PX["bottom"]):
         x = float(chart.to_pixels(value, 0.0)[0])
         _tick(painter, theme, QPointF(x, area.bottom()), QPointF(x, area.bottom() - 4))
-        write(painter, QRectF(x - 40, area.bottom() + 3, 80, 15), text)
+        middle = min(x, chart.width() - set_text(text).size().width() / 2)  # the last one stays whole
+        write(painter, QRectF(middle - 40, area.bottom() + 3, 80, 15), text)
     for value, text in ticks(*y_range, area.height() / TICK_EVERY_PX["left"]):
         y = float(chart.to_pixels(0.0, value)[1])
         _tick(painter, theme, QPointF(area.left(), y), QPointF(area.left() + 4, y))

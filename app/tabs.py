@@ -87,7 +87,7 @@ class Tabs(QTabWidget):
         row = QHBoxLayout(holder)
         row.setContentsMargins(0, 1, 0, 3)
         row.setSpacing(SPACE // 2)
-        for text, tip in (("Own window", OWN_WINDOW), ("All panels", ALL)):
+        for text, tip in (("Pop out", OWN_WINDOW), ("All", ALL)):
             button = QToolButton(holder)
             button.setObjectName("small")
             button.setText(text)

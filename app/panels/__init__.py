@@ -64,13 +64,14 @@ REGISTRY = (
     tab("Aberrations", "seidel", "Seidel per surface", "seidel:SeidelPanel", "seidel:per_surface"),
     tab("Aberrations", "field", "Field curves", "field:FieldPanel", "field:field_curves"),
     tab("Aberrations", "chromatic", "Chromatic shift", "chromatic:ChromaticPanel", "chromatic:chromatic"),
-    tab("Lens", "lens", "Lens table", "lens_table:LensTablePanel", "lens_table:rows"),
-    tab("Lens", "first_order", "First-order data", "first_order:FirstOrderPanel", "first_order:first_order"),
-    tab("Lens", "ybar", "y–ȳ diagram", "ybar:YBarPanel", "ybar:ybar"),
+    tab("Lens", "lens", "Table", "lens_table:LensTablePanel", "lens_table:rows"),
+    tab("Lens", "first_order", "First order", "first_order:FirstOrderPanel", "first_order:first_order"),
+    tab("Lens", "ybar", "y–ȳ", "ybar:YBarPanel", "ybar:ybar"),
     tab(
         "Lens", "depth_of_field", "Depth of field", "depth_of_field:DepthOfFieldPanel", "depth_of_field:depth_of_field"
     ),
-    tab("Lens", "import", "Import report", "import_report:ImportReportPanel", "import_report:report"),
+    tab("Lens", "solid", "3D", "solid:SolidPanel", "solid:scene"),
+    tab("Lens", "import", "Import", "import_report:ImportReportPanel", "import_report:report"),
     tab("Tools", "image", "Image", "image:ImagePanel", "image:question"),
     tab("Tools", "database", "Database", "database:DatabasePanel", "database:question"),
     tab("Tools", "accuracy", "Accuracy", "accuracy:AccuracyPanel"),

@@ -1,0 +1,94 @@
+"""Depth of field: the blur at every depth, and what is sharp for a stated blur."""
+
+from math import inf
+
+import numpy as np
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QColor, QPainter
+
+from app.card import Card
+from app.compute import Live
+from app.panels.pair import NotedChart, legend
+from app.panels.quantity_edit import MicronEdit
+from app.scales import nice, short_distance, written_distance
+from app.store import Store
+from app.theme import Tokens
+from app.views.depth_of_field import DepthOfField
+from app.words import tr
+
+TIP = (
+    "Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's "
+    "cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field."
+)
+BLUR_TIP = "Largest blur diameter on the sensor that is still called sharp."
+LOOKS = {"paraxial, axis": "marginal", "exact rays, this field": "chief"}
+TICKS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+
+
+class DepthChart(NotedChart):
+    """Blur over 1/depth, written as depths; the sharp depths shaded."""
+
+    def __init__(self):
+        super().__init__("depth, even in 1/depth", "blur, µm")
+        self.sharp: tuple[float, float] | None = None
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the shade, then lines and words."""
+        if self.sharp:
+            left, right = (float(self.to_pixels(near, 0.0)[0]) for near in self.sharp)
+            colour = QColor(self.theme.positive)
+            colour.setAlpha(40)
+            box = QRectF(left, self.area.top(), max(2.0, right - left), self.area.height())
+            painter.fillRect(box.intersected(self.area), colour)
+        super().paint_over(painter)
+
+
+class DepthOfFieldPanel:
+    """Two curves of blur, the tolerated one, and the sentence that says what is sharp."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Depth of field", TIP)
+        self.blur = MicronEdit(store, "blur_um", "Tolerated blur", BLUR_TIP, self.widget)
+        self.widget.add_tool(self.blur)
+        self.chart = DepthChart()
+        self.tolerated = self.chart.add_curve("muted")
+        self.curves = {name: self.chart.add_curve(token, 2) for name, token in LOOKS.items()}
+        self.widget.set_body(self.chart)
+        self._theme: Tokens | None = None
+
+    def show(self, live: Live) -> None:
+        """Paint the curves and what is sharp."""
+        view: DepthOfField = live.views["depth_of_field"]
+        self.blur.show_value(view.tolerated_um)
+        edges = float(view.near[0]), float(view.near[-1])
+        for curve, blur in zip(self.curves.values(), (view.paraxial, view.real), strict=True):
+            curve.set_data(view.near, blur)
+        self.tolerated.set_data(edges, (view.tolerated_um,) * 2)
+        self._frame(view, edges)
+        self.chart.sharp = tuple(1 / mm for mm in view.sharp_mm[::-1]) if view.sharp_mm else None
+        self.chart.show_notes((), ((1 / live.state.depth_mm, "chief"),))
+        self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {sentence(view)}")
+
+    def _frame(self, view: DepthOfField, edges: tuple[float, float]) -> None:
+        """Show what is tolerated and the least blur with air above; depths for ticks."""
+        least = float(np.nanmin(view.real)) if np.isfinite(view.real).any() else 0.0
+        self.chart.set_range(edges, (0.0, nice(max(3 * view.tolerated_um, 2 * least), (1, 1.5, 2, 3, 4, 6, 8))))
+        places = [edges[0] + part * (edges[1] - edges[0]) for part in TICKS]
+        ticks = tuple((near, short_distance(1 / near if near else inf)) for near in places)
+        if ticks != self.chart.bottom_ticks:
+            self.chart.bottom_ticks = ticks
+            self.chart.forget_ground()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.chart.restyle(theme)
+
+
+def sentence(view: DepthOfField) -> str:
+    """Return in words which depths are sharp."""
+    if not view.sharp_mm:
+        return tr("no depth before the lens is sharp")
+    near, far = map(written_distance, view.sharp_mm)
+    focus = written_distance(view.hyperfocal_mm)
+    return tr("sharp from {near} to {far} · hyperfocal distance {focus}", near=near, far=far, focus=focus)

@@ -1,0 +1,90 @@
+"""Field curvature, distortion and the distortion grid."""
+
+import numpy as np
+
+from app.chart import Chart
+from app.compute import Live
+from app.panels.pair import ChartsCard, NotedChart, around, legend
+from app.scales import signed
+from app.store import Store
+from app.theme import Tokens
+from app.views.field import FieldView
+
+TIP = (
+    "Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image "
+    "height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11)."
+)
+LOOKS = {"sagittal S": "marginal", "tangential T": "chief", "present field": "muted"}
+
+
+class FieldPanel:
+    """Focus against field, distortion against field, and a square grid as the lens draws it."""
+
+    def __init__(self, store: Store):
+        self.focus = Chart("focus behind the sensor, mm", "field, °")
+        self.distortion = Chart("distortion, %", "field, °")
+        self.grid = NotedChart(aspect=True, framed=False)
+        self.curves = {
+            name: chart.add_curve(token, width)
+            for name, chart, token, width in (
+                ("field", self.focus, "muted", 1),
+                ("third S", self.focus, "marginal", 1),
+                ("third T", self.focus, "chief", 1),
+                ("S", self.focus, "marginal", 2),
+                ("T", self.focus, "chief", 2),
+                ("field again", self.distortion, "muted", 1),
+                ("third", self.distortion, "muted", 1),
+                ("real", self.distortion, "positive", 2),
+            )
+        }
+        self.zeros = [chart.add_curve("line") for chart in (self.focus, self.distortion)]
+        self.straight, self.bent = self.grid.add_curve("line"), self.grid.add_curve("positive", 2)
+        self.widget = ChartsCard("Field", TIP, (self.focus, self.distortion, self.grid), (4, 4, 3))
+
+    def show(self, live: Live) -> None:
+        """Paint curves and grid."""
+        view: FieldView = live.views["field"]
+        at, top = view.field_deg, float(view.field_deg[-1])
+        self._show_focus(view, at, top)
+        self._show_distortion(view, at, top)
+        for name in ("field", "field again"):
+            here = abs(live.state.field_deg)
+            self.curves[name].set_data((-1e9, 1e9), (here, here))
+        self._show_grid(view)
+
+    def _show_focus(self, view: FieldView, at, top: float) -> None:
+        shown = {"S": view.real.sagittal, "T": view.real.tangential}
+        for name, values in (*shown.items(), ("third S", view.third.sagittal), ("third T", view.third.tangential)):
+            self.curves[name].set_data(values, at)
+        self.focus.set_range(around(*shown.values(), least=1e-3), (0.0, top))
+        self.zeros[0].set_data((0, 0), (0, top))
+        self.focus.update()
+
+    def _show_distortion(self, view: FieldView, at, top: float) -> None:
+        real, third = (100 * part for part in (view.heights.distortion, view.heights.third_order_distortion))
+        self.curves["real"].set_data(real, at)
+        self.curves["third"].set_data(third, at)
+        self.distortion.set_range(around(real, least=1e-3), (0.0, top))
+        self.zeros[1].set_data((0, 0), (0, top))
+        self.distortion.update()
+
+    def _show_grid(self, view: FieldView) -> None:
+        for curve, points in ((self.straight, view.straight), (self.bent, view.bent)):
+            curve.set_data(*points.T)
+        self.grid.set_range((-0.8, 0.8), (-1.05, 0.8))
+        words = "as it is" if view.exaggerated == 1 else f"drawn {view.exaggerated} times"
+        self.grid.show_notes(((0.0, -0.93, f"{edge(view)}, {words}", "muted", 0),))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        for chart in (self.focus, self.distortion, self.grid):
+            chart.restyle(theme)
+        self.widget.set_readout(legend(LOOKS, theme))
+
+
+def edge(view: FieldView) -> str:
+    """Return the distortion at the edge of the field in words."""
+    known = np.flatnonzero(np.isfinite(view.heights.distortion))[-1]
+    share = 100 * float(view.heights.distortion[known])
+    kind = "barrel" if share < 0 else "pincushion"
+    return f"{kind} {signed(share, 3)} % at {view.field_deg[known]:.3g}°"

@@ -1,0 +1,116 @@
+"""How large the blur is at every depth, and between which depths it stays below what is tolerated."""
+
+from dataclasses import dataclass
+from math import inf, isfinite
+
+import numpy as np
+
+from app.reach import closest_distance
+from app.setting import prescription
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import P2SFError
+from p2sf.pupils import paraxial_rays
+from p2sf.raytrace import hexapolar, pencil
+from p2sf.source import Source
+
+ELSEWHERE_MM = 1000.0  # any depth but infinity: two points make the line
+DEPTHS = {"preview": 25, "settled": 49}
+RINGS = {"preview": 4, "settled": 6}
+
+
+@dataclass(frozen=True)
+class DepthOfField:
+    """Blur against depth: ``near`` is 1/depth in 1/mm, rising; diameters in µm.
+
+    ``paraxial``: of the axial point's geometric blur; ``real``: twice the RMS radius of exact rays at the present
+    field, NaN where they are lost. ``sharp_mm``: nearest and farthest depth whose paraxial blur is within
+    ``tolerated_um``, None if there is none; ``hyperfocal_mm``: focus here and infinity is just sharp.
+    """
+
+    near: np.ndarray
+    paraxial: np.ndarray
+    real: np.ndarray
+    tolerated_um: float
+    sharp_mm: tuple[float, float] | None
+    hyperfocal_mm: float
+
+
+def depth_of_field(live) -> DepthOfField:
+    """Return the blur at every depth with the sensor where it stands."""
+    s, tolerated = live.setting, live.state.blur_um
+    clear = sharp(s, tolerated)
+    near = np.linspace(*shown(clear, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
+    depths = np.divide(1.0, near, out=np.full(near.shape, inf), where=near > 0)
+    heights = axial_heights(s, depths)
+    return DepthOfField(
+        near,
+        2 * UM_PER_MM * np.abs(heights),
+        real_blur(live, depths),
+        tolerated,
+        clear,
+        hyperfocal(s, tolerated),
+    )
+
+
+def shown(clear: tuple[float, float] | None, closest: float) -> tuple[float, float]:
+    """Return the 1/depth to show, 1/mm: what is sharp with as much again on either side, else everything."""
+    if clear is None:
+        return 0.0, closest
+    far, near = 1 / clear[1], 1 / clear[0]
+    return max(0.0, 2 * far - near), max(min(closest, 2 * near - far), 1.01 * near)
+
+
+def axial_heights(setting, depths, sensor_mm: float | None = None) -> np.ndarray:
+    """Return where the marginal ray of each depth meets the sensor, mm; its double is the blur's diameter."""
+    sensor_mm = setting.lens.sensor_mm if sensor_mm is None else sensor_mm
+    rays = paraxial_rays(setting.lens, np.asarray(depths), setting.source.wavelength_um, setting.stop)
+    return rays.y[-1] + rays.nu[-1] / rays.index[-1] * sensor_mm
+
+
+def real_blur(live, depths) -> np.ndarray:
+    """Return twice the RMS radius of the exact rays' spot at the present field, µm, per depth."""
+    s = live.setting
+    source = Source(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
+    try:
+        rays = pencil(s.lens, source, *hexapolar(RINGS[live.quality]), clip=live.state.clip)
+    except P2SFError:  # a chief ray is lost at some depth: the paraxial curve says what can be said
+        return np.full(len(depths), np.nan)
+    lost = ~rays.passed.any(-1)
+    x, y = (np.where(np.isfinite(v), v, 0.0) for v in (rays.dx, rays.dy))
+    count = np.maximum(rays.passed.sum(-1), 1)
+    square = (x * x + y * y).sum(-1) / count - (x.sum(-1) / count) ** 2 - (y.sum(-1) / count) ** 2
+    return np.where(lost, np.nan, 2 * UM_PER_MM * np.sqrt(np.maximum(square, 0.0)))
+
+
+def sharp(setting, tolerated_um: float) -> tuple[float, float] | None:
+    """Return nearest and farthest depth in mm with a blur within ``tolerated_um``; None if no real depth has one.
+
+    In s = 1/(object to entrance pupil) the marginal ray is linear (DESIGN.md section 2): h = h∞ + k·s.
+    """
+    pupil = float(setting.pupils.entrance_from_first)
+    roots = linear_roots(setting, pupil, tolerated_um / 2 / UM_PER_MM)
+    if not roots:
+        return None
+    far, near = sorted(s / (1 - pupil * s) for s in roots)  # 1/depth of s = 1/(depth + pupil)
+    return (1 / near, 1 / far if far > 0 else inf) if near > 0 else None
+
+
+def linear_roots(setting, pupil: float, half_mm: float, sensor_mm: float | None = None) -> list[float]:
+    """Return the two s at which |h| is ``half_mm``; none where the blur is the same at every depth."""
+    far, one = axial_heights(setting, np.array([inf, ELSEWHERE_MM]), sensor_mm)
+    slope = (one - far) * (ELSEWHERE_MM + pupil)
+    return [float((side * half_mm - far) / slope) for side in (-1, 1)] if slope else []
+
+
+def hyperfocal(setting, tolerated_um: float) -> float:
+    """Return the depth to focus on so that infinity has just the tolerated blur, mm; infinite for an afocal lens.
+
+    The sensor then stands blur/(2|u′|) behind the rear focus.
+    """
+    pupil, focus = (float(v) for v in (setting.pupils.entrance_from_first, setting.cardinal.back_focal_distance))
+    at_focus, behind = (float(axial_heights(setting, np.array([inf]), focus + step)[0]) for step in (0.0, 1.0))
+    if not isfinite(focus) or behind == at_focus:
+        return inf
+    sensor = focus + tolerated_um / 2 / UM_PER_MM / abs(behind - at_focus)
+    roots = linear_roots(setting, pupil, 0.0, sensor)
+    return 1 / roots[0] - pupil if roots and roots[0] else inf
