@@ -107,7 +107,7 @@ class Actions(QObject):
         """Write a snapshot by the ending of its name, its state beside it."""
         ending = Path(path).suffix.lower()
         if ending in DATA_ENDINGS:
-            went = self.attempt(write_data, self.window.live, path)
+            went = self.attempt(write_data, self.window.live, path, self.store.state)
         elif ending == ".json":
             went = self.attempt(write_state, self.store.state, path)
         else:

@@ -26,7 +26,8 @@ class Live:
     """One answer: setting, drawing, pupil, PSF, sentences, and what the open panels asked for in ``views``.
 
     ``rung`` is the method chosen, by a person or by ``auto``; ``milliseconds`` names what each part took; ``quality``
-    is "preview" while a slider moves, else "settled".
+    is "preview" while a slider moves, else "settled"; with a B pinned, ``side``
+    names what is on screen and ``difference`` is what A − B shows in place of this answer.
     """
 
     state: State
@@ -42,22 +43,30 @@ class Live:
     rung: str
     milliseconds: Mapping[str, float]
     views: Mapping[str, object] = field(default_factory=dict)
+    side: str = ""
+    difference: object = None
 
 
 View = Callable[["Live"], object]
 """A function from the answer so far to what one panel shows; it names no Qt."""
 
 
-def live(state: State, quality: str = "settled", views: Mapping[str, View] | None = None, held: str = "") -> Live:
+def live(
+    state: State,
+    quality: str = "settled",
+    views: Mapping[str, View] | None = None,
+    held: str = "",
+    at_least_um: float = 0.0,
+) -> Live:
     """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest.
 
-    ``held`` names the rung that ``auto`` keeps while a slider moves.
+    ``held`` names the rung that ``auto`` keeps while a slider moves; the PSF's window is ``at_least_um`` wide.
     """
     begun = perf_counter()
     set_up = setting(state)
     drawn = layout(set_up)
     placed = perf_counter()
-    made = rendered(state, set_up, quality, held)
+    made = rendered(state, set_up, quality, held, at_least_um)
     psf, finished = made.psf, perf_counter()
     lost = sum(not ray.passed for ray in drawn.rays)
     answer = Live(

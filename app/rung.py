@@ -39,19 +39,20 @@ class Made:
     pupil: PupilMap | None = None
 
 
-def rendered(state: State, set_up: Setting, quality: str, held: str = "") -> Made:
+def rendered(state: State, set_up: Setting, quality: str, held: str = "", at_least_um: float = 0.0) -> Made:
     """Return the PSF by the state's method, or by the rung ``auto`` chooses, or by the one ``held`` while moving.
 
-    What is altered by hand has no rays: the six coefficients make its picture.
+    The window is as wide as the PSF asks for, and ``at_least_um``. What is altered by hand has no rays: the six
+    coefficients make its picture.
     """
     if set_up.altered:
         method, why = "seidel", f"seidel from the six coefficients ({NOTE})"
     else:
         method, why = (held, "") if held else chosen(state, set_up)
     if quality == "preview" and method != "seidel":
-        return moving(state, set_up, method)
+        return moving(state, set_up, method, at_least_um)
     pixels = PIXELS[quality]
-    pitch = window_um(set_up, method) / pixels
+    pitch = max(at_least_um, window_um(set_up, method)) / pixels
     if too_blurred(set_up):
         exact = method != "seidel"
         return Made(geometric_psf(set_up, exact, (pixels, pitch), quality, state.clip), BLURRED, exact, method)
@@ -60,11 +61,11 @@ def rendered(state: State, set_up: Setting, quality: str, held: str = "") -> Mad
     return Made(by_rays(state, set_up, method, (pixels, pitch), quality), why, True, method)
 
 
-def moving(state: State, set_up: Setting, method: str) -> Made:
+def moving(state: State, set_up: Setting, method: str, at_least_um: float = 0.0) -> Made:
     """Return what is shown in place of a slower rung while a slider moves; fitted, or traced where rays are lost."""
     pixels, made = PIXELS["preview"], quick(set_up, state.clip)
     rays = made.rays if made else edge_pencil(set_up)
-    pitch = ray_window_um(set_up, landing_um(rays)) / pixels
+    pitch = max(at_least_um, ray_window_um(set_up, landing_um(rays))) / pixels
     why = MOVING.format(method) if method != "fitted" else ""
     pupil = quick_pupil(made) if made else None
     if too_blurred(set_up):

@@ -25,15 +25,19 @@ def write_state(state: State, path, **extra) -> Path:
     return write_beside(path, lambda handle: handle.write(text.encode()))
 
 
-def write_data(live: Live, path) -> tuple[Path, Path]:
-    """Write the PSF on screen as .npz, .tiff, .fits or .csv and its state beside; return both paths. ExportError."""
+def write_data(live: Live, path, state: State | None = None) -> tuple[Path, Path]:
+    """Write the PSF on screen as .npz, .tiff, .fits or .csv and its state beside; return both paths. ExportError.
+
+    ``state`` is the window's where that is more than the picture's own: B may be pinned beside it.
+    """
+    state = state or live.state
     if Path(path).suffix.lower() not in DATA_ENDINGS:
         ending = Path(path).suffix
         raise ExportError(f'{path}: PSF data has no ending "{ending}"; choose {", ".join(DATA_ENDINGS)}')
-    meta = {**describe(setup(live.state)), "state": _entries(live.state)}
+    meta = {**describe(setup(live.state)), "state": _entries(state)}
     write = write_psf_fits if Path(path).suffix.lower() == ".fits" else write_psf
     written = write(live.psf, path, meta)
-    return written, write_state(live.state, side_car(path), exported=Path(path).name)
+    return written, write_state(state, side_car(path), exported=Path(path).name)
 
 
 def write_picture(state: State, png: bytes, path) -> tuple[Path, Path]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from PySide6.QtCore import QObject, Signal
 
+from app.pinning import with_links
 from app.state import State
 from p2sf.errors import P2SFError
 
@@ -36,9 +37,12 @@ class Store(QObject):
         return self._before_drag is not None
 
     def update(self, **changes) -> None:
-        """Change some entries; a value that cannot be is refused in a sentence and nothing changes."""
+        """Change some entries, and B's that are linked to them.
+
+        A value that cannot be is refused in a sentence and nothing changes.
+        """
         try:
-            self.replace(replace(self.state, **changes))
+            self.replace(replace(self.state, **with_links(self.state, changes)))
         except P2SFError as error:
             self.refused.emit(str(error))
 

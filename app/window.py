@@ -9,6 +9,8 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter,
 from app import compute
 from app.actions import Actions
 from app.bars import Banner, StatusLine, TopBar
+from app.comparebar import CompareBar
+from app.comparing import Answers, answers
 from app.compute import Live
 from app.controls import Controls
 from app.floating import Floating
@@ -41,14 +43,19 @@ class Window(QMainWindow):
         self.store = Store(state or State(), self)
         self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
         self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(TABS, self)
+        self.compare = CompareBar(self, self.store)
         self.floating = Floating(self, self.store, self.tabs, {entry.key: entry.title for entry in TABS})
         self.panels: dict[str, Panel] = {key: build(ENTRIES[key], self.store) for key in MAIN}
         self.live: Live | None = None
+        self._answers: Answers | None = None
         self.frame_ms: float | None = None
         self._theme = None
         self._lay_out()
         self.actions, self.measuring = Actions(self), Measuring(self, measured)
         self.sharing = Sharing(self)
+        for command in self.compare.commands():
+            self.actions.add(command)
+        self.top.pin.clicked.connect(self.compare.turn)
         self.store.changed.connect(self.refresh)
         self.store.refused.connect(self.refuse)
         self.tabs.currentChanged.connect(self._on_tab)
@@ -62,7 +69,11 @@ class Window(QMainWindow):
         middle = QHBoxLayout()
         middle.setSpacing(SPACE)
         middle.addWidget(self.controls)
-        middle.addWidget(self.stack, 1)
+        right = QVBoxLayout()
+        right.setSpacing(SPACE)
+        right.addWidget(self.compare)
+        right.addWidget(self.stack, 1)
+        middle.addLayout(right, 1)
         body = QWidget(self)
         body.setObjectName("window")
         column = QVBoxLayout(body)
@@ -82,26 +93,25 @@ class Window(QMainWindow):
         self._bring_up(state)
         try:
             self.controls.show_state(state)
-            live = self._answer(state)
+            self.compare.show_state(state)
+            self._answers = self._answer(state)
         except P2SFError as error:
             self.refuse(str(error))
             return
-        self.live = live
+        self.live = live = self._answers.seen
         self.banner.hide()
         self.top.show_state(state, self._theme.dark)
-        self.controls.show_live(live)
+        self.controls.show_live(self._answers.a)
         for key in self._visible():
             self.panels[key].show(live)
         self.status.show_live(live, self.frame_ms)
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._painted(begun))
 
-    def _answer(self, state: State) -> Live:
-        """Return the settled answer, or while a slider moves a preview by the rung that ``auto`` had chosen."""
-        if not self.store.moving:
-            return compute.live(state, "settled", self._wanted())
-        held = self.live.rung if self.live and state.method == "auto" else ""
-        return compute.live(state, "preview", self._wanted(), held)
+    def _answer(self, state: State) -> Answers:
+        """Return the settled answers, or while a slider moves previews by the rungs that ``auto`` had chosen."""
+        quality = "preview" if self.store.moving else "settled"
+        return answers(state, quality, self._wanted(), self._answers)
 
     def refuse(self, sentence: str) -> None:
         """Say in the banner why something cannot be; the last good picture stays."""

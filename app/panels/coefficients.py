@@ -63,13 +63,17 @@ class CoefficientsPanel:
         state, altered = live.state, live.setting.altered
         values, own = (as_numbers(found) for found in (live.setting.coefficients, live.setting.own))
         own = dict.fromkeys(TERMS, 0.0) if state.free_pupil else own
+        if live.difference:
+            values = own = dict(live.difference.coefficients)
         self.bars.show_values(
             values, own, dict(zip(TERMS, state.added_waves, strict=True)), muted=state.muted, solo=state.solo
         )
+        self.bars.setEnabled(live.side != "B")  # the sliders move A
         self.free.setChecked(state.free_pupil)
         self.reset.setEnabled(altered)
         colour = f'<span style="color:{self._theme.warning}">{SHORT_NOTE}</span>'
-        self.widget.set_readout(colour if altered else f"waves at {state.wavelength_nm:.1f} nm")
+        words = colour if altered else f"waves at {state.wavelength_nm:.1f} nm"
+        self.widget.set_readout(f"<b>{live.side}</b> &nbsp; {words}" if live.side else words)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

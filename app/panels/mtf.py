@@ -2,6 +2,7 @@
 
 from app.compute import Live
 from app.panels.curves import CurvesPanel
+from app.panels.differences import signed_range
 from app.scales import nice
 from app.store import Store
 
@@ -20,4 +21,6 @@ class MtfPanel(CurvesPanel):
         view = live.views["mtf"]
         curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
         self.show_curves(view.frequency_per_mm, curves)
-        self.set_range((0.0, nice(float(view.frequency_per_mm[-1]), (1, 1.5, 2, 3, 4, 5, 6, 8))), (0.0, 1.04))
+        last = nice(float(view.frequency_per_mm[-1]), (1, 1.5, 2, 3, 4, 5, 6, 8))
+        self.set_range((0.0, last), signed_range(live, curves, (0.0, 1.04)))
+        self.show_side(live.side)

@@ -2,6 +2,7 @@
 
 from app.compute import Live
 from app.panels.curves import CurvesPanel
+from app.panels.differences import signed_range
 from app.store import Store
 
 TIP = "Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)²."
@@ -17,6 +18,8 @@ class ProfilesPanel(CurvesPanel):
     def show(self, live: Live) -> None:
         """Paint the sections."""
         view = live.views["profiles"]
-        self.show_curves(view.position_um, {"Airy": view.airy, "along x": view.along_x, "along y": view.along_y})
+        curves = {"Airy": view.airy, "along x": view.along_x, "along y": view.along_y}
+        self.show_curves(view.position_um, curves)
         half = -float(view.position_um[0])
-        self.set_range((-half, half), (0.0, 1.04))
+        self.set_range((-half, half), signed_range(live, curves, (0.0, 1.04)))
+        self.show_side(live.side)

@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from app.brightness import DECADES, stretched
 from app.card import Card, chooser, select
 from app.compute import Live
+from app.panels.differences import show_signed
 from app.plots import HeatMap
 from app.readout import Readout
 from app.scales import significant, written_r_squared
@@ -11,7 +13,6 @@ from app.store import Store
 from app.theme import Tokens
 
 PSF_MAP = "inferno"
-DECADES = 5  # what the logarithmic scale shows below the peak
 METHOD_WORDS = {"geometric": "geometric: ray density, no diffraction"}
 QUALITIES = ("preview", "settled")
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
@@ -50,10 +51,14 @@ class PsfPanel:
         count, step = psf.values.shape[-1], psf.pixel_um
         start = -(count // 2 + 0.5) * step
         peak = float(psf.values.max()) or 1.0
-        self.map.show_values(
-            stretched(psf.values / peak, state.psf_scale), (0.0, 1.0), (start, start, count * step, count * step)
-        )
-        self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.psf_units], labels(state, psf, peak))
+        rect = (start, start, count * step, count * step)
+        if live.difference:
+            show_signed(self.map, live.difference.psf, rect, state.psf_scale, "of peak")
+        else:
+            self.map.set_map(PSF_MAP)
+            self.map.show_values(stretched(psf.values / peak, state.psf_scale), (0.0, 1.0), rect)
+            self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.psf_units], labels(state, psf, peak))
+        self.airy.token = self.arrow.token = "muted" if live.difference else WHITE
         self._frame(count * step / 2, live)
         self.show_badge(live, self._r_squared, not live.setting.altered)
 
@@ -75,11 +80,16 @@ class PsfPanel:
         """
         self._r_squared = r_squared
         psf = live.psf
+        if live.difference:
+            largest = significant(100 * float(np.abs(live.difference.psf).max()), 3)
+            self.badge.set_text(f"{live.side} · at most {largest} % of the higher peak", "text")
+            return
         self._times[live.quality] = significant(1e3 * psf.seconds, 2)
         times = " / ".join(f"{name} {self._times[name]}" for name in QUALITIES if name in self._times)
         parts = [METHOD_WORDS.get(psf.method, psf.method), f"{times} ms"]
+        parts = [live.side, *parts] if live.side else parts
         if live.setting.altered:
-            parts.insert(0, "what-if")
+            parts.insert(len(parts) - 2, "what-if")
         elif r_squared is not None and psf.method != "geometric":
             parts.append(f"R² {written_r_squared(r_squared)} vs Huygens")
         self.badge.set_text(" · ".join(parts), "muted" if stale else "text")
@@ -92,15 +102,6 @@ class PsfPanel:
 
 
 UNIT_WORDS = {"peak": "peak = 1", "sum": "per pixel", "strehl": "Strehl"}
-
-
-def stretched(values: np.ndarray, scale: str) -> np.ndarray:
-    """Return brightness 0 to 1 of values 0 to 1 on a scale."""
-    if scale == "linear":
-        return values
-    if scale == "sqrt":
-        return np.sqrt(np.maximum(values, 0.0))
-    return 1 + np.log10(np.maximum(values, 10.0**-DECADES)) / DECADES
 
 
 def decade(top: float, decades: int) -> str:

@@ -10,7 +10,7 @@ from app.scales import nice, significant
 from app.store import Store
 from app.theme import Tokens
 
-WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-C2"
+WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-CBC1"
 TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
 
 
@@ -33,7 +33,8 @@ class PupilPanel:
 
     def show(self, live: Live) -> None:
         """Paint the wavefront."""
-        pupil, mode = live.pupil, live.state.phase
+        pupil = live.difference.pupil if live.difference else live.pupil
+        mode = "waves" if live.difference else live.state.phase
         select(self.mode, mode)
         self._use_map(WRAPPED_MAP if mode == "wrapped" else WAVES_MAP)
         if mode == "wrapped":

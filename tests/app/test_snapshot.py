@@ -9,7 +9,7 @@ from app.__main__ import starting_state
 from app.display import display_problem
 from app.embedded import state_inside
 from app.snapshot import DATA_ENDINGS
-from app.state import read_state
+from app.state import State, read_state
 from p2sf.export import read_psf
 from p2sf.interchange.fitspsf import read_psf_fits
 from p2sf.lensfile.toml import lens_to_toml
@@ -50,6 +50,7 @@ def drop(window, path) -> None:
 SETUPS = {
     "plain": {},
     "by hand": {"added_waves": (0.5, -1.0, 0.0, 0.0, 0.25, 0.0), "muted": ("w22",), "free_pupil": True},
+    "compared": {"pinned": State(method="seidel", f_number=8.0), "shown": "b"},
     "edited": {"lens_text": lens_to_toml(find_lens("cooke_triplet")).replace("Cooke", "Cooke & Söhne's ")},
 }
 
