@@ -25,9 +25,9 @@ from p2sf.quadrature import RowNodes
 from p2sf.seidel import Coefficients
 from p2sf.wavefront import shape_coefficients, spread
 
-BATCH = 8  # PSFs at a time: 8 × 128² pupils of float32 just fit a second-level cache
+BATCH = 10  # PSFs at a time: their 128² pupils of float32 just fit a second-level cache
 TURN = 2 * np.pi
-KERNEL_BYTES = 2**23  # most that one kernel may take; more rows than that are summed block by block
+KERNEL_BYTES = 2**22  # most that one kernel may take; more rows than that are summed block by block
 
 
 @dataclass(frozen=True)
@@ -54,16 +54,25 @@ def intensities(coefficients: Coefficients, pixels: int, pixel_um: float, rows: 
     The coefficients broadcast over (depth, field, wavelength); rows of the PSF are +y, sample pixels//2 is the
     chief ray. ``dtype``, float32 or float64, is the precision of everything behind the reduced phase.
     """
-    terms = spread(*shape_coefficients(coefficients)[:4], wave_number(coefficients))
+    terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
-    even, coma, scale = terms[:, [0, 2, 3]], terms[:, 1:2], terms[:, 4]
     out = np.empty((len(terms), pixels, pixels), dtype)
-    for members in _groups(scale):
-        setting = float(scale[members[0]]) * pixel_um, pixels, out.dtype
+    for members in groups(terms[:, 4]):
         for start in range(0, len(members), BATCH):
             some = members[start : start + BATCH]
-            out[some] = _unfold(*_fields(even[some], coma[some], rows, setting), pixels)
+            out[some] = batch_intensities(terms[some], pixels, pixel_um, rows, out.dtype)
     return out.reshape(*shape, pixels, pixels)
+
+
+def shape_terms(coefficients: Coefficients) -> np.ndarray:
+    """Return W40, W31, W22, W20 + Wd in waves and n'u'/λ as `wave_number` has it, broadcast, (…, 5)."""
+    return spread(*shape_coefficients(coefficients)[:4], wave_number(coefficients))
+
+
+def batch_intensities(terms: np.ndarray, pixels: int, pixel_um: float, rows: RowNodes, dtype) -> np.ndarray:
+    """Return the PSFs (batch, pixels, pixels) of `shape_terms` (batch, 5) that all have the same last one."""
+    setting = float(terms[0, 4]) * pixel_um, pixels, np.dtype(dtype)
+    return _unfold(*_fields(terms[:, [0, 2, 3]], terms[:, 1:2], rows, setting), pixels)
 
 
 def wave_number(coefficients: Coefficients) -> np.ndarray:
@@ -71,7 +80,7 @@ def wave_number(coefficients: Coefficients) -> np.ndarray:
     return -np.asarray(coefficients.reduced_slope) / coefficients.wavelength_um
 
 
-def _groups(scale: np.ndarray) -> list[np.ndarray]:
+def groups(scale: np.ndarray) -> list[np.ndarray]:
     """Return the indices of equal scales together; they share their kernels."""
     if scale.size == 1:
         return [np.zeros(1, dtype=int)]
@@ -81,23 +90,25 @@ def _groups(scale: np.ndarray) -> list[np.ndarray]:
 
 
 def _fields(even, coma, rows: RowNodes, setting):
-    """Return the parts of the fields even and odd in y, (batch, 2, y, x) each, axis 1 real and imaginary."""
+    """Return the parts of the fields even and odd in y, (2, batch, y, x) each, axis 0 real and imaginary."""
     blocks = _blocks(rows, setting[1], setting[2])
     upright, odd = _block_fields(even, coma, blocks[0], setting)
     for block in blocks[1:]:
         more_upright, more_odd = _block_fields(even, coma, block, setting)
-        upright, odd = upright + more_upright, odd + more_odd
+        upright += more_upright
+        odd += more_odd
     return upright, odd
 
 
 def _block_fields(even, coma, rows: RowNodes, setting):
-    kernels = kernels_for(rows, *setting)
+    # A single PSF is likely to be asked for again, a batch of a stack is not and would only fill the cache.
+    kernels = (kernels_for if len(even) == 1 else kernels_for.__wrapped__)(rows, *setting)
     half = _across(folded_pupils(even, coma, _monomials(rows, setting[2])), kernels.across)
-    return kernels.up_even @ half[:, :2], kernels.up_odd @ half[:, 2:]
+    return kernels.up_even @ half[:2], kernels.up_odd @ half[2:]
 
 
 def folded_pupils(even, coma, monomials: Monomials) -> np.ndarray:
-    """Return w·exp(i2πe)·(cos 2πo, sin 2πo), shape (batch, 4, rows, columns): real and imaginary of either.
+    """Return w·exp(i2πe)·(cos 2πo, sin 2πo), shape (4, batch, rows, columns): real and imaginary of either.
 
     ``even``: (batch, 3) of W40, W22, W20 + Wd; ``coma``: (batch, 1) of W31; in waves.
     """
@@ -105,33 +116,35 @@ def folded_pupils(even, coma, monomials: Monomials) -> np.ndarray:
     shape = (len(even), *weight.shape)
     phase = _reduced(even @ monomials.even, weight.dtype).reshape(shape)
     tilt = _reduced(coma * monomials.odd, weight.dtype).reshape(shape)
-    cosine, sine = np.cos(phase), np.sin(phase)
-    pupil = np.empty((shape[0], 4, *shape[1:]), weight.dtype)
-    for first, part in ((0, np.cos(tilt)), (2, np.sin(tilt))):
+    pupil = np.empty((4, *shape), weight.dtype)
+    cosine, sine = np.cos(phase), np.sin(phase, out=phase)
+    for first, part in ((0, np.cos(tilt)), (2, np.sin(tilt, out=tilt))):
         part *= weight
-        np.multiply(cosine, part, out=pupil[:, first])
-        np.multiply(sine, part, out=pupil[:, first + 1])
+        np.multiply(cosine, part, out=pupil[first])
+        np.multiply(sine, part, out=pupil[first + 1])
     return pupil
 
 
 def _reduced(cycles: np.ndarray, dtype) -> np.ndarray:
     """Return the phase in radians without its whole turns; the float64 ``cycles`` are used up."""
     cycles -= np.rint(cycles)
-    return np.multiply(cycles, TURN, out=np.empty(cycles.shape, dtype), casting="same_kind")
+    radians = cycles.astype(dtype, copy=False)
+    radians *= TURN
+    return radians
 
 
 def _across(pupil: np.ndarray, across: np.ndarray) -> np.ndarray:
-    """Return the product along ξ, (batch, 4, rows, x): one product for a shared kernel, else one per row."""
-    batch, parts, rows, columns = pupil.shape
+    """Return the product along ξ, (4, batch, rows, x): one product for a shared kernel, else one per row."""
+    parts, batch, rows, columns = pupil.shape
     if len(across) == 1:
-        return (pupil.reshape(-1, columns) @ across[0]).reshape(batch, parts, rows, -1)
-    by_row = np.ascontiguousarray(pupil.reshape(batch * parts, rows, columns).transpose(1, 0, 2))
-    return (by_row @ across).transpose(1, 0, 2).reshape(batch, parts, rows, -1)
+        return (pupil.reshape(-1, columns) @ across[0]).reshape(parts, batch, rows, -1)
+    by_row = pupil.reshape(-1, rows, columns).transpose(1, 0, 2)  # a view serves, here and behind
+    return (by_row @ across).transpose(1, 0, 2).reshape(parts, batch, rows, -1)
 
 
 def _unfold(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
     """Return |even ± odd|² on the whole picture from offsets ≥ 0: minus above the chief ray, even in x."""
-    above, below = _modulus(even - odd), _modulus(even + odd)
+    above, below = _modulus(even - odd), _modulus(np.add(even, odd, out=even))
     out = np.empty((len(above), pixels, pixels), above.dtype)
     low = pixels // 2
     high = pixels - low
@@ -143,8 +156,9 @@ def _unfold(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
 
 
 def _modulus(field: np.ndarray) -> np.ndarray:
+    """Return the squared modulus of a field (2, batch, y, x), which is used up, as (batch, y, x)."""
     field *= field
-    return field[:, 0] + field[:, 1]
+    return np.add(field[0], field[1], out=field[0])
 
 
 @lru_cache(maxsize=8)

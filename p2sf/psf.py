@@ -1,33 +1,28 @@
 """The point spread function as a result: samples, scale, and how they came about; and the one Seidel gives."""
 
 from dataclasses import dataclass
-from math import isfinite, sqrt
+from math import isfinite
 from time import perf_counter
 
 import numpy as np
 
+from p2sf.batches import Stack, corner_reach, stack_of
 from p2sf.conventions import centred_axis
 from p2sf.errors import GeometryError, SamplingError
-from p2sf.fastpath import intensities, wave_number
+from p2sf.fastpath import wave_number
 from p2sf.quadrature import (
     SETTLED_TOLERANCE,
-    RowNodes,
     cell_areas,
-    chord_rows,
-    chords_for,
     disc_nodes,
     even_count,
-    grid_rows,
     nodes_for,
 )
 from p2sf.seidel import Coefficients
 from p2sf.transform import check_fft, padded_fft, sum_plane_waves
-from p2sf.wavefront import slope_bound, steepest_chords, steepest_polar, steepest_slope, wavefront
+from p2sf.wavefront import steepest_polar, steepest_slope, wavefront
 
 AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π, times λ/NA
 WINDOW_AIRY_RADII = 5
-PREVIEW_GRID = 128
-LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
 LARGEST_SAMPLES = 2**28  # of all PSFs of a call: 2 GiB of float64
 FFT_RADIUS = {"preview": 64, "settled": 256}  # pupil radius in FFT samples: its rim is only second-order accurate
 LARGEST_FFT = 4096
@@ -88,11 +83,12 @@ def seidel_psf(
     check_image(coefficients)
     pixel_um = check_window(coefficients, pixels, pixel_um)
     if sampling == "fft":
-        values, words = _by_fft(coefficients, pixels, pixel_um, quality)
+        stack = _by_fft(coefficients, pixels, pixel_um, quality)
     else:
-        values, words = _by_rows(coefficients, pixels, pixel_um, quality, dtype)
+        dtype = dtype or (np.float32 if quality == "preview" else np.float64)
+        stack = stack_of(coefficients, pixels, pixel_um, quality, dtype)
     tolerance = SETTLED_TOLERANCE if (quality, sampling) == ("settled", "mdft") else None
-    return _result(coefficients, values, pixel_um, words, tolerance, start)
+    return _result(coefficients, stack, pixel_um, tolerance, start)
 
 
 def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) -> np.ndarray:
@@ -108,43 +104,15 @@ def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) ->
     return np.abs(sum_plane_waves(pupil, scale * nodes.xi, scale * nodes.eta, axis, axis)) ** 2
 
 
-def corner_reach(scale, pixels: int, pixel_um: float) -> float:
-    """Return waves per unit pupil radius of the kernel at the window's corner; ``scale`` NA/λ per µm, the largest."""
-    return float(np.max(scale)) * pixel_um * (pixels // 2) * sqrt(2)
-
-
-def rows_for(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str) -> RowNodes:
-    """Return the pupil samples that no PSF of these coefficients aliases on. Raises SamplingError if too many."""
-    reach = corner_reach(np.abs(wave_number(coefficients)), pixels, pixel_um)
-    # A grid of step 2/N repeats the picture every N/2 cycles; blur and window must fit side by side.
-    if quality == "preview" and 2.1 * (slope_bound(coefficients) + reach) < PREVIEW_GRID:
-        return grid_rows(PREVIEW_GRID)
-    slope = float(np.max(steepest_slope(coefficients)))
-    if quality == "preview":
-        rows = columns = max(PREVIEW_GRID, even_count(2.1 * (slope + reach)))
-    else:
-        rows, columns = chords_for(*steepest_chords(coefficients), reach)
-    if rows * columns > 4 * LARGEST_NODES:
-        raise SamplingError(
-            f"a phase slope of {slope:.0f} waves over a window of {reach:.0f} cycles needs {rows} × {columns} pupil "
-            "samples; bring the sensor nearer to the image, stop down, or show a smaller window"
-        )
-    return grid_rows(rows) if quality == "preview" else chord_rows(rows, columns)
-
-
-def _by_rows(coefficients, pixels, pixel_um, quality, dtype):
-    rows = rows_for(coefficients, pixels, pixel_um, quality)
-    dtype = dtype or (np.float32 if quality == "preview" else np.float64)
-    return intensities(coefficients, pixels, pixel_um, rows, dtype), f"{rows.name}, {np.dtype(dtype).name}"
-
-
-def _by_fft(coefficients, pixels, pixel_um, quality):
+def _by_fft(coefficients, pixels, pixel_um, quality) -> Stack:
     """Return the stack by the paper's FFT, one PSF at a time."""
     shape = np.broadcast_shapes(*(np.shape(x) for x in vars(coefficients).values()))
     samples = fft_samples(coefficients, pixels, pixel_um, quality)
     flat = [np.broadcast_to(x, shape).ravel() for x in vars(coefficients).values()]
     planes = [fft_intensity(Coefficients(*one), pixels, pixel_um, samples) for one in zip(*flat, strict=True)]
-    return np.reshape(planes, (*shape, pixels, pixels)), f"FFT of {samples} × {samples} pupil samples"
+    values = np.reshape(planes, (*shape, pixels, pixels))
+    total, peak = values.sum((-2, -1)), values.max((-2, -1))
+    return Stack(values / total[..., None, None], total, peak, f"FFT of {samples} × {samples} pupil samples")
 
 
 def fft_samples(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str = "preview") -> int:
@@ -172,22 +140,19 @@ def fft_intensity(coefficients: Coefficients, pixels: int, pixel_um: float, pupi
     return np.abs(padded_fft(pupil, pupil_samples, pixels)) ** 2
 
 
-def _result(coefficients, values, pixel_um, words, tolerance, start) -> Psf:
-    total = values.sum((-2, -1), dtype=float)
-    strehl, energy = values.max((-2, -1)), energy_fraction(coefficients, total, pixel_um)
-    values /= total[..., None, None].astype(values.dtype)
-    wavelength = coefficients.wavelength_um
-    single = values.ndim == 2
+def _result(coefficients, stack: Stack, pixel_um, tolerance, start) -> Psf:
+    wavelength, single = coefficients.wavelength_um, stack.values.ndim == 2
+    energy = energy_fraction(coefficients, stack.total, pixel_um)
     return Psf(
-        values=values,
+        values=stack.values,
         pixel_um=pixel_um,
         wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,
         method="seidel",
-        strehl=float(strehl) if single else strehl.astype(float),
+        strehl=float(stack.peak) if single else stack.peak,
         energy=float(energy) if single and energy is not None else energy,
         numbers=6,
         rays=2,
-        sampling=words,
+        sampling=stack.words,
         seconds=perf_counter() - start,
         tolerance=tolerance,
     )

@@ -12,6 +12,7 @@ from p2sf.seidel import Coefficients
 
 # Polar samples that find the extremes of these low-order polynomials: within 1 % over random coefficients (tested).
 SLOPE_RADII, SLOPE_ANGLES = 12, 25
+_BOUND = np.array([4.0, 3.0, 2.0, 2.0])  # the largest |∇| of the first four shapes
 CHORD_MARGIN = 1.04  # along chords the extremes are narrower, and the samples miss them by up to 4 %
 
 
@@ -51,12 +52,17 @@ def steepest_slope(coefficients: Coefficients, tilt: bool = False) -> np.ndarray
 
     λ/NA times this is the largest distance from the chief ray at which a ray of this wavefront lands.
     """
-    return np.sqrt(_slopes(coefficients, _gradient_basis(), tilt).sum(-2).max(-1))
+    return steepest_of(spread(*shape_coefficients(coefficients, tilt)))
+
+
+def steepest_of(shape: np.ndarray) -> np.ndarray:
+    """Return `steepest_slope` of W40, W31, W22, W20 + Wd and, if there is one, W11 in the last axis."""
+    return np.sqrt(_slopes(shape, _gradient_basis()).sum(-2).max(-1))
 
 
 def steepest_polar(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
     """Return the largest |∂W/∂ρ| and |∂W/∂θ|, waves, within 1 %: what radial and angular sampling must carry."""
-    steepest = np.sqrt(_slopes(coefficients, _polar_basis(), False).max(-1))
+    steepest = np.sqrt(_slopes(spread(*shape_coefficients(coefficients)[:4]), _polar_basis()).max(-1))
     return steepest[..., 0], steepest[..., 1]
 
 
@@ -66,20 +72,23 @@ def steepest_chords(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]
     There η = cos t and ξ = sin s·sin t: a slope near the rim, where the nodes crowd, counts little, and one
     inside the disc in full. Never too small, at most 4 % too large.
     """
-    steepest = CHORD_MARGIN * np.sqrt(_slopes(coefficients, _chord_basis(), False).max(-1))
+    steepest = chords_of(spread(*shape_coefficients(coefficients)[:4]))
     return steepest[..., 0], steepest[..., 1]
 
 
-def slope_bound(coefficients: Coefficients) -> float:
-    """Return a number that no |∇W| of these coefficients exceeds: quick, and far too large where terms balance."""
-    w40, w31, w22, focus, _ = shape_coefficients(coefficients)
-    return float(np.max(4 * abs(w40) + 3 * abs(w31) + 2 * abs(w22) + 2 * abs(focus)))
+def chords_of(shape: np.ndarray) -> np.ndarray:
+    """Return `steepest_chords`, (…, 2), of W40, W31, W22, W20 + Wd in the last axis."""
+    return CHORD_MARGIN * np.sqrt(_slopes(shape, _chord_basis()).max(-1))
 
 
-def _slopes(coefficients: Coefficients, basis: np.ndarray, tilt: bool) -> np.ndarray:
-    """Return the squares of Σ coefficient·basis over the five shapes, (…, 2, points)."""
-    terms = spread(*shape_coefficients(coefficients, tilt))
-    slopes = (terms @ basis).reshape(*terms.shape[:-1], 2, -1)
+def bound_of(shape: np.ndarray) -> np.ndarray:
+    """Return a number that no |∇W| of W40, W31, W22, W20 + Wd exceeds: quick, far too large where terms balance."""
+    return np.abs(shape) @ _BOUND
+
+
+def _slopes(shape: np.ndarray, basis: np.ndarray) -> np.ndarray:
+    """Return the squares of Σ coefficient·basis over the shapes of the last axis, (…, 2, points)."""
+    slopes = (shape @ basis[: shape.shape[-1]]).reshape(*shape.shape[:-1], 2, -1)
     return np.square(slopes, out=slopes)
 
 

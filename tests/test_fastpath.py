@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from p2sf import fastpath
+from p2sf.batches import rows_for
 from p2sf.fastpath import BATCH, intensities, kernels_for
-from p2sf.psf import plain_intensity, rows_for
+from p2sf.psf import plain_intensity
 from p2sf.quadrature import chord_rows, grid_rows
 from p2sf.transform import matrix_dft
 from p2sf.wavefront import wavefront

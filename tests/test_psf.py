@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import j1
 
+from p2sf.batches import rows_for
 from p2sf.conventions import mirrored, slope_from_degrees
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens import with_sensor
@@ -13,7 +14,6 @@ from p2sf.psf import (
     fft_intensity,
     fft_samples,
     plain_intensity,
-    rows_for,
     seidel_psf,
     suitable_pixel_um,
 )

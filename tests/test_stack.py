@@ -111,7 +111,9 @@ def test_kill_9_loses_the_chunk_in_flight_and_no_more(stack, tmp_path):
     assert 0 < len(killed.missing) < len(killed.chunks)
     whole = contents(stack.path)
     assert all(whole[name] == content for name, content in kept.items())
-    (path / "psf" / "c" / "0" / "0" / "0" / "0" / "0.abc.partial").write_bytes(b"torn")
+    torn = path / "psf" / "c" / "0" / "0" / "0" / "0" / "0.abc.partial"
+    torn.parent.mkdir(parents=True, exist_ok=True)  # whichever chunks were done, this one may be in flight
+    torn.write_bytes(b"torn")
     resumed = write_stack(*small(), path, SAMPLING)
     assert resumed.complete
     assert contents(path) == whole

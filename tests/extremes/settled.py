@@ -11,10 +11,10 @@ from time import process_time
 
 import numpy as np
 
+from p2sf.batches import corner_reach, rows_for
 from p2sf.fastpath import intensities, wave_number
 from p2sf.gaussian import image_distance
 from p2sf.lens import with_f_number, with_sensor
-from p2sf.psf import corner_reach, rows_for
 from p2sf.quadrature import chord_rows
 from p2sf.seidel import Coefficients, coefficients
 from p2sf.wavefront import steepest_slope
