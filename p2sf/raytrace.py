@@ -16,6 +16,8 @@ from p2sf.source import Source
 
 __all__ = ["Pencil", "PupilRays", "Status", "Trace", "diffraction_phase", "displayed_opd", "pupil_rays", "trace"]
 
+MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, of rays that are symmetric but for them
+
 
 @dataclass(frozen=True)
 class Pencil:
@@ -171,9 +173,15 @@ def spot(lens: Lens, source: Source, rings: int = 8, aim="paraxial", clip=False)
     x, y = rays.dx * UM_PER_MM, rays.dy * UM_PER_MM
     if not rays.passed.any():
         raise GeometryError("no ray reaches the sensor; choose a smaller field or leave clip off")
-    centre_x, centre_y = np.nanmean(x, -1, keepdims=True), np.nanmean(y, -1, keepdims=True)
+    centre_x, centre_y = _mean(x), _mean(y)
     square = np.nanmean((x - centre_x) ** 2 + (y - centre_y) ** 2, axis=-1)
     return Spot(x, y, np.sqrt(square), centre_y[..., 0])
+
+
+def _mean(values):
+    """Return the mean over the rays that arrive, (…, 1); 0 where it is nothing but the rounding of their sum."""
+    mean = np.nanmean(values, -1, keepdims=True)
+    return np.where(np.abs(mean) > MEAN_ROUNDING * np.nanmax(np.abs(values), -1, keepdims=True), mean, 0.0)
 
 
 def hexapolar(rings: int):

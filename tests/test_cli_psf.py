@@ -1,12 +1,16 @@
 """`p2sf psf` writes the PSF it says, in every format, by every method."""
 
 import json
+import re
 
 import numpy as np
 import pytest
 
 from p2sf.cli import main
+from p2sf.cli.cautions import long_sum
 from p2sf.export import read_psf
+from p2sf.library import find_lens
+from p2sf.request import Request, set_up
 
 
 @pytest.mark.parametrize("ending", ["npz", "tiff", "csv", "png"])
@@ -74,3 +78,18 @@ def test_auto_is_the_default_and_takes_the_cheapest_rung_that_holds(capsys):
         assert main(["psf", *arguments, "--pixels", "16", "--json"]) == 0
         found.append(json.loads(capsys.readouterr().out)["method"])
     assert found == ["seidel", "fitted"]
+
+
+def test_a_virtual_image_is_told_beside_the_blur(capsys):
+    assert main(["psf", "plano_convex", "--depth-mm", "20", "--method", "seidel", "--pixels", "8"]) == 0
+    error = capsys.readouterr().err
+    assert error.startswith("warning: the image of an object at 20 mm is virtual, ") and error.count("\n") == 1
+    assert "beyond the front focal point" in error
+    assert main(["psf", "plano_convex", "--depth-mm", "200", "--method", "seidel", "--pixels", "8"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_a_sum_of_seconds_is_announced_with_its_time():
+    setup = set_up(find_lens("double_gauss_28"), Request(field_deg=60.0))
+    assert re.search(r"rise 1490 waves per pupil radius here, so their sum takes some 9 s", long_sum(setup))
+    assert long_sum(set_up(find_lens("double_gauss_28"), Request(field_deg=14.0))) is None

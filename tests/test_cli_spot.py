@@ -32,6 +32,11 @@ def na_of(answer, name, wavelength_nm) -> float:
     return answer("info", name, "--wavelength-nm", wavelength_nm)["numerical_aperture"]
 
 
+def test_a_spot_on_the_axis_has_its_centroid_there_and_not_a_rounding_beside(answer):
+    found = answer("spot", "double_gauss_28")
+    assert found["centroid_y_um"] == 0 < found["rms_um"]
+
+
 def test_vignetting_loses_rays(answer):
     assert answer(*PLACE)["lost"] == 0
     assert answer(*PLACE, "--clip")["lost"] > 0

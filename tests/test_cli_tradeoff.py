@@ -20,6 +20,27 @@ def test_the_json_has_every_method_with_its_errors_and_costs(capsys):
     assert next(row for row in rows if row["method"] == "seidel")["errors"]["r_squared"] > 0.9999
 
 
+def test_the_narrowest_rim_can_be_the_stop(tmp_path, capsys):
+    """A front rim narrower than the named stop: by auto it is the stop, the bundle is smaller and the blur too."""
+    path = tmp_path / "narrow.toml"
+    rows = ("radius = 50.0\nthickness = 4.0\nglass = 1.5\nsemi_diameter = 2.0", "radius = -50.0\nthickness = 47.0")
+    head = "stop_surface = 2\n\n[aperture]\nstop_semi_diameter = 5.0\n"
+    path.write_text(head + "".join(f"\n[[surface]]\n{row}\n" for row in rows))
+    common = ("tradeoff", path, "--fields-deg", "0", "--pixels", "16", "--json")
+    found = {}
+    for stop in ("file", "auto"):
+        assert main([*map(str, common), "--stop", stop]) == 0
+        found[stop] = json.loads(capsys.readouterr().out)
+    of_seidel = {stop: next(row for row in found[stop] if row["method"] == "seidel") for stop in found}
+    by_file, by_auto = (of_seidel[stop]["errors"]["r_squared"] for stop in ("file", "auto"))
+    assert by_auto > by_file + 1e-4
+
+
+def test_a_database_takes_the_narrowest_rim_too(answer, tmp_path):
+    common = ("database", "build", "double_gauss_28", "--depths-mm", "inf", "--wavelengths-nm", 550, "-o")
+    assert answer(*common, tmp_path / "d.npz", "--stop", "auto")["bytes"] > 0
+
+
 @pytest.mark.parametrize("ending", ["json", "csv", "png"])
 def test_the_result_is_written_by_its_ending(tmp_path, capsys, ending):
     path = tmp_path / f"trade.{ending}"

@@ -54,7 +54,8 @@ def test_planes_parabolas_and_hyperbolas_never_end():
 
 def test_info_warns_and_still_answers(tmp_path, capsys):
     path = tmp_path / "air.toml"
-    path.write_text("stop_surface = 1\n\n[aperture]\nstop_semi_diameter = 9\n\n[[surface]]\nradius = 4.0\nthickness = 90.0\n")
+    head = "stop_surface = 1\n\n[aperture]\nstop_semi_diameter = 9\n\n"
+    path.write_text(head + "[[surface]]\nradius = 4.0\nthickness = 90.0\n")
     assert main(["info", str(path)]) == 0
     output, error = capsys.readouterr()
     assert "effective focal length" in output

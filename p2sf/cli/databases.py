@@ -56,11 +56,14 @@ class Camera:
         Move the sensor on top of that, µm, away from the lens.
     f_number
         Focal length over entrance-pupil diameter.
+    stop
+        Take the stop from the file, or let the narrowest rim for an object at infinity decide (auto).
     """
 
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
     f_number: float | None = None
+    stop: Literal["file", "auto"] = "file"
 
 
 @dataclass(frozen=True)
@@ -113,9 +116,7 @@ def build(
     """Build the PSF database of a lens and write it, with the error it makes, measured."""
     _check_ending(output, ".zarr" if kind.stack else ".npz")
     found = find_lens(lens)
-    setup = set_up(
-        found, Request(focus_mm=camera.focus_mm, sensor_shift_um=camera.sensor_shift_um, f_number=camera.f_number)
-    )
+    setup = set_up(found, Request(**vars(camera)))
     start = perf_counter()
     database = _built(setup, space_of(nodes, found), kind)
     seconds = perf_counter() - start

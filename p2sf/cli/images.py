@@ -6,9 +6,10 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from p2sf.cli.cautions import caution
 from p2sf.cli.lookups import is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
-from p2sf.cli.screen import heading, print_json, print_table, warn
+from p2sf.cli.screen import heading, print_json, print_table
 from p2sf.errors import RequestError, SamplingError
 from p2sf.export import ENDINGS, describe, write_psf
 from p2sf.export.record import facts
@@ -63,6 +64,11 @@ class Picture:
                 f"give {self.pixels + 1} or choose --sampling mdft"
             )
 
+    @property
+    def seidel(self) -> bool:
+        """Return whether the six coefficients are asked for."""
+        return self.method == "seidel" or self.sampling is not None
+
 
 USUAL = Picture()
 SpectrumName = Annotated[str | None, Parameter(help=f"Colour PSF of a point with this spectrum: {WORDS}.")]
@@ -86,17 +92,16 @@ def psf(
         if picture.sampling or picture.method not in (None, "auto"):
             raise RequestError(f"--method and --sampling need the lens, and {lens} is a database; leave them away")
         result, about, title = looked_up(lens, request, picture.pixels, picture.pixel_um)
-        warning = None
     else:
         setup = set_up(find_lens(lens), request)
+        if not as_json:
+            caution(setup, picture.seidel)
         result, about, title = render(setup, picture), describe(setup) if output else {}, heading(setup)
-        warning = setup.stop.warning
     if output:
         write_psf(result, output, about)
     if as_json:
         file = None if output is None else str(output)
         return print_json({"file": file, "pixels": picture.pixels, **facts(result), **figures(result)})
-    warn(warning)
     return print_table(title, ("point spread function", "value", "unit"), summary(result, output))
 
 
@@ -111,7 +116,7 @@ def _in_colour(lens: str, request, picture: Picture, spectrum: str, output: Path
 def render(setup: Setup, picture: Picture) -> Psf:
     """Return the asked PSF: by the ladder, or straight from the six coefficients when they are asked for."""
     method = picture.method or "auto"
-    if picture.sampling or method == "seidel":
+    if picture.seidel:
         return _from_coefficients(setup, picture)
     from p2sf import ladder
 

@@ -2,7 +2,7 @@
 
 from math import inf
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
@@ -11,12 +11,17 @@ from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.export import write_beside, write_json
 from p2sf.library import find_lens
+from p2sf.request import Request, set_up
 
 WRITTEN = (".json", ".csv", ".png")
 Several = Parameter(consume_multiple=True, negative="")
 Fields = Annotated[list[float] | None, Several, Parameter(help="Field angles, °; the file's when not given.")]
 Depths = Annotated[list[float] | None, Several, Parameter(help="Object distances, mm, inf allowed; ∞ when not given.")]
 Waves = Annotated[list[float] | None, Several, Parameter(help="Wavelengths, nm; the file's middle one when not given.")]
+StopName = Annotated[
+    Literal["file", "auto"],
+    Parameter(help="Take the stop from the file, or let the narrowest rim for the first depth decide (auto)."),
+]
 Pixels = Annotated[Whole, Parameter(help="Samples along each side of the compared window.")]
 
 
@@ -27,6 +32,7 @@ def tradeoff(
     fields_deg: Fields = None,
     depths_mm: Depths = None,
     wavelengths_nm: Waves = None,
+    stop: StopName = "file",
     pixels: Pixels = 64,
     output: Output = None,
     as_json: Json = False,
@@ -36,8 +42,9 @@ def tradeoff(
 
     check_output(output, WRITTEN)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
-    asked = find_lens(lens)
-    rows = ladder.tradeoff(asked, fields_deg, depths_mm or (inf,), wavelengths_nm, pixels=pixels)
+    depths = depths_mm or [inf]
+    asked = set_up(find_lens(lens), Request(depth_mm=depths[0], stop=stop)).lens
+    rows = ladder.tradeoff(asked, fields_deg, depths, wavelengths_nm, pixels=pixels)
     head, *lines = ladder.table(rows)
     title = f"{asked.title or asked.name}: each method against the Huygens sum, {pixels} × {pixels} samples"
     if output:
