@@ -14,6 +14,7 @@ from app.ink import small_font
 from app.theme import LIGHT, Tokens
 from app.words import tr
 
+BRIGHTNESS = "brightness"  # the name of whichever colours the theme has for it
 EMPTY = 255  # the one index of a colour table that is kept for "no value"
 
 
@@ -83,6 +84,11 @@ def lookup(name: str) -> np.ndarray:
     return table
 
 
+def named(name: str, theme: Tokens) -> str:
+    """Return the colour map a name stands for: `BRIGHTNESS` for the one the theme has chosen."""
+    return theme.brightness if name == BRIGHTNESS else name
+
+
 def as_indices(values: np.ndarray, low: float, high: float) -> np.ndarray:
     """Return values as indices 0 to 254 of a colour table, EMPTY where there is no value."""
     scaled = (values - low) * (254.0 / (high - low) if high > low else 0.0)
@@ -123,7 +129,7 @@ class ColourBar(QWidget):
         painter.setFont(small_font())
         bar = QRectF(4, 22, 11, self.height() - 46)
         gradient = QLinearGradient(bar.bottomLeft(), bar.topLeft())
-        table = lookup(self._name)
+        table = lookup(named(self._name, self._theme))
         for k in range(17):
             gradient.setColorAt(k / 16, QColor.fromRgb(int(table[min(254, round(254 * k / 16))])))
         painter.setPen(Qt.PenStyle.NoPen)
@@ -164,7 +170,7 @@ class HeatMap(QWidget):
     def set_map(self, name: str) -> None:
         """Use a colour map by name."""
         self._name = name
-        self._table = lookup(name).copy()
+        self._table = lookup(named(name, self.chart.theme)).copy()
         self._table[EMPTY] = QColor(self.chart.theme.card).rgb()
 
     def restyle(self, theme: Tokens) -> None:

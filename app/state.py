@@ -70,7 +70,7 @@ class State:
     lesson_told: bool = False
     language: str = "system"
     colours: str = "standard"
-    eye_turn_deg: float = 40.0
+    eye_turn_deg: float = 32.0
     eye_tilt_deg: float = 18.0
     eye_near: float = 1.0
 

@@ -1,11 +1,14 @@
 """Colours and shapes of the window, light and dark, as named tokens."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPalette
 
+# Colours of brightness, all of them told apart with every kind of colour blindness (tests/app/test_theme.py).
+BRIGHTNESS = {"standard": "inferno", "viridis": "viridis", "cividis": "cividis", "grey": "CET-L1"}
 SPACE = 8  # every gap of the window is this, or half or twice this, in pixels
 
 
@@ -32,6 +35,7 @@ class Tokens:
     positive: str
     negative: str
     mark: str
+    brightness: str = BRIGHTNESS["standard"]
 
 
 LIGHT = Tokens(
@@ -78,8 +82,17 @@ DARK = Tokens(
 )
 
 
-def tokens(choice: str) -> Tokens:
-    """Return the tokens of "light", "dark" or "system"."""
+def tokens(choice: str, colours: str = "standard") -> Tokens:
+    """Return the tokens of "light", "dark" or "system", with the heat maps' colours by their State name."""
+    return _with_colours(_theme(choice), colours)
+
+
+@lru_cache(maxsize=8)
+def _with_colours(theme: Tokens, colours: str) -> Tokens:
+    return replace(theme, brightness=BRIGHTNESS[colours])
+
+
+def _theme(choice: str) -> Tokens:
     if choice == "system":
         scheme = QGuiApplication.styleHints().colorScheme()
         return DARK if scheme == Qt.ColorScheme.Dark else LIGHT

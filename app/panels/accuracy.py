@@ -4,10 +4,11 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
+from app.brightness import stretched
 from app.card import Card
 from app.compute import Live
 from app.ink import small_font
-from app.panels.psf import PSF_MAP, stretched
+from app.panels.psf import PSF_MAP
 from app.plots import HeatMap, plot_widget, restyle_plot
 from app.readout import Readout
 from app.reference import Accuracy, Rung

@@ -6,13 +6,13 @@ from app.brightness import DECADES, stretched
 from app.card import Card, chooser, select
 from app.compute import Live
 from app.panels.differences import show_signed
-from app.plots import HeatMap
+from app.plots import BRIGHTNESS, HeatMap
 from app.readout import Readout
 from app.scales import significant, written_r_squared
 from app.store import Store
 from app.theme import Tokens
 
-PSF_MAP = "inferno"
+PSF_MAP = BRIGHTNESS
 METHOD_WORDS = {"geometric": "geometric: ray density, no diffraction"}
 QUALITIES = ("preview", "settled")
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
