@@ -22,7 +22,12 @@ TICK_EVERY_PX = {"bottom": 66, "left": 34}
 
 
 class Curve:
-    """A line through points, broken where one is NaN; ``token`` names its colour in the theme."""
+    """A line through points, broken where one is NaN; ``token`` names its colour in the theme.
+
+    ``name`` is the head of its columns where the chart's data are copied.
+    """
+
+    name = ""
 
     def __init__(self, token: str, width: float = 1.0, alpha: int = 255):
         self.token, self.width, self.alpha = token, width, alpha
@@ -62,11 +67,17 @@ class Chart(QWidget):
         self.theme: Tokens = LIGHT
         self.curves: list[Curve] = []
         self.bottom_ticks: tuple[tuple[float, str], ...] = ()  # in place of round numbers
+        self.left_axis = True
         self._labels, self._aspect, self._framed = (tr(bottom), tr(left)), aspect, framed
         self._asked = ((0.0, 1.0), (0.0, 1.0))
         self._scale: tuple[float, float, float, float] | None = None
         self._ground: QPixmap | None = None
         self._image: tuple[np.ndarray, tuple[float, float, float, float]] | None = None
+
+    @property
+    def labels(self) -> tuple[str, str]:
+        """Return what the bottom and the left axis show."""
+        return self._labels
 
     def add_curve(self, token: str, width: float = 1.0, alpha: int = 255) -> Curve:
         """Return a new curve on top of the others."""
@@ -99,7 +110,8 @@ class Chart(QWidget):
         """Return where data are shown, in pixels."""
         if not self._framed:
             return QRectF(self.rect())
-        left, bottom = 44 + (16 if self._labels[1] else 0), 20 + (16 if self._labels[0] else 0)
+        left = (44 if self.left_axis else 8) + (16 if self._labels[1] else 0)
+        bottom = 20 + (16 if self._labels[0] else 0)
         return QRectF(left, 5, max(10, self.width() - left - 9), max(10, self.height() - bottom - 5))
 
     def ranges(self) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -183,20 +195,28 @@ def paint_axes(painter: QPainter, chart: Chart, labels: tuple[str, str]) -> None
     area, theme = chart.area, chart.theme
     painter.setPen(QPen(QColor(theme.line), 1))
     painter.drawLine(area.bottomLeft(), area.bottomRight())
-    painter.drawLine(area.bottomLeft(), area.topLeft())
     x_range, y_range = chart.ranges()
     for value, text in chart.bottom_ticks or ticks(*x_range, area.width() / TICK_EVERY_PX["bottom"]):
         x = float(chart.to_pixels(value, 0.0)[0])
         _tick(painter, theme, QPointF(x, area.bottom()), QPointF(x, area.bottom() - 4))
         middle = min(x, chart.width() - set_text(text).size().width() / 2)  # the last one stays whole
         write(painter, QRectF(middle - 40, area.bottom() + 3, 80, 15), text)
+    write(painter, QRectF(area.left(), area.bottom() + 18, area.width(), 16), labels[0])
+    if chart.left_axis:
+        _paint_left(painter, chart, labels[1], y_range)
+
+
+def _paint_left(painter: QPainter, chart: Chart, label: str, y_range: tuple[float, float]) -> None:
+    area, theme = chart.area, chart.theme
+    painter.setPen(QPen(QColor(theme.line), 1))
+    painter.drawLine(area.bottomLeft(), area.topLeft())
     for value, text in ticks(*y_range, area.height() / TICK_EVERY_PX["left"]):
         y = float(chart.to_pixels(0.0, value)[1])
         _tick(painter, theme, QPointF(area.left(), y), QPointF(area.left() + 4, y))
         write(painter, QRectF(area.left() - 60, y - 8, 55, 16), text, side=1)
-    write(painter, QRectF(area.left(), area.bottom() + 18, area.width(), 16), labels[0])
+    painter.setPen(QColor(theme.muted))
     painter.rotate(-90)
-    write(painter, QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), labels[1])
+    write(painter, QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), label)
     painter.rotate(90)
 
 

@@ -11,13 +11,16 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM, centred_axis
 from p2sf.errors import RequestError
 from p2sf.ladder import render
 from p2sf.lens import Lens, lens_range_um
-from p2sf.psf import Psf
+from p2sf.psf import Psf, suitable_pixel_um
+from p2sf.pupils import Stop
 from p2sf.raytrace import pencil
+from p2sf.seidel import coefficients
 from p2sf.source import Source
 from p2sf.spectrum import Spectrum
 
 COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm
 MOST = 400
+LOOKED_AT = 9  # wavelengths that say how wide a window must be
 
 Renderer = Callable[[Lens, Source, int, float], Psf]
 """What makes one PSF: (lens, source at one wavelength, pixels, µm per pixel)."""
@@ -75,6 +78,14 @@ def colour_psf(
     xyz = sum(layer[..., None] * weight for layer, weight in zip(layers, weights, strict=True))
     methods = tuple(dict.fromkeys(psf.method for psf in made))
     return ColourPsf(xyz, window[1], spectrum.name, wavelengths, shifts, methods, perf_counter() - started)
+
+
+def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: int, stop: Stop | None = None) -> float:
+    """Return the pitch at which the window shows the PSF of every colour, lateral colour included, µm."""
+    waves, _ = bands(spectrum, LOOKED_AT, *_limits(lens))
+    c = coefficients(lens, source.depth_mm, source.field_slope, waves, stop)
+    shift = np.abs(chief_shifts_um(lens, source, waves))
+    return float(np.max(suitable_pixel_um(c, pixels) + 2 * shift / pixels))
 
 
 def by_ladder(method: str) -> Renderer:

@@ -2,21 +2,15 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from p2sf.cli.options import check_output
 from p2sf.cli.screen import heading, print_json, print_table, warn
-from p2sf.colour import bands, chromaticity
+from p2sf.colour import chromaticity
 from p2sf.errors import RequestError
 from p2sf.export import describe
 from p2sf.export.colour_files import COLOUR_ENDINGS, write_colour_psf
-from p2sf.polychromatic import ColourPsf, chief_shifts_um, colour_psf, record
-from p2sf.psf import suitable_pixel_um
+from p2sf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
 from p2sf.request import Setup
-from p2sf.seidel import coefficients
-from p2sf.spectrum import Spectrum, spectrum_of
-
-WAVELENGTHS_LOOKED_AT = 9
+from p2sf.spectrum import spectrum_of
 
 
 def colour(setup: Setup, spectrum: str, picture, output: Path | None, as_json: bool) -> None:
@@ -25,7 +19,8 @@ def colour(setup: Setup, spectrum: str, picture, output: Path | None, as_json: b
     check_output(output, COLOUR_ENDINGS)
     if picture.sampling:
         raise RequestError(f"--sampling is {picture.sampling}, and --spectrum takes its samples by --method alone")
-    window = picture.pixels, picture.pixel_um or suitable_pitch_um(setup, wanted, picture.pixels)
+    pitch = suitable_pitch_um(setup.lens, setup.source, wanted, picture.pixels, setup.stop)
+    window = picture.pixels, picture.pixel_um or pitch
     found = colour_psf(setup.lens, setup.source, wanted, window, picture.method or "auto")
     if output:
         write_colour_psf(found, output, describe(setup))
@@ -33,15 +28,6 @@ def colour(setup: Setup, spectrum: str, picture, output: Path | None, as_json: b
         return print_json({"file": None if output is None else str(output), "pixels": picture.pixels, **figures(found)})
     warn(setup.stop.warning)
     return print_table(heading(setup), ("colour point spread function", "value", "unit"), rows(found, output))
-
-
-def suitable_pitch_um(setup: Setup, spectrum: Spectrum, pixels: int) -> float:
-    """Return the pitch at which the window shows the PSF of every colour, lateral colour included, µm."""
-    source = setup.source
-    waves, _ = bands(spectrum, WAVELENGTHS_LOOKED_AT)
-    c = coefficients(setup.lens, source.depth_mm, source.field_slope, waves, setup.stop)
-    shift = np.abs(chief_shifts_um(setup.lens, source, waves))
-    return float(np.max(suitable_pixel_um(c, pixels) + 2 * shift / pixels))
 
 
 def figures(found: ColourPsf) -> dict:
@@ -54,7 +40,7 @@ def rows(found: ColourPsf, output: Path | None) -> list[tuple]:
     """Return the rows that tell a person what was computed."""
     known = figures(found)
     x, y = known["chromaticity_xy"]
-    shift = float(np.ptp(found.shift_um))
+    shift = float(found.shift_um.max() - found.shift_um.min())
     table = [
         ("spectrum", found.spectrum, ""),
         ("wavelengths rendered", len(found.wavelengths_um), ""),

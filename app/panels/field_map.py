@@ -1,0 +1,78 @@
+"""The field map: PSFs over the picture."""
+
+import numpy as np
+from PySide6.QtCore import Qt
+
+from app.brightness import stretched
+from app.card import Card
+from app.compute import Live
+from app.panels.tiles import TilesChart, tile
+from app.panels.worked import Asking
+from app.store import Store
+from app.theme import Tokens
+from app.views.field_map import SHAPE, FieldMap, answer, places
+from p2sf.conventions import degrees_from_slope
+
+TIP = (
+    "Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as "
+    "its field is. Click a picture to go to its field."
+)
+
+
+class MapChart(TilesChart):
+    """Pictures in rows and columns; a click on one goes to its field."""
+
+    def __init__(self, store: Store):
+        super().__init__(framed=False)
+        self._store = store
+        self.fields_deg = np.zeros(0)
+
+    def mousePressEvent(self, event) -> None:
+        """Go to the field of the picture under the pointer."""
+        number = self.tile_at(event.position())
+        if event.button() == Qt.MouseButton.LeftButton and number is not None:
+            self._store.update(field_deg=round(float(self.fields_deg[number]), 4))
+
+
+class FieldMapPanel:
+    """A grid that fills in the background, from the axis outwards."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Field map", TIP)
+        self.chart = MapChart(store)
+        self.widget.set_body(self.chart)
+        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.found: tuple[FieldMap, np.ndarray] | None = None
+        self._scale, self._field = "sqrt", 0.0
+
+    def show(self, live: Live) -> None:
+        """Ask for the map where more than the field has changed; mark the present field."""
+        self._field = abs(live.state.field_deg)
+        changed, self._scale = live.state.psf_scale != self._scale, live.state.psf_scale
+        self.asking.ask(live.views["field_map"])
+        if self.found and changed:
+            self._paint(*self.found)
+
+    def _paint(self, asked: FieldMap, found: np.ndarray) -> None:
+        self.found = asked, found
+        where = places()
+        spacing = float(where[0, 1, 0] - where[0, 0, 0])
+        edge = float(where[0, -1, 0]) + 0.55 * spacing
+        top = float(where[0, 0, 1])
+        self.chart.set_range((-edge, edge), (-top * SHAPE[0] / (SHAPE[0] - 1), top * SHAPE[0] / (SHAPE[0] - 1)))
+        at = [(row, column) for row in range(SHAPE[0]) for column in range(SHAPE[1])]
+        kept = [place for place in at if np.isfinite(found[place]).any()]
+        slopes = [np.hypot(*where[place]) * asked.corner_slope for place in kept]
+        self.chart.fields_deg = degrees_from_slope(np.array(slopes))
+        shown = (tile(stretched(found[place], self._scale), *map(float, where[place])) for place in kept)
+        self.chart.show_tiles(shown, spacing, SHAPE[0])
+        corner, wide = float(degrees_from_slope(asked.corner_slope)), asked.window[0] * asked.window[1]
+        self.widget.set_readout(f"corner {corner:.3g}° · pictures {wide:.3g} µm wide, each over its own peak")
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.chart.restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.asking.worker.stop()

@@ -1,0 +1,130 @@
+"""Through focus: PSFs at several sensor positions, and the sensor to take hold of."""
+
+import numpy as np
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor, QPainter
+
+from app.brightness import stretched
+from app.card import Card
+from app.compute import Live
+from app.panels.tiles import TilesChart, tile
+from app.panels.worked import Asking
+from app.scales import signed
+from app.store import Store
+from app.theme import Tokens
+from app.views.through_focus import Focused, Strip, answer
+from app.words import tr
+
+TIP = (
+    "Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or "
+    "click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront."
+)
+NEAR_PX = 9.0
+
+
+class StripChart(TilesChart):
+    """The strip, and the sensor's line with a handle at its foot."""
+
+    def __init__(self, store: Store):
+        super().__init__("sensor shift, µm", "")
+        self._store = store
+        self.left_axis = False
+        self.sensor_um = 0.0
+        self._held = False
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(tr("Sensor position"))
+
+    def show_sensor(self, shift_um: float) -> None:
+        """Show where the sensor stands."""
+        self.sensor_um = shift_um
+        self.update()
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the strip, then the sensor's line and handle."""
+        super().paint_over(painter)
+        x, bottom = float(self.to_pixels(self.sensor_um, 0.0)[0]), self.area.bottom()
+        colour = QColor(self.theme.chief)
+        painter.setPen(colour)
+        painter.drawLine(QPointF(x, self.area.top()), QPointF(x, bottom))
+        painter.setBrush(colour)
+        painter.drawEllipse(QPointF(x, bottom - 6), 5, 5)
+
+    def mousePressEvent(self, event) -> None:
+        """Take hold of the sensor, or bring it under the pointer."""
+        if event.button() == Qt.MouseButton.LeftButton and self.area.contains(event.position()):
+            self._held = True
+            self._store.begin()
+            self._follow(event.position())
+
+    def mouseMoveEvent(self, event) -> None:
+        """Let the sensor follow while held."""
+        if self._held:
+            self._follow(event.position())
+        over = abs(event.position().x() - float(self.to_pixels(self.sensor_um, 0.0)[0])) < NEAR_PX
+        self.setCursor(Qt.CursorShape.SizeHorCursor if over or self._held else Qt.CursorShape.ArrowCursor)
+
+    def mouseReleaseEvent(self, event) -> None:
+        """Let go."""
+        if self._held:
+            self._held = False
+            self._store.end()
+
+    def keyPressEvent(self, event) -> None:
+        """Move the sensor by a fiftieth of the strip with the arrow keys."""
+        side = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
+        if side is None:
+            return super().keyPressEvent(event)
+        (low, high), _ = self.ranges()
+        return self._store.update(sensor_shift_um=round(self.sensor_um + side * (high - low) / 50, 3))
+
+    def _follow(self, point: QPointF) -> None:
+        (low, high), _ = self.ranges()
+        self._store.update(sensor_shift_um=round(float(np.clip(self.from_pixels(point)[0], low, high)), 2))
+
+
+class ThroughFocusPanel:
+    """A strip that fills in the background while the sensor's line follows at once."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Through focus", TIP)
+        self.chart = StripChart(store)
+        self.widget.set_body(self.chart)
+        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.found: tuple[Strip, Focused] | None = None
+        self._scale = "sqrt"
+
+    def show(self, live: Live) -> None:
+        """Show the sensor, and ask for the strip where more than the sensor has moved."""
+        asked, scale = live.views["through_focus"], live.state.psf_scale
+        if scale != self._scale:
+            self._scale = scale
+            if self.found:
+                self._paint(*self.found)
+        self.chart.show_sensor(live.state.sensor_shift_um)
+        self.asking.ask(asked)
+
+    def _paint(self, asked: Strip, found: Focused) -> None:
+        self.found = asked, found
+        shifts = np.array(asked.shifts_um)
+        step = shifts[1] - shifts[0]
+        self.chart.set_range((float(shifts[0] - 0.6 * step), float(shifts[-1] + 0.6 * step)), (0.0, 1.0))
+        light = found.light / (np.nanmax(found.light) if np.isfinite(found.light).any() else 1.0)
+        shown = zip(stretched(light, self._scale), shifts, strict=True)
+        self.chart.show_tiles((tile(values, float(at), 0.46) for values, at in shown), step)
+        foci = (("S", found.sagittal, "marginal"), ("T", found.tangential, "positive"), ("best", found.best, "text"))
+        notes = [(x, 0.93, f"▾ {name}", token, 0) for name, x, token in foci if np.isfinite(x)]
+        self.chart.show_notes(notes)
+        wide = asked.window[0] * asked.window[1]
+        self.widget.set_readout(
+            f"S {signed(found.sagittal, 1)} · T {signed(found.tangential, 1)} · best {signed(found.best, 1)} µm · "
+            f"pictures {wide:.3g} µm wide"
+        )
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.chart.restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.asking.worker.stop()
