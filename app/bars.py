@@ -54,6 +54,7 @@ class TopBar(QFrame):
         self.tolerance = chooser(tolerances, TOLERANCE_TIP, self)
         for box in (self.method, self.tolerance):
             box.setObjectName("")
+            box.setMinimumWidth(96)  # a narrow window cuts their words rather than grow
         self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
         self.tolerance.activated.connect(lambda: store.update(tolerance=float(self.tolerance.currentData())))
         self.undo = self._tool("Undo", "Take back one step (Ctrl+Z)", store.undo)

@@ -1,7 +1,7 @@
 """The column of controls: one row per quantity, each a name, an editable number, a slider."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from app.compute import Live
 from app.facts import rows
@@ -21,6 +21,8 @@ WIDTH = 292
 class Row(QWidget):
     """One quantity: name and number above, slider below; tells the store, follows the state."""
 
+    swept, grasped = Signal(str), Signal(str)
+
     def __init__(self, quantity: Quantity, store: Store, parent=None):
         super().__init__(parent)
         self.quantity, self._store = quantity, store
@@ -28,6 +30,7 @@ class Row(QWidget):
         self.slider, self.edit, self.note = Slider(self), ValueEdit(self), Readout(self)
         self.slider.setAccessibleName(tr(quantity.title))
         self.edit.setAccessibleName(tr(quantity.title))
+        self.play = PlayButton(self)
         self.buttons = [self._button(*button) for button in quantity.buttons]
         self._scale = self._shown = None
         self._lay_out()
@@ -45,15 +48,22 @@ class Row(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addLayout(head)
-        column.addWidget(self.slider)
+        line = QHBoxLayout()
+        line.setSpacing(0)
+        line.addWidget(self.slider, 1)
+        line.addWidget(self.play, 0, Qt.AlignmentFlag.AlignTop)
+        column.addLayout(line)
         column.addWidget(self.note)
         self.note.setVisible(self.quantity is FIELD)
 
     def _connect(self) -> None:
+        self.slider.sliderPressed.connect(lambda: self.grasped.emit(self.quantity.key))  # first: it may end a drag
         self.slider.sliderPressed.connect(self._store.begin)
         self.slider.sliderReleased.connect(self._store.end)
         self.slider.valueChanged.connect(self._on_slider)
         self.slider.reset.connect(self.reset)
+        self.slider.swept.connect(lambda: self.swept.emit(self.quantity.key))
+        self.play.clicked.connect(lambda: self.swept.emit(self.quantity.key))
         self.edit.committed.connect(self._on_text)
         self.edit.reset.connect(self.reset)
 
@@ -117,6 +127,17 @@ class Row(QWidget):
                 self.edit.set_text(self.edit.last)  # refused: the number shown stays the picture's
 
 
+class PlayButton(QToolButton):
+    """A small ▶ beside a slider."""
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.setObjectName("flat")
+        self.setText("▶")
+        self.setToolTip(tr("Play this slider (Space)"))
+        self.setFixedSize(22, 22)
+
+
 class ValueEdit(QLineEdit):
     """A number with its unit; Return commits, Escape goes back, double-click asks for the reset."""
 
@@ -160,6 +181,7 @@ class Controls(QWidget):
     """All rows, the autofocus button, and the sentence that names the dominant term."""
 
     autofocus = Signal()
+    swept, grasped = Signal(str), Signal(str)
 
     def __init__(self, store: Store, parent=None):
         super().__init__(parent)
@@ -167,6 +189,9 @@ class Controls(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedWidth(WIDTH)
         self.rows = {quantity.key: Row(quantity, store, self) for quantity in QUANTITIES}
+        for row in self.rows.values():
+            row.swept.connect(self.swept)
+            row.grasped.connect(self.grasped)
         self.focus_button = QPushButton(tr("Autofocus: best RMS wavefront"), self)
         self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
         self.focus_button.clicked.connect(self.autofocus)

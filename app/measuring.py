@@ -13,7 +13,7 @@ class Measuring(QObject):
 
     def __init__(self, window, enabled: bool = True):
         super().__init__(window)
-        self._enabled = enabled
+        self._enabled, self._resting = enabled, False
         self._window = window
         self._last: Accuracy | None = None
         self.worker = LatestWins(self)
@@ -21,9 +21,13 @@ class Measuring(QObject):
         self.worker.failed.connect(self._on_failed)
         self.worker.progressed.connect(self._on_progress)
 
+    def rest(self, resting: bool) -> None:
+        """Measure nothing for a while: the pictures are for a film."""
+        self._resting = resting
+
     def watch(self, live: Live) -> None:
         """Measure a settled answer; show an earlier figure in grey meanwhile."""
-        if not self._enabled or live.quality != "settled":
+        if not self._enabled or self._resting or live.quality != "settled":
             return
         if live.setting.altered:
             self._refuse_altered(live)

@@ -12,9 +12,10 @@ MARGIN = 9.0
 
 
 class Slider(QAbstractSlider):
-    """A horizontal slider over 0 to STEPS with arrow and Page keys; double-click asks for the reset."""
+    """A horizontal slider over 0 to STEPS by arrow and Page keys; double-click asks for reset, Space for a sweep."""
 
     reset = Signal()
+    swept = Signal()
 
     def __init__(self, parent=None):
         super().__init__(parent)
@@ -66,6 +67,13 @@ class Slider(QAbstractSlider):
         """Let go."""
         if event.button() == Qt.MouseButton.LeftButton:
             self.setSliderDown(False)
+
+    def keyPressEvent(self, event) -> None:
+        """Ask for a sweep on Space."""
+        if event.key() == Qt.Key.Key_Space:
+            self.swept.emit()
+        else:
+            super().keyPressEvent(event)
 
     def mouseDoubleClickEvent(self, event) -> None:
         """Ask for the reset."""

@@ -13,13 +13,15 @@ from p2sf.errors import P2SFError
 class Store(QObject):
     """Holds the present State; ``changed`` tells of every new one.
 
-    ``refused`` carries a sentence on what cannot be, ``said`` one on what was done.
+    ``refused`` carries a sentence on what cannot be, ``said`` one on what was done; ``stepped`` comes before
+    a step is taken back or again.
     A drag is one step of undo: what happens between ``begin`` and ``end`` is undone together.
     """
 
     changed = Signal(object)
     refused = Signal(str)
     said = Signal(str)
+    stepped = Signal()
 
     def __init__(self, state: State, parent: QObject | None = None):
         super().__init__(parent)
@@ -42,9 +44,13 @@ class Store(QObject):
         A value that cannot be is refused in a sentence and nothing changes.
         """
         try:
-            self.replace(replace(self.state, **with_links(self.state, changes)))
+            self.replace(self.changed_by(changes))
         except P2SFError as error:
             self.refused.emit(str(error))
+
+    def changed_by(self, changes: dict) -> State:
+        """Return what the state would be after changes; P2SFError for one that cannot be."""
+        return replace(self.state, **with_links(self.state, changes))
 
     def replace(self, state: State) -> None:
         """Make this the present state: one step of undo, or part of the drag under way."""
@@ -97,7 +103,13 @@ class Store(QObject):
         """Take one step again."""
         self._go(1, self.can_redo)
 
+    def take_over(self, other: "Store") -> None:
+        """Become what another store is, its steps of undo included."""
+        other.end()
+        self._states, self._at = list(other._states), other._at
+
     def _go(self, step: int, possible: bool) -> None:
+        self.stepped.emit()
         self.end()
         if possible:
             self._at += step

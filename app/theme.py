@@ -94,9 +94,13 @@ def _with_colours(theme: Tokens, colours: str) -> Tokens:
 
 def _theme(choice: str) -> Tokens:
     if choice == "system":
-        scheme = QGuiApplication.styleHints().colorScheme()
-        return DARK if scheme == Qt.ColorScheme.Dark else LIGHT
+        return DARK if system_scheme() == Qt.ColorScheme.Dark else LIGHT
     return DARK if choice == "dark" else LIGHT
+
+
+def system_scheme() -> Qt.ColorScheme:
+    """Return whether the system is light or dark just now."""
+    return QGuiApplication.styleHints().colorScheme()
 
 
 def configure_plots() -> None:
@@ -174,6 +178,12 @@ def _inputs(t: Tokens) -> str:
     QPushButton#group:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}
     QPushButton#group:hover, QPushButton#group:focus {{ border: 1px solid {t.accent}; }}
     QToolButton#small:checked {{ background: {t.accent}; color: {t.accent_text}; border: 1px solid {t.accent}; }}
+    QToolButton#flat {{ background: transparent; border: 1px solid transparent; padding: 0; min-height: 18px;
+        font-size: 11px; color: {t.muted}; }}
+    QToolButton#flat:hover, QToolButton#flat:focus {{ border: 1px solid {t.accent}; color: {t.text}; }}
+    QProgressBar {{ background: {t.faint}; border: none; border-radius: 4px; max-height: 14px; text-align: center;
+        font-size: 11px; color: {t.text}; }}
+    QProgressBar::chunk {{ background: {t.accent}; border-radius: 4px; }}
     QToolButton::menu-indicator {{ image: none; width: 0; }}
     QComboBox {{ padding-right: 20px; }}
     QComboBox#small {{ padding-right: 18px; }}

@@ -14,10 +14,12 @@ from app.comparing import Answers, answers
 from app.compute import Live
 from app.controls import Controls
 from app.floating import Floating
+from app.limits import ADDED
 from app.link import is_link
 from app.measuring import Measuring
 from app.opening import is_file
 from app.panels import REGISTRY, Panel, build, view_of
+from app.playbar import PlayBar
 from app.sharing import Sharing
 from app.state import State
 from app.store import Store
@@ -43,7 +45,7 @@ class Window(QMainWindow):
         self.store = Store(state or State(), self)
         self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
         self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(TABS, self)
-        self.compare = CompareBar(self, self.store)
+        self.compare, self.play = CompareBar(self, self.store), PlayBar(self)
         self.floating = Floating(self, self.store, self.tabs, {entry.key: entry.title for entry in TABS})
         self.panels: dict[str, Panel] = {key: build(ENTRIES[key], self.store) for key in MAIN}
         self.live: Live | None = None
@@ -53,9 +55,12 @@ class Window(QMainWindow):
         self._lay_out()
         self.actions, self.measuring = Actions(self), Measuring(self, measured)
         self.sharing = Sharing(self)
-        for command in self.compare.commands():
+        for command in (*self.compare.commands(), *self.play.commands()):
             self.actions.add(command)
         self.top.pin.clicked.connect(self.compare.turn)
+        self.controls.swept.connect(self.play.player.toggle)
+        self.controls.grasped.connect(self.play.player.pause_on)
+        self.panels["coefficients"].bars.swept.connect(lambda term: self.play.player.toggle(ADDED + term))
         self.store.changed.connect(self.refresh)
         self.store.refused.connect(self.refuse)
         self.tabs.currentChanged.connect(self._on_tab)
@@ -72,6 +77,7 @@ class Window(QMainWindow):
         right = QVBoxLayout()
         right.setSpacing(SPACE)
         right.addWidget(self.compare)
+        right.addWidget(self.play)
         right.addWidget(self.stack, 1)
         middle.addLayout(right, 1)
         body = QWidget(self)
@@ -94,6 +100,7 @@ class Window(QMainWindow):
         try:
             self.controls.show_state(state)
             self.compare.show_state(state)
+            self.play.show_state(state)
             self._answers = self._answer(state)
         except P2SFError as error:
             self.refuse(str(error))
@@ -154,8 +161,8 @@ class Window(QMainWindow):
             self.refresh(self.store.state)
 
     def _restyle(self, state: State) -> None:
-        theme = tokens(state.theme)
-        if theme is self._theme:
+        theme = tokens(state.theme, state.colours)
+        if theme == self._theme:
             return
         self._theme = theme
         QApplication.instance().setPalette(palette(theme))
@@ -165,6 +172,7 @@ class Window(QMainWindow):
 
     def closeEvent(self, event) -> None:
         """End the background work with the window."""
+        self.play.stop()
         self.measuring.stop()
         self.floating.stop()
         for panel in self.panels.values():

@@ -4,8 +4,14 @@ import random
 
 import pytest
 
+from app.limits import CHOICES, LINKABLE, PLAYABLE
+from app.link import link, state_of_link
+from app.pinning import link_toggled, pin, swapped, unpin
+from app.pupil import TERMS
 from app.state import State
 from app.store import Store
+from app.sweep import changes, sweep
+from app.whatif import PRESETS, UNTOUCHED, of_preset, toggled
 
 
 def test_a_drag_is_one_step(qtbot):
@@ -39,7 +45,7 @@ def test_a_value_that_cannot_be_is_refused_and_nothing_changes(qtbot):
 def test_any_500_actions_undone_give_the_first_state_and_redone_the_last(qtbot, seed):
     chance, store = random.Random(seed), Store(State())
     for _ in range(500):
-        chance.choice([_update, _update, _drag, lambda s, c: s.undo(), lambda s, c: s.redo()])(store, chance)
+        chance.choice(ACTIONS)(store, chance)
     while store.can_redo:
         store.redo()
     last = store.state
@@ -51,13 +57,63 @@ def test_any_500_actions_undone_give_the_first_state_and_redone_the_last(qtbot, 
     assert store.state == last
 
 
+def _what_if(store, chance):
+    waves = tuple(chance.uniform(-3, 3) for _ in TERMS)
+    term = chance.choice(TERMS)
+    kinds = {"added_waves": waves, "muted": toggled(store.state.muted, term), "solo": toggled(store.state.solo, term)}
+    name = chance.choice([*kinds, "free_pupil", "preset", "reset"])
+    if name in kinds:
+        store.update(**{name: kinds[name]})
+    elif name == "free_pupil":
+        store.update(free_pupil=not store.state.free_pupil)
+    else:
+        store.update(**(of_preset(chance.choice(PRESETS)) if name == "preset" else UNTOUCHED))
+
+
+def _compare(store, chance):
+    state = store.state
+    if not state.pinned:
+        store.replace(pin(state))
+        return
+    what = chance.choice(["unpin", "swap", "shown", "link"])
+    if what in ("unpin", "swap"):
+        store.replace((unpin if what == "unpin" else swapped)(state))
+    elif what == "shown":
+        store.update(shown=chance.choice(CHOICES["shown"]))
+    else:
+        store.update(linked=link_toggled(state, chance.choice(LINKABLE)))
+
+
+def _play(store, chance):
+    store.update(play=chance.choice(PLAYABLE), play_range=None, play_seconds=chance.uniform(1, 9))
+    if store.state.play:
+        with store.drag():
+            for part in (0.2, 0.6):
+                store.update(**changes(store.state, sweep(store.state).value(part)))
+
+
+def _link(store, chance):
+    store.replace(state_of_link(link(store.state)))
+
+
 def _update(store, chance):
     store.update(
         **chance.choice([{"field_deg": chance.uniform(0, 20)}, {"phase": chance.choice(["waves", "wrapped"])}])
     )
 
 
+def _undo(store, chance):
+    store.undo()
+
+
+def _redo(store, chance):
+    store.redo()
+
+
 def _drag(store, chance):
     with store.drag():
         for _ in range(chance.randrange(4)):
             store.update(wavelength_nm=chance.uniform(400, 700))
+
+
+ACTIONS = (_update, _update, _drag, _what_if, _what_if, _compare, _compare, _play, _link, _undo, _undo, _redo)
