@@ -3,9 +3,7 @@
 import errno
 import json
 import os
-import secrets
 from collections.abc import Callable
-from contextlib import suppress
 from math import isfinite
 from pathlib import Path
 from typing import BinaryIO
@@ -13,6 +11,7 @@ from typing import BinaryIO
 import numpy as np
 
 from p2sf.errors import ExportError
+from p2sf.wholefile import write_whole
 
 REMEDIES = {
     errno.ENOSPC: "free some space or choose another disk",
@@ -38,19 +37,10 @@ def write_beside(path, write: Callable[[BinaryIO], object]) -> Path:
 
     Whatever fails, a file already at ``path`` keeps its contents and no half-written one is left.
     """
-    target = Path(path).resolve()
-    part = target.with_name(f".{secrets.token_hex(6)}.part")
     try:
-        with open(part, "xb") as handle:
-            write(handle)
-            handle.flush()
-            os.fsync(handle.fileno())
-        os.replace(part, target)
+        write_whole(path, write)
     except OSError as error:
         raise ExportError(_why_not(path, error)) from error
-    finally:
-        with suppress(OSError):
-            part.unlink(missing_ok=True)
     return Path(path)
 
 

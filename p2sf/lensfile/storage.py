@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 from p2sf.errors import LensFileError
+from p2sf.wholefile import write_whole
 
 LARGEST_FILE = 1_000_000  # bytes; a lens takes a few thousand
 
@@ -42,12 +43,8 @@ def _decoded(data: bytes, path) -> str:
 
 
 def write_text(text: str, path: str | os.PathLike) -> None:
-    """Write a text beside ``path`` and rename it, so that no reader meets half a file; LensFileError."""
-    path = Path(path)
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    """Write a text whole or not at all (`wholefile`); LensFileError."""
     try:
-        beside.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(beside, path)
+        write_whole(path, lambda handle: handle.write(text.encode("utf-8")))
     except OSError as error:
-        beside.unlink(missing_ok=True)
         raise LensFileError(f"the file cannot be written ({error.strerror}); choose another place", path) from None

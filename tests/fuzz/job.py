@@ -5,12 +5,15 @@ import sys
 import atheris
 
 with atheris.instrument_imports(include=["p2sf", "tomllib"]):
+    from tests.fuzz.seeds import seeds
     from tests.fuzz.targets import TARGETS
+
+    for seed in (b"", *seeds(sys.argv[1])):  # what loads on first use is followed too, and charged to no input
+        TARGETS[sys.argv[1]](seed)
 
 
 def main() -> None:
     target = TARGETS[sys.argv[1]]
-    target(b"")  # imports what loads on first use, so that no input is charged for it
 
     def once(data: bytes) -> None:
         target(data)

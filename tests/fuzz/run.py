@@ -16,7 +16,7 @@ from tests.fuzz.seeds import seeds
 from tests.fuzz.targets import SECONDS, TARGETS
 
 CORPUS = Path(__file__).parent / "corpus"
-LONGEST = {"command_line": 200, "toml": 6000, "lens_file": 6000, "glass_catalogue": 4000, "database": 6000}
+LONGEST = {"command_line": 200, "toml": 6000, "lens_file": 6000, "glass_catalogue": 4000, "database": 60_000}
 MEGABYTES = 1024
 
 
@@ -47,7 +47,8 @@ def report(target: str, seconds: float, log: str, code: int) -> None:
     edges = re.findall(r"cov: (\d+)", log)[-1:]
     memory = re.findall(r"stat::peak_rss_mb:\s*(\d+)", log)
     figures = (f"{x[0]} {unit}" for x, unit in ((tried, "inputs"), (edges, "edges"), (memory, "MB")) if x)
-    print(f"{target}: {seconds:.0f} s, {', '.join(figures)}, {'nothing broke' if code == 0 else 'BROKE'}", flush=True)
+    verdict = "nothing broke" if code == 0 else f"BROKE, exit code {code}"
+    print(f"{target}: {seconds:.0f} s, {', '.join(figures)}, {verdict}", flush=True)
     if code:
         print(log[-3000:], flush=True)
 
