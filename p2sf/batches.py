@@ -40,23 +40,33 @@ def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: 
     total, peak, most = np.empty(len(terms)), np.empty(len(terms)), None
     for some, rows in batches(terms, pixels, pixel_um, quality):
         found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
-        total[some], peak[some] = found.sum((-2, -1), dtype=float), found.max((-2, -1))
-        found /= total[some, None, None].astype(dtype)
+        flat = found.reshape(len(found), -1)
+        total[some], peak[some] = np.add.reduce(flat, 1, float), np.maximum.reduce(flat, 1)
+        flat /= total[some, None].astype(dtype)
         values[some] = found
         most = rows if most is None or rows.weight.size > most.weight.size else most
-    words = f"{'' if len(terms) == 1 else 'up to '}{most.name if most else 'no nodes'}, {np.dtype(dtype).name}"
+    words = f"{'' if len(terms) == 1 else 'up to '}{most.name if most else 'no nodes'}, {values.dtype.type.__name__}"
     return Stack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), words)
 
 
-def batches(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> Iterator[tuple[np.ndarray, RowNodes]]:
+def batches(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> Iterator[tuple]:
     """Yield indices of PSFs that are summed together and the pupil samples they need; ``terms`` (PSFs, 5)."""
+    if len(terms) == 1:
+        reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)
+        yield slice(None), _rows(_slopes(terms[:, :4], reach, quality)[0], reach, quality)
+        return
     for same in groups(terms[:, 4]):
         reach = corner_reach(abs(float(terms[same[0], 4])), pixels, pixel_um)
-        for part in np.split(same, range(SORTED_AT_ONCE, len(same), SORTED_AT_ONCE)):
+        for part in _split(same, SORTED_AT_ONCE):
             slopes = _slopes(terms[part, :4], reach, quality)
-            order = np.argsort(slopes.sum(-1), kind="stable") if len(part) > BATCH else np.arange(len(part))
-            for some in np.array_split(order, ceil(len(part) / BATCH)):
+            for some in _split(np.argsort(slopes.sum(-1), kind="stable"), BATCH):
                 yield part[some], _rows(slopes[some].max(0), reach, quality)
+
+
+def _split(values: np.ndarray, most: int) -> list[np.ndarray]:
+    """Return the values in parts of about equal size, none longer than ``most``."""
+    size = ceil(len(values) / ceil(len(values) / most))
+    return [values[start : start + size] for start in range(0, len(values), size)]
 
 
 def corner_reach(scale, pixels: int, pixel_um: float) -> float:
@@ -75,16 +85,20 @@ def _slopes(shape: np.ndarray, reach: float, quality: str) -> np.ndarray:
     if quality == "settled":
         return chords_of(shape)
     quick = bound_of(shape)[:, None]
-    return quick if _grid_count(quick.max(), reach) == PREVIEW_GRID else steepest_of(shape)[:, None]
+    return quick if _grid_samples(float(quick.max()), reach) <= PREVIEW_GRID else steepest_of(shape)[:, None]
 
 
-def _grid_count(slope: float, reach: float) -> int:
-    """Return the size of a preview's grid; one of step 2/N repeats the picture every N/2 cycles, blur and window."""
-    return max(PREVIEW_GRID, even_count(2.1 * (slope + reach)))
+def _grid_samples(slope: float, reach: float) -> float:
+    """Return how fine a preview's grid must be: one of step 2/N repeats blur and window every N/2 cycles."""
+    return 2.1 * (slope + reach)
 
 
 def _rows(slopes: np.ndarray, reach: float, quality: str) -> RowNodes:
-    rows, columns = chords_for(*slopes, reach) if quality == "settled" else [_grid_count(float(slopes[0]), reach)] * 2
+    """Return the rule that carries the largest of each kind of slope."""
+    if quality == "settled":
+        rows, columns = chords_for(*slopes, reach)
+    else:
+        rows = columns = max(PREVIEW_GRID, even_count(_grid_samples(float(slopes[0]), reach)))
     if rows * columns > 4 * LARGEST_NODES:
         raise SamplingError(
             f"a phase slope of {slopes.max():.0f} waves over a window of {reach:.0f} cycles needs {rows} × {columns} "

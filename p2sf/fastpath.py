@@ -114,18 +114,20 @@ def folded_pupils(even, coma, monomials: Monomials) -> np.ndarray:
     """
     weight = monomials.weight
     shape = (len(even), *weight.shape)
-    phase = _reduced(even @ monomials.even, weight.dtype).reshape(shape)
-    tilt = _reduced(coma * monomials.odd, weight.dtype).reshape(shape)
+    cycles = np.empty((2, len(even), weight.size))
+    np.matmul(even, monomials.even, out=cycles[0])
+    np.multiply(coma, monomials.odd, out=cycles[1])
+    radians = reduced_radians(cycles, weight.dtype).reshape(2, *shape)
+    (cosine, tilt_cosine), (sine, tilt_sine) = np.cos(radians), np.sin(radians, out=radians)
     pupil = np.empty((4, *shape), weight.dtype)
-    cosine, sine = np.cos(phase), np.sin(phase, out=phase)
-    for first, part in ((0, np.cos(tilt)), (2, np.sin(tilt, out=tilt))):
+    for first, part in ((0, tilt_cosine), (2, tilt_sine)):
         part *= weight
         np.multiply(cosine, part, out=pupil[first])
         np.multiply(sine, part, out=pupil[first + 1])
     return pupil
 
 
-def _reduced(cycles: np.ndarray, dtype) -> np.ndarray:
+def reduced_radians(cycles: np.ndarray, dtype) -> np.ndarray:
     """Return the phase in radians without its whole turns; the float64 ``cycles`` are used up."""
     cycles -= np.rint(cycles)
     radians = cycles.astype(dtype, copy=False)

@@ -1,6 +1,7 @@
 """The lens as plain frozen data. Nothing here computes optics."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from math import inf, isfinite
 from typing import Literal
 
@@ -73,6 +74,14 @@ class Lens:
         if not self.wavelengths_nm or min(self.wavelengths_nm) <= 0:
             raise GeometryError(f"wavelengths are {self.wavelengths_nm} nm; give at least one positive number")
 
+    def __hash__(self):
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        # Every slider step looks a lens up a dozen times, and there are a hundred numbers to hash.
+        return hash(tuple(getattr(self, field.name) for field in fields(self)))
+
     @property
     def reference_wavelength_um(self) -> float:
         """Return the middle wavelength of the file: the default, and where pupil diameter and f-number hold."""
@@ -83,7 +92,12 @@ class Lens:
         """Return sensor position from the last vertex."""
         return self.surfaces[-1].thickness
 
-    @property
+    @cached_property
+    def curvatures(self) -> tuple[float, ...]:
+        """Return the curvature of every surface, per mm."""
+        return tuple(surface.curvature for surface in self.surfaces)
+
+    @cached_property
     def media(self) -> tuple[Medium, ...]:
         """Return the media in the order light meets them, one more than there are surfaces."""
         return (self.object_medium, *(surface.medium for surface in self.surfaces))

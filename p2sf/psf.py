@@ -7,7 +7,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.batches import Stack, corner_reach, stack_of
-from p2sf.conventions import centred_axis
+from p2sf.conventions import anywhere, centred_axis
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.fastpath import wave_number
 from p2sf.quadrature import (
@@ -166,7 +166,7 @@ def energy_fraction(coefficients: Coefficients, total, pixel_um: float) -> np.nd
     than λ/(2 NA) makes the sum of samples no integral.
     """
     cycles = np.abs(wave_number(coefficients)) * pixel_um
-    if np.any(cycles > 0.5):
+    if anywhere(cycles > 0.5):
         return None
     return total * (np.pi * cycles**2)
 
@@ -183,12 +183,12 @@ def suitable_pixel_um(coefficients: Coefficients, pixels: int = 64) -> np.ndarra
 
 def check_image(coefficients: Coefficients) -> None:
     """Raise GeometryError where there is no image at a finite distance, or a coefficient is not a number."""
-    if not np.all(coefficients.reduced_slope):
+    c = coefficients
+    if anywhere(np.equal(c.reduced_slope, 0)):
         raise GeometryError(
             "the image of this object lies at infinity (NA 0), so the sensor holds no PSF; move the object or refocus"
         )
-    c = coefficients
-    if not np.isfinite(c.w40 + c.w31 + c.w22 + c.w20 + c.wd + c.reduced_slope).all():
+    if anywhere(~np.isfinite(c.w40 + c.w31 + c.w22 + c.w20 + c.wd + c.reduced_slope)):
         names = ("w40", "w31", "w22", "w20", "wd", "reduced_slope")
         bad = next((name for name in names if not np.isfinite(getattr(c, name)).all()), "their sum")
         raise GeometryError(f"{bad} is not finite, so there is no wavefront; choose a depth, field or lens with one")

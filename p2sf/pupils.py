@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from p2sf.conventions import vergence
+from p2sf.conventions import anywhere, vergence
 from p2sf.errors import GeometryError
 from p2sf.gaussian import BasisRays, axial_ray, basis_rays, check_depth, chief_ray, crossing, settled_angle
 from p2sf.lens import Lens
@@ -168,7 +168,7 @@ def paraxial_rays(
     n, a, close = rays.object_index, centre_nu[0], vergence(depth_mm)
     reach = a - n * close * centre_y[0]
     _check_field(field, a, close)
-    if (abs(reach) <= OBJECT_IN_PUPIL * abs(a)).any():
+    if anywhere(abs(reach) <= OBJECT_IN_PUPIL * abs(a)):
         raise GeometryError("the object lies in the entrance pupil, so no cone of light is defined; move the object")
     side = 1.0 - 2.0 * (a < 0)
     y, nu = _combine(rays, side * rim / reach, n * close * side * rim / reach)
@@ -179,7 +179,7 @@ def paraxial_rays(
 
 def _check_field(field: str, a, close) -> None:
     """Raise GeometryError where a slope (entrance pupil at infinity) or a height (object there) says nothing."""
-    if field == "slope" and (a == 0).any():
+    if field == "slope" and anywhere(a == 0):
         raise GeometryError(
             "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, "
             'or in Python state the field as an object height, field="height"'

@@ -5,6 +5,7 @@ work on (depth, wavelength) only and makes a zero field exactly zero.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -27,7 +28,7 @@ class SeidelSums:
 
     def total(self) -> "SeidelSums":
         """Return the sums over all surfaces."""
-        return SeidelSums(*(column.sum(0) for column in self.columns()))
+        return SeidelSums(*map(np.add.reduce, self.columns()))
 
     def columns(self) -> tuple[np.ndarray, ...]:
         """Return S_I, S_II, S_III, S_IV, S_V in this order."""
@@ -74,22 +75,24 @@ def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope=1.0) -> SeidelSums:
 def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
     c, asphere = (_per_surface(x, rays.y.ndim) for x in _shape_terms(lens))
     inverse = 1 / rays.index
-    before, after = inverse[:-1], inverse[1:]
     y, chief = rays.y, rays.chief_y
     snell = _refraction(rays.nu, y, rays.index, c)
     chief_snell = _refraction(rays.chief_nu, chief, rays.index, c)
-    bend = y * (rays.nu[1:] * (after * after) - rays.nu[:-1] * (before * before))  # y Δ(u/n)
-    petzval = c * (after - before)
-    distortion = chief_snell * chief_snell * y * (after * after - before * before)
+    square = inverse * inverse
+    bend = y * (rays.nu[1:] * square[1:] - rays.nu[:-1] * square[:-1])  # y Δ(u/n)
+    petzval = c * (inverse[1:] - inverse[:-1])
+    chief_square = chief_snell * chief_snell
+    distortion = chief_square * y * (square[1:] - square[:-1])
     distortion = distortion - (rays.invariant + chief_snell * y) * chief * petzval
+    bend = -bend
     sums = (
-        -snell * snell * bend,
-        -snell * chief_snell * bend,
-        -chief_snell * chief_snell * bend,
-        -(rays.invariant**2) * petzval,
+        snell * snell * bend,
+        snell * chief_snell * bend,
+        chief_square * bend,
+        -(rays.invariant * rays.invariant) * petzval,
         -chief_snell * distortion,
     )
-    if asphere.any():
+    if np.count_nonzero(asphere):
         figure = asphere * (rays.index[1:] - rays.index[:-1])
         sums = (total + part for total, part in zip(sums, _figuring(figure, y, chief), strict=True))
     return SeidelSums(*sums)
@@ -106,6 +109,7 @@ def _refraction(nu, y, index, c):
     return nu[:-1] + index[:-1] * y * c
 
 
+@lru_cache(maxsize=64)
 def _shape_terms(lens: Lens):
     """Return curvature c and fourth-order figure Kc³ + 8A₄ of every surface."""
     rows = ((s.curvature, s.conic, s.aspheric[0] if s.aspheric else 0.0) for s in lens.surfaces)
@@ -132,12 +136,13 @@ def coefficients(
     puts it (`lens.with_sensor` moves it). Raises GeometryError and GlassError.
     Source: Pieroni et al. 2015; Welford 1986, ch. 8.
     """
-    wavelength_um, field_slope = np.asarray(wavelength_um, dtype=float), np.asarray(field_slope, dtype=float)
+    # [()] makes numbers of arrays without axes: numpy is five times faster on those.
+    wavelength_um, field_slope = (np.asarray(x, dtype=float)[()] for x in (wavelength_um, field_slope))
     rays = paraxial_rays(lens, depth_mm, wavelength_um, stop, field)
     total = _unit_sums(lens, rays).total()
     waves = UM_PER_MM / wavelength_um
     index = rays.index[-1]
-    square = np.square(field_slope)
+    square = field_slope * field_slope
     image = crossing(index, rays.y[-1], rays.nu[-1])
     chief = rays.chief_y[-1] + rays.chief_nu[-1] / index * lens.sensor_mm
     return Coefficients(
