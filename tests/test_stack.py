@@ -1,6 +1,7 @@
 """PSF stacks: whole chunks or none, the same bytes whoever renders them, and never a torn one read back."""
 
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -117,6 +118,22 @@ def test_kill_9_loses_the_chunk_in_flight_and_no_more(stack, tmp_path):
     resumed = write_stack(*small(), path, SAMPLING)
     assert resumed.complete
     assert contents(path) == whole
+
+
+@pytest.mark.parametrize(("limit", "laid"), [(100, False), (20_000, True)])
+def test_a_full_disk_is_a_sentence_and_the_next_attempt_goes_on(stack, tmp_path, limit, laid):
+    """Files that may not grow stand for the disk: too small for the empty stack, then for its chunks."""
+    path = tmp_path / "full.zarr"
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
+    try:
+        with pytest.raises(DatabaseError, match=r"cannot be written, .*; make room and give the same command again"):
+            write_stack(*small(), path, SAMPLING)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert os.listdir(tmp_path) == (["full.zarr"] if laid else [])
+    assert write_stack(*small(), path, SAMPLING).complete
+    assert contents(path) == contents(stack.path)
 
 
 def test_another_stack_at_that_place_is_left_alone(stack):

@@ -69,12 +69,20 @@ def needed(name: str):
 
 def create(path, raw: bytes, pixels: int, pixel_um: float) -> None:
     """Lay an empty stack for the nodes of a database, given as its file's bytes: there whole or not at all."""
-    zarr = needed("zarr")
     target = Path(path)
     stored = database_from_bytes(raw, path)
-    shape = stored.database.space.shape
     draft = target.with_name(f".{target.name}{TEMPORARY}")
     shutil.rmtree(draft, ignore_errors=True)
+    try:
+        _lay(draft, stored, raw, pixels, pixel_um)
+        os.replace(draft, target)
+    except OSError:
+        shutil.rmtree(draft, ignore_errors=True)
+        raise
+
+
+def _lay(draft: Path, stored: Stored, raw: bytes, pixels: int, pixel_um: float) -> None:
+    zarr, shape = needed("zarr"), stored.database.space.shape
     group = zarr.create_group(draft, zarr_format=3, attributes=_attributes(stored, pixel_um))
     group.create_array(
         "psf",
@@ -88,7 +96,6 @@ def create(path, raw: bytes, pixels: int, pixel_um: float) -> None:
     for name, values in zip(AXES, _axes(stored, pixels, pixel_um), strict=True):
         group.create_array(name, data=values, dimension_names=(name,))
     group.create_array("database", data=np.frombuffer(raw, dtype=np.uint8))
-    os.replace(draft, target)
 
 
 def _attributes(stored: Stored, pixel_um: float) -> dict:

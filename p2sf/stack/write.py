@@ -42,14 +42,28 @@ def write_stack(
     raw = database_bytes(database, lens)
     pitch = sampling.pixel_um or critical_pixel_um(database)
     if not Path(path).exists():
-        create(path, raw, sampling.pixels, pitch)
+        with _kept(path):
+            create(path, raw, sampling.pixels, pitch)
     stack = open_stack(path, "r+")
     if stack.psf.shape[-1] != sampling.pixels or stack.pixel_um != pitch or not same_database(stack.raw, raw):
         raise DatabaseError(f"{path} holds a stack of another lens, nodes or samples; choose another name or delete it")
-    for torn in Path(path).rglob(f"*{TEMPORARY}*"):
-        torn.unlink()  # what a killed writer had not yet renamed
-    _fill(stack, watch, scheduler)
+    with _kept(path):
+        for torn in Path(path).rglob(f"*{TEMPORARY}*"):
+            torn.unlink()  # what a killed writer had not yet renamed
+        _fill(stack, watch, scheduler)
     return stack
+
+
+@contextmanager
+def _kept(path):
+    """Turn a failure of the disk into a DatabaseError; the chunks that are done stay."""
+    try:
+        yield
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise DatabaseError(
+            f"{path} cannot be written, {reason}; make room and give the same command again, which keeps what is done"
+        ) from error
 
 
 def _fill(stack: Stack, watch: Watch, scheduler: str | None) -> None:
