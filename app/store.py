@@ -9,6 +9,8 @@ from app.pinning import with_links
 from app.state import State
 from p2sf.errors import P2SFError
 
+MOST_STEPS = 1000  # of undo: an edited lens is kilobytes a step
+
 
 class Store(QObject):
     """Holds the present State; ``changed`` tells of every new one.
@@ -60,7 +62,8 @@ class Store(QObject):
             self._states[self._at] = state
         else:
             self._states[self._at + 1 :] = [state]
-            self._at += 1
+            del self._states[: -MOST_STEPS - 1]
+            self._at = len(self._states) - 1
         self.changed.emit(state)
 
     def begin(self) -> None:

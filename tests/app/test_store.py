@@ -9,7 +9,7 @@ from app.link import link, state_of_link
 from app.pinning import link_toggled, pin, swapped, unpin
 from app.pupil import TERMS
 from app.state import State
-from app.store import Store
+from app.store import MOST_STEPS, Store
 from app.sweep import changes, sweep
 from app.whatif import PRESETS, UNTOUCHED, of_preset, toggled
 
@@ -117,3 +117,15 @@ def _drag(store, chance):
 
 
 ACTIONS = (_update, _update, _drag, _what_if, _what_if, _compare, _compare, _play, _link, _undo, _undo, _redo)
+
+
+def test_after_a_thousand_steps_the_oldest_is_forgotten(qtbot):
+    """A day's work must not grow without end; the latest thousand steps come back one by one."""
+    store = Store(State())
+    for step in range(MOST_STEPS + 7):
+        store.update(field_deg=step / 100)
+    taken = 0
+    while store.can_undo:
+        store.undo()
+        taken += 1
+    assert taken == MOST_STEPS and store.state.field_deg == pytest.approx(0.06)
