@@ -48,6 +48,7 @@ def _open(state: State, geometry: dict[str, str]) -> int:
     from PySide6.QtWidgets import QApplication
 
     from app.keeping import Keeping
+    from app.speaking import Speaking
     from app.theme import configure_plots
     from app.window import Window
 
@@ -55,9 +56,15 @@ def _open(state: State, geometry: dict[str, str]) -> int:
     application.setApplicationName("P2SF Explorer")
     application.setStyle("Fusion")
     configure_plots()
-    window = Window(state)
-    Keeping(window, geometry)
-    window.show()
+
+    def made(state: State) -> Window:
+        window = Window(state)
+        Keeping(window, geometry)
+        window.teaching.offer_once()
+        return window
+
+    speaking = Speaking(state, made, application)
+    speaking.window.show()
     return application.exec()
 
 

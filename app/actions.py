@@ -6,10 +6,13 @@ from PySide6.QtCore import QBuffer, QIODevice, QObject
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox, QWidget
 
+from app.choices import everything, fill
 from app.commands import Command
+from app.copying import card_in_hand, copy_data, copy_picture
 from app.focus import best_shift_um
 from app.helping import help_text
 from app.opening import KINDS, REPORT_TAB, Refusal, opened, refusal
+from app.palette import Palette
 from app.panels import REGISTRY
 from app.recent import recent_files, remember
 from app.saving import ask_save_lens
@@ -33,6 +36,7 @@ class Actions(QObject):
         super().__init__(window)
         self.window, self.store = window, window.store
         self.commands: list[Command] = []
+        self.palette: Palette | None = None
         for command in self._first():
             self.add(command)
         window.top.lens_chosen.connect(self.open_lens)
@@ -43,6 +47,8 @@ class Actions(QObject):
         window.top.help_asked.connect(self.help)
         window.controls.autofocus.connect(self.autofocus)
         window.top.set_snapshot_menu(self._menu())
+        listed = ("Find a command…", "Report: one page as PDF…", "Shortcuts")
+        fill(window.top.more.menu(), window, tuple(c for c in self.commands if c.title in listed))
         self.store.said.connect(window.status.say)
 
     def _first(self) -> tuple[Command, ...]:
@@ -56,6 +62,10 @@ class Actions(QObject):
             Command("Save the lens as it is now…", self.ask_save_lens, ("Ctrl+Shift+S",), "Files"),
             Command("Snapshot: PSF data or picture, with the state…", self.ask_snapshot, ("Ctrl+E",), "Files"),
             Command("Autofocus: best RMS wavefront", self.autofocus, ("Ctrl+F",), "Lens"),
+            Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+C",), "Files"),
+            Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
+            Command("Report: one page as PDF…", self.ask_report, ("Ctrl+P",), "Files"),
+            Command("Find a command…", self.find, ("Ctrl+K",)),
             Command("Shortcuts", self.help, ("F1", "?")),
             Command("Close the window", self.window.close, ("Ctrl+Q",)),
         )
@@ -142,6 +152,37 @@ class Actions(QObject):
         box.setWindowTitle(tr("Help"))
         box.setText(help_text(tuple(self.commands)))
         box.open()
+
+    def find(self) -> None:
+        """Open the command palette."""
+        self.palette = self.palette or Palette(self.window)
+        self.palette.open_with(everything(self.window))
+
+    def copy_picture(self) -> None:
+        """Put the picture of the panel in hand on the clipboard."""
+        copy_picture(card_in_hand(self.window))
+        self.store.said.emit(tr("The panel's picture is on the clipboard"))
+
+    def copy_data(self) -> None:
+        """Put the data of the panel in hand on the clipboard."""
+        copied = copy_data(card_in_hand(self.window))
+        self.store.said.emit(tr("The panel's data are on the clipboard" if copied else "This panel has no numbers"))
+
+    def ask_report(self) -> None:
+        """Ask for a name and write the report."""
+        first = f"{Path(self.store.state.lens).stem}.pdf"
+        path, _ = QFileDialog.getSaveFileName(self.window, tr("Save the report"), first, tr("Report (*.pdf)"))
+        if path:
+            self.write_report(path if Path(path).suffix else f"{path}.pdf")
+
+    def write_report(self, path: str) -> bool:
+        """Write one page about the lens at this source as PDF."""
+        from app.report import write_report
+
+        went = self.attempt(write_report, self.store.state, path)
+        if went:
+            self.store.said.emit(tr("Saved {name}", name=Path(path).name))
+        return went
 
     def _menu(self) -> QMenu:
         menu = QMenu(self.window)

@@ -61,8 +61,14 @@ class TopBar(QFrame):
         self.redo = self._tool("Redo", "Take the step again (Ctrl+Shift+Z)", store.redo)
         self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it (Ctrl+B)", None)
         self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
+        self.lessons = self._tool(
+            "Lessons", "Lessons, from a point of light to a photograph: begin or leave (F2)", None
+        )
         self.theme = self._tool("Light", "Light or dark", self._turn_theme)
-        self.help = self._tool("?", "Shortcuts and terms (F1)", self.help_asked.emit)
+        self.more = self._tool("More", "Report, command palette, colours, theme, language", None)
+        self.more.setMenu(QMenu(self))
+        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.help = self._tool("?", "Shortcuts and terms (F1 or ?)", self.help_asked.emit)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -77,7 +83,7 @@ class TopBar(QFrame):
         row.addWidget(self.method)
         row.addWidget(self.tolerance)
         row.addStretch(1)
-        for tool in (self.undo, self.redo, self.pin, self.snapshot, self.theme, self.help):
+        for tool in (self.undo, self.redo, self.pin, self.snapshot, self.lessons, self.theme, self.more, self.help):
             row.addWidget(tool)
 
     def _tool(self, text: str, tip: str, action) -> QToolButton:

@@ -4,6 +4,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QPainter, QPalette, QPen, QPolygonF
 from PySide6.QtWidgets import QComboBox, QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from app.copying import copy_menu
 from app.words import tr
 
 
@@ -28,6 +29,10 @@ class Card(QFrame):
         self.column.setContentsMargins(10, 7, 10, 8)
         self.column.setSpacing(5)
         self.column.addLayout(self.head)
+
+    def contextMenuEvent(self, event) -> None:
+        """Offer the panel's picture and its data."""
+        copy_menu(self).popup(event.globalPos())
 
     def add_footer(self, *widgets: QWidget) -> None:
         """Put a line of small widgets under the picture, from the left."""

@@ -10,6 +10,7 @@ from app.readout import FactTable, Readout
 from app.scales import Vergence, short_distance, signed
 from app.setting import Ranges, default_state, prescription, ranges
 from app.slider import STEPS, Slider
+from app.stopping import StopRow
 from app.store import Store
 from app.theme import SPACE, Tokens
 from app.words import tr
@@ -195,6 +196,7 @@ class Controls(QWidget):
         self.focus_button = QPushButton(tr("Autofocus: best RMS wavefront"), self)
         self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
         self.focus_button.clicked.connect(self.autofocus)
+        self.stopping = StopRow(store, self)
         self.sentence, self.detail, self.facts = QLabel(self), QLabel(self), FactTable(self)
         self._lay_out()
 
@@ -208,6 +210,7 @@ class Controls(QWidget):
         column.setSpacing(10)
         for row in self.rows.values():
             column.addWidget(row)
+        column.addWidget(self.stopping)
         column.addWidget(self.focus_button)
         column.addSpacing(4)
         column.addWidget(self.sentence)
@@ -220,6 +223,7 @@ class Controls(QWidget):
         limits = ranges(prescription(state))
         for row in self.rows.values():
             row.show_state(state, limits)
+        self.stopping.show_state(state)
 
     def show_live(self, live: Live) -> None:
         """Show what follows from the state: heights, sensor position, the dominant term."""

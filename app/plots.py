@@ -149,7 +149,7 @@ class HeatMap(QWidget):
     def __init__(self, bottom: str, left: str, parent=None):
         super().__init__(parent)
         self.chart, self.bar = Chart(bottom, left, aspect=True), ColourBar(self)
-        self.indices = np.zeros((1, 1), np.uint8)
+        self.indices, self.values = np.zeros((1, 1), np.uint8), None
         self._name, self._rect = "CET-L4", None
         self._table = lookup(self._name)
         row = QHBoxLayout(self)
@@ -160,8 +160,13 @@ class HeatMap(QWidget):
 
     def show_values(self, values: np.ndarray, levels: tuple[float, float], rect: tuple[float, float, float, float]):
         """Show rows +y of ``values`` over (x, y, width, height)."""
-        self.indices, self._rect = as_indices(values, *levels), rect
+        self.values, self.indices, self._rect = values, as_indices(values, *levels), rect
         self.chart.show_pixels(self._table[self.indices], rect)
+
+    @property
+    def rect_shown(self) -> tuple[float, float, float, float] | None:
+        """Return where the values lie: x, y, width, height."""
+        return self._rect
 
     def set_extent(self, half: float) -> None:
         """Show −half to half on both axes."""

@@ -89,6 +89,11 @@ class FactTable(QWidget):
         self._theme = LIGHT
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
+    @property
+    def rows(self) -> tuple[tuple[str, str, str], ...]:
+        """Return the rows shown."""
+        return self._rows
+
     def show_rows(self, rows: tuple[tuple[str, str, str], ...]) -> None:
         """Show (name, value, definition) rows."""
         if len(rows) != len(self._rows):

@@ -9,6 +9,9 @@ from app.theme import LIGHT, Tokens
 STEPS = 1000
 HANDLE = 7.0
 MARGIN = 9.0
+KEYS = Qt.Key
+MOVES = (KEYS.Key_Left, KEYS.Key_Right, KEYS.Key_Up, KEYS.Key_Down, KEYS.Key_PageUp, KEYS.Key_PageDown)
+MOVES += (KEYS.Key_Home, KEYS.Key_End)
 
 
 class Slider(QAbstractSlider):
@@ -69,11 +72,24 @@ class Slider(QAbstractSlider):
             self.setSliderDown(False)
 
     def keyPressEvent(self, event) -> None:
-        """Ask for a sweep on Space."""
+        """Ask for a sweep on Space; a key that moves takes hold, so that holding it down is one step of undo."""
         if event.key() == Qt.Key.Key_Space:
             self.swept.emit()
-        else:
-            super().keyPressEvent(event)
+            return
+        if event.key() in MOVES and not self.isSliderDown():
+            self.setSliderDown(True)
+        super().keyPressEvent(event)
+
+    def keyReleaseEvent(self, event) -> None:
+        """Let go when the key is up, which a key that repeats itself is not."""
+        if event.key() in MOVES and not event.isAutoRepeat():
+            self.setSliderDown(False)
+        super().keyReleaseEvent(event)
+
+    def focusOutEvent(self, event) -> None:
+        """Let go: the key's release goes to another."""
+        self.setSliderDown(False)
+        super().focusOutEvent(event)
 
     def mouseDoubleClickEvent(self, event) -> None:
         """Ask for the reset."""

@@ -150,6 +150,9 @@ def _grounds(t: Tokens) -> str:
     QLabel#title {{ font-weight: 600; }}
     QLabel#muted, QLabel#readout {{ color: {t.muted}; font-size: 12px; }}
     QLabel#fact {{ font-size: 12px; }}
+    QLabel#task {{ background: {t.faint}; border-radius: 5px; padding: 7px 9px; }}
+    QWidget#page {{ background: transparent; }}
+    QWidget[pointed="true"] QLabel {{ color: {t.accent}; font-weight: 600; }}
     QLabel#sentence {{ font-size: 13px; font-weight: 600; }}
     QLabel#badge {{ background: {t.faint}; color: {t.text}; border-radius: 4px; padding: 2px 7px; font-size: 12px; }}
     QLabel#badge[stale="true"] {{ color: {t.muted}; }}

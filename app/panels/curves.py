@@ -16,6 +16,8 @@ class CurvesPanel:
         self.chart = Chart(*axes)
         self.zero = self.chart.add_curve("line")
         self.curves = {name: self.chart.add_curve(token, width) for name, (token, width) in curves.items()}
+        for name, curve in self.curves.items():
+            curve.name = tr(name)
         self._looks, self._side = curves, ""
         self.widget.set_body(self.chart)
 

@@ -1,0 +1,116 @@
+"""A panel's picture and its data, to the clipboard or into a file."""
+
+import csv
+import io
+
+import numpy as np
+from PySide6.QtCore import QMimeData, Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QApplication, QMenu, QTableView, QWidget
+
+from app.chart import Chart
+from app.plots import HeatMap
+from app.readout import FactTable
+from app.words import tr
+
+Rows = list[list]
+
+
+def copy_menu(card: QWidget) -> QMenu:
+    """Return the menu of a panel: copy its picture, copy its data where it has any."""
+    menu = QMenu(card)
+    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    menu.addAction(tr("Copy picture"), lambda: copy_picture(card))
+    action = menu.addAction(tr("Copy data as CSV") + "\tCtrl+Shift+C", lambda: copy_data(card))
+    action.setEnabled(bool(data_of(card)))
+    return menu
+
+
+def card_in_hand(window: QWidget) -> QWidget | None:
+    """Return the panel that has the focus, else the one under the pointer, else the one in the open tab."""
+    for widget in (QApplication.focusWidget(), QApplication.widgetAt(window.cursor().pos())):
+        while widget is not None and widget.objectName() != "card":
+            widget = widget.parentWidget()
+        if widget is not None:
+            return widget
+    return window.panels[window.tabs.current()].widget
+
+
+def copy_picture(widget: QWidget) -> None:
+    """Put a widget's picture on the clipboard."""
+    QGuiApplication.clipboard().setPixmap(widget.grab())
+
+
+def copy_data(widget: QWidget) -> bool:
+    """Put a panel's data on the clipboard as CSV; return whether it has any."""
+    text = data_of(widget)
+    if text:
+        data = QMimeData()
+        data.setText(text)
+        data.setData("text/csv", text.encode())
+        QGuiApplication.clipboard().setMimeData(data)
+    return bool(text)
+
+
+def data_of(widget: QWidget) -> str:
+    """Return what a panel shows as CSV (RFC 4180), one table behind the other; nothing where there are no numbers."""
+    tables = [rows for rows in map(table, [widget, *widget.findChildren(QWidget)]) if rows]
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\r\n")
+    for number, rows in enumerate(tables):
+        if number:
+            writer.writerow([])
+        writer.writerows(rows)
+    return out.getvalue()
+
+
+def table(widget: QWidget) -> Rows:
+    """Return the rows of one widget, its heads first; a widget of another kind gives its own by ``rows_of_data``."""
+    if hasattr(widget, "rows_of_data"):
+        return widget.rows_of_data()
+    if isinstance(widget, HeatMap):
+        return _of_heat_map(widget)
+    if isinstance(widget, Chart) and not isinstance(widget.parentWidget(), HeatMap):
+        return _of_chart(widget)
+    if isinstance(widget, FactTable):
+        return [[name, value] for name, value, _ in widget.rows]
+    return _of_view(widget) if isinstance(widget, QTableView) else []
+
+
+def _of_heat_map(heat: HeatMap) -> Rows:
+    """Return a grid: x along the first row, y down the first column, rows +y."""
+    if heat.values is None:
+        return []
+    rows, columns = heat.values.shape
+    left, bottom, width, height = heat.rect_shown
+    x = left + (np.arange(columns) + 0.5) * width / columns
+    y = bottom + (np.arange(rows) + 0.5) * height / rows
+    bottom_label, left_label = heat.chart.labels
+    head = [f"{left_label} \\ {bottom_label}", *map(_number, x)]
+    return [head, *([_number(at), *map(_number, row)] for at, row in zip(y, heat.values, strict=True))]
+
+
+def _of_chart(chart: Chart) -> Rows:
+    """Return every curve that has points as two columns, its name in the head."""
+    shown = [curve for curve in chart.curves if curve.x.size and curve.token != "line"]
+    bottom, left = chart.labels
+    names = [curve.name or f"{number}" for number, curve in enumerate(shown, 1)]
+    head = [f"{name}: {label}" for name in names for label in (bottom, left)]
+    columns = [values for curve in shown for values in (curve.x, curve.y)]
+    longest = max((column.size for column in columns), default=0)
+    body = [[_number(c[k]) if k < c.size else "" for c in columns] for k in range(longest)]
+    return [head, *body] if columns else []
+
+
+def _of_view(view: QTableView) -> Rows:
+    """Return the cells of a table as they are shown."""
+    model = view.model()
+    if model is None:
+        return []
+    heads = [str(model.headerData(k, Qt.Orientation.Horizontal) or "") for k in range(model.columnCount())]
+    cells = [[str(model.index(r, k).data() or "") for k in range(model.columnCount())] for r in range(model.rowCount())]
+    return [heads, *cells]
+
+
+def _number(value) -> str:
+    return "" if np.isnan(value) else f"{float(value):.9g}"
