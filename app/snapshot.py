@@ -9,7 +9,6 @@ from app.setting import setup
 from app.state import State, state_to_json
 from p2sf.errors import ExportError
 from p2sf.export import describe, versions, write_beside, write_psf
-from p2sf.interchange.fitspsf import write_psf_fits
 
 DATA_ENDINGS = (".npz", ".tiff", ".fits", ".csv")
 
@@ -35,9 +34,17 @@ def write_data(live: Live, path, state: State | None = None) -> tuple[Path, Path
         ending = Path(path).suffix
         raise ExportError(f'{path}: PSF data has no ending "{ending}"; choose {", ".join(DATA_ENDINGS)}')
     meta = {**describe(setup(live.state)), "state": _entries(state)}
-    write = write_psf_fits if Path(path).suffix.lower() == ".fits" else write_psf
-    written = write(live.psf, path, meta)
+    written = _writer(path)(live.psf, path, meta)
     return written, write_state(state, side_car(path), exported=Path(path).name)
+
+
+def _writer(path):
+    """Return what writes a PSF under this name."""
+    if Path(path).suffix.lower() != ".fits":
+        return write_psf
+    from p2sf.interchange.fitspsf import write_psf_fits  # with it come databases, which a start can do without
+
+    return write_psf_fits
 
 
 def write_picture(state: State, png: bytes, path) -> tuple[Path, Path]:

@@ -62,6 +62,30 @@ def test_slider_to_all_panels_painted(window, qapp, benchmark, key, method):
         assert median(cpu) <= FRAME_MS
 
 
+@pytest.mark.parametrize("what", ["free pupil", "on the lens", "beside B", "A − B"])
+def test_what_if_slider_to_all_panels_painted(window, qapp, benchmark, what):
+    pair = {"pinned": State(f_number=8.0, method="seidel"), "shown": "difference" if what == "A − B" else "a"}
+    extra = pair if "B" in what else {"free_pupil": what == "free pupil"}
+    window.store.replace(State(theme="light", method="seidel", **extra))
+    qapp.processEvents()
+    desk, wall, cpu, steps = window.panels["coefficients"].bars, [], [], count()
+    window.store.begin()
+
+    def frame():
+        wall_start, cpu_start = perf_counter(), process_time()
+        desk.added.emit("w31", -2.0 + 0.04 * (next(steps) % 100))
+        qapp.processEvents()
+        wall.append(1e3 * (perf_counter() - wall_start))
+        cpu.append(1e3 * (process_time() - cpu_start))
+
+    benchmark.pedantic(frame, rounds=FRAMES, warmup_rounds=10)
+    window.store.end()
+    late = quantiles(cpu, n=20)[-1]
+    print(f"\nwhat-if, {what}: wall {median(wall):.1f} ms, CPU {median(cpu):.1f} ms, 95 % {late:.1f} ms")
+    if "B" not in what:  # one picture has a frame; two pictures have two
+        assert median(cpu) <= FRAME_MS
+
+
 def test_start_to_first_picture(benchmark):
     code = """
 from time import perf_counter
