@@ -62,7 +62,7 @@ class Actions(QObject):
             Command("Save the lens as it is now…", self.ask_save_lens, ("Ctrl+Shift+S",), "Files"),
             Command("Snapshot: PSF data or picture, with the state…", self.ask_snapshot, ("Ctrl+E",), "Files"),
             Command("Autofocus: best RMS wavefront", self.autofocus, ("Ctrl+F",), "Lens"),
-            Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+C",), "Files"),
+            Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+D",), "Files"),
             Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
             Command("Report: one page as PDF…", self.ask_report, ("Ctrl+P",), "Files"),
             Command("Find a command…", self.find, ("Ctrl+K",)),

@@ -207,7 +207,7 @@ class Controls(QWidget):
             label.setWordWrap(True)
         column = QVBoxLayout(self)
         column.setContentsMargins(12, 10, 12, 12)
-        column.setSpacing(10)
+        column.setSpacing(SPACE - 1)
         for row in self.rows.values():
             column.addWidget(row)
         column.addWidget(self.stopping)

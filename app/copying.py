@@ -21,7 +21,7 @@ def copy_menu(card: QWidget) -> QMenu:
     menu = QMenu(card)
     menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     menu.addAction(tr("Copy picture"), lambda: copy_picture(card))
-    action = menu.addAction(tr("Copy data as CSV") + "\tCtrl+Shift+C", lambda: copy_data(card))
+    action = menu.addAction(tr("Copy data as CSV") + "\tCtrl+Shift+D", lambda: copy_data(card))
     action.setEnabled(bool(data_of(card)))
     return menu
 

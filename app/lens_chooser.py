@@ -2,7 +2,16 @@
 
 from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QPolygonF, QStandardItem, QStandardItemModel
-from PySide6.QtWidgets import QFrame, QLabel, QListView, QPushButton, QStyle, QStyledItemDelegate, QVBoxLayout
+from PySide6.QtWidgets import (
+    QFrame,
+    QLabel,
+    QListView,
+    QPushButton,
+    QSizePolicy,
+    QStyle,
+    QStyledItemDelegate,
+    QVBoxLayout,
+)
 
 from app.lens_cards import LensCard, lens_card
 from app.plots import small_font
@@ -11,6 +20,7 @@ from app.theme import LIGHT, Tokens
 from app.thumbnail import paint_lens
 
 NAME = Qt.ItemDataRole.UserRole
+WIDE, NARROW = 380, 170
 CELL, PICTURE = QSize(254, 172), 74
 SIZE = QSize(4 * 254 + 30, 4 * 172 + 48)
 ALIGN = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
@@ -25,7 +35,7 @@ class LensChooser(QPushButton):
         super().__init__(parent)
         self.setAccessibleName("Lens")
         self.setToolTip("The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)")
-        self.setFixedWidth(380)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self.setStyleSheet("QPushButton { text-align: left; padding-right: 22px; }")
         self._name, self._title, self._theme = "", "", LIGHT
         self.gallery: Gallery | None = None
@@ -40,8 +50,25 @@ class LensChooser(QPushButton):
         self._theme = theme
         if (name, shown_title) != (self._name, self._title):
             self._name, self._title = name, shown_title
-            self.setText(self.fontMetrics().elidedText(shown_title, Qt.TextElideMode.ElideRight, self.width() - 34))
+            self._fit()
             self.setAccessibleDescription(shown_title)
+
+    def sizeHint(self) -> QSize:
+        """Return a width that holds most titles."""
+        return QSize(WIDE, super().sizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:
+        """Return a width that holds a title's beginning: a small window has less room."""
+        return QSize(NARROW, super().minimumSizeHint().height())
+
+    def resizeEvent(self, event) -> None:
+        """Show as much of the title as there is room for."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        room = self.width() - 34
+        self.setText(self.fontMetrics().elidedText(self._title, Qt.TextElideMode.ElideRight, room))
 
     def open_gallery(self) -> None:
         """Open the gallery under the button, the present lens chosen."""
