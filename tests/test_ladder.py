@@ -13,12 +13,16 @@ from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.huygens import Filling, huygens_psf
 from p2sf.ladder import METHODS, choose, draw, render, table, to_json, tradeoff
 from p2sf.lens import Aperture
-from p2sf.rungs import predicted_error, residual_for
+from p2sf.raydata import RayData
+from p2sf.rayfit import level_rays
+from p2sf.rungs import QUICK_LEVELS, predicted_error, residual_for, seidel_sigma
 from p2sf.source import Source
 from p2sf.tradeoff import error, front
+from p2sf.wavefront import wavefront
 from tests.choose_trial import summary, trials
 from tests.reference import huygens_rows
 from tests.test_raytrace import case, double_gauss
+from tests.waves import waves
 
 
 def off_axis():
@@ -31,7 +35,22 @@ def test_every_rung_returns_the_same_kind_of_psf(method):
     lens, source, pixel, _ = off_axis()
     psf = render(lens, source, method, 32, pixel)
     assert psf.method == method and psf.values.shape == (32, 32) and psf.pixel_um == pixel
-    assert psf.values.sum() == pytest.approx(1) and 0 < psf.strehl <= 1
+    assert psf.values.sum() == pytest.approx(1)
+    assert psf.strehl is None if method == "gaussian" else 0 < psf.strehl <= 1
+
+
+@pytest.mark.parametrize(("waves_off", "frequency_off"), [(0.0, 2e-3), (0.01, 0.0), (0.01, -2e-3)])
+def test_six_coefficients_miss_by_their_phase_and_by_where_diffraction_takes_their_frequency(waves_off, frequency_off):
+    """Rays that land at x = 0 and are the six coefficients' own, but for a step of phase and a miss of frequency."""
+    c, points = waves(0.3, -0.2, 0.1, 0.0, 0.0, 0.4), level_rays(QUICK_LEVELS[0])
+    xi, eta, weight = points
+    scale, side = float(c.reduced_slope) / float(c.wavelength_um), np.where(xi > np.median(xi), 1.0, -1.0)
+    off = waves_off * side + 0.7  # a constant phase is no error
+    zero = 0 * xi
+    rays = RayData(off - wavefront(c, xi, eta), scale * xi + frequency_off, scale * eta, zero, zero)
+    own = side[: weight.size]
+    wanted = np.hypot(waves_off * np.sqrt(1 - (weight @ own) ** 2), frequency_off * 5.0)
+    assert seidel_sigma(c, rays, points, 5.0) == pytest.approx(wanted, rel=1e-12)
 
 
 def test_rungs_rank_as_the_design_says():
