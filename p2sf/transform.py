@@ -10,6 +10,7 @@ from p2sf.errors import SamplingError
 
 # Nodes per block of the direct sum: large enough for BLAS, small enough to stay in the cache.
 BLOCK = 4096
+LINE_GRID = 2**15  # frequencies of a sum on a line: 3e-4 at the ends of 513 points
 
 
 def sum_plane_waves(amplitude, kx, ky, x, y, even: bool = True) -> np.ndarray:
@@ -58,6 +59,23 @@ def _radians(cycles: np.ndarray) -> np.ndarray:
 def _wave(cycles: np.ndarray) -> np.ndarray:
     phase = _radians(cycles)
     return np.cos(phase) + 1j * np.sin(phase)
+
+
+def sum_on_line(amplitude, k, count: int, step: float) -> np.ndarray:
+    """Return Σ_j amplitude_j exp(2πi·k_j·x) at ``count`` points ``step`` apart, point count//2 at x = 0; complex.
+
+    ``amplitude``, ``k``: (nodes,). The nodes are spread over a grid of frequencies by straight lines and an FFT does
+    the rest: an error of (π·count/2/LINE_GRID)²/2 of each node at the line's ends, less inside.
+    """
+    place = np.asarray(k) * (step * LINE_GRID)
+    left = np.floor(place)
+    part, bins = place - left, left.astype(np.intp) % LINE_GRID
+    grid = np.zeros(LINE_GRID, complex)
+    for shift, weight in ((0, 1 - part), (1, part)):
+        share, where = amplitude * weight, (bins + shift) % LINE_GRID
+        grid.real += np.bincount(where, share.real, LINE_GRID)
+        grid.imag += np.bincount(where, share.imag, LINE_GRID)
+    return np.fft.ifft(grid, norm="forward")[np.arange(count) - count // 2]
 
 
 def matrix_dft(pupil, kx, ky, x, y) -> np.ndarray:

@@ -6,7 +6,7 @@ import pytest
 from p2sf.conventions import centred_axis
 from p2sf.errors import SamplingError
 from p2sf.quadrature import disc_nodes
-from p2sf.transform import BLOCK, matrix_dft, padded_fft, sum_plane_waves
+from p2sf.transform import BLOCK, LINE_GRID, matrix_dft, padded_fft, sum_on_line, sum_plane_waves
 
 ROUND_OFF = 1e-12
 
@@ -88,3 +88,13 @@ def test_fft_and_matrix_agree(pupil, samples):
 def test_the_papers_rules_are_enforced_with_a_sentence(pupil, samples, pixels, words):
     with pytest.raises(SamplingError, match=words):
         padded_fft(pupil, samples, pixels)
+
+
+def test_a_sum_on_a_line_is_the_plain_sum():
+    rng = np.random.default_rng(5)
+    k, amplitude = rng.uniform(-0.7, 0.7, 4000), rng.normal(size=4000) + 1j * rng.normal(size=4000)
+    x = (np.arange(513) - 256) * 0.31
+    found = sum_on_line(amplitude, k, 513, 0.31)
+    plain = np.exp(2j * np.pi * np.outer(x, k)) @ amplitude
+    bound = (np.pi * np.abs(x / 0.31) / LINE_GRID) ** 2 / 2 + 1e-12  # per node, as the docstring says
+    assert (np.abs(found - plain) <= 2 * bound * np.sqrt(4000) * 2 + 1e-9).all()

@@ -1,34 +1,133 @@
-"""Sections of the PSF through the chief ray."""
+"""Sections of the PSF through the chief ray, and its encircled energy."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+
+from app.views.sampled import by_coefficients
+from p2sf.errors import P2SFError
+from p2sf.fitted import fit
+from p2sf.measures import centroid, encircled_energy
+from p2sf.psf import Psf, corner_reach
+from p2sf.quadrature import disc_nodes, nodes_for
+from p2sf.rendering import counts_for, pupil_amplitude
+from p2sf.transform import sum_on_line
+from p2sf.wavefront import steepest_polar, wavefront
+
+POINTS = {"preview": 257, "settled": 513}
+MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
 
 
 @dataclass(frozen=True)
 class Profiles:
-    """Positions in µm from the chief ray; PSF along x and along y over its peak, and the Airy pattern."""
+    """Positions in µm from the chief ray; PSF along x and along y over its peak, and the Airy pattern.
+
+    ``energy`` and ``perfect_energy``: share of the light within |position| of the centroid, of the window's light and
+    of all a perfect lens has.
+    """
 
     position_um: np.ndarray
     along_x: np.ndarray
     along_y: np.ndarray
     airy: np.ndarray
+    energy: np.ndarray
+    perfect_energy: np.ndarray
 
 
 def profiles(live) -> Profiles:
-    """Return the sections through the chief ray's sample, over the PSF's peak, beside the Airy pattern."""
+    """Return sections finer than the picture's samples: summed at the points themselves once the sliders rest."""
     psf = live.psf
+    half = (psf.values.shape[-1] // 2) * psf.pixel_um
+    position, airy, perfect = airy_curves(POINTS[live.quality], half, live.airy_radius_um)
+    lines = fine_lines(live, position) if live.quality == "settled" else None
+    along_x, along_y = lines or between_samples(psf, position)
+    peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl)) or 1.0
+    return Profiles(position, along_x / peak, along_y / peak, airy, energy(live, position), perfect)
+
+
+def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the samples through the chief ray in units of the unaberrated peak, straight lines between them."""
     rows, columns = psf.values.shape
-    peak = float(psf.values.max()) or 1.0
-    position = psf.x_um
-    return Profiles(
-        position, psf.values[rows // 2] / peak, psf.values[:, columns // 2] / peak, airy(position, live.airy_radius_um)
-    )
+    scale = float(psf.strehl) / (float(psf.values.max()) or 1.0)
+    row, column = psf.values[rows // 2], psf.values[:, columns // 2]
+    return tuple(scale * np.interp(position, psf.x_um, line) for line in (row, column))
 
 
-def airy(position_um: np.ndarray, radius_um: float) -> np.ndarray:
-    """Return the Airy pattern (2J₁(v)/v)² (Airy 1835) of first dark ring ``radius_um``; J₁ by its integral."""
-    v = 3.8317059702 * np.abs(position_um)[:, None] / radius_um
-    turn = (np.arange(64) + 0.5) * np.pi / 64
-    bessel = np.cos(turn - v * np.sin(turn)).mean(axis=1)  # J₁(v) = (1/π)∫cos(τ − v sin τ)dτ
-    return np.where(v[:, 0] < 1e-9, 1.0, (2 * bessel / np.where(v[:, 0] < 1e-9, 1.0, v[:, 0])) ** 2)
+def fine_lines(live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return |field|² along x and along y in units of the unaberrated peak; None where no sum describes the picture.
+
+    That is where rays are lost, where the picture is a density of rays, and where a sum would take too long.
+    """
+    if live.psf.method == "geometric" or live.state.clip:
+        return None
+    try:
+        nodes = seidel_nodes(live) if by_coefficients(live) else fitted_nodes(live)
+    except P2SFError:  # rays are lost: the picture's own samples are what there is
+        return None
+    if nodes is None:
+        return None
+    amplitude, kx, ky = nodes
+    window = position.size, float(position[1] - position[0])
+    across, along_y = sum_on_line(amplitude, kx, *window), sum_on_line(amplitude, ky, *window)
+    along_x = (across + across[::-1]) / 2  # the nodes are one half of a pupil that is even in ξ
+    return tuple(line.real**2 + line.imag**2 for line in (along_x, along_y))
+
+
+def seidel_nodes(live):
+    """Return amplitude and spatial frequencies (cycles per µm) of the six coefficients' pupil."""
+    c, psf = live.setting.coefficients, live.psf
+    slope, twist = (float(x) for x in steepest_polar(c))
+    scale = -float(c.reduced_slope) / float(c.wavelength_um)
+    counts = nodes_for(slope, corner_reach(abs(scale), on_axes(psf), psf.pixel_um), twist)
+    if counts[0] * counts[1] > MOST_NODES:
+        return None
+    nodes = disc_nodes(*counts)
+    return pupil_amplitude(nodes.weight, wavefront(c, nodes.xi, nodes.eta)), scale * nodes.xi, scale * nodes.eta
+
+
+def fitted_nodes(live):
+    """Return amplitude and spatial frequencies of a fit to exact rays; P2SFError where rays are lost."""
+    found, psf = fit(live.setting.lens, live.setting.source), live.psf
+    counts = counts_for(found.steepness, on_axes(psf), psf.pixel_um)
+    if counts[0] * counts[1] > MOST_NODES:
+        return None
+    nodes = disc_nodes(*counts)
+    phase, fx, fy = found.at(nodes.xi, nodes.eta)
+    return pupil_amplitude(nodes.weight, phase), fx, fy
+
+
+def on_axes(psf: Psf) -> int:
+    """Return the samples across a window whose corner lies where this one's axes end: lines have no corners."""
+    return round(psf.values.shape[-1] / np.sqrt(2))
+
+
+def energy(live, position: np.ndarray) -> np.ndarray:
+    """Return the share of the window's light within |position| of the centroid; from rings of samples while moving."""
+    psf, radius = live.psf, np.abs(position)
+    if live.quality == "settled":
+        return encircled_energy(psf, radius_um=radius).fraction
+    x, y = centroid(psf)
+    distance = np.hypot(psf.x_um - x, (psf.y_um - y)[:, None]).ravel() / psf.pixel_um
+    rings = np.bincount(np.rint(distance).astype(int), psf.values.ravel()).cumsum()
+    return np.interp(radius / psf.pixel_um, np.arange(rings.size) + 0.5, rings / (rings[-1] or 1.0), left=0.0)
+
+
+@lru_cache(maxsize=8)
+def airy_curves(count: int, half_um: float, radius_um: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return positions from −half to half, the Airy pattern there, and its energy 1 − J₀²(v) − J₁²(v) (Rayleigh 1881).
+
+    ``radius_um`` is the first dark ring's.
+    """
+    position = np.linspace(-half_um, half_um, count)
+    v = 3.8317059702 * np.abs(position) / radius_um
+    zeroth, first = bessel(0, v), bessel(1, v)
+    pattern = np.where(v < 1e-9, 1.0, (2 * first / np.where(v < 1e-9, 1.0, v)) ** 2)
+    return position, pattern, 1 - zeroth**2 - first**2
+
+
+def bessel(order: int, v: np.ndarray) -> np.ndarray:
+    """Return Jₙ(v) by Bessel's integral (1/π)∫cos(nτ − v sin τ)dτ, exact while the nodes outnumber v."""
+    turn = np.arange(max(64, int(1.2 * v.max()) + 32)) + 0.5
+    turn *= np.pi / turn.size
+    return np.cos(order * turn - v[:, None] * np.sin(turn)).mean(axis=1)
