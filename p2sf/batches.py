@@ -69,14 +69,14 @@ def _split(values: np.ndarray, most: int) -> list[np.ndarray]:
     return [values[start : start + size] for start in range(0, len(values), size)]
 
 
-def corner_reach(scale, pixels: int, pixel_um: float) -> float:
-    """Return waves per unit pupil radius of the kernel at the window's corner; ``scale`` NA/λ per µm, the largest."""
-    return float(np.max(scale)) * pixel_um * (pixels // 2) * sqrt(2)
+def corner_reach(scale: float, pixels: int, pixel_um: float) -> float:
+    """Return waves per unit pupil radius of the kernel at the window's corner; ``scale`` NA/λ per µm."""
+    return scale * pixel_um * (pixels // 2) * sqrt(2)
 
 
 def rows_for(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str) -> RowNodes:
     """Return the pupil samples that no PSF of these coefficients aliases on. Raises SamplingError if too many."""
-    reach = corner_reach(np.abs(wave_number(coefficients)), pixels, pixel_um)
+    reach = corner_reach(float(np.abs(wave_number(coefficients)).max()), pixels, pixel_um)
     return _rows(_slopes(shape_terms(coefficients).reshape(-1, 5)[:, :4], reach, quality).max(0), reach, quality)
 
 

@@ -59,3 +59,9 @@ def mirrored(values: np.ndarray) -> np.ndarray:
 def anywhere(flags) -> bool:
     """Return whether any flag is set; the one flag of one source, a numpy bool, needs no reduction."""
     return bool(flags.any() if flags.ndim else flags)
+
+
+def protected(values: np.ndarray) -> np.ndarray:
+    """Return the array write-protected, as one that a cache hands out to everybody must be."""
+    values.setflags(write=False)
+    return values

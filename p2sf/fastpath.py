@@ -41,10 +41,9 @@ class Kernels:
 
 @dataclass(frozen=True)
 class Monomials:
-    """What multiplies (W40, W22, W20 + Wd), (3, nodes), and W31, (nodes,), and the weights, (rows, columns)."""
+    """What multiplies W40, W31, W22 and W20 + Wd in e, then in o, (4, 2·nodes); the weights, (rows, columns)."""
 
-    even: np.ndarray
-    odd: np.ndarray
+    phases: np.ndarray
     weight: np.ndarray
 
 
@@ -72,7 +71,7 @@ def shape_terms(coefficients: Coefficients) -> np.ndarray:
 def batch_intensities(terms: np.ndarray, pixels: int, pixel_um: float, rows: RowNodes, dtype) -> np.ndarray:
     """Return the PSFs (batch, pixels, pixels) of `shape_terms` (batch, 5) that all have the same last one."""
     setting = float(terms[0, 4]) * pixel_um, pixels, np.dtype(dtype)
-    return _unfold(*_fields(terms[:, [0, 2, 3]], terms[:, 1:2], rows, setting), pixels)
+    return _unfold(*_fields(terms[:, :4], rows, setting), pixels)
 
 
 def wave_number(coefficients: Coefficients) -> np.ndarray:
@@ -89,38 +88,35 @@ def groups(scale: np.ndarray) -> list[np.ndarray]:
     return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
 
 
-def _fields(even, coma, rows: RowNodes, setting):
+def _fields(shape, rows: RowNodes, setting):
     """Return the parts of the fields even and odd in y, (2, batch, y, x) each, axis 0 real and imaginary."""
     blocks = _blocks(rows, setting[1], setting[2])
-    upright, odd = _block_fields(even, coma, blocks[0], setting)
+    upright, odd = _block_fields(shape, blocks[0], setting)
     for block in blocks[1:]:
-        more_upright, more_odd = _block_fields(even, coma, block, setting)
+        more_upright, more_odd = _block_fields(shape, block, setting)
         upright += more_upright
         odd += more_odd
     return upright, odd
 
 
-def _block_fields(even, coma, rows: RowNodes, setting):
+def _block_fields(shape, rows: RowNodes, setting):
     # A single PSF is likely to be asked for again, a batch of a stack is not and would only fill the cache.
-    kernels = (kernels_for if len(even) == 1 else kernels_for.__wrapped__)(rows, *setting)
-    half = _across(folded_pupils(even, coma, _monomials(rows, setting[2])), kernels.across)
+    kernels = (kernels_for if len(shape) == 1 else kernels_for.__wrapped__)(rows, *setting)
+    half = _across(folded_pupils(shape, _monomials(rows, setting[2])), kernels.across)
     return kernels.up_even @ half[:2], kernels.up_odd @ half[2:]
 
 
-def folded_pupils(even, coma, monomials: Monomials) -> np.ndarray:
+def folded_pupils(shape: np.ndarray, monomials: Monomials) -> np.ndarray:
     """Return w·exp(i2πe)·(cos 2πo, sin 2πo), shape (4, batch, rows, columns): real and imaginary of either.
 
-    ``even``: (batch, 3) of W40, W22, W20 + Wd; ``coma``: (batch, 1) of W31; in waves.
+    ``shape``: (batch, 4) of W40, W31, W22, W20 + Wd in waves.
     """
     weight = monomials.weight
-    shape = (len(even), *weight.shape)
-    cycles = np.empty((2, len(even), weight.size))
-    np.matmul(even, monomials.even, out=cycles[0])
-    np.multiply(coma, monomials.odd, out=cycles[1])
-    radians = reduced_radians(cycles, weight.dtype).reshape(2, *shape)
-    (cosine, tilt_cosine), (sine, tilt_sine) = np.cos(radians), np.sin(radians, out=radians)
-    pupil = np.empty((4, *shape), weight.dtype)
-    for first, part in ((0, tilt_cosine), (2, tilt_sine)):
+    radians = reduced_radians(shape @ monomials.phases, weight.dtype).reshape(len(shape), 2, *weight.shape)
+    cosines, sines = np.cos(radians), np.sin(radians, out=radians)
+    cosine, sine = cosines[:, 0], sines[:, 0]
+    pupil = np.empty((4, len(shape), *weight.shape), weight.dtype)
+    for first, part in ((0, cosines[:, 1]), (2, sines[:, 1])):
         part *= weight
         np.multiply(cosine, part, out=pupil[first])
         np.multiply(sine, part, out=pupil[first + 1])
@@ -146,21 +142,21 @@ def _across(pupil: np.ndarray, across: np.ndarray) -> np.ndarray:
 
 def _unfold(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
     """Return |even ± odd|² on the whole picture from offsets ≥ 0: minus above the chief ray, even in x."""
-    above, below = _modulus(even - odd), _modulus(np.add(even, odd, out=even))
-    out = np.empty((len(above), pixels, pixels), above.dtype)
-    low = pixels // 2
+    batch, low = even.shape[1], pixels // 2
     high = pixels - low
-    out[:, low:, low:] = above[:, :high, :high]
-    out[:, low:, :low] = above[:, :high, low:0:-1]
-    out[:, :low, low:] = below[:, low:0:-1, :high]
-    out[:, :low, :low] = below[:, low:0:-1, low:0:-1]
+    right = np.empty((batch, pixels, low + 1), even.dtype)
+    _modulus(even - odd, slice(0, high), right[:, low:])
+    _modulus(np.add(even, odd, out=even), slice(low, 0, -1), right[:, :low])
+    out = np.empty((batch, pixels, pixels), even.dtype)
+    out[..., low:] = right[..., :high]
+    out[..., :low] = right[..., low:0:-1]
     return out
 
 
-def _modulus(field: np.ndarray) -> np.ndarray:
-    """Return the squared modulus of a field (2, batch, y, x), which is used up, as (batch, y, x)."""
+def _modulus(field: np.ndarray, rows: slice, out: np.ndarray) -> None:
+    """Write the squared modulus of these rows of a field (2, batch, y, x), which is used up, to (batch, y, x)."""
     field *= field
-    return np.add(field[0], field[1], out=field[0])
+    np.add(field[0, :, rows], field[1, :, rows], out=out)
 
 
 @lru_cache(maxsize=8)
@@ -189,8 +185,10 @@ def _multiples(angle: np.ndarray, count: int, dtype) -> np.ndarray:
 def _monomials(rows: RowNodes, dtype) -> Monomials:
     eta = rows.eta[:, None]
     square = rows.xi**2 + eta**2
-    even = np.stack([square**2, np.broadcast_to(eta**2, square.shape), square])
-    return Monomials(even.reshape(3, -1), (square * eta).ravel(), rows.weight.astype(dtype))
+    none = np.zeros_like(square)
+    even = np.stack([square**2, none, np.broadcast_to(eta**2, square.shape), square])
+    odd = np.stack([none, square * eta, none, none])
+    return Monomials(np.concatenate([x.reshape(4, -1) for x in (even, odd)], 1), rows.weight.astype(dtype))
 
 
 @lru_cache(maxsize=16)

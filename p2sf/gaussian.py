@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import anywhere, vergence
+from p2sf.conventions import anywhere, protected, vergence
 from p2sf.errors import GeometryError
 from p2sf.lens import Lens, indices
 
@@ -74,8 +74,7 @@ def basis_rays(lens: Lens, wavelength_um, beside=()) -> BasisRays:
 def _basis_at(lens: Lens, wavelength_um: float) -> BasisRays:
     """Return the basis rays of one wavelength, which stay while depth and field are dragged; write-protected."""
     rays = _basis(lens, np.asarray(wavelength_um))
-    for values in (rays.a, rays.b, rays.c, rays.d, rays.index):
-        _frozen(values)
+    _ = [protected(values) for values in (rays.a, rays.b, rays.c, rays.d, rays.index)]
     return rays
 
 
@@ -84,9 +83,8 @@ def _basis(lens: Lens, wavelength: np.ndarray) -> BasisRays:
     layers = index.tolist() if index.ndim == 1 else list(index)  # plain floats make one wavelength 10× faster
     steps = zip(lens.surfaces, layers, layers[1:], strict=False)
     power, gap = zip(*((s.curvature * (after - n), s.thickness / after) for s, n, after in steps), strict=True)
-    rows = [*zip(march(power, gap, 1.0, 0.0), march(power, gap, 0.0, 1.0), strict=True)]
-    columns = columns_of([(a, b, c, d) for (a, c), (b, d) in rows], index.shape[1:])
-    return BasisRays(*columns, index, power, gap)
+    rows = zip(march(power, gap, 1.0, 0.0), march(power, gap, 0.0, 1.0), strict=True)
+    return BasisRays(*columns_of([(a, b, c, d) for (a, c), (b, d) in rows], index.shape[1:]), index, power, gap)
 
 
 def march(power, gap, y, nu) -> list:
@@ -141,10 +139,8 @@ def chief_ray(rays: BasisRays, stop_surface):
     behind the stop would be the difference of two large heights. The reduced angles at both ends are exactly
     zero where only rounding is left, that is where a pupil is at infinity.
     """
-    if np.ndim(stop_surface) == 0:
-        return (_kept_from_stop if rays.index.ndim == 1 else _from_stop)(rays, int(stop_surface) - 1)
-    first, *others = np.unique(stop_surface)
-    y, nu = _from_stop(rays, int(first) - 1)
+    first, *others = (stop_surface,) if np.ndim(stop_surface) == 0 else np.unique(stop_surface)
+    y, nu = (_kept_from_stop if rays.index.ndim == 1 else _from_stop)(rays, int(first) - 1)
     for surface in others:
         here = np.asarray(stop_surface) == surface
         y, nu = (np.where(here, new, old) for new, old in zip(_from_stop(rays, int(surface) - 1), (y, nu), strict=True))
@@ -160,12 +156,7 @@ def _from_stop(rays: BasisRays, at: int):
 @lru_cache(maxsize=64)
 def _kept_from_stop(rays: BasisRays, at: int):
     """Return the chief ray of one wavelength, which stays while depth and field are dragged; write-protected."""
-    return tuple(map(_frozen, _from_stop(rays, at)))
-
-
-def _frozen(values: np.ndarray) -> np.ndarray:
-    values.setflags(write=False)
-    return values
+    return tuple(map(protected, _from_stop(rays, at)))
 
 
 def _branch(rays: BasisRays, power, gap):
@@ -178,8 +169,7 @@ def _branch(rays: BasisRays, power, gap):
 def abcd(lens: Lens, wavelength_um) -> np.ndarray:
     """System matrix from first to last vertex in reduced angles, shape (*wavelength_um.shape, 2, 2)."""
     rays = basis_rays(lens, wavelength_um)
-    rows = np.stack([rays.a[-1], rays.b[-1], rays.c[-1], rays.d[-1]], axis=-1)
-    return rows.reshape(*rows.shape[:-1], 2, 2)
+    return np.stack([rays.a[-1], rays.b[-1], rays.c[-1], rays.d[-1]], axis=-1).reshape(*rays.a.shape[1:], 2, 2)
 
 
 def cardinal_points(lens: Lens, wavelength_um) -> CardinalPoints:

@@ -98,7 +98,7 @@ def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) ->
     """
     slope, twist = (float(x) for x in steepest_polar(coefficients))
     scale = wave_number(coefficients)
-    nodes = disc_nodes(*nodes_for(slope, corner_reach(abs(scale), pixels, pixel_um), twist))
+    nodes = disc_nodes(*nodes_for(slope, corner_reach(abs(float(scale)), pixels, pixel_um), twist))
     pupil = nodes.weight * np.exp(2j * np.pi * wavefront(coefficients, nodes.xi, nodes.eta))
     axis = centred_axis(pixels, pixel_um)
     return np.abs(sum_plane_waves(pupil, scale * nodes.xi, scale * nodes.eta, axis, axis)) ** 2

@@ -10,6 +10,7 @@ from math import ceil, pi
 
 import numpy as np
 
+from p2sf.conventions import protected
 from p2sf.errors import SamplingError
 
 # The settled picture's promise: relative L2 error of the PSF in its window.
@@ -46,7 +47,7 @@ def disc_nodes(radial: int, angular: int) -> DiscNodes:
     theta = (np.arange(angular // 2) + 0.5) * (2 * pi / angular)
     xi, eta = np.outer(rho, np.sin(theta)), np.outer(rho, np.cos(theta))
     share = np.repeat(weight / angular, angular // 2)
-    return DiscNodes(_frozen(xi.ravel()), _frozen(eta.ravel()), _frozen(share))
+    return DiscNodes(protected(xi.ravel()), protected(eta.ravel()), protected(share))
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +83,7 @@ def chord_rows(rows: int, columns: int) -> RowNodes:
     along, weight = (x[columns // 2 :] for x in gauss_legendre(columns))
     share = np.outer(np.sin(angle) ** 2 * (4 / (rows + 1)), weight)
     name = f"{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes"
-    return RowNodes(_frozen(np.cos(angle)), _frozen(np.outer(np.sin(angle), along)), _frozen(share), name)
+    return RowNodes(protected(np.cos(angle)), protected(np.outer(np.sin(angle), along)), protected(share), name)
 
 
 @lru_cache(maxsize=8)
@@ -96,7 +97,7 @@ def grid_rows(size: int) -> RowNodes:
     centre = (np.arange(size // 2) + 0.5) * (2 / size)
     area = cell_areas(centre, centre, 2 / size)
     name = f"{size} × {size} uniform grid, edge cells weighted by area"
-    return RowNodes(_frozen(centre), _frozen(centre[None].copy()), _frozen(area / area.sum()), name)
+    return RowNodes(protected(centre), protected(centre[None].copy()), protected(area / area.sum()), name)
 
 
 def cell_areas(xi, eta, step: float, strips: int = 16) -> np.ndarray:
@@ -130,7 +131,7 @@ def gauss_legendre(count: int) -> tuple[np.ndarray, np.ndarray]:
         value, slope = _legendre(count, x)
         x = x - value / slope
     _, slope = _legendre(count, x)
-    return _frozen(x), _frozen(2 / ((1 - x**2) * slope**2))
+    return protected(x), protected(2 / ((1 - x**2) * slope**2))
 
 
 def _legendre(order: int, x: np.ndarray):
@@ -139,12 +140,6 @@ def _legendre(order: int, x: np.ndarray):
     for n in range(1, order):
         before, value = value, ((2 * n + 1) * x * value - n * before) / (n + 1)
     return value, order * (before - x * value) / (1 - x**2)
-
-
-def _frozen(values: np.ndarray) -> np.ndarray:
-    """Return the array write-protected, since the cache hands out the same one to everybody."""
-    values.setflags(write=False)
-    return values
 
 
 def nodes_for(slope: float, reach: float, twist: float | None = None) -> tuple[int, int]:

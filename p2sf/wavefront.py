@@ -57,7 +57,8 @@ def steepest_slope(coefficients: Coefficients, tilt: bool = False) -> np.ndarray
 
 def steepest_of(shape: np.ndarray) -> np.ndarray:
     """Return `steepest_slope` of W40, W31, W22, W20 + Wd and, if there is one, W11 in the last axis."""
-    return np.sqrt(_slopes(shape, _gradient_basis()).sum(-2).max(-1))
+    across, along = np.moveaxis(_slopes(shape, _gradient_basis()), -2, 0)
+    return np.sqrt(np.add(across, along, out=across).max(-1))
 
 
 def steepest_polar(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
