@@ -151,3 +151,21 @@ def test_info_loads_nothing_heavy():
     run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     loaded = {name.split(".")[0] for name in run.stdout.splitlines()[-1].split()}
     assert not loaded & {"scipy", "matplotlib", "PySide6", "pyqtgraph", "pyvista", "tifffile", "PIL", "app"}
+
+
+@pytest.mark.parametrize(
+    ("failure", "code", "words"),
+    [
+        (KeyboardInterrupt(), 130, ""),
+        (OSError(28, "No space left on device", "out.npz"), 2, "out.npz: No space left on device"),
+    ],
+)
+def test_what_stops_a_command_from_outside_is_no_traceback(failure, code, words, monkeypatch, capsys):
+    def stopped(*_):
+        raise failure
+
+    monkeypatch.setattr("p2sf.cli._forget_output", lambda: None)
+    monkeypatch.setattr("p2sf.cli.first_order.set_up", stopped)
+    assert main(["info", "tessar"]) == code
+    error = capsys.readouterr().err
+    assert words in error and "Traceback" not in error

@@ -60,7 +60,8 @@ def _app():
     from cyclopts import App
 
     described = "From a lens prescription to its point spread functions, with their accuracy."
-    app = App(name="p2sf", help=described, version=__version__, result_action="return_value")
+    words = {"name": "p2sf", "help": described, "version": __version__}
+    app = App(**words, result_action="return_value", suppress_keyboard_interrupt=False)
     for name, (place, summary) in COMMANDS.items():
         app.command(f"p2sf.cli.{place}", name=name, help=summary)
     return app
