@@ -17,6 +17,8 @@ from p2sf.errors import P2SFError
 
 FOLDER = Path(__file__).parent / "lessons"
 FENCE = "---"
+FIRST = State()
+PERSONAL = ("theme", "language", "colours")  # a lesson changes the optics and leaves these to whoever sits there
 HEADER = ("title", "about", "lens", "state")
 STEP = ("set", "move", "try", "ask", "tell", "claim")
 ENTRY = re.compile(r"([a-z]+):\s*(.*)")
@@ -47,9 +49,9 @@ class Lesson:
     changes: tuple[tuple[str, object], ...]
     steps: tuple[Step, ...]
 
-    def state(self, number: int, theme: str = "system") -> State:
-        """Return what the window shows at a step (from 0); P2SFError where a lens or value cannot be."""
-        made = replace(default_state(self.lens), theme=theme)
+    def state(self, number: int, like: State = FIRST) -> State:
+        """Return what the window shows at a step (from 0), with the PERSONAL entries of ``like``; P2SFError."""
+        made = replace(default_state(self.lens), **{name: getattr(like, name) for name in PERSONAL})
         for step in (self, *self.steps[: number + 1]):
             made = changed(made, step.changes)
         return replace(made, lesson=self.name, lesson_step=number)

@@ -106,7 +106,7 @@ def photo_psfs(state: State) -> float:
 
 
 def sharpening_db(state: State) -> float:
-    """Return what sharpening by these PSFs gains over the blurred photo, dB; ``photo_show axis`` takes the wrong ones."""
+    """Return what sharpening gains over the blurred photo, dB; ``photo_show axis`` takes the PSF of the axis for it."""
     from app.scenery import scene_values
     from app.views.image import COLUMNS, ROWS
     from p2sf.deblur import psnr

@@ -91,6 +91,8 @@ class Wipe(QWidget):
         """Paint both parts, the split, the names and the loupe."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(self._theme.card))
+        if self.after is BLACK:
+            return
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         area, x = self.area(), self.split_x()
         for pixels, left, right in ((self.before, area.left(), x), (self.after, x, area.right())):

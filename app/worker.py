@@ -49,6 +49,7 @@ class LatestWins(QObject):
         self._runner.progressed.connect(self.progressed)
         self._waiting: tuple[object, Job] | None = None
         self._cancelled: Event | None = None
+        self._stopped = False
 
     @property
     def busy(self) -> bool:
@@ -56,7 +57,9 @@ class LatestWins(QObject):
         return self._cancelled is not None
 
     def submit(self, key, job: Job) -> None:
-        """Run the job now if nothing runs, else next; a job that waited is dropped."""
+        """Run the job now if nothing runs, else next; a job that waited is dropped, and one after the end too."""
+        if self._stopped:
+            return
         self._waiting = (key, job)
         if not self.busy:
             self._next()
@@ -68,7 +71,8 @@ class LatestWins(QObject):
             self._cancelled.set()
 
     def stop(self) -> None:
-        """End the thread; call before the application ends."""
+        """End the thread for good; call before the application ends."""
+        self._stopped = True
         self.cancel()
         self._thread.quit()
         self._thread.wait()

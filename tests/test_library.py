@@ -183,13 +183,14 @@ def test_lenses_are_found_in_a_checkout_and_in_an_installed_package(tmp_path):
         lenses_folder(tmp_path / "nothing" / "p2sf")
 
 
-def test_the_wheel_carries_the_lenses(tmp_path):
+def test_the_wheel_carries_the_lenses_and_lessons(tmp_path):
     """Build the wheel with the project's own backend and look inside."""
     from hatchling.builders.wheel import WheelBuilder
 
     wheel = next(WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"]))
     names = set(zipfile.ZipFile(wheel).namelist())
     assert {f"p2sf/lenses/{name}.toml" for name in shipped_lenses()} <= names
+    assert {f"app/lessons/{path.name}" for path in (ROOT / "app" / "lessons").iterdir()} <= names
     zipfile.ZipFile(wheel).extractall(tmp_path / "site")
     assert lenses_folder(tmp_path / "site" / "p2sf") == tmp_path / "site" / "p2sf" / "lenses"
 

@@ -10,6 +10,7 @@ from app.claims import Claim, holds, measured, parse_claim
 from app.lesson import FOLDER, lesson_files, parse_lesson, read_lesson, shipped_lessons
 from app.measures import MEASURES
 from app.panels import REGISTRY
+from app.state import State
 from p2sf.errors import P2SFError
 
 FILES = lesson_files()
@@ -99,7 +100,7 @@ def test_steps_go_on_from_one_another_and_a_lens_begins_anew():
     assert (first.lesson, second.lesson_step) == ("one", 1)
     third = parsed(GOOD + "## Third\nset: lens singlet_f6\n").state(2)
     assert third.lens == "singlet_f6" and third.f_number is None and third.field_deg != 3.0
-    assert lesson.state(0, "dark").theme == "dark"
+    assert lesson.state(0, State(theme="dark")).theme == "dark"
 
 
 def test_a_step_is_read_whole():

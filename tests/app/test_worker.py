@@ -48,3 +48,12 @@ def test_progress_is_told(qtbot, worker):
     with qtbot.waitSignal(worker.progressed) as told:
         worker.submit("key", lambda cancelled, progress: progress(0.5))
     assert told.args == ["key", 0.5]
+
+
+def test_after_the_end_nothing_begins(qtbot, worker):
+    """A result still in the queue when a window closes may ask for more work; that must not start a thread again."""
+    with qtbot.waitSignal(worker.finished):
+        worker.submit("one", lambda cancelled, progress: 1)
+    worker.stop()
+    worker.submit("late", lambda cancelled, progress: 2)
+    assert not worker.busy and not worker._thread.isRunning()
