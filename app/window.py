@@ -24,6 +24,7 @@ from app.sharing import Sharing
 from app.state import State
 from app.store import Store
 from app.tabs import Tabs
+from app.teaching import Teaching
 from app.theme import SPACE, palette, stylesheet, tokens
 from p2sf.errors import P2SFError
 
@@ -55,9 +56,11 @@ class Window(QMainWindow):
         self._lay_out()
         self.actions, self.measuring = Actions(self), Measuring(self, measured)
         self.sharing = Sharing(self)
-        for command in (*self.compare.commands(), *self.play.commands()):
+        self.teaching = Teaching(self)
+        for command in (*self.compare.commands(), *self.play.commands(), *self.teaching.commands()):
             self.actions.add(command)
         self.top.pin.clicked.connect(self.compare.turn)
+        self.top.lessons.clicked.connect(self.teaching.toggle)
         self.controls.swept.connect(self.play.player.toggle)
         self.controls.grasped.connect(self.play.player.pause_on)
         self.panels["coefficients"].bars.swept.connect(lambda term: self.play.player.toggle(ADDED + term))
@@ -71,7 +74,7 @@ class Window(QMainWindow):
     def _lay_out(self) -> None:
         row = splitter(Qt.Orientation.Horizontal, [self.panels[key].widget for key in MAIN[1:]], (19, 19, 17))
         self.stack = splitter(Qt.Orientation.Vertical, [self.panels[MAIN[0]].widget, row, self.tabs], (27, 41, 32))
-        middle = QHBoxLayout()
+        self.middle = middle = QHBoxLayout()
         middle.setSpacing(SPACE)
         middle.addWidget(self.controls)
         right = QVBoxLayout()
