@@ -1,11 +1,13 @@
 """Pictures of the window for the README and for whoever changes a panel: ``python -m app.gallery FOLDER``."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
+from app.limits import CHOICES
 from app.panels import REGISTRY
 from app.state import State
 from app.theme import configure_plots
@@ -22,6 +24,12 @@ def states() -> dict[str, State]:
     shown = {"first_light": State(theme="light"), "first_dark": State(theme="dark")}
     shown["close_up"] = State(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
     shown["eye"] = State(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")
+    by_hand = {"added_waves": (0.0, 1.5, 0.0, 0.0, -2.0, 0.0), "muted": ("w22",)}
+    shown["what_if"] = State(theme="light", **by_hand)
+    shown["free_pupil"] = State(theme="dark", added_waves=(0.0, 3.0, 0.0, 0.0, 0.0, 0.0), free_pupil=True, tab="mtf")
+    pair = State(theme="light", pinned=State(f_number=8.0), linked=("field_deg",), play="field_deg")
+    for side in CHOICES["shown"]:
+        shown[f"compare_{side}"] = replace(pair, shown=side)
     return shown | {f"tab_{tab}": State(tab=tab, theme="light") for tab in tabs}
 
 
