@@ -47,9 +47,11 @@ def trace(lens: Lens, origins, directions, wavelength_um, clip: bool = False) ->
     its reason and surface. Raises GlassError. Source: Welford 1986, ch. 4.
     """
     origins, directions = np.broadcast_arrays(np.asarray(origins, float), np.asarray(directions, float))
-    unit = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        unit = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     index = per_ray(indices(lens, wavelength_um))
     beam = launch(*np.moveaxis(origins, -1, 0), *np.moveaxis(unit, -1, 0), index[0])
+    beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # no line at all meets no surface
     points = [origins]
     run(lens, beam, index, lens_rims(lens) if clip else None, visit=lambda vertex: points.append(_points(beam, vertex)))
     cosines = np.stack([beam.p / index[-1], beam.q / index[-1], beam.r / index[-1]], -1)

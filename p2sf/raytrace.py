@@ -132,10 +132,12 @@ def opd_on_sphere(rays: Pencil, radius) -> np.ndarray:
 
     The ray's way back from the sensor to the sphere is written as a difference to the chief ray's, so that no
     radius costs digits: t − t_chief = −b − (b² − d²)/(R(1 + √(1 + (b² − d²)/R²))), b = K·(I − C), d = |I − C|.
+    NaN for a ray so far off that it does not meet the sphere.
     """
     b = rays.kx * rays.dx + rays.ky * rays.dy
     bend = b * b - rays.dx * rays.dx - rays.dy * rays.dy
-    back = bend / (radius * (1 + np.sqrt(1 + bend / radius**2)))
+    with np.errstate(invalid="ignore"):
+        back = bend / (radius * (1 + np.sqrt(1 + bend / radius**2)))
     return (rays.index * (b + back) - rays.path) * (UM_PER_MM / rays.wavelength_um)
 
 

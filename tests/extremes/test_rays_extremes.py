@@ -8,7 +8,7 @@ from mpmath import sqrt as root
 from p2sf.errors import GeometryError
 from p2sf.glass import ConstantIndex
 from p2sf.lens import Aperture, Lens, Surface
-from p2sf.raytrace import Status, displayed_opd, pencil, trace
+from p2sf.raytrace import Status, displayed_opd, opd_on_sphere, pencil, trace
 from p2sf.source import Source
 from tests.reference import LENSES, prescription_lens, reference
 
@@ -145,6 +145,16 @@ def test_rays_parallel_to_a_surface_or_running_backwards_are_told():
     assert not np.isnan(found.cosines[found.status == Status.PASSED]).any()
 
 
+@pytest.mark.parametrize("radius", [np.inf, 20.0])
+def test_what_is_no_ray_is_told_and_harms_no_other(radius):
+    origins = np.array([[0, 0, -5.0], [np.nan, 0, -5.0], [0, 0, -5.0], [0, np.inf, -5.0]])
+    directions = np.array([[0, 0, 1.0], [0, 0, 1.0], [0, 0, 0.0], [0, 0, 1.0]])
+    found = trace(one(radius), origins, directions, 0.5)
+    assert found.status.tolist() == [Status.PASSED, *[Status.MISSED] * 3]
+    assert found.failed_surface.tolist() == [0, 1, 1, 1]
+    assert np.isfinite(found.cosines[0]).all() and np.isnan(found.cosines[1:]).all() and np.isnan(found.path[1:]).all()
+
+
 @pytest.mark.parametrize("name", LENSES)
 def test_no_nan_without_a_reason_at_the_widest_fields(name):
     wavelength = prescription_lens_wavelength(name)
@@ -160,6 +170,15 @@ def test_no_nan_without_a_reason_at_the_widest_fields(name):
             for column in (rays.dx, rays.dy, rays.kx, rays.ky, rays.path):
                 assert np.isnan(column).any(-1).sum() == 0 or (np.isnan(column) == ~rays.passed).all()
             assert ((rays.failed_surface > 0) == ~rays.passed).all()
+
+
+def test_a_ray_that_misses_the_reference_sphere_has_no_opd_and_no_warning():
+    """A sphere of 1 µm about the chief ray's point is met by no ray that lands tens of µm away."""
+    lens = prescription_lens("double_gauss_28", 587.5618)
+    rays = pencil(lens, Source(np.inf, 0.2, 0.5875618), np.array([0.0, 0.0, 0.5]), np.array([0.0, 1.0, 0.5]))
+    with np.errstate(all="raise"):
+        found = opd_on_sphere(rays, 1e-3)
+    assert found[0] == pytest.approx(0, abs=1e-9) and np.isnan(found[1:]).all()
 
 
 def prescription_lens_wavelength(name):
