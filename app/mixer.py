@@ -2,30 +2,54 @@
 
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPen, QPixmap
-from PySide6.QtWidgets import QToolTip, QWidget
+from PySide6.QtWidgets import QLineEdit, QToolTip, QWidget
 
 from app import mixerparts as parts
 from app.mixerparts import LETTERS, NAMES, Places, held
 from app.pupil import FORMULAS, TERMS, WORDS
 from app.scales import nice
 from app.theme import LIGHT, Tokens
+from app.words import tr
 
 STEPS = {Qt.Key.Key_Left: -0.02, Qt.Key.Key_Right: 0.02, Qt.Key.Key_PageDown: -0.2, Qt.Key.Key_PageUp: 0.2}
 BACK = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)
 BUTTON_TIPS = {"muted": "Mute: this term counts as zero (M)", "solo": "Solo: only this term counts (S)"}
 HOLDS = 0.02  # of the travel: so near to zero a slider stays there
+ROW_TIP = (
+    "The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; "
+    "click the number, or press Return, to type it."
+)
 SMALLEST_LIMIT = 0.5  # waves of a full bar: below, a lens is as good as perfect
+
+
+class NumberEdit(QLineEdit):
+    """A number typed over the desk; it goes with Return, Escape or the focus."""
+
+    def __init__(self, parent: QWidget):
+        super().__init__(parent)
+        self.setObjectName("value")
+        self.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.editingFinished.connect(self.hide)
+        self.hide()
+
+    def keyPressEvent(self, event) -> None:
+        """Keep every key from the desk behind; Escape goes back to it."""
+        super().keyPressEvent(event)
+        event.accept()
+        if event.key() == Qt.Key.Key_Escape:
+            self.parentWidget().setFocus()
 
 
 class Mixer(QWidget):
     """Six painted rows. ``limit`` is the value of a full bar and of a slider's end: a round number of waves.
 
     The rows take the keyboard as one widget: ↑ ↓ choose one, ← → and Page keys add waves, M mutes, S solos, Delete
-    goes back to the lens's own value, Space sweeps.
+    goes back to the lens's own value, Space sweeps, Return takes a number.
     """
 
     pressed, released = Signal(), Signal()
     added = Signal(str, float)
+    typed = Signal(str, str)
     toggled = Signal(str, str)
     swept = Signal(str)
 
@@ -38,8 +62,10 @@ class Mixer(QWidget):
         self._theme, self._ground, self._dragged = LIGHT, None, False
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName("What-if: waves added to the six coefficients")
+        self.setAccessibleName(tr("What-if: waves added to the six coefficients"))
         self.setMinimumHeight(120)
+        self.edit = NumberEdit(self)
+        self.edit.returnPressed.connect(self._take)
 
     def sizeHint(self) -> QSize:
         """Return a size with room for six rows."""
@@ -115,7 +141,9 @@ class Mixer(QWidget):
             if places.button(self.row, kind).contains(point):
                 self.toggled.emit(kind, TERMS[self.row])
                 return
-        if places.ends[0] - 8 <= point.x() <= places.ends[1] + 8:
+        if point.x() > places.ends[1] + 8:
+            self._ask()
+        elif point.x() >= places.ends[0] - 8:
             self._dragged = True
             self.pressed.emit()
             self._follow(point)
@@ -143,6 +171,20 @@ class Mixer(QWidget):
         waves = 0.0 if abs(part) < HOLDS else round(part * self.limit, 4)
         self.added.emit(TERMS[self.row], waves)
 
+    def _ask(self) -> None:
+        """Let a number be typed over the row's own."""
+        room = self.places.number(self.row).toRect()
+        self.edit.setGeometry(room.left(), room.center().y() - 13, room.width(), 26)
+        self.edit.setText(parts.waves(self.values[TERMS[self.row]]).removesuffix(" λ"))
+        self.edit.show()
+        self.edit.setFocus()
+        self.edit.selectAll()
+
+    def _take(self) -> None:
+        text = self.edit.text()
+        self.setFocus()
+        self.typed.emit(TERMS[self.row], text)
+
     def keyPressEvent(self, event) -> None:
         """Choose a row, add waves, mute, solo, go back, sweep."""
         key, name = event.key(), TERMS[self.row]
@@ -156,6 +198,8 @@ class Mixer(QWidget):
             self.toggled.emit("muted" if key == Qt.Key.Key_M else "solo", name)
         elif key == Qt.Key.Key_Space:
             self.swept.emit(name)
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self._ask()
         else:
             super().keyPressEvent(event)
 
@@ -177,8 +221,7 @@ class Mixer(QWidget):
         name = TERMS[row]
         for kind, *_ in LETTERS:
             if self.places.button(row, kind).contains(point):
-                return BUTTON_TIPS[kind]
-        moves = "; it only moves the image" if name == "w11" else ""
-        own = f"The lens's own: {parts.waves(self.own[name])}. Added by hand: {parts.waves(self.waves[name])}."
-        drag = "Drag the slider to add waves, double-click to take them away."
-        return f"{NAMES[name]}, {WORDS[name]}: {NAMES[name]}·{FORMULAS[name]}{moves}. {own} {drag}"
+                return tr(BUTTON_TIPS[kind])
+        moves = " " + tr("It only moves the image.") if name == "w11" else ""
+        numbers = {"own": parts.waves(self.own[name]), "added": parts.waves(self.waves[name])}
+        return f"{NAMES[name]}, {tr(WORDS[name])}: {NAMES[name]}·{FORMULAS[name]}.{moves} {tr(ROW_TIP, **numbers)}"

@@ -9,6 +9,7 @@ from app.ink import write
 from app.pupil import TERMS
 from app.scales import signed
 from app.theme import Tokens
+from app.words import tr
 
 NAMES = {"w40": "W40", "w31": "W31", "w22": "W22", "w20": "W20", "wd": "Wd", "w11": "W11"}
 SHORT = {
@@ -102,7 +103,7 @@ def paint_names(painter: QPainter, places: Places, theme: Tokens, number: int) -
     write(painter, symbol, NAMES[name], -1, 13)
     if two:
         painter.setPen(QColor(theme.muted))
-        write(painter, QRectF(0, row.center().y(), 66, 13), SHORT[name], -1)
+        write(painter, QRectF(0, row.center().y(), 66, 13), tr(SHORT[name]), -1)
 
 
 def paint_slider(painter: QPainter, places: Places, theme: Tokens, number: int, part: float, focused: bool) -> None:

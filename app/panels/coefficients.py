@@ -5,10 +5,14 @@ from PySide6.QtWidgets import QMenu, QSizePolicy, QToolButton
 from app.card import Card
 from app.compute import Live
 from app.mixer import Mixer
+from app.mixerparts import NAMES
 from app.pupil import TERMS
+from app.scales import read_number
 from app.store import Store
 from app.theme import LIGHT, Tokens
 from app.whatif import PRESETS, SHORT_NOTE, UNTOUCHED, of_preset, toggled, with_added
+from app.words import tr
+from p2sf.errors import P2SFError
 
 TIP = "Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves."
 FREE_TIP = "Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients."
@@ -40,13 +44,24 @@ class CoefficientsPanel:
         bars.pressed.connect(store.begin)
         bars.released.connect(store.end)
         bars.added.connect(lambda term, waves: store.update(added_waves=with_added(store.state, term, waves)))
+        bars.typed.connect(self._type)
         bars.toggled.connect(lambda kind, term: store.update(**{kind: toggled(getattr(store.state, kind), term)}))
+
+    def _type(self, term: str, text: str) -> None:
+        """Bring a coefficient to a typed number of waves: what is added makes up the rest."""
+        try:
+            waves = read_number(text, NAMES[term], {"": 1.0, "λ": 1.0})
+        except P2SFError as error:
+            self._store.refused.emit(str(error))
+            return
+        added = round(waves - self.bars.own[term], 6)
+        self._store.update(added_waves=with_added(self._store.state, term, added))
 
     def _button(self, text: str, tip: str) -> QToolButton:
         button = QToolButton(self.widget)
         button.setObjectName("small")
-        button.setText(text)
-        button.setToolTip(tip)
+        button.setText(tr(text))
+        button.setToolTip(tr(tip))
         button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         return button
 
@@ -54,8 +69,8 @@ class CoefficientsPanel:
         menu = QMenu(self.widget)
         menu.setToolTipsVisible(True)
         for preset in PRESETS:
-            action = menu.addAction(preset.title, lambda preset=preset: self._store.update(**of_preset(preset)))
-            action.setToolTip(preset.shows)
+            action = menu.addAction(tr(preset.title), lambda preset=preset: self._store.update(**of_preset(preset)))
+            action.setToolTip(tr(preset.shows))
         return menu
 
     def show(self, live: Live) -> None:
@@ -71,8 +86,8 @@ class CoefficientsPanel:
         self.bars.setEnabled(live.side != "B")  # the sliders move A
         self.free.setChecked(state.free_pupil)
         self.reset.setEnabled(altered)
-        colour = f'<span style="color:{self._theme.warning}">{SHORT_NOTE}</span>'
-        words = colour if altered else f"waves at {state.wavelength_nm:.1f} nm"
+        colour = f'<span style="color:{self._theme.warning}">{tr(SHORT_NOTE)}</span>'
+        words = colour if altered else tr("waves at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
         self.widget.set_readout(f"<b>{live.side}</b> &nbsp; {words}" if live.side else words)
 
     def restyle(self, theme: Tokens) -> None:

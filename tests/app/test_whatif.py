@@ -165,6 +165,21 @@ def test_the_keyboard_reaches_every_row(window, desk, qtbot):
     assert not is_altered(window.store.state)
 
 
+def test_a_coefficient_can_be_typed_and_nonsense_is_a_sentence(window, desk, qtbot):
+    qtbot.mouseClick(desk, Qt.MouseButton.LeftButton, pos=desk.places.number(1).center().toPoint())
+    assert desk.edit.isVisible()
+    qtbot.keyClicks(desk.edit, "-0,5")
+    qtbot.keyClick(desk.edit, Qt.Key.Key_Return)
+    assert not desk.edit.isVisible()
+    assert desk.values["w31"] == pytest.approx(-0.5, abs=1e-6)
+    before = window.store.state
+    qtbot.keyClick(desk, Qt.Key.Key_Return)
+    qtbot.keyClicks(desk.edit, "much")
+    qtbot.keyClick(desk.edit, Qt.Key.Key_Return)
+    assert window.store.state == before
+    assert "much" in window.banner.text.text()
+
+
 def test_presets_and_reset(window, qtbot):
     panel = window.panels["coefficients"]
     for preset, action in zip(PRESETS, panel.presets.menu().actions(), strict=True):
