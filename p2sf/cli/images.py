@@ -95,7 +95,7 @@ def psf(
     else:
         setup = set_up(find_lens(lens), request)
         if not as_json:
-            caution(setup, picture.seidel)
+            caution(setup, picture.seidel and picture.sampling != "fft")
         result, about, title = render(setup, picture), describe(setup) if output else {}, heading(setup)
     if output:
         write_psf(result, output, about)

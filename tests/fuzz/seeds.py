@@ -6,7 +6,7 @@ from p2sf.database import Space, build_database
 from p2sf.databasefile.npz import MARK, database_bytes
 from p2sf.databasefile.sealed import sealed
 from p2sf.library import find_lens, lenses_folder
-from tests.fuzz.targets import ENDINGS
+from tests.fuzz.targets import ENDINGS, good_database
 from tests.imports import FILES, FOLDER
 
 LINES = (
@@ -33,5 +33,6 @@ def seeds(target: str) -> list[bytes]:
         lens = find_lens("singlet_f6")
         raw = database_bytes(build_database(lens, Space((300.0,), (0.0,), (0.5, 0.6)), "table1"), lens)
         plain = sealed({MARK: np.array("{}"), "series": np.zeros((2, 3))})
-        return [b"\x00" + raw, b"\x01" + raw, b"\x01" + plain]
+        head = str(good_database()[MARK]).encode()
+        return [b"\x00" + raw, b"\x01" + raw, b"\x01" + plain, b"\x02" + head]
     return list(LINES)

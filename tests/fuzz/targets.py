@@ -8,10 +8,14 @@ import hashlib
 import io
 import warnings
 from collections.abc import Callable
+from functools import cache
+
+import numpy as np
 
 from p2sf.cli import main
-from p2sf.databasefile.npz import database_from_bytes
-from p2sf.databasefile.sealed import DIGITS, SEAL
+from p2sf.database import Space, build_database
+from p2sf.databasefile.npz import MARK, database_bytes, database_from_bytes
+from p2sf.databasefile.sealed import DIGITS, SEAL, opened, sealed
 from p2sf.errors import P2SFError
 from p2sf.gaussian import cardinal_points
 from p2sf.lensfile.agf import read_agf_text
@@ -19,6 +23,7 @@ from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.resolve import GlassSources
 from p2sf.lensfile.sourcetext import source_of
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.library import find_lens
 from p2sf.pupils import pupils
 from p2sf.request import Request, set_up
 from p2sf.seidel import coefficients
@@ -82,12 +87,26 @@ def glass_catalogue(data: bytes) -> str:
 
 
 def database(data: bytes) -> str:
-    """Read the bytes as a database; after an odd first byte with a correct seal, which anybody can compute."""
-    raw = data[1:]
-    if data[:1] and data[0] % 2:
+    """Read the bytes as a database; by the first byte as they are, or with a seal, or as the head of a good one.
+
+    Anybody can compute a seal, and behind one a mutated archive is no longer one: hence the head by itself.
+    """
+    raw, kind = data[1:], data[0] % 3 if data else 0
+    if kind == 1:
         raw = raw.removesuffix(raw[-DIGITS:]) + SEAL
         raw += hashlib.sha256(raw).hexdigest().encode()
+    if kind == 2:
+        raw = sealed({**good_database(), MARK: np.array(raw.decode("utf-8", "replace"))})
     return refused_or(lambda: database_from_bytes(raw, "hostile.npz"))
+
+
+@cache
+def good_database() -> dict:
+    """Return the arrays of a small database, its head among them."""
+    lens = find_lens("singlet_f6")
+    return opened(
+        database_bytes(build_database(lens, Space((300.0,), (0.0,), (0.5, 0.6)), "exact"), lens), MARK, "good"
+    )
 
 
 def command_line(data: bytes) -> str:
@@ -98,7 +117,8 @@ def command_line(data: bytes) -> str:
         code = main(arguments(data))
     if code == 0:
         return "accepted"
-    assert code == 2 and error.getvalue().count("\n") == 1, (code, error.getvalue())
+    sentences = [line for line in error.getvalue().splitlines() if not line.startswith("warning: ")]
+    assert code == 2 and len(sentences) == 1, (code, error.getvalue())
     return "refused"
 
 
