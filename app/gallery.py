@@ -7,6 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
+from app.lesson import shipped_lessons
 from app.limits import CHOICES
 from app.panels import REGISTRY
 from app.state import State
@@ -30,18 +31,27 @@ def states() -> dict[str, State]:
     pair = State(theme="light", pinned=State(f_number=8.0), linked=("field_deg",), play="field_deg")
     for side in CHOICES["shown"]:
         shown[f"compare_{side}"] = replace(pair, shown=side)
+    shown["lesson"] = replace(shipped_lessons()[4].state(1, State(theme="light")), lesson_told=True)
     return shown | {f"tab_{tab}": State(tab=tab, theme="light") for tab in tabs}
 
 
 def settle(window: Window) -> None:
     """Let the window paint, and its background measurement end."""
     loop, looking, longest = QEventLoop(), QTimer(), QTimer()
-    looking.timeout.connect(lambda: None if window.measuring.worker.busy else loop.quit())
+    looking.timeout.connect(lambda: None if working(window) else loop.quit())
     longest.setSingleShot(True)
     longest.timeout.connect(loop.quit)
     looking.start(LOOK_MS)
     longest.start(LONGEST_MS)
     loop.exec()
+
+
+def working(window: Window) -> bool:
+    """Return whether anything is still computed in the background."""
+    panels = tuple(window.panels.values())
+    owners = (window.measuring, *panels, *(getattr(panel, "asking", None) for panel in panels))
+    workers = (getattr(owner, name, None) for owner in owners for name in ("worker", "quick", "fine"))
+    return any(worker is not None and worker.busy for worker in workers)
 
 
 def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:

@@ -59,6 +59,18 @@ def focus_um(which: str) -> Measure:
     return of_setting(shift)
 
 
+def ray_focus_um(which: str) -> Measure:
+    """Return where real rays close to the chief ray meet, µm behind the sensor."""
+
+    def shift(state: State) -> float:
+        from p2sf.fieldcurves import real_foci
+
+        made = setting(state)
+        return UM_PER_MM * float(getattr(real_foci(made.lens, made.source, made.source.field_slope, made.stop), which))
+
+    return shift
+
+
 def distortion_percent(state: State) -> float:
     """Return how much farther out than the paraxial image the real chief ray lands, %."""
     from p2sf.kernels.views import chief_heights
@@ -157,6 +169,7 @@ MEASURES: dict[str, Measure] = {
     "contrast_tangential": _contrast("tangential"),
     "contrast_sagittal": _contrast("sagittal"),
     **{f"{which}_focus_um": focus_um(which) for which in ASTIGMATISM},
+    **{f"real_{which}_focus_um": ray_focus_um(which) for which in ("sagittal", "tangential")},
     "distortion_percent": distortion_percent,
     "axial_colour_um": axial_colour_um,
     "r_squared": r_squared,

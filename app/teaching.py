@@ -13,6 +13,7 @@ from app.state import State
 from app.words import tr
 from p2sf.errors import P2SFError
 
+BESIDE = (0.29, 0.32, 0.39)  # of the row of pupil, PSF and coefficients, beside a lesson
 OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
 
 
@@ -26,6 +27,7 @@ class Teaching(QObject):
         self.offer: Offer | None = None
         self._lessons: dict[str, Lesson] = {}
         self._before: State | None = None
+        self._sizes: list[int] | None = None
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
 
@@ -102,6 +104,7 @@ class Teaching(QObject):
             self.panel.show_step(lesson, number, state.lesson_told)
         if self.panel:
             self.panel.setVisible(lesson is not None)
+            self._share_room(lesson is not None)
         self._point(lesson.steps[number].move if lesson else "")
 
     def _make_panel(self) -> None:
@@ -113,6 +116,16 @@ class Teaching(QObject):
         self.window.middle.addWidget(self.panel)
         self.window.installEventFilter(self)
         self.panel.fit(self.window.width())
+
+    def _share_room(self, shown: bool) -> None:
+        """Give the coefficients' bars, which most lessons are about, their room beside the page, and take it back."""
+        row = self.window.stack.widget(1)
+        if shown and self._sizes is None:
+            self._sizes = row.sizes()
+            row.setSizes([round(part * sum(self._sizes)) for part in BESIDE])
+        elif not shown and self._sizes is not None:
+            row.setSizes(self._sizes)
+            self._sizes = None
 
     def eventFilter(self, watched, event) -> bool:
         """Let the page follow the window's width."""
