@@ -52,6 +52,7 @@ class Card(QFrame):
 
     def set_readout(self, text: str) -> None:
         """Show a line of numbers; the whole of it as a tooltip, should it not fit."""
+        text = tr(text)
         if self.readout.text() != text:
             self.readout.setText(text)
             self.readout.setToolTip(text)

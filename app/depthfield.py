@@ -12,6 +12,7 @@ from app.plots import as_indices, lookup, small_font
 from app.scales import short_distance
 from app.theme import LIGHT, Tokens
 from app.views.database import Atlas
+from app.words import tr
 
 PER_METRE = 1000.0
 ATLAS_MAP = "inferno"
@@ -93,7 +94,7 @@ class AtlasView(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName("Atlas of PSFs over depth and field")
+        self.setAccessibleName(tr("Atlas of PSFs over depth and field"))
         self.setMinimumSize(150, 90)
         self.atlas: Atlas | None = None
         self.cell: tuple[int, int] | None = None

@@ -7,6 +7,8 @@ from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QPainter, QPolygonF, QStaticText, QTransform
 
+from app.words import tr
+
 FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
 
 
@@ -21,7 +23,7 @@ def small_font(size: int = 11) -> QFont:
 @lru_cache(maxsize=1024)
 def set_text(words: str, size: int = 11) -> QStaticText:
     """Return words laid out once: most of them stand on every frame, and laying out is two thirds of painting."""
-    text = QStaticText(words)
+    text = QStaticText(tr(words))
     text.setTextFormat(Qt.TextFormat.PlainText)
     text.prepare(QTransform(), small_font(size))
     return text

@@ -18,6 +18,7 @@ from app.plots import small_font
 from app.setting import shipped, title
 from app.theme import LIGHT, Tokens
 from app.thumbnail import paint_lens
+from app.words import tr
 
 NAME = Qt.ItemDataRole.UserRole
 WIDE, NARROW = 380, 170
@@ -33,8 +34,8 @@ class LensChooser(QPushButton):
 
     def __init__(self, parent=None):
         super().__init__(parent)
-        self.setAccessibleName("Lens")
-        self.setToolTip("The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)")
+        self.setAccessibleName(tr("Lens"))
+        self.setToolTip(tr("The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)"))
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self.setStyleSheet("QPushButton { text-align: left; padding-right: 22px; }")
         self._name, self._title, self._theme = "", "", LIGHT
@@ -49,7 +50,7 @@ class LensChooser(QPushButton):
         """Show a lens by its title."""
         self._theme = theme
         if (name, shown_title) != (self._name, self._title):
-            self._name, self._title = name, shown_title
+            self._name, self._title = name, tr(shown_title)
             self._fit()
             self.setAccessibleDescription(shown_title)
 
@@ -110,11 +111,11 @@ class Gallery(QFrame):
         self.list.setResizeMode(QListView.ResizeMode.Adjust)
         self.list.setGridSize(CELL)
         self.list.setFrameShape(QListView.Shape.NoFrame)
-        self.list.setAccessibleName("Shipped lenses")
+        self.list.setAccessibleName(tr("Shipped lenses"))
         self.list.setMouseTracking(True)
         self.list.clicked.connect(self._choose)
         self.list.activated.connect(self._choose)
-        hint = QLabel("Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.", self)
+        hint = QLabel(tr("Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O."), self)
         hint.setObjectName("muted")
         column = QVBoxLayout(self)
         column.setContentsMargins(8, 8, 8, 8)
@@ -126,7 +127,7 @@ class Gallery(QFrame):
     def _model() -> QStandardItemModel:
         model = QStandardItemModel()
         for name in shipped():
-            item = QStandardItem(title(name))
+            item = QStandardItem(tr(title(name)))
             item.setData(name, NAME)
             item.setEditable(False)
             model.appendRow(item)
@@ -215,6 +216,6 @@ class CardPainter(QStyledItemDelegate):
             paint_lens(painter, card.drawing, QRectF(room.left(), room.top(), room.width(), PICTURE - 6), self.theme)
         painter.setPen(QColor(self.theme.muted))
         painter.setFont(small_font())
-        painter.drawText(room.adjusted(0, PICTURE + 21, 0, 0), ALIGN, card.facts)
+        painter.drawText(room.adjusted(0, PICTURE + 21, 0, 0), ALIGN, tr(card.facts))
         words = Qt.TextFlag.TextWordWrap
-        painter.drawText(room.adjusted(0, PICTURE + 37, 0, 0), ALIGN | words, card.character)
+        painter.drawText(room.adjusted(0, PICTURE + 37, 0, 0), ALIGN | words, tr(card.character))

@@ -4,6 +4,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
 
 from app.editing import written
 from app.views.lens_table import COLUMNS, Rows
+from app.words import tr
 
 STOP = COLUMNS.index("conic") + 1
 HEADS = {
@@ -61,7 +62,7 @@ class SurfaceModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return self._alignment(section)
         part = {Qt.ItemDataRole.DisplayRole: 0, Qt.ItemDataRole.ToolTipRole: 1}.get(role)
-        return None if part is None else HEADS[KEYS[section]][part]
+        return None if part is None else tr(HEADS[KEYS[section]][part])
 
     def flags(self, index: QModelIndex):
         """Return that every entry but the stop is typed into."""

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from app.panels import GROUPS, Entry
 from app.theme import SPACE
+from app.words import tr
 
 OWN_WINDOW = "Open in its own window (double-click the tab, or Ctrl+D)"
 ALL = "Every panel by its group (Alt+0)"
@@ -32,7 +33,7 @@ class Tabs(QTabWidget):
         self._groups = {entry.key: entry.group for entry in entries}
         self._last: dict[str, str] = {}
         for entry in entries:
-            self.addTab(page(entry.key), entry.title)
+            self.addTab(page(entry.key), tr(entry.title))
         self.buttons = GroupButtons(tuple(g for g in GROUPS if g in self._groups.values()), self)
         self.buttons.chosen.connect(self.open_group)
         self.setCornerWidget(self.buttons, Qt.Corner.TopLeftCorner)
@@ -77,9 +78,9 @@ class Tabs(QTabWidget):
     def _all_panels(self, entries: tuple[Entry, ...]) -> QMenu:
         menu = QMenu(self)
         for group in GROUPS:
-            menu.addSection(group)
+            menu.addSection(tr(group))
             for entry in (entry for entry in entries if entry.group == group):
-                menu.addAction(entry.title, lambda key=entry.key: self.chosen.emit(key))
+                menu.addAction(tr(entry.title), lambda key=entry.key: self.chosen.emit(key))
         return menu
 
     def _tools(self) -> QWidget:
@@ -90,9 +91,9 @@ class Tabs(QTabWidget):
         for text, tip in (("Pop out", OWN_WINDOW), ("All", ALL)):
             button = QToolButton(holder)
             button.setObjectName("small")
-            button.setText(text)
-            button.setToolTip(tip)
-            button.setAccessibleName(tip)
+            button.setText(tr(text))
+            button.setToolTip(tr(tip))
+            button.setAccessibleName(tr(tip))
             row.addWidget(button)
         own, everything = holder.findChildren(QToolButton)
         own.setShortcut("Ctrl+D")
@@ -115,11 +116,11 @@ class GroupButtons(QWidget):
         row.setContentsMargins(0, 1, SPACE, 3)
         row.setSpacing(2)
         for number, group in enumerate(groups, 1):
-            button = QPushButton(group, self)
+            button = QPushButton(tr(group), self)
             button.setObjectName("group")
             button.setCheckable(True)
             button.setShortcut(f"Alt+{number}")
-            button.setToolTip(f"Panels of the group {group} (Alt+{number})")
+            button.setToolTip(tr("Panels of the group {group} (Alt+{number})", group=tr(group), number=number))
             button.clicked.connect(lambda _, group=group: self.chosen.emit(group))
             self._group.addButton(button)
             self.named[group] = button
@@ -138,7 +139,7 @@ class OwnWindow(QWidget):
     def __init__(self, key: str, title: str, parent: QWidget):
         super().__init__(parent, Qt.WindowType.Window)
         self.setObjectName("window")
-        self.setWindowTitle(f"{title} · P2SF Explorer")
+        self.setWindowTitle(f"{tr(title)} · P2SF Explorer")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.key = key
         QVBoxLayout(self).setContentsMargins(SPACE, SPACE, SPACE, SPACE)
@@ -156,7 +157,7 @@ def page(key: str) -> QWidget:
     made.setObjectName(key)
     column = QVBoxLayout(made)
     column.setContentsMargins(0, 0, 0, 0)
-    note = QLabel("This panel stands in its own window; close that window to have it back here.", made)
+    note = QLabel(tr("This panel stands in its own window; close that window to have it back here."), made)
     note.setObjectName("muted")
     note.setAlignment(Qt.AlignmentFlag.AlignCenter)
     note.hide()

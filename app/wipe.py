@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.ink import set_text, write
 from app.theme import LIGHT, Tokens
+from app.words import tr
 
 STEP = 0.05  # of the width, for an arrow key
 HANDLE_PX = 7.0
@@ -34,7 +35,7 @@ class Wipe(QWidget):
         self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(160, 100)
-        self.setAccessibleName("Picture before and after the lens; left and right arrows move the split")
+        self.setAccessibleName(tr("Picture before and after the lens; left and right arrows move the split"))
         self.before, self.after, self.loupe = BLACK, BLACK, BLACK
         self.names, self.split, self.place = ("", ""), 0.5, (0.0, 0.0)
         self._theme: Tokens = LIGHT

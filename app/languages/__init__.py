@@ -3,15 +3,20 @@
 Adding a language is adding a file: copy ``de.ts``, name it after the language, translate it.
 """
 
+import re
 from pathlib import Path
 from xml.etree import ElementTree
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
+from app.ink import set_text
 from app.words import CONTEXT, forget
 
 FOLDER = Path(__file__).parent
 ENGLISH = "en"
+BRACES, WORD = re.compile(r"\{\w*\}"), re.compile(r"[^\W\d_]{2}")
+JOINTS = re.compile(r"(<[^>]*>|&nbsp;| · |   ⚠ |^⚠ |\n)")  # what stands between sentences on one line
+NAMES = {ENGLISH: "English"}  # Qt would say of which country
 
 
 class Spoken(QTranslator):
@@ -20,14 +25,42 @@ class Spoken(QTranslator):
     def __init__(self, code: str, parent=None):
         super().__init__(parent)
         self.code, self.texts = code, texts(code)
+        self.templates = tuple(template(*pair) for pair in self.texts.items() if "{" in pair[0])
 
     def translate(self, context, source, disambiguation=None, n=-1) -> str:
-        """Return the translation of one of our texts; nothing for Qt's own and for what is not there."""
-        return self.texts.get(source, "") if context == CONTEXT else ""
+        """Return one of our texts in the language, as it is where the language has nothing; nothing for Qt's own."""
+        return self.said(source) if context == CONTEXT else ""
+
+    def said(self, source: str) -> str:
+        """Return a text in the language: as it stands there, or by the first template it fits, else piece by piece."""
+        found = self.texts.get(source)
+        if found is None and WORD.search(source):
+            found = self._by_template(source)
+        if found is None:
+            pieces = JOINTS.split(source)  # every second one is a joint
+            pieces[::2] = map(self.said, pieces[::2]) if len(pieces) > 1 else pieces
+            found = "".join(pieces)
+        return found
+
+    def _by_template(self, source: str) -> str | None:
+        for form, said in self.templates:
+            fit = form(source)
+            if fit:
+                return said.format(*map(self.said, fit.groups()))
+        return None
 
     def isEmpty(self) -> bool:
         """Return whether there is nothing in it: Qt asks before it installs."""
         return not self.texts
+
+
+def template(source: str, said: str):
+    """Return what tells whether a text fits a source with braces, and the translation, its braces numbered alike."""
+    names = BRACES.findall(source)
+    form = "".join("(.+?)" if part in names else re.escape(part) for part in re.split(r"(\{\w*\})", source))
+    for number, name in enumerate(names):
+        said = said.replace(name, f"{{{number}}}", 1)
+    return re.compile(form, re.DOTALL).fullmatch, said
 
 
 def texts(code: str) -> dict[str, str]:
@@ -43,7 +76,7 @@ def texts(code: str) -> dict[str, str]:
 def languages() -> dict[str, str]:
     """Return the languages there are, code → its name in itself, English first."""
     codes = [ENGLISH, *sorted(path.stem for path in FOLDER.glob("*.ts"))]
-    return {code: QLocale(code).nativeLanguageName().capitalize() for code in codes}
+    return {code: NAMES.get(code) or QLocale(code).nativeLanguageName().capitalize() for code in codes}
 
 
 def chosen(choice: str) -> str:
@@ -72,3 +105,4 @@ def speak(choice: str) -> None:
         for translator in (own, Spoken(code, application)):
             application.installTranslator(translator)
     forget()
+    set_text.cache_clear()

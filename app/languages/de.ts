@@ -3,6 +3,591 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>0.7 of the pupil</source><translation>0,7 der Pupille</translation></message>
+<message><source>1/depth, 1/m (0 is ∞)</source><translation>1/Abstand, 1/m (0 ist ∞)</translation></message>
+<message><source>16 µm pixels</source><translation>16-µm-Pixel</translation></message>
+<message><source>32 µm pixels</source><translation>32-µm-Pixel</translation></message>
+<message><source>3D</source><translation>3D</translation></message>
+<message><source>3D: elements of revolution to their clear rims; the wavefront is W·λ ahead of the sphere about the image point.</source><translation>3D: Drehkörper bis zu ihren freien Rändern; die Wellenfront ist der Kugel um den Bildpunkt um W·λ voraus.</translation></message>
+<message><source>4 µm pixels</source><translation>4-µm-Pixel</translation></message>
+<message><source>8 µm pixels</source><translation>8-µm-Pixel</translation></message>
+<message><source>?</source><translation>?</translation></message>
+<message><source>A</source><translation>A</translation></message>
+<message><source>A − B</source><translation>A − B</translation></message>
+<message><source>Aberrations</source><translation>Aberrationen</translation></message>
+<message><source>Accept substitutes</source><translation>Ersatz annehmen</translation></message>
+<message><source>Accuracy</source><translation>Genauigkeit</translation></message>
+<message><source>Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens).</source><translation>Genauigkeit: R² = 1 − Σ(Referenz − PSF)²/Σ(Referenz − Mittel)² gegen eine auskonvergierte Summe verfolgter Strahlen (Huygens).</translation></message>
+<message><source>Added waves</source><translation>Hinzugefügte Wellen</translation></message>
+<message><source>Airy</source><translation>Airy</translation></message>
+<message><source>Airy radius</source><translation>Airy-Radius</translation></message>
+<message><source>Airy radius, the circle</source><translation>Airy-Radius, der Kreis</translation></message>
+<message><source>All</source><translation>Alle</translation></message>
+<message><source>All at once</source><translation>Alles zugleich</translation></message>
+<message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
+<message><source>As the system</source><translation>Wie das System</translation></message>
+<message><source>Aspheric plano-convex condenser, f/2 (synthetic)</source><translation>Asphärischer plankonvexer Kondensor, f/2 (synthetisch)</translation></message>
+<message><source>Aspheric terms A4·r⁴ + A6·r⁶ + …, with spaces between.</source><translation>Asphärische Glieder A4·r⁴ + A6·r⁶ + …, mit Leerzeichen dazwischen.</translation></message>
+<message><source>Astigmatism, 1 λ, medial focus</source><translation>Astigmatismus, 1 λ, mittlerer Fokus</translation></message>
+<message><source>Astigmatism, 2 λ, sagittal focus</source><translation>Astigmatismus, 2 λ, sagittaler Fokus</translation></message>
+<message><source>Astigmatism, 2 λ, tangential focus</source><translation>Astigmatismus, 2 λ, tangentialer Fokus</translation></message>
+<message><source>Atlas of PSFs over depth and field</source><translation>Atlas der PSFs über Abstand und Feld</translation></message>
+<message><source>Autofocus: best RMS wavefront</source><translation>Autofokus: kleinster RMS der Wellenfront</translation></message>
+<message><source>B</source><translation>B</translation></message>
+<message><source>Back</source><translation>Zurück</translation></message>
+<message><source>Back focus F′</source><translation>Bildseitiger Brennpunkt F′</translation></message>
+<message><source>Back to file</source><translation>Zurück zur Datei</translation></message>
+<message><source>Back to the lens's own coefficients: nothing added, muted or solo</source><translation>Zurück zu den Koeffizienten des Objektivs: nichts hinzugefügt, stumm oder solo</translation></message>
+<message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
+<message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
+<message><source>Cancel</source><translation>Abbrechen</translation></message>
+<message><source>Cemented achromat f/6, 20 mm</source><translation>Verkitteter Achromat f/6, 20 mm</translation></message>
+<message><source>Centroid y</source><translation>Schwerpunkt y</translation></message>
+<message><source>Checkerboard</source><translation>Schachbrett</translation></message>
+<message><source>Choose a PNG or TIFF to photograph</source><translation>Ein PNG oder TIFF zum Fotografieren wählen</translation></message>
+<message><source>Choose a shipped lens…</source><translation>Mitgeliefertes Objektiv wählen …</translation></message>
+<message><source>Chromatic shift</source><translation>Farblängsfehler</translation></message>
+<message><source>Cividis</source><translation>Cividis</translation></message>
+<message><source>Clear rim, mm; ∞ is unlimited. On the stop it is the aperture.</source><translation>Freier Rand, mm; ∞ ist unbegrenzt. An der Blende ist er die Öffnung.</translation></message>
+<message><source>Click or press Enter to make this surface the stop; the f-number stays.</source><translation>Klicken oder Enter macht diese Fläche zur Blende; die Blendenzahl bleibt.</translation></message>
+<message><source>Clip at rims</source><translation>Ränder blenden ab</translation></message>
+<message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Abblenden: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
+<message><source>Close</source><translation>Schließen</translation></message>
+<message><source>Close the window</source><translation>Fenster schließen</translation></message>
+<message><source>Coarse</source><translation>Grob</translation></message>
+<message><source>Coefficients</source><translation>Koeffizienten</translation></message>
+<message><source>Colour</source><translation>Farbe</translation></message>
+<message><source>Colour PSF</source><translation>Farbige PSF</translation></message>
+<message><source>Colour PSF: a PSF for each wavelength where its own chief ray lands, weighted by the spectrum and the CIE 1931 observer, as linear sRGB. Right: the luminance of the spectrum, and where each colour's chief ray lands.</source><translation>Farbige PSF: eine PSF je Wellenlänge dort, wo ihr eigener Hauptstrahl landet, gewichtet mit Spektrum und CIE-Beobachter 1931, als lineares sRGB. Rechts: die Leuchtdichte des Spektrums und wo der Hauptstrahl jeder Farbe landet.</translation></message>
+<message><source>Colour blue</source><translation>Farbe Blau</translation></message>
+<message><source>Colour green</source><translation>Farbe Grün</translation></message>
+<message><source>Colour red</source><translation>Farbe Rot</translation></message>
+<message><source>Colours</source><translation>Farben</translation></message>
+<message><source>Coma, 3 λ</source><translation>Koma, 3 λ</translation></message>
+<message><source>Coma, ½ λ</source><translation>Koma, ½ λ</translation></message>
+<message><source>Compare</source><translation>Vergleich</translation></message>
+<message><source>Conic K</source><translation>Kegelschnitt K</translation></message>
+<message><source>Conic constant K = −e²: 0 a sphere, −1 a paraboloid.</source><translation>Kegelschnittkonstante K = −e²: 0 eine Kugel, −1 ein Paraboloid.</translation></message>
+<message><source>Cooke triplet, f/5, 50 mm, 40 degree field</source><translation>Cooke-Triplet, f/5, 50 mm, 40 Grad Feld</translation></message>
+<message><source>Copied a link of {count} letters; paste it into a window of the explorer</source><translation>Link aus {count} Zeichen kopiert; in ein Fenster des Explorers einfügen</translation></message>
+<message><source>Copy a link to what is on screen</source><translation>Link auf das Gezeigte kopieren</translation></message>
+<message><source>Copy data as CSV</source><translation>Daten als CSV kopieren</translation></message>
+<message><source>Copy link</source><translation>Link kopieren</translation></message>
+<message><source>Copy picture</source><translation>Bild kopieren</translation></message>
+<message><source>Copy the panel's data as CSV</source><translation>Daten des Feldes als CSV kopieren</translation></message>
+<message><source>Copy the panel's picture</source><translation>Bild des Feldes kopieren</translation></message>
+<message><source>Dark</source><translation>Dunkel</translation></message>
+<message><source>Database</source><translation>Datenbank</translation></message>
+<message><source>Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; drag on a map or the atlas to set the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas setzt die Quelle.</translation></message>
+<message><source>Defocus is {wd} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down.</source><translation>Der Defokus ist {wd} λ, jenseits der 10 λ der Methode; Fokus oder Quelle näher bringen oder abblenden.</translation></message>
+<message><source>Defocus, 1 λ</source><translation>Defokus, 1 λ</translation></message>
+<message><source>Delete</source><translation>Löschen</translation></message>
+<message><source>Depth</source><translation>Abstand</translation></message>
+<message><source>Depth of field</source><translation>Schärfentiefe</translation></message>
+<message><source>Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
+<message><source>Depth: distance from the source to the first vertex. The slider is even in vergence, 1/depth.</source><translation>Abstand: von der Quelle bis zum ersten Scheitel. Der Regler ist gleichmäßig in der Vergenz, 1/Abstand.</translation></message>
+<message><source>Depths</source><translation>Abstände</translation></message>
+<message><source>Deutsch</source><translation>Deutsch</translation></message>
+<message><source>Diameter, and place from the first vertex.</source><translation>Durchmesser, und Ort vom ersten Scheitel.</translation></message>
+<message><source>Diameter, and place from the last vertex.</source><translation>Durchmesser, und Ort vom letzten Scheitel.</translation></message>
+<message><source>Diffraction-limited: RMS {rms} λ</source><translation>Beugungsbegrenzt: RMS {rms} λ</translation></message>
+<message><source>Dismiss</source><translation>Ausblenden</translation></message>
+<message><source>Distance to the next vertex, mm; the last one to the sensor.</source><translation>Abstand zum nächsten Scheitel, mm; der letzte zum Sensor.</translation></message>
+<message><source>Double Gauss, 28 degree field, f/3, 100 mm</source><translation>Doppel-Gauß, 28 Grad Feld, f/3, 100 mm</translation></message>
+<message><source>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</source><translation>Einen Regler ziehen: Objektiv, Pupille und PSF folgen. Über einem Namen steht seine Definition.</translation></message>
+<message><source>Drop every edit and take the lens as its file has it</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
+<message><source>Each PSF over its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF über ihrer eigenen Spitze, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
+<message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
+<message><source>EnP</source><translation>EnP</translation></message>
+<message><source>English</source><translation>English</translation></message>
+<message><source>Entrance pupil</source><translation>Eintrittspupille</translation></message>
+<message><source>Error</source><translation>Fehler</translation></message>
+<message><source>Every panel by its group (Alt+0)</source><translation>Jedes Feld nach seiner Gruppe (Alt+0)</translation></message>
+<message><source>ExP</source><translation>ExP</translation></message>
+<message><source>Exchange A and B</source><translation>A und B vertauschen</translation></message>
+<message><source>Exchange A and B: the controls then move the other one</source><translation>A und B vertauschen: die Regler bewegen dann das andere</translation></message>
+<message><source>Exit pupil</source><translation>Austrittspupille</translation></message>
+<message><source>Farthest ray</source><translation>Fernster Strahl</translation></message>
+<message><source>Fast double Gauss f/1.4, 50 mm</source><translation>Lichtstarker Doppel-Gauß f/1,4, 50 mm</translation></message>
+<message><source>Field</source><translation>Feld</translation></message>
+<message><source>Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
+<message><source>Field curves</source><translation>Feldkurven</translation></message>
+<message><source>Field map</source><translation>Feldkarte</translation></message>
+<message><source>Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as its field is. Click a picture to go to its field.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild geht zu seinem Feld.</translation></message>
+<message><source>Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field).</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld).</translation></message>
+<message><source>Files</source><translation>Dateien</translation></message>
+<message><source>Film…</source><translation>Film …</translation></message>
+<message><source>Find a command, a panel, a lens or a preset</source><translation>Befehl, Feld, Objektiv oder Vorgabe finden</translation></message>
+<message><source>Find a command…</source><translation>Befehl finden …</translation></message>
+<message><source>First dark ring of a perfect lens, 0.61 λ/NA.</source><translation>Erster dunkler Ring eines perfekten Objektivs, 0,61 λ/NA.</translation></message>
+<message><source>First order</source><translation>Erste Ordnung</translation></message>
+<message><source>First-order data</source><translation>Daten erster Ordnung</translation></message>
+<message><source>First-order data: everything that follows from paraxial rays alone; hover over a row for its definition.</source><translation>Daten erster Ordnung: alles, was allein aus paraxialen Strahlen folgt; über einer Zeile steht ihre Definition.</translation></message>
+<message><source>Focal length f′</source><translation>Brennweite f′</translation></message>
+<message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
+<message><source>Focus distance</source><translation>Einstellentfernung</translation></message>
+<message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s.</source><translation>Einstellentfernung: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s.</translation></message>
+<message><source>Free pupil</source><translation>Freie Pupille</translation></message>
+<message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
+<message><source>Front focus F</source><translation>Objektseitiger Brennpunkt F</translation></message>
+<message><source>Glass or index</source><translation>Glas oder Index</translation></message>
+<message><source>Grey</source><translation>Grau</translation></message>
+<message><source>Help</source><translation>Hilfe</translation></message>
+<message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
+<message><source>Hyper</source><translation>Hyper</translation></message>
+<message><source>Image</source><translation>Bild</translation></message>
+<message><source>Image height</source><translation>Bildhöhe</translation></message>
+<message><source>Image: Σ over the scene's points of brightness × PSF at that point, for red, green and blue; distortion and falling light included.</source><translation>Bild: Σ über die Punkte der Szene von Helligkeit × PSF an diesem Punkt, für Rot, Grün und Blau; Verzeichnung und Lichtabfall eingeschlossen.</translation></message>
+<message><source>Import</source><translation>Import</translation></message>
+<message><source>Import report</source><translation>Importbericht</translation></message>
+<message><source>Import report: everything the reader of the lens file took, replaced, passed over or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
+<message><source>Inferno</source><translation>Inferno</translation></message>
+<message><source>Insert after</source><translation>Einfügen danach</translation></message>
+<message><source>Lagrange invariant</source><translation>Lagrange-Invariante</translation></message>
+<message><source>Lagrange invariant H = {h} mm</source><translation>Lagrange-Invariante H = {h} mm</translation></message>
+<message><source>Landscape</source><translation>Landschaft</translation></message>
+<message><source>Language</source><translation>Sprache</translation></message>
+<message><source>Largest blur diameter on the sensor that is still called sharp.</source><translation>Größter Unschärfedurchmesser auf dem Sensor, der noch scharf heißt.</translation></message>
+<message><source>Layout</source><translation>Aufbau</translation></message>
+<message><source>Left: sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Right: encircled energy, the share of the window's light within a radius of its centroid; grey: a perfect lens.</source><translation>Links: Schnitte der PSF durch den Hauptstrahl, über ihrer eigenen Spitze; grau: die Airy-Figur (2J₁(v)/v)². Rechts: eingeschlossene Energie, der Anteil des Lichts im Fenster innerhalb eines Radius um den Schwerpunkt; grau: ein perfektes Objektiv.</translation></message>
+<message><source>Lens</source><translation>Objektiv</translation></message>
+<message><source>Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back.</source><translation>Objektiv: eine Zeile je Fläche in der Reihenfolge des Lichts; in eine Zelle tippen, Strg+Z nimmt es zurück.</translation></message>
+<message><source>Lens…</source><translation>Objektiv …</translation></message>
+<message><source>Lesson</source><translation>Lektion</translation></message>
+<message><source>Lessons</source><translation>Lektionen</translation></message>
+<message><source>Lessons, from a point of light to a photograph: begin or leave (F2)</source><translation>Lektionen, vom Lichtpunkt zum Foto: beginnen oder verlassen (F2)</translation></message>
+<message><source>Lessons: begin or leave</source><translation>Lektionen: beginnen oder verlassen</translation></message>
+<message><source>Light</source><translation>Hell</translation></message>
+<message><source>Light or dark</source><translation>Hell oder dunkel</translation></message>
+<message><source>Link</source><translation>Koppeln</translation></message>
+<message><source>Link all</source><translation>Alles koppeln</translation></message>
+<message><source>Link none</source><translation>Nichts koppeln</translation></message>
+<message><source>Link: {count}</source><translation>Gekoppelt: {count}</translation></message>
+<message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0,7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
+<message><source>MTF</source><translation>MTF</translation></message>
+<message><source>MTF: contrast left of a sine pattern, |FT of the PSF|; grey: a perfect lens, (2/π)(acos ν − ν√(1−ν²)).</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, |FT der PSF|; grau: ein perfektes Objektiv, (2/π)(acos ν − ν√(1−ν²)).</translation></message>
+<message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
+<message><source>Method</source><translation>Methode</translation></message>
+<message><source>Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
+<message><source>More</source><translation>Mehr</translation></message>
+<message><source>Most of all {what}: {share} % of the wavefront variance</source><translation>Am meisten {what}: {share} % der Varianz der Wellenfront</translation></message>
+<message><source>Mostly {what}: {share} % of the wavefront variance</source><translation>Meist {what}: {share} % der Varianz der Wellenfront</translation></message>
+<message><source>Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F).</source><translation>Den Sensor dorthin setzen, wo der RMS von W über die Pupille am kleinsten ist (Strg+F).</translation></message>
+<message><source>NA = n′|u′|, image-space slope of the marginal ray.</source><translation>NA = n′|u′|, bildseitige Steigung des Randstrahls.</translation></message>
+<message><source>Navarro wide-angle schematic eye, 543 nm</source><translation>Schematisches Weitwinkelauge nach Navarro, 543 nm</translation></message>
+<message><source>Next</source><translation>Weiter</translation></message>
+<message><source>Next lesson</source><translation>Nächste Lektion</translation></message>
+<message><source>Next step of the lesson</source><translation>Nächster Schritt der Lektion</translation></message>
+<message><source>No aberration</source><translation>Keine Aberration</translation></message>
+<message><source>Nodal point N</source><translation>Knotenpunkt N</translation></message>
+<message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
+<message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
+<message><source>Numerical aperture</source><translation>Numerische Apertur</translation></message>
+<message><source>OPD fan</source><translation>OPD-Fächer</translation></message>
+<message><source>OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included.</source><translation>OPD-Fächer: (optischer Weg des Hauptstrahls − des Strahls)/λ für exakte Strahlen, mit Kippung.</translation></message>
+<message><source>OPD, waves</source><translation>OPD, Wellen</translation></message>
+<message><source>Object height</source><translation>Objekthöhe</translation></message>
+<message><source>Open</source><translation>Öffnen</translation></message>
+<message><source>Open a file…</source><translation>Datei öffnen …</translation></message>
+<message><source>Open a lens file or a saved state (Ctrl+O), or one of the latest</source><translation>Objektivdatei oder gespeicherten Zustand öffnen (Strg+O), oder eine der letzten</translation></message>
+<message><source>Open a lens file or a saved state…</source><translation>Objektivdatei oder gespeicherten Zustand öffnen …</translation></message>
+<message><source>Open a lens or a state</source><translation>Objektiv oder Zustand öffnen</translation></message>
+<message><source>Open in its own window (double-click the tab, or Ctrl+D)</source><translation>Im eigenen Fenster öffnen (Doppelklick auf das Blatt oder Strg+D)</translation></message>
+<message><source>Open the file with the substitute glasses listed; the lens then counts as edited</source><translation>Die Datei mit den aufgeführten Ersatzgläsern öffnen; das Objektiv gilt dann als bearbeitet</translation></message>
+<message><source>Open the lens as its file has it</source><translation>Öffnung wie in der Datei</translation></message>
+<message><source>PSF</source><translation>PSF</translation></message>
+<message><source>PSF data or window…</source><translation>PSF-Daten oder Fenster …</translation></message>
+<message><source>PSF over the field</source><translation>PSF über das Feld</translation></message>
+<message><source>PSF profiles</source><translation>PSF-Profile</translation></message>
+<message><source>PSFs, {wide} µm wide, √ of peak = 1</source><translation>PSFs, {wide} µm breit, √ mit Spitze = 1</translation></message>
+<message><source>Panel</source><translation>Feld</translation></message>
+<message><source>Panels of the group {group} (Alt+{number})</source><translation>Felder der Gruppe {group} (Alt+{number})</translation></message>
+<message><source>Paraxial image</source><translation>Paraxiales Bild</translation></message>
+<message><source>Paraxial image of this depth, from the last vertex.</source><translation>Paraxiales Bild dieses Abstands, vom letzten Scheitel.</translation></message>
+<message><source>Paste a link</source><translation>Link einfügen</translation></message>
+<message><source>Peak of the PSF over that of the same pupil with W = 0.</source><translation>Spitze der PSF über der derselben Pupille mit W = 0.</translation></message>
+<message><source>Periskop-type symmetric lens, f/11, 100 mm</source><translation>Symmetrisches Objektiv vom Periskop-Typ, f/11, 100 mm</translation></message>
+<message><source>Petzval lens f/1.4, 50 mm</source><translation>Petzval-Objektiv f/1,4, 50 mm</translation></message>
+<message><source>Petzval radius</source><translation>Petzval-Radius</translation></message>
+<message><source>Phase</source><translation>Phase</translation></message>
+<message><source>Photo…</source><translation>Foto …</translation></message>
+<message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
+<message><source>Picture before and after the lens; left and right arrows move the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile links und rechts verschieben die Teilung</translation></message>
+<message><source>Picture of one panel</source><translation>Bild eines Feldes</translation></message>
+<message><source>Pin B</source><translation>B merken</translation></message>
+<message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>
+<message><source>Pin what is on screen as B, to compare with it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen (Strg+B)</translation></message>
+<message><source>Pixel</source><translation>Pixel</translation></message>
+<message><source>Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch).</source><translation>Pixelabstand des Sensors; seine Nyquist-Frequenz ist 1/(2 Abstand).</translation></message>
+<message><source>Pixels at the field point, or the field</source><translation>Pixel am Feldpunkt, oder das Feld</translation></message>
+<message><source>Places</source><translation>Orte</translation></message>
+<message><source>Plano-convex singlet, 25.4 mm, N-SF11 (stock lens)</source><translation>Plankonvexe Einzellinse, 25,4 mm, N-SF11 (Lagerware)</translation></message>
+<message><source>Play or pause (Space on a slider)</source><translation>Abspielen oder anhalten (Leertaste auf einem Regler)</translation></message>
+<message><source>Play or pause the last slider</source><translation>Letzten Regler abspielen oder anhalten</translation></message>
+<message><source>Play this slider (Space)</source><translation>Diesen Regler abspielen (Leertaste)</translation></message>
+<message><source>Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW).</source><translation>Punktbildfunktion: das Licht einer Punktquelle auf dem Sensor, |FT{P}|² der Pupille P = A·exp(i2πW).</translation></message>
+<message><source>Points</source><translation>Punkte</translation></message>
+<message><source>Pop out</source><translation>Abtrennen</translation></message>
+<message><source>Preparing the 3D view: loading it takes some seconds, once.</source><translation>Die 3D-Ansicht wird vorbereitet: das Laden dauert einmal einige Sekunden.</translation></message>
+<message><source>Preset</source><translation>Vorgabe</translation></message>
+<message><source>Presets</source><translation>Vorgaben</translation></message>
+<message><source>Previous step of the lesson</source><translation>Voriger Schritt der Lektion</translation></message>
+<message><source>Principal point H</source><translation>Hauptpunkt H</translation></message>
+<message><source>Principal point H′</source><translation>Hauptpunkt H′</translation></message>
+<message><source>Print</source><translation>Druckseite</translation></message>
+<message><source>Profiles</source><translation>Profile</translation></message>
+<message><source>Pupil</source><translation>Pupille</translation></message>
+<message><source>Pupil phase</source><translation>Pupillenphase</translation></message>
+<message><source>Put the sensor where the lens file has it</source><translation>Den Sensor dorthin setzen, wo ihn die Datei hat</translation></message>
+<message><source>Put the source at infinity</source><translation>Die Quelle ins Unendliche setzen</translation></message>
+<message><source>Put the sweep away</source><translation>Durchlauf wegräumen</translation></message>
+<message><source>RMS in x</source><translation>RMS in x</translation></message>
+<message><source>RMS in y</source><translation>RMS in y</translation></message>
+<message><source>RMS radius</source><translation>RMS-Radius</translation></message>
+<message><source>RMS radius {r} µm</source><translation>RMS-Radius {r} µm</translation></message>
+<message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
+<message><source>Radius, mm</source><translation>Radius, mm</translation></message>
+<message><source>Ray fan</source><translation>Strahlfächer</translation></message>
+<message><source>Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil.</source><translation>Strahlfächer: wie weit vom Hauptstrahl ein exakter Strahl landet, über seinem Ort in der Pupille.</translation></message>
+<message><source>Rays</source><translation>Strahlen</translation></message>
+<message><source>Rear-stop landscape singlet</source><translation>Landschaftslinse mit hinterer Blende</translation></message>
+<message><source>Redo</source><translation>Wiederholen</translation></message>
+<message><source>Relay of two achromats, stop between, upright pupil (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, aufrechte Pupille (synthetisch; nur endliche Objekte)</translation></message>
+<message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
+<message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
+<message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
+<message><source>Reset</source><translation>Zurücksetzen</translation></message>
+<message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
+<message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
+<message><source>Rims clip {lost} of {all} rays, and fitted describes the whole pupil; choose traced or huygens, or leave clip off</source><translation>Ränder nehmen {lost} von {all} Strahlen weg, und fitted beschreibt die ganze Pupille; traced oder huygens wählen oder das Abblenden auslassen</translation></message>
+<message><source>R² ≥ 0.9</source><translation>R² ≥ 0.9</translation></message>
+<message><source>R² ≥ 0.95</source><translation>R² ≥ 0.95</translation></message>
+<message><source>R² ≥ 0.99</source><translation>R² ≥ 0.99</translation></message>
+<message><source>R² ≥ 0.999</source><translation>R² ≥ 0.999</translation></message>
+<message><source>R² ≥ 0.9999</source><translation>R² ≥ 0.9999</translation></message>
+<message><source>Sampling</source><translation>Abtastung</translation></message>
+<message><source>Save a film</source><translation>Film speichern</translation></message>
+<message><source>Save a snapshot</source><translation>Schnappschuss speichern</translation></message>
+<message><source>Save lens as…</source><translation>Objektiv speichern als …</translation></message>
+<message><source>Save the 3D view</source><translation>3D-Ansicht speichern</translation></message>
+<message><source>Save the PSF, a picture, or the state (Ctrl+E)</source><translation>PSF, Bild oder Zustand speichern (Strg+E)</translation></message>
+<message><source>Save the lens</source><translation>Objektiv speichern</translation></message>
+<message><source>Save the lens as .toml, .zmx or ISET .json (Ctrl+Shift+S)</source><translation>Das Objektiv als .toml, .zmx oder ISET-.json speichern (Strg+Umschalt+S)</translation></message>
+<message><source>Save the lens as it is now…</source><translation>Objektiv speichern, wie es jetzt ist …</translation></message>
+<message><source>Save the picture as PNG or TIFF, the state beside it</source><translation>Das Bild als PNG oder TIFF speichern, daneben den Zustand</translation></message>
+<message><source>Save the report</source><translation>Bericht speichern</translation></message>
+<message><source>Save the sweep as a film…</source><translation>Durchlauf als Film speichern …</translation></message>
+<message><source>Save the view as a picture, or the scene as glTF or OBJ</source><translation>Die Ansicht als Bild oder die Szene als glTF oder OBJ speichern</translation></message>
+<message><source>Save the way from the first value to the last as a film</source><translation>Den Weg vom ersten bis zum letzten Wert als Film speichern</translation></message>
+<message><source>Saved {count} frames, {first} to {last}</source><translation>{count} Bilder gespeichert, {first} bis {last}</translation></message>
+<message><source>Saved {name}</source><translation>{name} gespeichert</translation></message>
+<message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
+<message><source>Save…</source><translation>Speichern …</translation></message>
+<message><source>Seidel contributions: what each surface adds to a coefficient, in waves; large ones of opposite sign cancel.</source><translation>Seidel-Beiträge: was jede Fläche zu einem Koeffizienten beiträgt, in Wellen; große mit entgegengesetztem Vorzeichen heben sich auf.</translation></message>
+<message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
+<message><source>Semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
+<message><source>Sensor</source><translation>Sensor</translation></message>
+<message><source>Sensor position</source><translation>Sensorort</translation></message>
+<message><source>Sensor shift</source><translation>Sensorversatz</translation></message>
+<message><source>Sensor shift Δz away from the lens, on top of focus; it adds defocus Wd = NA²Δz/(2n′λ).</source><translation>Sensorversatz Δz weg vom Objektiv, zusätzlich zur Einstellung; er fügt den Defokus Wd = NA²Δz/(2n′λ) hinzu.</translation></message>
+<message><source>Sensor − image</source><translation>Sensor − Bild</translation></message>
+<message><source>Shipped lenses</source><translation>Mitgelieferte Objektive</translation></message>
+<message><source>Shortcuts</source><translation>Tastenkürzel</translation></message>
+<message><source>Shortcuts and terms (F1 or ?)</source><translation>Tastenkürzel und Begriffe (F1 oder ?)</translation></message>
+<message><source>Show A − B in PSF, pupil, profiles, MTF and coefficients; the rest shows A</source><translation>A − B in PSF, Pupille, Profilen, MTF und Koeffizienten zeigen; der Rest zeigt A</translation></message>
+<message><source>Show A, B, A − B in turn</source><translation>A, B, A − B der Reihe nach zeigen</translation></message>
+<message><source>Show A, which the controls move</source><translation>A zeigen, das die Regler bewegen</translation></message>
+<message><source>Show B, as it was pinned</source><translation>B zeigen, wie es gemerkt wurde</translation></message>
+<message><source>Show the answer</source><translation>Antwort zeigen</translation></message>
+<message><source>Show the answer (Alt+Down)</source><translation>Antwort zeigen (Alt+Abwärts)</translation></message>
+<message><source>Siemens star</source><translation>Siemensstern</translation></message>
+<message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
+<message><source>Snapshot</source><translation>Schnappschuss</translation></message>
+<message><source>Snapshot: PSF data or picture, with the state…</source><translation>Schnappschuss: PSF-Daten oder Bild, mit Zustand …</translation></message>
+<message><source>Spectrum</source><translation>Spektrum</translation></message>
+<message><source>Spherical, 1 λ, best focus</source><translation>Sphärisch, 1 λ, bester Fokus</translation></message>
+<message><source>Spherical, 1 λ, marginal focus</source><translation>Sphärisch, 1 λ, Randfokus</translation></message>
+<message><source>Spherical, 1 λ, paraxial focus</source><translation>Sphärisch, 1 λ, paraxialer Fokus</translation></message>
+<message><source>Split what follows this surface by a plane; nothing changes until it is edited (Insert)</source><translation>Was dieser Fläche folgt, durch eine Ebene teilen; es ändert sich nichts, bis sie bearbeitet wird (Einfg)</translation></message>
+<message><source>Spot</source><translation>Spot</translation></message>
+<message><source>Spot diagram</source><translation>Spotdiagramm</translation></message>
+<message><source>Spot diagram: where exact rays, evenly spread over the entrance pupil, meet the sensor; no diffraction.</source><translation>Spotdiagramm: wo exakte Strahlen, gleichmäßig über die Eintrittspupille verteilt, den Sensor treffen; keine Beugung.</translation></message>
+<message><source>State only…</source><translation>Nur Zustand …</translation></message>
+<message><source>Steps</source><translation>Schritte</translation></message>
+<message><source>Stop</source><translation>Blende</translation></message>
+<message><source>Stop filming and leave no file</source><translation>Aufnahme abbrechen und keine Datei hinterlassen</translation></message>
+<message><source>Stop radius</source><translation>Blendenradius</translation></message>
+<message><source>Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|.</source><translation>Blende: die Fläche, deren Rand das Licht begrenzt; in der Datei genannt, oder gefunden als kleinstes |Rand/y|.</translation></message>
+<message><source>Strehl</source><translation>Strehl</translation></message>
+<message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
+<message><source>Surfaces of the lens</source><translation>Flächen des Objektivs</translation></message>
+<message><source>Swap</source><translation>Tauschen</translation></message>
+<message><source>Sweep</source><translation>Durchlauf</translation></message>
+<message><source>Table</source><translation>Tabelle</translation></message>
+<message><source>Take B away (Ctrl+B)</source><translation>B entfernen (Strg+B)</translation></message>
+<message><source>Take back one step (Ctrl+Z)</source><translation>Einen Schritt zurücknehmen (Strg+Z)</translation></message>
+<message><source>Take the step again (Ctrl+Shift+Z)</source><translation>Den Schritt wiederholen (Strg+Umschalt+Z)</translation></message>
+<message><source>Take this surface out; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
+<message><source>Telephoto f/5.6, 127 mm</source><translation>Teleobjektiv f/5,6, 127 mm</translation></message>
+<message><source>Tessar f/4.5 (unit scale, f = 4 in)</source><translation>Tessar f/4,5 (Einheitsmaßstab, f = 4 Zoll)</translation></message>
+<message><source>Textbook wavefronts, in a free pupil</source><translation>Wellenfronten aus dem Lehrbuch, in freier Pupille</translation></message>
+<message><source>The blur is so large that the picture is ray density, no diffraction; bring focus and source together to see waves.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; Fokus und Quelle zusammenbringen, um Wellen zu sehen.</translation></message>
+<message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
+<message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP.</source><translation>Das Objektiv maßstäblich: die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP.</translation></message>
+<message><source>The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
+<message><source>The next step (Alt+Right)</source><translation>Der nächste Schritt (Alt+Rechts)</translation></message>
+<message><source>The panel's data are on the clipboard</source><translation>Die Daten des Feldes sind in der Zwischenablage</translation></message>
+<message><source>The panel's picture is on the clipboard</source><translation>Das Bild des Feldes ist in der Zwischenablage</translation></message>
+<message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
+<message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
+<message><source>The surface whose rim limits the light.</source><translation>Die Fläche, deren Rand das Licht begrenzt.</translation></message>
+<message><source>Theme</source><translation>Aussehen</translation></message>
+<message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
+<message><source>This panel has no numbers</source><translation>Dieses Feld hat keine Zahlen</translation></message>
+<message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Dieses Feld steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
+<message><source>Through focus</source><translation>Durch den Fokus</translation></message>
+<message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Durch den Fokus: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
+<message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
+<message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
+<message><source>Tools</source><translation>Werkzeuge</translation></message>
+<message><source>Track</source><translation>Baulänge</translation></message>
+<message><source>Try</source><translation>Versuchen</translation></message>
+<message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
 <message><source>Undo</source><translation>Rückgängig</translation></message>
+<message><source>Units of the colour bar</source><translation>Einheit der Farbskala</translation></message>
+<message><source>Unpin</source><translation>B lösen</translation></message>
+<message><source>Viridis</source><translation>Viridis</translation></message>
+<message><source>W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm</source><translation>W × {front} längs der Strahlen · PSF × {psf} breit, Höhe: {scale} · {wavelength} nm</translation></message>
+<message><source>W, waves</source><translation>W, Wellen</translation></message>
+<message><source>W11 added</source><translation>W11 hinzu</translation></message>
+<message><source>W11 distortion</source><translation>W11 Verzeichnung</translation></message>
+<message><source>W20 added</source><translation>W20 hinzu</translation></message>
+<message><source>W20 field curvature</source><translation>W20 Bildfeldwölbung</translation></message>
+<message><source>W22 added</source><translation>W22 hinzu</translation></message>
+<message><source>W22 astigmatism</source><translation>W22 Astigmatismus</translation></message>
+<message><source>W31 added</source><translation>W31 hinzu</translation></message>
+<message><source>W31 coma</source><translation>W31 Koma</translation></message>
+<message><source>W40 added</source><translation>W40 hinzu</translation></message>
+<message><source>W40 spherical aberration</source><translation>W40 sphärische Aberration</translation></message>
+<message><source>Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's.</source><translation>Wellenfront W über die Pupille: um wie viele Wellen der optische Weg eines Strahls kürzer als der des Hauptstrahls ist.</translation></message>
+<message><source>Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves.</source><translation>Wellenfrontkoeffizienten: der Höchstwert jedes Glieds von W(ρ, θ) an diesem Feld, in Wellen.</translation></message>
+<message><source>Wavelength</source><translation>Wellenlänge</translation></message>
+<message><source>Wavelength λ in vacuum; the index of each glass n(λ) follows it. F, d and C are Fraunhofer's lines.</source><translation>Wellenlänge λ im Vakuum; der Brechungsindex n(λ) jedes Glases folgt ihr. F, d und C sind Fraunhofers Linien.</translation></message>
+<message><source>Wd = 0: a line towards the field</source><translation>Wd = 0: eine Linie zum Feld hin</translation></message>
+<message><source>Wd = −2 W40: rim rays meet on the axis</source><translation>Wd = −2 W40: Randstrahlen treffen sich auf der Achse</translation></message>
+<message><source>Wd = −W22/2: a cross</source><translation>Wd = −W22/2: ein Kreuz</translation></message>
+<message><source>Wd = −W22: a line across the field</source><translation>Wd = −W22: eine Linie quer zum Feld</translation></message>
+<message><source>Wd = −W40 leaves a sixteenth of the variance</source><translation>Wd = −W40 lässt ein Sechzehntel der Varianz</translation></message>
+<message><source>Wd added</source><translation>Wd hinzu</translation></message>
+<message><source>Wd defocus</source><translation>Wd Defokus</translation></message>
+<message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
+<message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
+<message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
+<message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
+<message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
+<message><source>What-if: coefficients altered by hand; rays, spots and fans stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Strahlen, Spots und Fächer bleiben die des Objektivs.</translation></message>
+<message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
+<message><source>When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the difference, and what every method costs in time and error appear here.</source><translation>Wenn die Regler ruhen, wird das Bild mit einer auskonvergierten Summe exakter Strahlen (Huygens) verglichen: Referenz, Unterschied und was jede Methode an Zeit und Fehler kostet, erscheinen hier.</translation></message>
+<message><source>Where the sensor stands, from the last vertex.</source><translation>Wo der Sensor steht, vom letzten Scheitel.</translation></message>
+<message><source>Which coefficient</source><translation>Welcher Koeffizient</translation></message>
+<message><source>Which interpolation the error is of</source><translation>Zu welcher Interpolation der Fehler gehört</translation></message>
+<message><source>Which picture is made</source><translation>Welches Bild gemacht wird</translation></message>
+<message><source>Which slider moves</source><translation>Welcher Regler sich bewegt</translation></message>
+<message><source>Window</source><translation>Fenster</translation></message>
+<message><source>Working f-number</source><translation>Wirksame Blendenzahl</translation></message>
+<message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
+<message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
+<message><source>a sharp core in a wide halo</source><translation>ein scharfer Kern in weitem Hof</translation></message>
+<message><source>air</source><translation>Luft</translation></message>
+<message><source>all panels</source><translation>alle Felder</translation></message>
+<message><source>along x</source><translation>längs x</translation></message>
+<message><source>along y</source><translation>längs y</translation></message>
+<message><source>as in the file</source><translation>wie in der Datei</translation></message>
+<message><source>astigmatism</source><translation>Astigmatismus</translation></message>
+<message><source>at infinity</source><translation>im Unendlichen</translation></message>
+<message><source>at {wavelength} nm</source><translation>bei {wavelength} nm</translation></message>
+<message><source>auto</source><translation>auto</translation></message>
+<message><source>back to the lens's own value</source><translation>zurück zum Wert des Objektivs</translation></message>
+<message><source>barrel {part} at {field}, drawn {times} times</source><translation>Tonne {part} bei {field}, {times}fach gezeichnet</translation></message>
+<message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
+<message><source>black body 5600 K</source><translation>Schwarzer Körper 5600 K</translation></message>
+<message><source>blur, µm</source><translation>Unschärfe, µm</translation></message>
+<message><source>brightness</source><translation>Helligkeit</translation></message>
+<message><source>by hand</source><translation>von Hand</translation></message>
+<message><source>by the axis's PSF</source><translation>mit der PSF der Achse</translation></message>
+<message><source>centroid y {y} µm</source><translation>Schwerpunkt y {y} µm</translation></message>
+<message><source>chief ray</source><translation>Hauptstrahl</translation></message>
+<message><source>chief ray ȳ, mm</source><translation>Hauptstrahl ȳ, mm</translation></message>
+<message><source>chief ray, µm</source><translation>Hauptstrahl, µm</translation></message>
+<message><source>circle: Airy {r} µm</source><translation>Kreis: Airy {r} µm</translation></message>
+<message><source>coarse</source><translation>grob</translation></message>
+<message><source>coma</source><translation>Koma</translation></message>
+<message><source>contrast</source><translation>Kontrast</translation></message>
+<message><source>corner {field}</source><translation>Ecke {field}</translation></message>
+<message><source>cycles per mm on the sensor</source><translation>Perioden je mm auf dem Sensor</translation></message>
+<message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
+<message><source>defocus</source><translation>Defokus</translation></message>
+<message><source>depth, even in 1/depth</source><translation>Abstand, gleichmäßig in 1/Abstand</translation></message>
+<message><source>distance from the chief ray, µm</source><translation>Entfernung vom Hauptstrahl, µm</translation></message>
+<message><source>distortion</source><translation>Verzeichnung</translation></message>
+<message><source>distortion, %</source><translation>Verzeichnung, %</translation></message>
+<message><source>earlier picture</source><translation>früheres Bild</translation></message>
+<message><source>earlier picture, working</source><translation>früheres Bild, in Arbeit</translation></message>
+<message><source>edited</source><translation>bearbeitet</translation></message>
+<message><source>energy within</source><translation>Energie innerhalb</translation></message>
+<message><source>equal energy</source><translation>gleiche Energie</translation></message>
+<message><source>error of table 1 of the paper</source><translation>Fehler von Tabelle 1 des Aufsatzes</translation></message>
+<message><source>exact rays</source><translation>exakte Strahlen</translation></message>
+<message><source>exact rays, this field</source><translation>exakte Strahlen, dieses Feld</translation></message>
+<message><source>f-number</source><translation>Blendenzahl</translation></message>
+<message><source>f-number N = f′/D: focal length over the diameter of the entrance pupil.</source><translation>Blendenzahl N = f′/D: Brennweite durch den Durchmesser der Eintrittspupille.</translation></message>
+<message><source>field curv.</source><translation>Bildwölbung</translation></message>
+<message><source>field curvature</source><translation>Bildfeldwölbung</translation></message>
+<message><source>field, °</source><translation>Feld, °</translation></message>
+<message><source>file</source><translation>Datei</translation></message>
+<message><source>fitted</source><translation>fitted</translation></message>
+<message><source>fitted: polynomial from real rays</source><translation>fitted: Polynom aus wahren Strahlen</translation></message>
+<message><source>fitted: {numbers} numbers from {rays} rays, predicted R² ≥ {r}; the six Seidel coefficients would miss {goal}</source><translation>fitted: {numbers} Zahlen aus {rays} Strahlen, vorhergesagt R² ≥ {r}; die sechs Seidel-Koeffizienten verfehlten {goal}</translation></message>
+<message><source>focus behind the sensor, mm</source><translation>Fokus hinter dem Sensor, mm</translation></message>
+<message><source>focus, µm</source><translation>Fokus, µm</translation></message>
+<message><source>found</source><translation>gefunden</translation></message>
+<message><source>free pupil</source><translation>freie Pupille</translation></message>
+<message><source>from</source><translation>von</translation></message>
+<message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
+<message><source>huygens</source><translation>huygens</translation></message>
+<message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
+<message><source>image</source><translation>Bild</translation></message>
+<message><source>image height {h} mm</source><translation>Bildhöhe {h} mm</translation></message>
+<message><source>image {h} mm</source><translation>Bild {h} mm</translation></message>
+<message><source>in</source><translation>in</translation></message>
+<message><source>landing point, µm</source><translation>Landepunkt, µm</translation></message>
+<message><source>largest error in {name}: exact {error} λ</source><translation>größter Fehler in {name}: exakt {error} λ</translation></message>
+<message><source>lateral colour {shift} µm</source><translation>Farbquerfehler {shift} µm</translation></message>
+<message><source>linear</source><translation>linear</translation></message>
+<message><source>linear brightness</source><translation>lineare Helligkeit</translation></message>
+<message><source>linear {error} λ, on {depths} depths × {fields} fields × {waves} wavelengths</source><translation>linear {error} λ, auf {depths} Abständen × {fields} Feldern × {waves} Wellenlängen</translation></message>
+<message><source>lines F d C</source><translation>Linien F d C</translation></message>
+<message><source>log</source><translation>log</translation></message>
+<message><source>logarithm of brightness</source><translation>Logarithmus der Helligkeit</translation></message>
+<message><source>marginal ray y, mm</source><translation>Randstrahl y, mm</translation></message>
+<message><source>marginal rays, axial point</source><translation>Randstrahlen, Achspunkt</translation></message>
+<message><source>mercury g e</source><translation>Quecksilber g e</translation></message>
+<message><source>move the slider that has the focus</source><translation>den Regler bewegen, der den Fokus hat</translation></message>
+<message><source>no depth before the lens is sharp</source><translation>kein Abstand vor dem Objektiv ist scharf</translation></message>
+<message><source>object at infinity</source><translation>Objekt im Unendlichen</translation></message>
+<message><source>object at {depth}</source><translation>Objekt bei {depth}</translation></message>
+<message><source>object {h} mm</source><translation>Objekt {h} mm</translation></message>
+<message><source>of peak</source><translation>der Spitze</translation></message>
+<message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
+<message><source>open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
+<message><source>paraxial</source><translation>paraxial</translation></message>
+<message><source>paraxial, axis</source><translation>paraxial, Achse</translation></message>
+<message><source>peak = 1</source><translation>Spitze = 1</translation></message>
+<message><source>per pixel</source><translation>je Pixel</translation></message>
+<message><source>perfect lens</source><translation>perfektes Objektiv</translation></message>
+<message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
+<message><source>pictures {wide} µm wide</source><translation>Bilder {wide} µm breit</translation></message>
+<message><source>pictures {wide} µm wide, each over its own peak</source><translation>Bilder {wide} µm breit, jedes über seiner Spitze</translation></message>
+<message><source>pincushion {part} at {field}, drawn {times} times</source><translation>Kissen {part} bei {field}, {times}fach gezeichnet</translation></message>
+<message><source>place in the entrance pupil, pupil radii</source><translation>Ort in der Eintrittspupille, Pupillenradien</translation></message>
+<message><source>planned</source><translation>geplant</translation></message>
+<message><source>planning</source><translation>plant</translation></message>
+<message><source>present field</source><translation>jetziges Feld</translation></message>
+<message><source>preview {fast} / settled {ms} ms</source><translation>Vorschau {fast} / ruhend {ms} ms</translation></message>
+<message><source>preview {ms} ms</source><translation>Vorschau {ms} ms</translation></message>
+<message><source>radius, µm</source><translation>Radius, µm</translation></message>
+<message><source>ray density</source><translation>Strahlendichte</translation></message>
+<message><source>reference, µm</source><translation>Referenz, µm</translation></message>
+<message><source>relative L2 error</source><translation>relativer L2-Fehler</translation></message>
+<message><source>rim</source><translation>Rand</translation></message>
+<message><source>rim rays of the field point</source><translation>Randstrahlen des Feldpunkts</translation></message>
+<message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
+<message><source>sagittal</source><translation>sagittal</translation></message>
+<message><source>sagittal S</source><translation>sagittal S</translation></message>
+<message><source>sagittal, along ξ</source><translation>sagittal, längs ξ</translation></message>
+<message><source>scene</source><translation>Szene</translation></message>
+<message><source>seconds one way</source><translation>Sekunden je Weg</translation></message>
+<message><source>seidel</source><translation>seidel</translation></message>
+<message><source>seidel from the six coefficients (what-if: coefficients altered by hand)</source><translation>seidel aus den sechs Koeffizienten (Was wäre wenn: von Hand geändert)</translation></message>
+<message><source>seidel: six coefficients</source><translation>seidel: sechs Koeffizienten</translation></message>
+<message><source>seidel: six coefficients, predicted R² ≥ {r}</source><translation>seidel: sechs Koeffizienten, vorhergesagt R² ≥ {r}</translation></message>
+<message><source>sensor</source><translation>Sensor</translation></message>
+<message><source>sensor shift, µm</source><translation>Sensorversatz, µm</translation></message>
+<message><source>settled {ms} ms</source><translation>ruhend {ms} ms</translation></message>
+<message><source>share of the peak</source><translation>Anteil an der Spitze</translation></message>
+<message><source>sharp from {near} to {far} · hyperfocal distance {focus}</source><translation>scharf von {near} bis {far} · hyperfokale Entfernung {focus}</translation></message>
+<message><source>sharpened by its PSFs</source><translation>mit seinen PSFs geschärft</translation></message>
+<message><source>six coefficients</source><translation>sechs Koeffizienten</translation></message>
+<message><source>spherical</source><translation>sphärisch</translation></message>
+<message><source>spherical aberration</source><translation>sphärische Aberration</translation></message>
+<message><source>square root</source><translation>Wurzel</translation></message>
+<message><source>square root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
+<message><source>step {k} of {n}</source><translation>Schritt {k} von {n}</translation></message>
+<message><source>stop ▪</source><translation>Blende ▪</translation></message>
+<message><source>stop, sensor</source><translation>Blende, Sensor</translation></message>
+<message><source>sum = 1</source><translation>Summe = 1</translation></message>
+<message><source>sum {waves} λ</source><translation>Summe {waves} λ</translation></message>
+<message><source>summing the reference: {part} %</source><translation>die Referenz wird summiert: {part} %</translation></message>
+<message><source>surface</source><translation>Fläche</translation></message>
+<message><source>surface {number} (auto)</source><translation>Fläche {number} (gefunden)</translation></message>
+<message><source>surface {number} (file)</source><translation>Fläche {number} (Datei)</translation></message>
+<message><source>table 1 of the paper</source><translation>Tabelle 1 des Aufsatzes</translation></message>
+<message><source>table1 {error} λ</source><translation>Tabelle 1 {error} λ</translation></message>
+<message><source>tangential</source><translation>tangential</translation></message>
+<message><source>tangential T</source><translation>tangential T</translation></message>
+<message><source>tangential, along η</source><translation>tangential, längs η</translation></message>
+<message><source>the Airy pattern</source><translation>die Airy-Figur</translation></message>
+<message><source>the PSF</source><translation>die PSF</translation></message>
+<message><source>the coefficients</source><translation>die Koeffizienten</translation></message>
+<message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
+<message><source>the layout</source><translation>der Aufbau</translation></message>
+<message><source>the lens's own</source><translation>die des Objektivs</translation></message>
+<message><source>the open tab</source><translation>das offene Blatt</translation></message>
+<message><source>the pupil</source><translation>die Pupille</translation></message>
+<message><source>the reference is summed when the sliders rest</source><translation>die Referenz wird summiert, wenn die Regler ruhen</translation></message>
+<message><source>there is no link to paste; copy one that begins with p2sf:</source><translation>kein Link zum Einfügen da; einen kopieren, der mit p2sf: beginnt</translation></message>
+<message><source>through the lens</source><translation>durch das Objektiv</translation></message>
+<message><source>time of one PSF, ms</source><translation>Zeit einer PSF, ms</translation></message>
+<message><source>to</source><translation>bis</translation></message>
+<message><source>to the next or the previous control</source><translation>zum nächsten oder vorigen Bedienteil</translation></message>
+<message><source>traced</source><translation>traced</translation></message>
+<message><source>traced: exact rays, predicted R² ≥ {r}; {lost} of {all} rays are lost, and a smooth pupil does not describe that</source><translation>traced: exakte Strahlen, vorhergesagt R² ≥ {r}; {lost} von {all} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
+<message><source>traced: exact wavefront</source><translation>traced: exakte Wellenfront</translation></message>
+<message><source>tungsten 2856 K</source><translation>Glühlampe 2856 K</translation></message>
+<message><source>typed</source><translation>getippt</translation></message>
+<message><source>wavelength, nm</source><translation>Wellenlänge, nm</translation></message>
+<message><source>waves</source><translation>Wellen</translation></message>
+<message><source>waves at {wavelength} nm</source><translation>Wellen bei {wavelength} nm</translation></message>
+<message><source>what no single term shows</source><translation>was kein einzelnes Glied zeigt</translation></message>
+<message><source>what-if</source><translation>Was wäre wenn</translation></message>
+<message><source>what-if: altered by hand</source><translation>Was wäre wenn: von Hand geändert</translation></message>
+<message><source>whole field</source><translation>ganzes Feld</translation></message>
+<message><source>working</source><translation>in Arbeit</translation></message>
+<message><source>wrapped</source><translation>gefaltet</translation></message>
+<message><source>x, µm</source><translation>x, µm</translation></message>
+<message><source>x, µm from the chief ray</source><translation>x, µm vom Hauptstrahl</translation></message>
+<message><source>y, µm</source><translation>y, µm</translation></message>
+<message><source>y, µm (towards the field)</source><translation>y, µm (zum Feld hin)</translation></message>
+<message><source>y–ȳ</source><translation>y–ȳ</translation></message>
+<message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
+<message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
+<message><source>{columns} × {rows} pixels of {pitch} µm</source><translation>{columns} × {rows} Pixel zu {pitch} µm</translation></message>
+<message><source>{count} PSFs: {rows} × {columns} places × {waves} wavelengths</source><translation>{count} PSFs: {rows} × {columns} Orte × {waves} Wellenlängen</translation></message>
+<message><source>{count} PSFs: {rows} × {columns} places × {waves} wavelengths, at once and unmeasured</source><translation>{count} PSFs: {rows} × {columns} Orte × {waves} Wellenlängen, sofort und ungemessen</translation></message>
+<message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
+<message><source>{count} surfaces · edited</source><translation>{count} Flächen · bearbeitet</translation></message>
+<message><source>{count} wavelengths</source><translation>{count} Wellenlängen</translation></message>
+<message><source>{depth}, field {field}°, {wavelength} nm</source><translation>{depth}, Feld {field}°, {wavelength} nm</translation></message>
+<message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
+<message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
+<message><source>{step}: pixels of {pitch} µm average finer fringes; the window has a margin of {margin} (error {error})</source><translation>{step}: Pixel zu {pitch} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin} (Fehler {error})</translation></message>
+<message><source>±{half} µm hidden</source><translation>±{half} µm verborgen</translation></message>
+<message><source>η, towards the field</source><translation>η, zum Feld hin</translation></message>
+<message><source>λ</source><translation>λ</translation></message>
+<message><source>ξ, pupil radii</source><translation>ξ, Pupillenradien</translation></message>
+<message><source>∞</source><translation>∞</translation></message>
+<message><source>⌀ {d} at {z} mm</source><translation>⌀ {d} bei {z} mm</translation></message>
+<message><source>▶</source><translation>▶</translation></message>
+<message><source>▾ best</source><translation>▾ best</translation></message>
 </context>
 </TS>

@@ -12,6 +12,7 @@ from app.scales import nice
 from app.store import Store
 from app.theme import Tokens
 from app.views.database import LOSSY, NODES, Answer, Question, answer
+from app.words import tr
 from app.worker import LatestWins
 from p2sf.conventions import degrees_from_slope
 from p2sf.database.parts import KINDS
@@ -85,7 +86,7 @@ class DatabasePanel:
             self.widget.set_readout(f"at {1000 * key.wavelength_um:.1f} nm")
 
     def _on_failure(self, key: Question, sentence: str) -> None:
-        self.note.setText(sentence)
+        self.note.setText(tr(sentence))
 
     def _paint(self) -> None:
         if not self._answer:
@@ -97,11 +98,11 @@ class DatabasePanel:
         wide = f", {short(found.atlas.psfs.shape[-1] * found.atlas.pixel_um)} µm wide" if found.atlas else ""
         heads = name(term), f"error of {RULES[rule]}", f"PSFs{wide}, √ of peak = 1"
         for head, words in zip(self.heads, heads, strict=True):
-            head.setText(words)
+            head.setText(tr(words))
         losses = " · ".join(f"{r} {found.largest[r][term]:.2g} λ" for r in ("exact", *LOSSY))
         depths, fields, colours = NODES
         text = f"largest error in {name(term)}: {losses}, on {depths} depths × {fields} fields × {colours} wavelengths"
-        self.note.setText(" · ".join(part for part in (text, found.why_no_atlas) if part))
+        self.note.setText(tr(" · ".join(part for part in (text, found.why_no_atlas) if part)))
 
     def _paint_map(self, found: Answer, term: str) -> None:
         """Paint signed square roots: near and far differ by a thousand waves."""

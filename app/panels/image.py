@@ -15,6 +15,7 @@ from app.store import Store
 from app.theme import Tokens
 from app.views.image import Answer, Question, coarse, fine_enough, local_psf, pixels, planned, save_picture, work
 from app.wipe import Wipe
+from app.words import tr
 from app.worker import LatestWins
 from p2sf.errors import P2SFError
 
@@ -139,15 +140,15 @@ class ImagePanel:
 
     def _on_failure(self, key: Question, sentence: str) -> None:
         if key == self._asked and "cancelled" not in sentence:
-            self.headline.setText(sentence[0].upper() + sentence[1:])
+            self.headline.setText(tr(sentence[0].upper() + sentence[1:]))
             self.widget.set_readout("no picture")
 
     def _paint(self) -> None:
         found = self._answer
         self.wipe.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
-        self.headline.setText(f"{found.headline} · {found.seconds:.2g} s")
+        self.headline.setText(tr(f"{found.headline} · {found.seconds:.2g} s"))
         lines = (f"<p><b>{escape(what)}</b> {escape(sentence)}</p>" for what, sentence in found.words)
-        self.words.setText("".join(lines))
+        self.words.setText(tr("".join(lines)))
         rows, columns = found.after.shape[:2]
         self._look(self._place[0] * (rows - 1), self._place[1] * (columns - 1))
 
@@ -199,8 +200,8 @@ def small_button(text: str, tip: str, action) -> QToolButton:
     """Return a small button."""
     made = QToolButton()
     made.setObjectName("small")
-    made.setText(text)
-    made.setToolTip(tip)
+    made.setText(tr(text))
+    made.setToolTip(tr(tip))
     made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     made.clicked.connect(action)
     return made

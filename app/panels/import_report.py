@@ -11,6 +11,7 @@ from app.opening import Refusal, with_substitutes
 from app.store import Store
 from app.theme import LIGHT, Tokens
 from app.views.import_report import REFUSED, Report, refused
+from app.words import tr
 from p2sf.errors import P2SFError
 
 TIP = "Import report: everything the reader of the lens file took, replaced, passed over or refused, and why."
@@ -24,10 +25,10 @@ class ImportReportPanel:
         self.widget, self.text = Card("Import report", TIP), QTextBrowser()
         self.text.setFrameShape(QTextBrowser.Shape.NoFrame)
         self.text.setOpenLinks(False)
-        self.text.setAccessibleName("Import report")
-        self.accept = QPushButton("Accept substitutes", self.widget)
+        self.text.setAccessibleName(tr("Import report"))
+        self.accept = QPushButton(tr("Accept substitutes"), self.widget)
         self.accept.setObjectName("small")
-        self.accept.setToolTip("Open the file with the substitute glasses listed; the lens then counts as edited")
+        self.accept.setToolTip(tr("Open the file with the substitute glasses listed; the lens then counts as edited"))
         self.accept.clicked.connect(self._accept)
         self.widget.add_tool(self.accept)
         self.widget.set_body(self.text)

@@ -12,6 +12,7 @@ from app.setting import prescription
 from app.store import Store
 from app.surfaces import KEYS, STOP, SurfaceModel
 from app.theme import Tokens
+from app.words import tr
 from p2sf.errors import P2SFError
 
 TIP = "Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back."
@@ -49,9 +50,9 @@ class LensTablePanel:
             )
 
     def _button(self, text: str, tip: str, method: str) -> QPushButton:
-        button = QPushButton(text, self.widget)
+        button = QPushButton(tr(text), self.widget)
         button.setObjectName("small")
-        button.setToolTip(tip)
+        button.setToolTip(tr(tip))
         button.clicked.connect(getattr(self, method))
         self.widget.add_tool(button)
         return button
@@ -60,7 +61,7 @@ class LensTablePanel:
         triggers = QAbstractItemView.EditTrigger
         self.view.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed | triggers.AnyKeyPressed)
         self.view.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.view.setAccessibleName("Surfaces of the lens")
+        self.view.setAccessibleName(tr("Surfaces of the lens"))
         self.view.setFrameShape(QTableView.Shape.NoFrame)
         self.view.setShowGrid(False)
         self.view.setAlternatingRowColors(True)
