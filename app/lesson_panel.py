@@ -41,6 +41,7 @@ class LessonPanel(QFrame):
         self.back, self.next = QPushButton(tr("Back")), QPushButton(tr("Next"))
         self.back.setToolTip(tr("The step before (Alt+Left)"))
         self.next.setToolTip(tr("The next step (Alt+Right)"))
+        self._shown: tuple = ()
         self._lay_out()
         self._connect()
         self.hide()
@@ -89,8 +90,10 @@ class LessonPanel(QFrame):
 
     def show_step(self, lesson: Lesson, number: int, told: bool) -> None:
         """Show a step of a lesson, with its answer when it was ``told``."""
+        if (lesson, number, told) == self._shown:
+            return
+        new, self._shown = (lesson, number) != self._shown[:2], (lesson, number, told)
         step, last = lesson.steps[number], len(lesson.steps) - 1
-        new = self.title.text() != step.title or not self.isVisible()
         select(self.choice, lesson.name)
         texts = (
             (self.about, lesson.about if number == 0 else ""),
