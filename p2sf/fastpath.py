@@ -71,7 +71,7 @@ def shape_terms(coefficients: Coefficients) -> np.ndarray:
 def batch_intensities(terms: np.ndarray, pixels: int, pixel_um: float, rows: RowNodes, dtype) -> np.ndarray:
     """Return the PSFs (batch, pixels, pixels) of `shape_terms` (batch, 5) that all have the same last one."""
     setting = float(terms[0, 4]) * pixel_um, pixels, np.dtype(dtype)
-    return _unfold(*_fields(terms[:, :4], rows, setting), pixels)
+    return unfolded(*_fields(terms[:, :4], rows, setting), pixels)
 
 
 def wave_number(coefficients: Coefficients) -> np.ndarray:
@@ -124,7 +124,7 @@ def folded_pupils(shape: np.ndarray, monomials: Monomials) -> np.ndarray:
 
 
 def reduced_radians(cycles: np.ndarray, dtype) -> np.ndarray:
-    """Return the phase in radians without its whole turns; the float64 ``cycles`` are used up."""
+    """Return the phase in radians without its whole turns; the ``cycles`` are used up."""
     cycles -= np.rint(cycles)
     radians = cycles.astype(dtype, copy=False)
     radians *= TURN
@@ -140,8 +140,11 @@ def _across(pupil: np.ndarray, across: np.ndarray) -> np.ndarray:
     return (by_row @ across).transpose(1, 0, 2).reshape(parts, batch, rows, -1)
 
 
-def _unfold(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
-    """Return |even ± odd|² on the whole picture from offsets ≥ 0: minus above the chief ray, even in x."""
+def unfolded(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
+    """Return |even ± odd|² on the whole picture from offsets ≥ 0: minus above the chief ray, even in x.
+
+    ``even`` and ``odd`` in y: (2, batch, y, x), real and imaginary, used up; (batch, pixels, pixels).
+    """
     batch, low = even.shape[1], pixels // 2
     high = pixels - low
     right = np.empty((batch, pixels, low + 1), even.dtype)

@@ -8,8 +8,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import centred_axis
+from p2sf.conventions import protected
 from p2sf.errors import SamplingError
+from p2sf.fastpath import reduced_radians, unfolded
 
 
 def opd_intensity(opd_waves, area, cycles: float, pixels: int, dtype=np.float32) -> np.ndarray:
@@ -24,33 +25,28 @@ def opd_intensity(opd_waves, area, cycles: float, pixels: int, dtype=np.float32)
     size = opd.shape[-1]
     if opd.shape != (size, size) or size % 2 or area.shape != opd.shape:
         raise SamplingError(f"a wavefront of {opd.shape} with areas of {area.shape}; give two equal even squares")
-    across, up, rows, columns = _kernels(size, float(cycles), int(pixels), np.dtype(dtype))
-    real, imaginary = _pupil(opd[:, size // 2 :], area[:, size // 2 :], dtype)
-    part = up @ np.concatenate([real @ across, imaginary @ across], axis=1)
-    half = len(part) // 2
-    (even_real, even_imaginary), (odd_real, odd_imaginary) = (
-        np.split(p, 2, axis=1) for p in (part[:half], part[half:])
-    )
-    above = (even_real - odd_imaginary) ** 2 + (even_imaginary + odd_real) ** 2
-    below = (even_real + odd_imaginary) ** 2 + (even_imaginary - odd_real) ** 2
-    values = np.where(centred_axis(pixels)[:, None] < 0, below[rows], above[rows])[:, columns]
-    return values * dtype(1 / (2 * area[:, size // 2 :].sum()) ** 2)
+    across, up = _kernels(size, float(cycles), int(pixels), np.dtype(dtype))
+    right = area[:, size // 2 :]
+    parts = up @ (_pupil(opd[:, size // 2 :], right, dtype) @ across)
+    even, odd = np.split(parts, 2, axis=1)
+    turned = np.stack([odd[1], -odd[0]])  # −i times the part odd in y
+    return unfolded(even[:, None], turned[:, None], pixels)[0] * dtype(1 / (2 * right.sum()) ** 2)
 
 
 def _pupil(opd, area, dtype):
-    """Return real and imaginary part of area·exp(i2πW); whole waves are taken off in the array's own precision."""
-    turn = ((opd - np.rint(opd)) * (2 * np.pi)).astype(dtype)
-    weight = area.astype(dtype)
-    return weight * np.cos(turn), weight * np.sin(turn)
+    """Return real and imaginary part of area·exp(i2πW), stacked; whole waves are taken off in the array's precision."""
+    turn = reduced_radians(opd.astype(np.result_type(opd, np.float32)), dtype)
+    pupil = np.stack([np.cos(turn), np.sin(turn, out=turn)])
+    pupil *= area.astype(dtype)
+    return pupil
 
 
 @lru_cache(maxsize=16)
 def _kernels(size: int, cycles: float, pixels: int, dtype):
-    """Return (across, cos and sin up, row of |y|, column of |x|) for a grid, a scale and a window."""
+    """Return the kernels (ξ, |x|) and, cos above sin, (|y|, η) for a grid, a scale and a window."""
     cell = (2 * np.arange(size) + 1 - size) / size
     distance = np.arange(pixels // 2 + 1)
     turns = 2 * np.pi * cycles * np.multiply.outer(cell, distance)
     across = 2 * np.cos(turns[size // 2 :])
     up = np.concatenate([np.cos(turns).T, np.sin(turns).T])
-    fold = np.abs(np.arange(pixels) - pixels // 2)
-    return across.astype(dtype), up.astype(dtype), fold, fold
+    return protected(across.astype(dtype)), protected(up.astype(dtype))

@@ -171,8 +171,8 @@ def _projection(level: Level) -> Projection:
     return Projection(even, odd, *inverses)
 
 
-def fit_rays(rays: RayData, level: Level, traced: int) -> FittedPencil:
-    """Return the fit of one level to its rays."""
+def fit_rays(rays: RayData, level: Level, traced: int, steep: Steepness | None = None) -> FittedPencil:
+    """Return the fit of one level to its rays; ``steep`` spares finding their `steepness` again."""
     xi, eta, weight = level_rays(level)
     project, used = _projection(level), weight.size
     phase, fy, fx = (
@@ -186,7 +186,7 @@ def fit_rays(rays: RayData, level: Level, traced: int) -> FittedPencil:
     map_residual = np.sqrt(_residual(miss_x, weight, fx.size) ** 2 + _residual(miss_y, weight, fy.size) ** 2)
     # Parseval: ∫|field|²dx is the area mean of 1/|∂(fx, fy)/∂(ξ, η)| over π.
     blur = float(weight @ (1 / np.abs(_determinant(fx, fy, *_slope_basis(level)))) / np.pi)
-    steep = steepness(rays, xi, eta)
+    steep = steep or steepness(rays, xi, eta)
     return FittedPencil(level, phase, fx, fy, residual, steep, blur, traced, float(map_residual))
 
 

@@ -74,12 +74,12 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
         return _for_lost_rays(int((~rays.passed).sum()), xi.size, allowed)
     data = ray_data(rays)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    spread = steepness(data, xi, eta).light_um
-    errors = {"seidel": predicted_error(seidel_sigma(c, data, (xi, eta, weight), spread), "seidel")}
+    steep = steepness(data, xi, eta)
+    errors = {"seidel": predicted_error(seidel_sigma(c, data, (xi, eta, weight), steep.light_um), "seidel")}
     if errors["seidel"] <= allowed:
         return Choice("seidel", errors["seidel"], 6, _sentence("six coefficients", errors["seidel"], allowed))
     for level in QUICK_LEVELS:
-        found = fit_rays(data, level, level.rays)
+        found = fit_rays(data, level, level.rays, steep)
         error = predicted_error(found.error_waves, "fitted")
         if error <= allowed:
             why = _sentence(f"{level.numbers} numbers from {level.rays} rays", error, allowed)
