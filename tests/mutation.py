@@ -2,7 +2,7 @@
 
 ``python -m tests.mutation [module …]`` (needs ``pip install mutmut``; by default gaussian, pupils, seidel, wavefront,
 psf and fitted) prints for each module how many mutants its tests kill, and every survivor as a difference. The
-working tree is not touched.
+working tree is not touched. ``psf:7`` tries the tenth of its mutants whose number ends in 7.
 """
 
 import shutil
@@ -46,18 +46,18 @@ also_copy=
 """
 
 
-def mutate(module: str, folder: Path) -> Counter:
+def mutate(module: str, folder: Path, ending: str = "") -> Counter:
     """Return how many mutants of a module were killed or survived, and print the survivors."""
     for name in ("p2sf", "app", "tests", "lenses"):
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "pyproject.toml", folder)
     tests = "".join(f"\n    {path}" for path in TESTS[module])
     (folder / "setup.cfg").write_text(SETTINGS.format(module=module, tests=tests))
-    run("run", "--max-children", "1", folder=folder)
+    run("run", "--max-children", "1", *([f"p2sf.{module}.*{ending}"] if ending else []), folder=folder)
     states = dict(
         line.strip().rsplit(": ", 1)
         for line in run("results", "--all", "true", folder=folder).splitlines()
-        if ": " in line
+        if ": " in line and not line.endswith("not checked")
     )
     for name, state in states.items():
         if state not in ("killed", "timeout"):
@@ -73,12 +73,13 @@ def run(*arguments: str, folder: Path) -> str:
 
 
 def main() -> None:
-    for module in sys.argv[1:] or TESTS:
+    for asked in sys.argv[1:] or TESTS:
+        module, _, ending = asked.partition(":")
         with tempfile.TemporaryDirectory() as folder:
-            found = mutate(module, Path(folder))
+            found = mutate(module, Path(folder), ending)
         killed = found["killed"] + found["timeout"]
         share = 100 * killed / max(1, found.total())
-        print(f"{module}: {killed} of {found.total()} mutants killed ({share:.1f} %), {dict(found)}", flush=True)
+        print(f"{asked}: {killed} of {found.total()} mutants killed ({share:.1f} %), {dict(found)}", flush=True)
 
 
 if __name__ == "__main__":
