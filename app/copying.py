@@ -4,6 +4,7 @@ import csv
 import io
 
 import numpy as np
+import pyqtgraph as pg
 from PySide6.QtCore import QMimeData, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QMenu, QTableView, QWidget
@@ -74,7 +75,23 @@ def table(widget: QWidget) -> Rows:
         return _of_chart(widget)
     if isinstance(widget, FactTable):
         return [[name, value] for name, value, _ in widget.rows]
+    if isinstance(widget, pg.PlotWidget):
+        return _of_plot(widget)
     return _of_view(widget) if isinstance(widget, QTableView) else []
+
+
+def _of_plot(plot: pg.PlotWidget) -> Rows:
+    """Return bars, points and lines of a plot as columns x and y, one kind of item behind the other."""
+    item = plot.getPlotItem()
+    head = [item.getAxis(side).labelText for side in ("bottom", "left")]
+    rows = []
+    for part in item.items:
+        if isinstance(part, pg.BarGraphItem):
+            rows += [[_number(x), _number(y)] for x, y in zip(part.opts["x"], part.opts["height"], strict=True)]
+        elif isinstance(part, pg.ScatterPlotItem | pg.PlotDataItem | pg.PlotCurveItem):
+            x, y = (() if values is None else values for values in part.getData())
+            rows += [[_number(a), _number(b)] for a, b in zip(x, y, strict=True)]
+    return [head, *rows] if rows else []
 
 
 def _of_heat_map(heat: HeatMap) -> Rows:

@@ -76,6 +76,11 @@ class Mixer(QWidget):
         """Return where everything lies now."""
         return Places(self.width(), self.height())
 
+    def rows_of_data(self) -> list[list[str]]:
+        """Return the coefficients as they count, the lens's own and what is added, waves, for the clipboard."""
+        kept = zip(self.values, self.values.values(), self.own.values(), self.waves.values(), strict=True)
+        return [["", "λ", tr("the lens's own"), tr("Added waves")], *([name, *map(str, row)] for name, *row in kept)]
+
     def show_values(self, values: dict[str, float], own: dict[str, float], added: dict[str, float], **on) -> None:
         """Show coefficients as they count, the lens's own, and what is added to each, waves; ``on``: muted, solo."""
         before = self.limit, self.waves, self.on

@@ -159,6 +159,8 @@ def _grounds(t: Tokens) -> str:
     QLabel#warning {{ color: {t.warning}; font-size: 12px; }}
     QFrame#banner {{ background: {t.warning_back}; border: 1px solid {t.warning}; border-radius: 6px; }}
     QFrame#banner QLabel {{ color: {t.warning}; }}
+    QCheckBox {{ border: 1px solid transparent; border-radius: 4px; padding: 1px 3px; }}
+    QCheckBox:focus {{ border: 1px solid {t.accent}; }}
     QScrollBar:vertical {{ background: transparent; width: 10px; }}
     QScrollBar::handle:vertical {{ background: {t.line}; border-radius: 4px; min-height: 24px; }}
     QScrollBar::add-line, QScrollBar::sub-line {{ height: 0; }}

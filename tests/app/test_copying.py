@@ -1,0 +1,86 @@
+"""A panel's picture and numbers on the clipboard, and the printed page."""
+
+import csv
+import io
+import re
+import zlib
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+
+from app.copying import copy_menu, data_of
+from app.report import SHARES, fields, write_report
+from app.state import State
+from p2sf.errors import P2SFError
+
+
+def test_the_curves_of_the_open_panel_are_copied_as_they_are(window, qtbot):
+    qtbot.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    rows = list(csv.reader(io.StringIO(QGuiApplication.clipboard().text())))
+    column = rows[0].index("along y: share of the peak")
+    x, y = window.panels["profiles"].curves["along y"].data()
+    assert y.max() == pytest.approx(1.0)
+    read = np.array([[float(cell) for cell in row[column - 1 : column + 1]] for row in rows[1 : 1 + x.size]])
+    assert read[:, 0] == pytest.approx(x, rel=1e-8) and read[:, 1] == pytest.approx(y, rel=1e-8, abs=1e-12)
+
+
+def test_a_heat_map_is_copied_as_a_grid_with_its_places(window):
+    window.store.update(psf_scale="linear")
+    rows = list(csv.reader(io.StringIO(data_of(window.panels["psf"].widget))))
+    psf = window.live.psf
+    count = psf.values.shape[0]
+    grid = np.array([[float(cell) for cell in row] for row in rows[1 : count + 1]])
+    assert grid[:, 1:] == pytest.approx(psf.values / psf.values.max(), abs=1e-7)
+    assert grid[:, 0] == pytest.approx(psf.x_um, abs=1e-5)
+    assert [float(cell) for cell in rows[0][1:]] == pytest.approx(psf.x_um, abs=1e-5)
+
+
+@pytest.mark.parametrize("key", ["coefficients", "lens", "first_order", "seidel", "spot", "ray_fan"])
+def test_other_panels_have_their_numbers_too(window, key):
+    window.open_panel(key) if key != "coefficients" else None
+    text = data_of(window.panels[key].widget)
+    assert sum(bool(re.search(r"\d", cell)) for row in csv.reader(io.StringIO(text)) for cell in row) >= 10
+
+
+def test_the_picture_on_the_clipboard_is_the_panel(window, qtbot):
+    window.panels["psf"].map.chart.setFocus()
+    widget = window.panels["psf"].widget
+    menu = copy_menu(widget)
+    first, second = menu.actions()
+    assert second.isEnabled()
+    first.trigger()
+    assert QGuiApplication.clipboard().pixmap().size() == widget.grab().size()
+    menu.deleteLater()
+
+
+def test_the_report_is_one_page_of_a4_with_drawing_numbers_and_pictures(qapp, tmp_path):
+    state = State(method="seidel", f_number=8.0)
+    write_report(state, str(tmp_path / "page.pdf"))
+    document = (tmp_path / "page.pdf").read_bytes()
+    assert document.startswith(b"%PDF-")
+    assert len(re.findall(rb"/Type\s*/Page\b", document)) == 1
+    width, height = (float(v) for v in re.search(rb"/MediaBox\s*\[\s*0 0 ([\d.]+) ([\d.]+)", document).groups())
+    assert (width, height) == pytest.approx((595.3, 841.9), abs=1.0)  # A4 in points, ISO 216
+    assert len(re.findall(rb"/Subtype\s*/Image", document)) >= len(SHARES)
+    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", document, re.DOTALL)
+    drawn = b"".join(inflated(stream) for stream in streams)
+    assert drawn.count(b" l\n") > 200, "outlines and rays are lines"
+
+
+def inflated(stream: bytes) -> bytes:
+    try:
+        return zlib.decompress(stream)
+    except zlib.error:
+        return b""
+
+
+def test_the_report_shows_the_field_from_the_axis_to_the_lens_files_widest():
+    shown = [state.field_deg for state in fields(State())]
+    assert shown == pytest.approx([0.0, 4.9, 9.8, 14.0])
+
+
+def test_a_report_that_cannot_be_written_is_a_sentence(qapp, tmp_path):
+    with pytest.raises(P2SFError, match="cannot be written"):
+        write_report(State(method="seidel", f_number=8.0), str(tmp_path / "no" / "page.pdf"))
