@@ -39,8 +39,13 @@ class Axis:
 
 def lagrange(nodes: list, at) -> list:
     """Return Lagrange's weights of the polynomial through ``nodes`` at a point."""
+    if len(nodes) == 2:  # by far the most frequent
+        share = (at - nodes[0]) / (nodes[1] - nodes[0])
+        return [1.0 - share, share]
+    steps = [at - node for node in nodes]
     return [
-        prod((at - nodes[j]) / (nodes[i] - nodes[j]) for j in range(len(nodes)) if j != i) for i in range(len(nodes))
+        prod(steps[:i] + steps[i + 1 :]) / prod([node - other for other in nodes[:i] + nodes[i + 1 :]])
+        for i, node in enumerate(nodes)
     ]
 
 
