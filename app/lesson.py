@@ -63,6 +63,27 @@ def shipped_lessons() -> tuple[Lesson, ...]:
     return tuple(read_lesson(path) for path in lesson_files())
 
 
+def own_folder() -> Path:
+    """Return where a person keeps lessons of their own beside an installed program."""
+    from platformdirs import user_data_path
+
+    return user_data_path("p2sf-explorer", appauthor=False) / "lessons"
+
+
+def found_lessons(folders: tuple[Path, ...]) -> tuple[dict[str, Lesson], tuple[str, ...]]:
+    """Return the lessons of these folders by name, in its order, and a sentence for every file that is none.
+
+    A lesson of a later folder takes the place of one of the same name.
+    """
+    found, faults = {}, []
+    for path in (path for folder in folders for path in lesson_files(folder)):
+        try:
+            found[path.stem] = read_lesson(path)
+        except P2SFError as error:
+            faults.append(str(error))
+    return dict(sorted(found.items())), tuple(faults)
+
+
 def lesson_files(folder: Path = FOLDER) -> tuple[Path, ...]:
     """Return the lesson files of a folder, in order."""
     return tuple(sorted(path for path in folder.glob("*.md") if path.name != "README.md"))

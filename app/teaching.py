@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-from PySide6.QtCore import QEvent, QObject
+from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel
 
 from app import recent
 from app.commands import Command
-from app.lesson import PERSONAL, Lesson, shipped_lessons
+from app.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from app.lesson_panel import LessonPanel, tool
 from app.state import State
 from app.words import tr
@@ -41,12 +41,11 @@ class Teaching(QObject):
         )
 
     def lessons(self) -> dict[str, Lesson]:
-        """Return the lessons by name; a bad file is told in the banner and leaves none."""
+        """Return the lessons by name; a bad file is told in the banner and costs only itself."""
         if not self._lessons:
-            try:
-                self._lessons = {lesson.name: lesson for lesson in shipped_lessons()}
-            except P2SFError as error:
-                self.store.refused.emit(str(error))
+            self._lessons, faults = found_lessons((FOLDER, own_folder()))
+            if faults:  # after the picture of the step, which takes the banner away
+                QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
         return self._lessons
 
     def toggle(self) -> None:

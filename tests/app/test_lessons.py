@@ -7,7 +7,7 @@ import pytest
 
 from app import compute
 from app.claims import Claim, holds, measured, parse_claim
-from app.lesson import FOLDER, lesson_files, parse_lesson, read_lesson, shipped_lessons
+from app.lesson import FOLDER, found_lessons, lesson_files, parse_lesson, read_lesson, shipped_lessons
 from app.measures import MEASURES
 from app.panels import REGISTRY
 from app.state import State
@@ -153,6 +153,17 @@ def test_a_file_that_cannot_be_read_is_one_sentence(tmp_path):
     (tmp_path / "bad.md").write_bytes(b"\xff\xfe---")
     with pytest.raises(P2SFError, match="cannot be read"):
         read_lesson(tmp_path / "bad.md")
+
+
+def test_a_bad_file_costs_only_itself_and_an_own_one_takes_the_place_of_a_shipped_one(tmp_path):
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "02_diffraction.md").write_text(GOOD, encoding="utf-8")
+    (mine / "99_bad.md").write_text("no lesson", encoding="utf-8")
+    found, faults = found_lessons((FOLDER, mine, tmp_path / "nowhere"))
+    assert list(found) == [lesson.name for lesson in LESSONS]
+    assert found["02_diffraction"].title == "One"
+    assert len(faults) == 1 and "99_bad.md, line 1" in faults[0]
 
 
 def test_a_claim_compares_states_and_knows_when_it_fails():

@@ -116,6 +116,15 @@ def test_a_state_that_names_an_unknown_lesson_opens_without_one(window, teaching
     assert shown(teaching.panel.title) == FIRST.steps[-1].title
 
 
+def test_a_bad_lesson_is_one_sentence_in_the_banner_and_the_others_stay(window, qtbot, monkeypatch, tmp_path):
+    (tmp_path / "99_bad.md").write_text("no lesson", encoding="utf-8")
+    monkeypatch.setattr("app.teaching.own_folder", lambda: tmp_path)
+    made = Teaching(window)
+    assert len(made.lessons()) == len(shipped_lessons())
+    qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text(), timeout=2000)
+    window.banner.hide()
+
+
 def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, teaching, own_memory):
     teaching.offer_once()
     offer = teaching.offer
