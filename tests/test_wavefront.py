@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from p2sf.quadrature import disc_nodes
-from p2sf.wavefront import coma_tilt, pv, rms, steepest_chords, steepest_polar, steepest_slope, wavefront
+from p2sf.wavefront import bound_of, coma_tilt, pv, rms, steepest_chords, steepest_polar, steepest_slope, wavefront
 from tests.waves import waves
 
 RANDOM = waves(*np.random.default_rng(1).normal(size=(6, 200)))
@@ -80,6 +80,19 @@ def test_peak_to_valley_of_single_terms():
     assert float(pv(waves(w31=2.0), tilt_removed=False)) == pytest.approx(4)
     # ρ³ − 2ρ/3 is 1/3 at the rim and −(2/3)(2/9)^½·(2/3)… inside: the rim wins.
     assert float(pv(waves(w31=2.0))) == pytest.approx(4 / 3, rel=0.01)
+
+
+def test_a_stack_has_the_peak_to_valley_of_each_member():
+    stack = [0.3, -1.2, 2.0], [0.5, 0.1, -0.7], [0.0, 1.0, 0.4]
+    together = pv(waves(*(np.array(column) for column in stack)))
+    alone = [float(pv(waves(*six))) for six in zip(*stack, strict=True)]
+    np.testing.assert_allclose(together, alone, rtol=1e-14)
+
+
+def test_the_quick_bound_is_above_every_slope_and_exact_for_single_terms():
+    shape = np.stack([RANDOM.w40, RANDOM.w31, RANDOM.w22, RANDOM.w20 + RANDOM.wd], -1)
+    assert (bound_of(shape) >= steepest_slope(RANDOM)).all()
+    np.testing.assert_allclose(bound_of(-np.eye(4)), [4, 3, 2, 2], rtol=1e-15)
 
 
 def test_chord_slopes_are_never_below_those_of_a_dense_search():
