@@ -12,6 +12,7 @@ from app.lens_chooser import LensChooser
 from app.limits import CHOICES
 from app.readout import Readout
 from app.scales import signed
+from app.speech import spoken
 from app.store import Store
 from app.theme import DARK, LIGHT, Tokens
 from app.words import tr
@@ -151,7 +152,7 @@ class StatusLine(QWidget):
         text = "   ".join(f"⚠ {sentence}" for sentence in live.warnings)
         if self.warning.text() != text:
             self.warning.set_text(text)
-            self.warning.setToolTip("\n".join(live.warnings))
+            self.warning.setToolTip(tr("\n".join(live.warnings)))
         self.facts.set_text(facts(live, frame_ms))
 
     def say(self, text: str) -> None:
@@ -193,5 +194,5 @@ class Banner(QFrame):
 
     def say(self, sentence: str) -> None:
         """Show a sentence."""
-        self.text.setText(sentence[0].upper() + sentence[1:])
+        self.text.setText(tr(spoken(sentence)))
         self.show()

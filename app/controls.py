@@ -1,12 +1,20 @@
 """The column of controls: one row per quantity, each a name, an editable number, a slider."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from app.compute import Live
 from app.facts import rows
 from app.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
-from app.readout import FactTable, Readout
+from app.readout import FactTable, Readout, scrolled
 from app.scales import Vergence, short_distance, signed
 from app.setting import Ranges, default_state, prescription, ranges
 from app.slider import STEPS, Slider
@@ -215,8 +223,7 @@ class Controls(QWidget):
         column.addSpacing(4)
         column.addWidget(self.sentence)
         column.addWidget(self.detail)
-        column.addStretch(1)
-        column.addWidget(self.facts)
+        column.addWidget(scrolled(self.facts), 1)
 
     def show_state(self, state) -> None:
         """Follow a state."""
@@ -231,8 +238,8 @@ class Controls(QWidget):
         image = float(live.setting.coefficients.image_height)
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
-        self.sentence.setText(live.dominant)
-        self.detail.setText(live.why)
+        self.sentence.setText(tr(live.dominant))
+        self.detail.setText(tr(live.why))
         self.facts.show_rows(rows(live))
 
     def restyle(self, theme: Tokens) -> None:

@@ -14,6 +14,7 @@ from p2sf.source import Source
 
 PROFILE_POINTS = 33
 GLASS_INDEX = 1.0001  # less than this is air
+FLANGE = 1.1  # how much wider than its neighbour's edge a cemented element is drawn
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,34 @@ def clear_rims(lens: Lens) -> tuple[float, ...]:
     rims = [
         s.semi_diameter if isfinite(s.semi_diameter) else 1.05 * n for s, n in zip(lens.surfaces, needed, strict=True)
     ]
-    return tuple(float(_inside_surface(s, r)) for s, r in zip(lens.surfaces, rims, strict=True))
+    held = [float(_inside_surface(s, r)) for s, r in zip(lens.surfaces, rims, strict=True)]
+    return tuple(with_edges(lens, held))
+
+
+def with_edges(lens: Lens, rims: list[float]) -> list[float]:
+    """Return the rims, lower where an element would have no edge left; what is cemented to it is lowered with it."""
+    index = indices(lens, lens.reference_wavelength_um)[1:-1]
+    elements = [at for at, n in enumerate(index) if n > GLASS_INDEX]
+    held = list(rims)
+    for at in elements:
+        edge = sharp_edge(*lens.surfaces[at : at + 2], max(held[at : at + 2]))
+        held[at : at + 2] = (min(rim, edge) for rim in held[at : at + 2])
+    for at in (*elements, *elements[::-1]):
+        for low, other in ((at, at + 1), (at + 1, at)):
+            if held[low] < rims[low]:
+                held[other] = min(held[other], FLANGE * held[low])
+    return held
+
+
+def sharp_edge(front: Surface, back: Surface, rim: float) -> float:
+    """Return the height where an element of stated rims would have no thickness left; the rim if it has some there.
+
+    A file may state rims that no glass could have; drawn as they are, its surfaces would cross.
+    """
+    y = np.linspace(0.0, rim, 4 * PROFILE_POINTS)
+    reach = [np.minimum(y, _inside_surface(surface, rim)) for surface in (front, back)]
+    gone = np.flatnonzero(front.thickness + sag(back, reach[1]) - sag(front, reach[0]) < 0)
+    return float(y[gone[0]]) if gone.size else rim
 
 
 def _inside_surface(surface: Surface, rim: float) -> float:

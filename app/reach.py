@@ -3,12 +3,18 @@
 from functools import lru_cache
 from math import inf, isfinite
 
+import numpy as np
+
 from app.scales import nice
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.gaussian import basis_rays, cardinal_points
 from p2sf.lens import Lens
+from p2sf.seidel import coefficients
+from p2sf.wavefront import steepest_slope
 
 VISIBLE_NM = (400.0, 700.0)
+SHARES = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+TELLING_WAVES = 60.0  # of slope: a steeper wavefront is a blur of rays, and says nothing of waves
 AS_GOOD_AS_INFINITE_MM = 1e6  # a file's six digits cannot tell a focus at a kilometre from one at infinity
 
 
@@ -55,3 +61,18 @@ def wavelength_range(lens: Lens) -> tuple[float, float]:
 def _table_range(medium) -> tuple[float, float] | None:
     known = getattr(medium, "wavelengths_um", None)
     return (known[0], known[-1]) if known else None
+
+
+def telling_field(lens: Lens, depth_mm: float) -> float:
+    """Return a field in degrees with something to say: the file's middle one; near by, the share that still has waves.
+
+    A relay's file may state fields for infinity that at its own depth are objects wider than its glass.
+    """
+    fields = sorted(abs(angle) for angle in lens.fields_deg)
+    middle = fields[len(fields) // 2] or fields[-1]
+    if not isfinite(depth_mm):
+        return middle
+    slopes = slope_from_degrees(middle * np.array(SHARES))
+    steep = steepest_slope(coefficients(lens, depth_mm, slopes, lens.reference_wavelength_um))
+    good = np.flatnonzero(steep <= TELLING_WAVES)
+    return middle * SHARES[good[0]] if good.size else middle

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter
-from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
+from PySide6.QtWidgets import QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
 
 from app.ink import set_text, small_font, write
 from app.theme import LIGHT, Tokens
@@ -21,15 +21,16 @@ class Readout(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self._pill, self._colour, self._align = pill, colour, align
-        self._text, self._theme = "", LIGHT
+        self._text, self._short, self._theme = "", "", LIGHT
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def text(self) -> str:
         """Return the text shown."""
         return self._text
 
-    def set_text(self, text: str, colour: str | None = None) -> None:
-        """Show a text, in the colour of another token if one is named."""
+    def set_text(self, text: str, colour: str | None = None, short: str = "") -> None:
+        """Show a text, in the colour of another token if one is named; ``short`` stands in where it does not fit."""
+        text, self._short = tr(text), tr(short)
         if (text, colour or self._colour) != (self._text, self._colour):
             self._text, self._colour = text, colour or self._colour
             self.setAccessibleName(text)
@@ -57,9 +58,10 @@ class Readout(QWidget):
 
     def _cut(self) -> str:
         room = self.width() - (2 * PAD if self._pill else 0)
-        if set_text(self._text, SIZE).size().width() <= room:
-            return self._text
-        return QFontMetricsF(small_font(SIZE)).elidedText(self._text, Qt.TextElideMode.ElideRight, room)
+        for text in filter(None, (self._text, self._short)):
+            if set_text(text, SIZE).size().width() <= room:
+                return text
+        return QFontMetricsF(small_font(SIZE)).elidedText(self._short or self._text, Qt.TextElideMode.ElideRight, room)
 
     def paintEvent(self, event) -> None:
         """Paint ground and text."""
@@ -126,3 +128,20 @@ class FactTable(QWidget):
             write(painter, line, tr(name), -1, SIZE)
             painter.setPen(QColor(self._theme.text))
             write(painter, line, value, 1, SIZE)
+
+
+def scrolled(table: FactTable) -> QScrollArea:
+    """Return a table at the foot of an area that scrolls where the room is short, so that no row is cut in two."""
+    body, area = QWidget(), QScrollArea()
+    column = QVBoxLayout(body)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.addStretch(1)
+    column.addWidget(table)
+    area.setWidgetResizable(True)
+    area.setFrameShape(QScrollArea.Shape.NoFrame)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setMinimumHeight(3 * round(FactTable.ROW))
+    area.setWidget(body)
+    for part in (area, area.viewport(), body):
+        part.setAutoFillBackground(False)
+    return area

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from app.reach import closest_distance, focused_distance, wavelength_range
+from app.reach import closest_distance, focused_distance, telling_field, wavelength_range
 from app.scales import nice
 from app.state import State
 from app.whatif import altered
@@ -186,10 +186,8 @@ def _defaults(state: State, lens: Lens) -> State:
     focused = focused_distance(lens)
     focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
     depth = inf if focused > 30 * focal or not isfinite(focal) else float(np.round(focused, 3))
-    fields = sorted(abs(angle) for angle in lens.fields_deg)
-    middle = fields[len(fields) // 2] or fields[-1]
     wavelength = lens.reference_wavelength_um * NM_PER_UM
-    return replace(state, depth_mm=depth, field_deg=middle, wavelength_nm=wavelength)
+    return replace(state, depth_mm=depth, field_deg=telling_field(lens, depth), wavelength_nm=wavelength)
 
 
 def with_lens(state: State, name: str, lens_text: str | None = None) -> State:

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from app.brightness import stretched
 from app.card import Card
@@ -15,9 +16,14 @@ from app.reference import Accuracy, Rung
 from app.scales import nice, written_r_squared
 from app.store import Store
 from app.theme import LIGHT, Tokens
+from app.words import tr
 
 TIP = "Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens)."
 DIFFERENCE_MAP = "CET-D1A"
+EMPTY = (
+    "When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the "
+    "difference, and what every method costs in time and error appear here."
+)
 SMALLEST_ERROR = 1e-9
 
 
@@ -41,11 +47,16 @@ class AccuracyPanel:
         self.message = Readout(self.widget, pill=True, colour="text")
         self.body = QWidget(self.widget)
         self.body.setVisible(False)
+        self.empty = QLabel(tr(EMPTY), self.widget)
+        self.empty.setObjectName("muted")
+        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.empty.setWordWrap(True)
         row = QHBoxLayout(self.body)
         row.setContentsMargins(0, 0, 0, 0)
         for part, share in ((self.reference, 4), (self.difference, 4), (self.ladder, 6)):
             row.addWidget(part, share)
         self.widget.set_body(self.body)
+        self.widget.set_body(self.empty)
         self.widget.add_footer(self.message)
         self.message.set_text("the reference is summed when the sliders rest", "muted")
         self._theme = LIGHT
@@ -67,6 +78,7 @@ class AccuracyPanel:
     def show_accuracy(self, accuracy: Accuracy, stale: bool) -> None:
         """Paint reference, difference and ladder."""
         self.body.setVisible(True)
+        self.empty.setVisible(False)
         psf, reference = accuracy.live.psf, accuracy.reference
         count, step = reference.values.shape[-1], reference.pixel_um
         start = -(count // 2 + 0.5) * step

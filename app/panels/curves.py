@@ -3,7 +3,7 @@
 import numpy as np
 
 from app.card import Card
-from app.chart import Chart
+from app.panels.pair import NotedChart
 from app.theme import Tokens
 from app.words import tr
 
@@ -13,7 +13,7 @@ class CurvesPanel:
 
     def __init__(self, title: str, tip: str, axes: tuple[str, str], curves: dict[str, tuple[str, int]]):
         self.widget = Card(title, tip)
-        self.chart = Chart(*axes)
+        self.chart = NotedChart(*axes)
         self.zero = self.chart.add_curve("line")
         self.curves = {name: self.chart.add_curve(token, width) for name, (token, width) in curves.items()}
         for name, curve in self.curves.items():

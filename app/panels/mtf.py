@@ -3,10 +3,12 @@
 from app.compute import Live
 from app.panels.curves import CurvesPanel
 from app.panels.differences import signed_range
-from app.scales import nice
+from app.panels.quantity_edit import MicronEdit
 from app.store import Store
+from p2sf.conventions import UM_PER_MM
 
 TIP = "MTF: contrast left of a sine pattern, |FT of the PSF|; grey: a perfect lens, (2/π)(acos ν − ν√(1−ν²))."
+PIXEL_TIP = "Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch)."
 LOOKS = {"perfect lens": ("muted", 1), "sagittal": ("marginal", 2), "tangential": ("chief", 2)}
 
 
@@ -15,12 +17,25 @@ class MtfPanel(CurvesPanel):
 
     def __init__(self, store: Store):
         super().__init__("MTF", TIP, ("cycles per mm on the sensor", "contrast"), LOOKS)
+        self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
+        self.widget.add_tool(self.pixel)
 
     def show(self, live: Live) -> None:
         """Paint the contrasts."""
         view = live.views["mtf"]
         curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
         self.show_curves(view.frequency_per_mm, curves)
-        last = nice(float(view.frequency_per_mm[-1]), (1, 1.5, 2, 3, 4, 5, 6, 8))
-        self.set_range((0.0, last), signed_range(live, curves, (0.0, 1.04)))
+        self.set_range((0.0, float(view.frequency_per_mm[-1])), signed_range(live, curves, (0.0, 1.04)))
+        self._mark(live.state.pixel_um)
         self.show_side(live.side)
+
+    def _mark(self, pixel_um: float) -> None:
+        """Mark the sensor's Nyquist frequency."""
+        self.pixel.show_value(pixel_um)
+        nyquist = nyquist_per_mm(pixel_um)
+        self.chart.show_notes(((nyquist, 0.95, f" Nyquist {nyquist:.3g}", "text", -1),), ((nyquist, "text"),))
+
+
+def nyquist_per_mm(pixel_um: float) -> float:
+    """Return the highest frequency that pixels of this pitch can tell, 1/(2 pitch), cycles per mm."""
+    return UM_PER_MM / (2 * pixel_um)

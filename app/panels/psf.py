@@ -14,6 +14,7 @@ from app.theme import Tokens
 
 PSF_MAP = BRIGHTNESS
 METHOD_WORDS = {"geometric": "geometric: ray density, no diffraction"}
+SHORT_WORDS = {"geometric": "ray density"}
 QUALITIES = ("preview", "settled")
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
 ARROW = np.array([[0.86, 0.86, 0.83, 0.86, 0.89], [0.74, 0.92, 0.84, 0.92, 0.84]])
@@ -85,20 +86,27 @@ class PsfPanel:
             self.badge.set_text(f"{live.side} · at most {largest} % of the higher peak", "text")
             return
         self._times[live.quality] = significant(1e3 * psf.seconds, 2)
-        times = " / ".join(f"{name} {self._times[name]}" for name in QUALITIES if name in self._times)
-        parts = [METHOD_WORDS.get(psf.method, psf.method), f"{times} ms"]
-        parts = [live.side, *parts] if live.side else parts
-        if live.setting.altered:
-            parts.insert(len(parts) - 2, "what-if")
-        elif r_squared is not None and psf.method != "geometric":
-            parts.append(f"R² {written_r_squared(r_squared)} vs Huygens")
-        self.badge.set_text(" · ".join(parts), "muted" if stale else "text")
-        self.badge.setToolTip(f"{psf.numbers} numbers, {psf.rays} rays; sampling: {psf.sampling}")
+        measured = None if live.setting.altered or psf.method == "geometric" else r_squared
+        whole, short = badge_words(
+            live, {name: self._times[name] for name in QUALITIES if name in self._times}, measured
+        )
+        self.badge.set_text(whole, "muted" if stale else "text", short)
+        self.badge.setToolTip(f"{whole}\n{psf.numbers} numbers, {psf.rays} rays; sampling: {psf.sampling}")
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.map.restyle(theme)
         self.badge.restyle(theme)
+
+
+def badge_words(live: Live, times: dict[str, str], r_squared: float | None) -> tuple[str, str]:
+    """Return the picture's birth certificate whole, and short where there is little room."""
+    before = tuple(filter(None, (live.side, "what-if" if live.setting.altered else "")))
+    accuracy = () if r_squared is None else (f"R² {written_r_squared(r_squared)}",)
+    method, named = live.psf.method, " / ".join(f"{name} {time}" for name, time in times.items())
+    whole = (*before, METHOD_WORDS.get(method, method), f"{named} ms", *(f"{words} vs Huygens" for words in accuracy))
+    short = (*before, SHORT_WORDS.get(method, method), f"{'/'.join(times.values())} ms", *accuracy)
+    return " · ".join(whole), " · ".join(short)
 
 
 UNIT_WORDS = {"peak": "peak = 1", "sum": "per pixel", "strehl": "Strehl"}

@@ -1,0 +1,111 @@
+"""Little room, odd lenses and refusals: what is shown stays whole, sensible and in the window's own words."""
+
+import numpy as np
+import pytest
+
+from app.compute import live
+from app.glass import clear_rims, glass_of, still
+from app.readout import Readout
+from app.setting import default_state, load, setting, shipped
+from app.speech import spoken
+from p2sf.errors import P2SFError
+from p2sf.request import Request
+
+
+@pytest.mark.parametrize(
+    ("said", "heard"),
+    [
+        ("--focus-mm is inf mm, but", "Focus distance is ∞, but"),
+        ("give --depth-mm as well", "Give Depth as well"),
+        ("depth is -5 mm; give 0.001 to inf mm", "Depth is −5 mm; give 0.001 to ∞"),
+        ("information from lens-1.toml, infinite", "Information from lens-1.toml, infinite"),
+        ("--sensor-shift-um is 3e-05 µm", "Sensor shift is 3e-05 µm"),
+    ],
+)
+def test_a_refusal_speaks_the_windows_words(said, heard):
+    assert spoken(said) == heard
+
+
+@pytest.mark.parametrize("wrong", [{"depth_mm": -1.0}, {"f_number": 0.0}, {"focus_mm": 0.0}, {"stop": "x"}])
+def test_no_option_of_the_command_line_is_left_in_a_sentence(wrong):
+    with pytest.raises(P2SFError) as refused:
+        Request(**wrong)
+    assert "--" in str(refused.value) and "--" not in spoken(str(refused.value))
+
+
+def test_the_banner_says_infinity_as_a_sign(window):
+    window.store.update(depth_mm=-3.0)
+    assert "∞" in window.banner.text.text() and "inf" not in window.banner.text.text()
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_every_lens_opens_at_a_field_of_its_file(name):
+    state = default_state(name)
+    assert 0 < state.field_deg <= max(map(abs, load(name).fields_deg))
+    assert state.depth_mm == np.inf or live(state, "preview").psf.method != "geometric"
+
+
+def test_the_relay_opens_with_an_object_its_glass_can_see(window):
+    state = default_state("relay")
+    assert abs(setting(state).object_height_mm) < 10
+    rims = clear_rims(still(load("relay")))
+    assert max(rims) < 25, "the file's 69 mm are more than its glass could have"
+    for outline in glass_of(still(load("relay"))).outlines:
+        half = len(outline.z) // 2
+        assert np.isfinite(outline.z).all() and outline.z[:half].mean() < outline.z[half:].mean()
+
+
+def test_no_other_lens_is_cut_by_its_edges():
+    for name in set(shipped()) - {"relay"}:
+        stated = [s.semi_diameter for s in load(name).surfaces]
+        drawn = clear_rims(still(load(name)))
+        assert all(d >= 0.9 * s or s == np.inf for d, s in zip(drawn, stated, strict=True)), name
+
+
+def test_a_badge_with_little_room_is_short_and_not_cut(qapp):
+    readout = Readout(pill=True)
+    readout.set_text(
+        "fitted · preview 7.1 / settled 77 ms · R² 0.9993 vs Huygens", short="fitted · 7.1/77 ms · R² 0.9993"
+    )
+    readout.resize(600, 20)
+    assert readout._cut() == readout.text()
+    readout.resize(220, 20)
+    assert readout._cut() == "fitted · 7.1/77 ms · R² 0.9993"
+    readout.resize(60, 20)
+    assert readout._cut().endswith("…")
+
+
+def test_no_fact_is_cut_where_the_banner_takes_room(window, qtbot):
+    window.resize(1280, 800)
+    window.store.update(depth_mm=-3.0)
+    facts = window.controls.facts
+    area = facts.parentWidget().parentWidget().parentWidget()
+    qtbot.waitUntil(lambda: facts.height() == round(facts.ROW * len(facts._rows)))
+    bar = area.verticalScrollBar()
+    qtbot.waitUntil(lambda: bar.maximum() == 0 or bar.isVisible())
+    window.resize(1440, 900)
+
+
+def test_the_contrast_fills_its_axis_and_marks_the_sensors_nyquist(window):
+    window.store.update(tab="mtf", pixel_um=5.0, f_number=8.0)
+    panel = window.panels["mtf"]
+    (low, high), _ = panel.chart.ranges()
+    assert (low, high) == (0.0, panel.curves["tangential"].data()[0][-1])
+    assert panel.chart.uprights == ((100.0, "text"),)  # 1/(2·5 µm)
+
+
+def test_the_spot_stands_in_a_square_beside_its_figures(window):
+    window.store.update(tab="spot", field_deg=0.0)
+    panel = window.panels["spot"]
+    (left, right), (low, high) = panel.chart.ranges()
+    assert right - left < 2 * (high - low), "no empty width"
+    rows = {name: value for name, value, _ in panel.facts._rows}
+    assert rows["RMS in x"] == rows["RMS in y"], "round on the axis"
+    both = np.hypot(*(float(rows[name].split()[0]) for name in ("RMS in x", "RMS in y")))
+    assert both == pytest.approx(float(rows["RMS radius"].split()[0]), rel=1e-2)  # three digits each
+
+
+def test_accuracy_says_what_will_be_there(window):
+    window.open_panel("accuracy")
+    panel = window.panels["accuracy"]
+    assert panel.empty.isVisible() and "Huygens" in panel.empty.text()
