@@ -186,13 +186,13 @@ def count_words(made: Plan) -> str:
     return f"{text}, mirror images for nothing" if twins and once < rows * columns else text
 
 
-PLAIN = {
+PLAIN = {  # in the order they are told
+    "field": "Places",
+    "colour": "Colour",
+    "rung": "Method",
     "terms": "Phase",
     "sampling": "Sampling",
-    "field": "Places",
     "depth": "Depths",
-    "rung": "Method",
-    "colour": "Colour",
 }
 
 
@@ -205,12 +205,11 @@ def plan_words(made: Plan) -> tuple[tuple[str, str], ...]:
         found.setdefault((name, decision.choice, decision.why), []).append(decision.error)
     rows = [(name, f"{choice}: {why} (error {max(errors):.1g})") for (name, choice, why), errors in found.items()]
     order = list(PLAIN.values())
-    order = [order[2], order[5], order[4], order[0], order[1], order[3]]
     rows.sort(key=lambda row: order.index(row[0].split(" ")[0]))
     verdict = "keeps" if made.meets else "does not keep"
     saved = made.naive.kernel_seconds / made.cost.kernel_seconds
     promise = (
-        f"{made.predicted_error:.2g} relative, {verdict} {TOLERANCE:g}; every PSF would cost {saved:.0f} times that."
+        f"{made.predicted_error:.2g} relative, {verdict} {TOLERANCE:g}; the full grid takes {saved:.0f} times as long"
     )
     return (("Error", promise), *rows)
 

@@ -159,6 +159,16 @@ def test_the_panel_shows_the_split_picture_and_marks_an_earlier_one(window, pane
     assert not panel._stale()
 
 
+def test_what_is_painted_is_the_scene_left_of_the_split_and_the_image_right_of_it(window, panel):
+    wipe = panel.wipe
+    before, after = np.full((20, 30), 0xFF204060, np.uint32), np.full((20, 30), 0xFFA08060, np.uint32)
+    wipe.show_pictures(before, after, ("", ""))
+    painted, area, x = wipe.grab().toImage(), wipe.area(), wipe.split_x()
+    y = int(area.bottom()) - 12  # below the loupe
+    assert painted.pixel(int(x) - 30, y) == 0xFF204060 and painted.pixel(int(x) + 30, y) == 0xFFA08060
+    panel._paint()
+
+
 def test_dragging_the_split_is_one_undo_and_hovering_moves_the_loupe(window, panel, qtbot):
     wipe, first = panel.wipe, window.store.state
     area = wipe.area()
