@@ -16,7 +16,7 @@ class Store(QObject):
     """Holds the present State; ``changed`` tells of every new one.
 
     ``refused`` carries a sentence on what cannot be, ``said`` one on what was done; ``stepped`` comes before
-    a step is taken back or again.
+    a step is taken back or again; ``pointed`` tells of the surface (from 1) under the pointer, 0 for none.
     A drag is one step of undo: what happens between ``begin`` and ``end`` is undone together.
     """
 
@@ -24,11 +24,19 @@ class Store(QObject):
     refused = Signal(str)
     said = Signal(str)
     stepped = Signal()
+    pointed = Signal(int)
 
     def __init__(self, state: State, parent: QObject | None = None):
         super().__init__(parent)
         self._states, self._at = [state], 0
         self._before_drag: State | None = None
+        self._pointed_at = 0
+
+    def point_at(self, surface: int) -> None:
+        """Tell that the pointer is at a surface (from 1), 0 for none; no part of the state, nothing to undo."""
+        if surface != self._pointed_at:
+            self._pointed_at = surface
+            self.pointed.emit(surface)
 
     @property
     def state(self) -> State:

@@ -14,6 +14,7 @@ from app.ink import polygon
 from app.layout import Drawing, Outline
 from app.panels.marks import paint_marks
 from app.panels.source import SourceHandle
+from app.panels.surfacelight import SurfaceLight
 from app.scales import nice
 from app.store import Store
 from app.theme import Tokens
@@ -55,6 +56,7 @@ class LayoutChart(Chart):
         super().__init__(aspect=True, framed=False)
         self.rays = {kind: self.add_curve(*look) for kind, look in KINDS.items()}
         self.handle = SourceHandle(store)
+        self.light = SurfaceLight(store, self)
         self.live: Live | None = None
         self._drawn: tuple[Drawing, float] | None = None
         self.setMouseTracking(True)
@@ -125,6 +127,7 @@ class LayoutChart(Chart):
     def paint_over(self, painter: QPainter) -> None:
         """Paint marks, names and the source."""
         if self.live:
+            self.light.paint(painter, self.live.setting.lens)
             self._paint_bars(painter)
             paint_marks(painter, self, self.live.layout)
             self.handle.paint(painter, self)
@@ -151,8 +154,14 @@ class LayoutChart(Chart):
     def mouseMoveEvent(self, event) -> None:
         """Move the source while held; show that it can be held."""
         self.handle.move(self, event.position())
+        if self.live:
+            self.light.point(self.live.setting.lens, event.position())
         over = self.live and self.handle.near(self, event.position())
         self.setCursor(Qt.CursorShape.SizeAllCursor if over else Qt.CursorShape.ArrowCursor)
+
+    def leaveEvent(self, event) -> None:
+        """Point at nothing any more."""
+        self.light.leave()
 
     def mouseReleaseEvent(self, event) -> None:
         """Let go of the source."""

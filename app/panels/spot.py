@@ -31,6 +31,10 @@ class SpotChart(Chart):
         self.points = points
         self.update()
 
+    def rows_of_data(self) -> list[list]:
+        """Return the points as rows: x and y in µm."""
+        return [[*self.labels], *([f"{x:.9g}", f"{y:.9g}"] for x, y in self.points)] if len(self.points) else []
+
     def resizeEvent(self, event) -> None:
         """Keep the room about square."""
         self.setMaximumWidth(max(200, event.size().height() + SIDE))
