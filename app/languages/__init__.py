@@ -25,7 +25,9 @@ class Spoken(QTranslator):
     def __init__(self, code: str, parent=None):
         super().__init__(parent)
         self.code, self.texts = code, texts(code)
-        self.templates = tuple(template(*pair) for pair in self.texts.items() if "{" in pair[0])
+        # The more of a template is fixed, the sooner it is tried: "{count} wavelengths" fits the end of much.
+        braced = sorted((source for source in self.texts if "{" in source), key=lambda s: -len(BRACES.sub("", s)))
+        self.templates = tuple(template(source, self.texts[source]) for source in braced)
 
     def translate(self, context, source, disambiguation=None, n=-1) -> str:
         """Return one of our texts in the language, as it is where the language has nothing; nothing for Qt's own."""
@@ -33,6 +35,9 @@ class Spoken(QTranslator):
 
     def said(self, source: str) -> str:
         """Return a text in the language: as it stands there, or by the first template it fits, else piece by piece."""
+        bare = source.strip(" ")
+        if bare != source:
+            return source.replace(bare, self.said(bare), 1) if bare else source
         found = self.texts.get(source)
         if found is None and WORD.search(source):
             found = self._by_template(source)
@@ -57,10 +62,10 @@ class Spoken(QTranslator):
 def template(source: str, said: str):
     """Return what tells whether a text fits a source with braces, and the translation, its braces numbered alike."""
     names = BRACES.findall(source)
-    form = "".join("(.+?)" if part in names else re.escape(part) for part in re.split(r"(\{\w*\})", source))
+    form = "".join("((?:(?! · |\n).)+?)" if part in names else re.escape(part) for part in re.split(r"(\{\w*\})", source))
     for number, name in enumerate(names):
         said = said.replace(name, f"{{{number}}}", 1)
-    return re.compile(form, re.DOTALL).fullmatch, said
+    return re.compile(form).fullmatch, said
 
 
 def texts(code: str) -> dict[str, str]:

@@ -32,7 +32,7 @@
 <message><source>Astigmatism, 2 λ, sagittal focus</source><translation>Astigmatismus, 2 λ, sagittaler Fokus</translation></message>
 <message><source>Astigmatism, 2 λ, tangential focus</source><translation>Astigmatismus, 2 λ, tangentialer Fokus</translation></message>
 <message><source>Atlas of PSFs over depth and field</source><translation>Atlas der PSFs über Abstand und Feld</translation></message>
-<message><source>Autofocus: best RMS wavefront</source><translation>Autofokus: kleinster RMS der Wellenfront</translation></message>
+<message><source>Autofocus: best RMS wavefront</source><translation>Autofokus: kleinster RMS von W</translation></message>
 <message><source>B</source><translation>B</translation></message>
 <message><source>Back</source><translation>Zurück</translation></message>
 <message><source>Back focus F′</source><translation>Bildseitiger Brennpunkt F′</translation></message>
@@ -50,7 +50,7 @@
 <message><source>Cividis</source><translation>Cividis</translation></message>
 <message><source>Clear rim, mm; ∞ is unlimited. On the stop it is the aperture.</source><translation>Freier Rand, mm; ∞ ist unbegrenzt. An der Blende ist er die Öffnung.</translation></message>
 <message><source>Click or press Enter to make this surface the stop; the f-number stays.</source><translation>Klicken oder Enter macht diese Fläche zur Blende; die Blendenzahl bleibt.</translation></message>
-<message><source>Clip at rims</source><translation>Ränder blenden ab</translation></message>
+<message><source>Clip at rims</source><translation>Abblenden</translation></message>
 <message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Abblenden: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
 <message><source>Close</source><translation>Schließen</translation></message>
 <message><source>Close the window</source><translation>Fenster schließen</translation></message>
@@ -125,9 +125,9 @@
 <message><source>First-order data: everything that follows from paraxial rays alone; hover over a row for its definition.</source><translation>Daten erster Ordnung: alles, was allein aus paraxialen Strahlen folgt; über einer Zeile steht ihre Definition.</translation></message>
 <message><source>Focal length f′</source><translation>Brennweite f′</translation></message>
 <message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
-<message><source>Focus distance</source><translation>Einstellentfernung</translation></message>
+<message><source>Focus distance</source><translation>Entfernung</translation></message>
 <message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s.</source><translation>Einstellentfernung: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s.</translation></message>
-<message><source>Free pupil</source><translation>Freie Pupille</translation></message>
+<message><source>Free pupil</source><translation>Frei</translation></message>
 <message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
 <message><source>Front focus F</source><translation>Objektseitiger Brennpunkt F</translation></message>
 <message><source>Glass or index</source><translation>Glas oder Index</translation></message>
@@ -143,6 +143,7 @@
 <message><source>Import report: everything the reader of the lens file took, replaced, passed over or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
 <message><source>Inferno</source><translation>Inferno</translation></message>
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
+<message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
 <message><source>Lagrange invariant</source><translation>Lagrange-Invariante</translation></message>
 <message><source>Lagrange invariant H = {h} mm</source><translation>Lagrange-Invariante H = {h} mm</translation></message>
 <message><source>Landscape</source><translation>Landschaft</translation></message>
@@ -183,6 +184,7 @@
 <message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
 <message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
 <message><source>Numerical aperture</source><translation>Numerische Apertur</translation></message>
+<message><source>Nyquist {f}</source><translation>Nyquist {f}</translation></message>
 <message><source>OPD fan</source><translation>OPD-Fächer</translation></message>
 <message><source>OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included.</source><translation>OPD-Fächer: (optischer Weg des Hauptstrahls − des Strahls)/λ für exakte Strahlen, mit Kippung.</translation></message>
 <message><source>OPD, waves</source><translation>OPD, Wellen</translation></message>
@@ -199,6 +201,7 @@
 <message><source>PSF data or window…</source><translation>PSF-Daten oder Fenster …</translation></message>
 <message><source>PSF over the field</source><translation>PSF über das Feld</translation></message>
 <message><source>PSF profiles</source><translation>PSF-Profile</translation></message>
+<message><source>PSF × {psf} wide, height: {scale}</source><translation>PSF × {psf} breit, Höhe: {scale}</translation></message>
 <message><source>PSFs, {wide} µm wide, √ of peak = 1</source><translation>PSFs, {wide} µm breit, √ mit Spitze = 1</translation></message>
 <message><source>Panel</source><translation>Feld</translation></message>
 <message><source>Panels of the group {group} (Alt+{number})</source><translation>Felder der Gruppe {group} (Alt+{number})</translation></message>
@@ -245,6 +248,8 @@
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
 <message><source>RMS radius {r} µm</source><translation>RMS-Radius {r} µm</translation></message>
+<message><source>RMS {r} λ</source><translation>RMS {r} λ</translation></message>
+<message><source>RMS {r} λ · PV {p} λ</source><translation>RMS {r} λ · PV {p} λ</translation></message>
 <message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
 <message><source>Radius, mm</source><translation>Radius, mm</translation></message>
 <message><source>Ray fan</source><translation>Strahlfächer</translation></message>
@@ -256,7 +261,7 @@
 <message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
 <message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
-<message><source>Reset</source><translation>Zurücksetzen</translation></message>
+<message><source>Reset</source><translation>Zurück</translation></message>
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
 <message><source>Rims clip {lost} of {all} rays, and fitted describes the whole pupil; choose traced or huygens, or leave clip off</source><translation>Ränder nehmen {lost} von {all} Strahlen weg, und fitted beschreibt die ganze Pupille; traced oder huygens wählen oder das Abblenden auslassen</translation></message>
@@ -284,6 +289,7 @@
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
 <message><source>Save…</source><translation>Speichern …</translation></message>
 <message><source>Seidel contributions: what each surface adds to a coefficient, in waves; large ones of opposite sign cancel.</source><translation>Seidel-Beiträge: was jede Fläche zu einem Koeffizienten beiträgt, in Wellen; große mit entgegengesetztem Vorzeichen heben sich auf.</translation></message>
+<message><source>Seidel contributions: what each surface adds to a coefficient, in waves; large ones of opposite sign cancel. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel-Beiträge: was jede Fläche zu einem Koeffizienten beiträgt, in Wellen; große mit entgegengesetztem Vorzeichen heben sich auf. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
 <message><source>Semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
 <message><source>Sensor</source><translation>Sensor</translation></message>
@@ -357,6 +363,7 @@
 <message><source>Units of the colour bar</source><translation>Einheit der Farbskala</translation></message>
 <message><source>Unpin</source><translation>B lösen</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
+<message><source>W × {front} along the rays</source><translation>W × {front} längs der Strahlen</translation></message>
 <message><source>W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm</source><translation>W × {front} längs der Strahlen · PSF × {psf} breit, Höhe: {scale} · {wavelength} nm</translation></message>
 <message><source>W, waves</source><translation>W, Wellen</translation></message>
 <message><source>W11 added</source><translation>W11 hinzu</translation></message>
@@ -400,6 +407,7 @@
 <message><source>a sharp core in a wide halo</source><translation>ein scharfer Kern in weitem Hof</translation></message>
 <message><source>air</source><translation>Luft</translation></message>
 <message><source>all panels</source><translation>alle Felder</translation></message>
+<message><source>all, stacked</source><translation>alle, gestapelt</translation></message>
 <message><source>along x</source><translation>längs x</translation></message>
 <message><source>along y</source><translation>längs y</translation></message>
 <message><source>as in the file</source><translation>wie in der Datei</translation></message>
@@ -456,10 +464,12 @@
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
 <message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
+<message><source>hyperfocal distance {focus}</source><translation>hyperfokale Entfernung {focus}</translation></message>
 <message><source>image</source><translation>Bild</translation></message>
 <message><source>image height {h} mm</source><translation>Bildhöhe {h} mm</translation></message>
 <message><source>image {h} mm</source><translation>Bild {h} mm</translation></message>
 <message><source>in</source><translation>in</translation></message>
+<message><source>infinity</source><translation>unendlich</translation></message>
 <message><source>landing point, µm</source><translation>Landepunkt, µm</translation></message>
 <message><source>largest error in {name}: exact {error} λ</source><translation>größter Fehler in {name}: exakt {error} λ</translation></message>
 <message><source>lateral colour {shift} µm</source><translation>Farbquerfehler {shift} µm</translation></message>
@@ -515,6 +525,7 @@
 <message><source>sensor shift, µm</source><translation>Sensorversatz, µm</translation></message>
 <message><source>settled {ms} ms</source><translation>ruhend {ms} ms</translation></message>
 <message><source>share of the peak</source><translation>Anteil an der Spitze</translation></message>
+<message><source>sharp from {near} to {far}</source><translation>scharf von {near} bis {far}</translation></message>
 <message><source>sharp from {near} to {far} · hyperfocal distance {focus}</source><translation>scharf von {near} bis {far} · hyperfokale Entfernung {focus}</translation></message>
 <message><source>sharpened by its PSFs</source><translation>mit seinen PSFs geschärft</translation></message>
 <message><source>six coefficients</source><translation>sechs Koeffizienten</translation></message>
@@ -523,9 +534,12 @@
 <message><source>square root</source><translation>Wurzel</translation></message>
 <message><source>square root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
 <message><source>step {k} of {n}</source><translation>Schritt {k} von {n}</translation></message>
+<message><source>stop</source><translation>Blende</translation></message>
 <message><source>stop ▪</source><translation>Blende ▪</translation></message>
 <message><source>stop, sensor</source><translation>Blende, Sensor</translation></message>
+<message><source>sum</source><translation>Summe</translation></message>
 <message><source>sum = 1</source><translation>Summe = 1</translation></message>
+<message><source>sum {sum} λ</source><translation>Summe {sum} λ</translation></message>
 <message><source>sum {waves} λ</source><translation>Summe {waves} λ</translation></message>
 <message><source>summing the reference: {part} %</source><translation>die Referenz wird summiert: {part} %</translation></message>
 <message><source>surface</source><translation>Fläche</translation></message>
@@ -580,6 +594,10 @@
 <message><source>{depth}, field {field}°, {wavelength} nm</source><translation>{depth}, Feld {field}°, {wavelength} nm</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
+<message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
+<message><source>{number} stop</source><translation>{number} Blende</translation></message>
+<message><source>{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes, float32</source><translation>{rows} × {columns} Gauß–Tschebyschow- × Gauß–Legendre-Knoten, float32</translation></message>
+<message><source>{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes, float64</source><translation>{rows} × {columns} Gauß–Tschebyschow- × Gauß–Legendre-Knoten, float64</translation></message>
 <message><source>{step}: pixels of {pitch} µm average finer fringes; the window has a margin of {margin} (error {error})</source><translation>{step}: Pixel zu {pitch} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin} (Fehler {error})</translation></message>
 <message><source>±{half} µm hidden</source><translation>±{half} µm verborgen</translation></message>
 <message><source>η, towards the field</source><translation>η, zum Feld hin</translation></message>

@@ -11,6 +11,7 @@ from app.readout import Readout
 from app.scales import significant, written_r_squared
 from app.store import Store
 from app.theme import Tokens
+from app.words import tr
 
 PSF_MAP = BRIGHTNESS
 METHOD_WORDS = {"geometric": "geometric: ray density, no diffraction"}
@@ -91,7 +92,7 @@ class PsfPanel:
             live, {name: self._times[name] for name in QUALITIES if name in self._times}, measured
         )
         self.badge.set_text(whole, "muted" if stale else "text", short)
-        self.badge.setToolTip(f"{whole}\n{psf.numbers} numbers, {psf.rays} rays; sampling: {psf.sampling}")
+        self.badge.setToolTip(tr(f"{whole}\n{psf.numbers} numbers, {psf.rays} rays; sampling: {psf.sampling}"))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -1,0 +1,158 @@
+"""German is complete: nothing the window shows is missing or passes it by, and every label fits."""
+
+import ast
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QTabWidget, QWidget
+
+from app import languages
+from app.languages import FOLDER, JOINTS, Spoken, speak, spoken, template, texts
+from app.panels import REGISTRY
+from app.speaking import Speaking
+from app.state import State
+from app.window import Window
+from app.words import tr
+
+ROOT = Path(__file__).parents[2]
+LETTERS = re.compile(r"[^\W\d_]{3}")
+GERMAN = texts("de")
+MADE = [template(said, source)[0] for source, said in GERMAN.items() if "{" in said]
+# What a lens, a glass, a key or a unit is called is not translated.
+NAMES = re.compile(r"SCHOTT|OHARA|N-[A-Z]+\d+|P2SF|Ctrl\+|Alt\+|\d[\d.,]* (nm|mm|µm|ms)|f/\d")
+
+
+def test_every_text_has_a_translation_with_the_same_braces():
+    found = ElementTree.parse(FOLDER / "de.ts").findall(".//message")
+    sources = [message.findtext("source") for message in found]
+    assert len(sources) == len(set(sources)) > 500
+    for message in found:
+        source, said = message.findtext("source"), message.findtext("translation")
+        assert said and said.strip(), source
+        assert sorted(re.findall(r"{\w*}", source)) == sorted(re.findall(r"{\w*}", said)), source
+
+
+def written() -> set[str]:
+    """Return every text that stands in a call of `tr` in the source."""
+    found = set()
+    for path in (ROOT / "app").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "tr" and node.args:
+                parts = ast.walk(node.args[0]) if not isinstance(node.args[0], ast.JoinedStr) else ()
+                found |= {
+                    part.value for part in parts if isinstance(part, ast.Constant) and isinstance(part.value, str)
+                }
+    return found
+
+
+def test_no_text_in_the_source_is_missing():
+    missing = sorted(text for text in written() if LETTERS.search(text) and text not in GERMAN)
+    assert not missing, "\n".join(missing)
+
+
+class Listening(Spoken):
+    """Speaks, and notes what it could not say and what it said."""
+
+    missing: set[str]
+    spoken: set[str]
+
+    def said(self, source: str) -> str:
+        found = super().said(source)
+        self.__dict__.setdefault("heard", set()).add(found)
+        if found == source and len(JOINTS.split(source)) == 1 and LETTERS.search(source) and not is_german(source):
+            self.__dict__.setdefault("missed", set()).add(source)
+        return found
+
+
+def is_german(text: str) -> bool:
+    return text in GERMAN.values() or NAMES.search(text) is not None or any(form(text) for form in MADE)
+
+
+@pytest.fixture(scope="module")
+def german(only_window):
+    """Return a German window, every panel of which was opened, and its translator."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(languages, "Spoken", Listening)
+        speak("de")
+        made = Window(State(method="seidel", theme="light", language="de", f_number=8.0), measured=False)
+        made.resize(1440, 900)
+        made.show()
+        for entry in REGISTRY:
+            if entry.place != "main":
+                made.open_panel(entry.key)
+                made.grab()
+        yield made, QApplication.instance().findChild(Listening)
+        made.close()
+        speak("en")
+
+
+def test_nothing_shown_is_missing(german):
+    _, translator = german
+    missed = sorted(text for text in translator.missed if not is_german(text.strip()))
+    assert not missed, "\n".join(missed)
+
+
+def shown(window) -> set[str]:
+    """Return the text of everything in a window that has one."""
+    found = set()
+    for widget in [window, *window.findChildren(QWidget)]:
+        found |= {widget.toolTip(), widget.accessibleName()}
+        if isinstance(widget, QAbstractButton | QLabel):
+            found.add(widget.text())
+        if isinstance(widget, QTabWidget):
+            found |= {widget.tabText(k) for k in range(widget.count())}
+        if isinstance(widget, QComboBox):
+            found |= {widget.itemText(k) for k in range(widget.count())}
+        found |= {action.text().split("\t")[0] for action in QWidget.actions(widget)}
+    return found
+
+
+def test_nothing_shown_passes_the_language_by(german):
+    window, translator = german
+    pieces = {piece.strip() for text in shown(window) for piece in JOINTS.split(text)[::2]}
+    passed = {p for p in pieces if LETTERS.search(p) and p not in translator.heard and not is_german(p)}
+    assert not passed, "\n".join(sorted(passed))
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1280, 800)])
+def test_every_label_and_button_fits(german, size):
+    window, _ = german
+    window.resize(*size)
+    QApplication.processEvents()
+    assert window.width() == size[0], "the words need more room than there is"
+    parts = [w for w in window.findChildren(QAbstractButton) + window.findChildren(QLabel) if w.isVisible()]
+    cut = {
+        part.text()
+        for part in parts
+        if part.width() < part.minimumSizeHint().width() and part.objectName() != "readout" and part.text()
+    }
+    assert len(parts) > 40 and cut == set()
+
+
+def test_english_needs_no_file_and_an_unknown_language_is_english(qapp):
+    assert languages.languages() == {"en": "English", "de": "Deutsch"}
+    assert languages.chosen("xx") == "en" and languages.chosen("de") == "de"
+
+
+def test_a_change_of_language_reopens_the_window_and_undo_brings_it_back(only_window, qtbot):
+    def made(state):
+        return Window(state, measured=False)
+
+    speaking = Speaking(State(method="seidel", language="en"), made)
+    try:
+        first = speaking.window
+        first.store.update(field_deg=7.0)
+        first.store.update(language="de")
+        speaking.reopen()
+        assert spoken() == "de" and tr("Undo") == "Rückgängig"
+        assert speaking.window is not first and speaking.window.top.undo.text() == "Rückgängig"
+        speaking.window.store.undo()
+        speaking.reopen()
+        assert spoken() == "en" and speaking.window.top.undo.text() == "Undo"
+        speaking.window.store.undo()
+        assert speaking.window.store.state.field_deg == 10.0
+    finally:
+        speak("en")
+        speaking.window.close()
