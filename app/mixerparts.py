@@ -20,7 +20,7 @@ SHORT = {
     "wd": "defocus",
     "w11": "distortion",
 }
-LEFT, NUMBER, BUTTON, GAP = 72.0, 60.0, 19.0, 4.0
+LEFT, NUMBER, BUTTON, GAP = 84.0, 60.0, 19.0, 4.0
 SCALE_HEIGHT = 18.0
 HANDLE = 5.0
 LETTERS = (("muted", "M", "warning"), ("solo", "S", "accent"))

@@ -11,7 +11,7 @@ import numpy as np
 import pyvista
 from pyvista import PolyData
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkLogger, vtkUnsignedCharArray
 
 from app.eye import Eye
 from app.plots import as_indices, lookup
@@ -39,6 +39,7 @@ class Stage:
     """Renders scenes; what keeps its triangles only moves, and only what changes is made anew."""
 
     def __init__(self, size: tuple[int, int]):
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # it tells of every kind of window it tries
         self._plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting="none")
         self._plotter.add_light(pyvista.Light(light_type="headlight"))
         self._plotter.camera.view_angle = VIEW_DEG

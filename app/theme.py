@@ -160,6 +160,9 @@ def _grounds(t: Tokens) -> str:
     QFrame#banner {{ background: {t.warning_back}; border: 1px solid {t.warning}; border-radius: 6px; }}
     QFrame#banner QLabel {{ color: {t.warning}; }}
     QCheckBox {{ border: 1px solid transparent; border-radius: 4px; padding: 1px 3px; }}
+    QCheckBox::indicator {{ width: 12px; height: 12px; background: {t.raised};
+        border: 1px solid {t.muted}; border-radius: 3px; }}
+    QCheckBox::indicator:checked {{ background: {t.accent}; border: 1px solid {t.accent}; }}
     QCheckBox:focus {{ border: 1px solid {t.accent}; }}
     QScrollBar:vertical {{ background: transparent; width: 10px; }}
     QScrollBar::handle:vertical {{ background: {t.line}; border-radius: 4px; min-height: 24px; }}

@@ -155,9 +155,9 @@
 <message><source>Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back.</source><translation>Objektiv: eine Zeile je Fläche in der Reihenfolge des Lichts; in eine Zelle tippen, Strg+Z nimmt es zurück.</translation></message>
 <message><source>Lens…</source><translation>Objektiv …</translation></message>
 <message><source>Lesson</source><translation>Lektion</translation></message>
-<message><source>Lessons</source><translation>Lektionen</translation></message>
+<message><source>Lessons</source><translation>Lernen</translation></message>
 <message><source>Lessons, from a point of light to a photograph: begin or leave (F2)</source><translation>Lektionen, vom Lichtpunkt zum Foto: beginnen oder verlassen (F2)</translation></message>
-<message><source>Lessons: begin or leave</source><translation>Lektionen: beginnen oder verlassen</translation></message>
+<message><source>Lessons: begin or leave</source><translation>Lernen: Lektionen beginnen oder verlassen</translation></message>
 <message><source>Light</source><translation>Hell</translation></message>
 <message><source>Light or dark</source><translation>Hell oder dunkel</translation></message>
 <message><source>Link</source><translation>Koppeln</translation></message>
@@ -256,7 +256,7 @@
 <message><source>Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil.</source><translation>Strahlfächer: wie weit vom Hauptstrahl ein exakter Strahl landet, über seinem Ort in der Pupille.</translation></message>
 <message><source>Rays</source><translation>Strahlen</translation></message>
 <message><source>Rear-stop landscape singlet</source><translation>Landschaftslinse mit hinterer Blende</translation></message>
-<message><source>Redo</source><translation>Wiederholen</translation></message>
+<message><source>Redo</source><translation>Vor</translation></message>
 <message><source>Relay of two achromats, stop between, upright pupil (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, aufrechte Pupille (synthetisch; nur endliche Objekte)</translation></message>
 <message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
@@ -308,7 +308,7 @@
 <message><source>Show the answer (Alt+Down)</source><translation>Antwort zeigen (Alt+Abwärts)</translation></message>
 <message><source>Siemens star</source><translation>Siemensstern</translation></message>
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
-<message><source>Snapshot</source><translation>Schnappschuss</translation></message>
+<message><source>Snapshot</source><translation>Sichern</translation></message>
 <message><source>Snapshot: PSF data or picture, with the state…</source><translation>Schnappschuss: PSF-Daten oder Bild, mit Zustand …</translation></message>
 <message><source>Spectrum</source><translation>Spektrum</translation></message>
 <message><source>Spherical, 1 λ, best focus</source><translation>Sphärisch, 1 λ, bester Fokus</translation></message>
@@ -359,7 +359,7 @@
 <message><source>Track</source><translation>Baulänge</translation></message>
 <message><source>Try</source><translation>Versuchen</translation></message>
 <message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
-<message><source>Undo</source><translation>Rückgängig</translation></message>
+<message><source>Undo</source><translation>Zurück</translation></message>
 <message><source>Units of the colour bar</source><translation>Einheit der Farbskala</translation></message>
 <message><source>Unpin</source><translation>B lösen</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
@@ -410,7 +410,7 @@
 <message><source>all, stacked</source><translation>alle, gestapelt</translation></message>
 <message><source>along x</source><translation>längs x</translation></message>
 <message><source>along y</source><translation>längs y</translation></message>
-<message><source>as in the file</source><translation>wie in der Datei</translation></message>
+<message><source>as in the file</source><translation>laut Datei</translation></message>
 <message><source>astigmatism</source><translation>Astigmatismus</translation></message>
 <message><source>at infinity</source><translation>im Unendlichen</translation></message>
 <message><source>at {wavelength} nm</source><translation>bei {wavelength} nm</translation></message>
@@ -430,6 +430,8 @@
 <message><source>circle: Airy {r} µm</source><translation>Kreis: Airy {r} µm</translation></message>
 <message><source>coarse</source><translation>grob</translation></message>
 <message><source>coma</source><translation>Koma</translation></message>
+<message><source>contour</source><translation>Höhenlinien</translation></message>
+<message><source>contours</source><translation>Höhenlinien</translation></message>
 <message><source>contrast</source><translation>Kontrast</translation></message>
 <message><source>corner {field}</source><translation>Ecke {field}</translation></message>
 <message><source>cycles per mm on the sensor</source><translation>Perioden je mm auf dem Sensor</translation></message>
