@@ -9,8 +9,7 @@ What makes it fast, in the order of gain:
 
   so all kernels are real and belong to a quarter of the pupil and a quarter of the picture.
 * **Rows.** Nodes of equal η share their kernel in y (`quadrature.RowNodes`): the sum is two small products.
-* **Sine and cosine of the reduced phase.** exp of a complex array costs ten times as much as float32 sin and
-  cos of a phase from which the whole waves are taken off first, in float64, so that float32 stays accurate.
+* **Sine and cosine of the reduced phase.** exp of a complex array costs ten times as much as `turns.cosine_sine`.
 * **Batches and kept kernels.** PSFs of one n'u'/λ share kernels and products.
 
 Nothing is written after it is cached, and work arrays belong to one call: any number of threads may render.
@@ -23,10 +22,10 @@ import numpy as np
 
 from p2sf.quadrature import RowNodes
 from p2sf.seidel import Coefficients
+from p2sf.turns import TURN, cosine_sine
 from p2sf.wavefront import shape_coefficients, spread
 
 BATCH = 10  # PSFs at a time: their 128² pupils of float32 just fit a second-level cache
-TURN = 2 * np.pi
 KERNEL_BYTES = 2**22  # most that one kernel may take; more rows than that are summed block by block
 
 
@@ -112,8 +111,8 @@ def folded_pupils(shape: np.ndarray, monomials: Monomials) -> np.ndarray:
     ``shape``: (batch, 4) of W40, W31, W22, W20 + Wd in waves.
     """
     weight = monomials.weight
-    radians = reduced_radians(shape @ monomials.phases, weight.dtype).reshape(len(shape), 2, *weight.shape)
-    cosines, sines = np.cos(radians), np.sin(radians, out=radians)
+    waves = (shape @ monomials.phases).reshape(len(shape), 2, *weight.shape)
+    cosines, sines = cosine_sine(waves, weight.dtype)
     cosine, sine = cosines[:, 0], sines[:, 0]
     pupil = np.empty((4, len(shape), *weight.shape), weight.dtype)
     for first, part in ((0, cosines[:, 1]), (2, sines[:, 1])):
@@ -121,14 +120,6 @@ def folded_pupils(shape: np.ndarray, monomials: Monomials) -> np.ndarray:
         np.multiply(cosine, part, out=pupil[first])
         np.multiply(sine, part, out=pupil[first + 1])
     return pupil
-
-
-def reduced_radians(cycles: np.ndarray, dtype) -> np.ndarray:
-    """Return the phase in radians without its whole turns; the ``cycles`` are used up."""
-    cycles -= np.rint(cycles)
-    radians = cycles.astype(dtype, copy=False)
-    radians *= TURN
-    return radians
 
 
 def _across(pupil: np.ndarray, across: np.ndarray) -> np.ndarray:

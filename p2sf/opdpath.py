@@ -10,7 +10,8 @@ import numpy as np
 
 from p2sf.conventions import protected
 from p2sf.errors import SamplingError
-from p2sf.fastpath import reduced_radians, unfolded
+from p2sf.fastpath import unfolded
+from p2sf.turns import cosine_sine
 
 
 def opd_intensity(opd_waves, area, cycles: float, pixels: int, dtype=np.float32) -> np.ndarray:
@@ -35,8 +36,7 @@ def opd_intensity(opd_waves, area, cycles: float, pixels: int, dtype=np.float32)
 
 def _pupil(opd, area, dtype):
     """Return real and imaginary part of area·exp(i2πW), stacked; whole waves are taken off in the array's precision."""
-    turn = reduced_radians(opd.astype(np.result_type(opd, np.float32)), dtype)
-    pupil = np.stack([np.cos(turn), np.sin(turn, out=turn)])
+    pupil = np.stack(cosine_sine(opd.astype(np.result_type(opd, np.float32)), dtype))
     pupil *= area.astype(dtype)
     return pupil
 

@@ -9,6 +9,7 @@ import numpy as np
 from p2sf.psf import Psf
 from p2sf.quadrature import nodes_for
 from p2sf.rayfit import Steepness
+from p2sf.turns import cosine_sine
 
 
 @dataclass(frozen=True)
@@ -25,11 +26,10 @@ class Made:
 
 def pupil_amplitude(weight, phase_waves, dtype=np.float64) -> np.ndarray:
     """Return weight·exp(2πi·phase), complex; whole waves are taken off first, so that float32 stays accurate."""
-    turn = (2 * np.pi * (phase_waves - np.rint(phase_waves))).astype(dtype)
-    amplitude = np.empty(turn.shape, np.result_type(dtype, np.complex64))
-    np.cos(turn, out=amplitude.real)
-    np.sin(turn, out=amplitude.imag)
-    amplitude *= weight.astype(dtype)
+    cosine, sine = cosine_sine(np.array(phase_waves, dtype=float), dtype)
+    amplitude, weight = np.empty(cosine.shape, np.result_type(dtype, np.complex64)), weight.astype(dtype)
+    np.multiply(cosine, weight, out=amplitude.real)
+    np.multiply(sine, weight, out=amplitude.imag)
     return amplitude
 
 

@@ -19,6 +19,7 @@ from p2sf.errors import SamplingError
 from p2sf.quadrature import chords_for, even_count, gauss_legendre
 from p2sf.rayfit import FittedPencil
 from p2sf.rendering import pupil_amplitude
+from p2sf.turns import cosine_sine
 from p2sf.zernike import columns as power_columns
 from p2sf.zernike import evaluate, evaluate_in_eta, in_square
 
@@ -119,9 +120,7 @@ def sum_rows(amplitude, fx, fy, pixels: int, pixel_um: float) -> np.ndarray:
     dtype = amplitude.real.dtype
     parts = sum_across(amplitude, 2 * np.pi * pixel_um * fx, half + 1)
     y = centred_axis(pixels, pixel_um)
-    cycles = np.outer(y, fy)
-    turn = (2 * np.pi * (cycles - np.rint(cycles))).astype(dtype)
-    cosine, sine = np.cos(turn), np.sin(turn)
+    cosine, sine = cosine_sine(np.outer(y, fy), dtype)
     field = np.empty((pixels, half + 1), amplitude.dtype)
     field.real = cosine @ parts[:, 0] - sine @ parts[:, 1]
     field.imag = cosine @ parts[:, 1] + sine @ parts[:, 0]

@@ -16,7 +16,7 @@ FLOORS = (
     "lensfile library gaussian",
     "pupils oddities",
     "seidel",
-    "quadrature transform wavefront",
+    "turns quadrature transform wavefront",
     "fastpath batches opdpath psf measures",
     "database refraction rays entrance raytrace zernike",
     "raydata rayfit rendering vignetting rows fieldcurves",

@@ -39,6 +39,8 @@ class Axis:
 
 def lagrange(nodes: list, at) -> list:
     """Return Lagrange's weights of the polynomial through ``nodes`` at a point."""
+    if len(nodes) == 1:
+        return [1.0]
     if len(nodes) == 2:  # by far the most frequent
         share = (at - nodes[0]) / (nodes[1] - nodes[0])
         return [1.0 - share, share]
