@@ -30,6 +30,7 @@ def test_a_link_is_short_and_survives_the_line_breaks_of_a_letter():
     state = State(field_deg=7.5, muted=("w22",))
     text = link(state)
     assert len(text) < 120
+    assert len(link(State(field_deg=7.5, pinned=State(f_number=8.0)))) < 160
     assert state_of_link(f" {text[:20]}\n  {text[20:]}\n") == state
     assert starting_state([text]) == state
 

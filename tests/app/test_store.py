@@ -43,9 +43,14 @@ def test_a_value_that_cannot_be_is_refused_and_nothing_changes(qtbot):
 
 @pytest.mark.parametrize("seed", range(5))
 def test_any_500_actions_undone_give_the_first_state_and_redone_the_last(qtbot, seed):
-    chance, store = random.Random(seed), Store(State())
+    chance, store, told = random.Random(seed), Store(State()), [State()]
+    store.changed.connect(told.append)
     for _ in range(500):
-        chance.choice(ACTIONS)(store, chance)
+        act, before = chance.choice(ACTIONS), store.state
+        act(store, chance)
+        assert told[-1] == store.state
+        if act not in (_undo, _redo) and store.state != before:
+            assert not store.can_redo, "a new step leaves nothing to take again"
     while store.can_redo:
         store.redo()
     last = store.state
