@@ -7,6 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
+from app.languages import speak
 from app.lesson import shipped_lessons
 from app.limits import CHOICES
 from app.panels import REGISTRY
@@ -32,6 +33,7 @@ def states() -> dict[str, State]:
     for side in CHOICES["shown"]:
         shown[f"compare_{side}"] = replace(pair, shown=side)
     shown["lesson"] = replace(shipped_lessons()[4].state(1, State(theme="light")), lesson_told=True)
+    shown["german"] = State(theme="light", language="de", tab="first_order")
     return shown | {f"tab_{tab}": State(tab=tab, theme="light") for tab in tabs}
 
 
@@ -51,11 +53,13 @@ def working(window: Window) -> bool:
     panels = tuple(window.panels.values())
     owners = (window.measuring, *panels, *(getattr(panel, "asking", None) for panel in panels))
     workers = (getattr(owner, name, None) for owner in owners for name in ("worker", "quick", "fine"))
-    return any(worker is not None and worker.busy for worker in workers)
+    preparing = any(getattr(panel, "busy", False) for panel in panels)
+    return preparing or any(worker is not None and worker.busy for worker in workers)
 
 
 def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
     """Save a picture of the window in a state, its accuracy ``measured`` or not."""
+    speak(state.language)
     window = Window(state, measured)
     window.resize(*size)
     window.show()
