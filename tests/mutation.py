@@ -27,7 +27,7 @@ TESTS = {
     "seidel": FIRST_ORDER,
     "wavefront": ("tests/test_wavefront.py", "tests/test_quadrature.py"),
     "psf": ("tests/test_psf.py", "tests/extremes/test_psf_extremes.py"),
-    "fitted": ("tests/test_fitted.py",),
+    "fitted": ("tests/test_fitted.py", "tests/test_rows.py"),
 }
 SETTINGS = """[mutmut]
 source_paths=p2sf

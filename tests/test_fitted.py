@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError
-from p2sf.fitted import fit, fitted_psf
-from p2sf.quadrature import disc_nodes
+from p2sf.fitted import fit, fitted_psf, summed
+from p2sf.huygens import Filling, huygens_psf
+from p2sf.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.raydata import ray_data
 from p2sf.rayfit import LEVELS
 from p2sf.raytrace import pencil
@@ -104,3 +105,35 @@ def test_the_preview_is_the_settled_picture_in_single_precision():
     lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
     preview, settled = (fitted_psf(lens, source, 32, pixel, quality=q) for q in ("preview", "settled"))
     assert r_squared(preview.values, settled.values) > 1 - 1e-7
+
+
+def test_a_psf_says_how_it_was_summed():
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    settled, preview = (fitted_psf(lens, source, 32, pixel, 26, quality) for quality in ("settled", "preview"))
+    assert "rows" in settled.sampling and settled.sampling.endswith(", float64")
+    assert "rows" in preview.sampling and preview.sampling.endswith(", float32")
+    assert (settled.tolerance, preview.tolerance) == (SETTLED_TOLERANCE, None)
+    assert (settled.method, settled.numbers, settled.rays, settled.pixel_um) == ("fitted", 26, 64, pixel)
+    assert 0 < settled.seconds < 60 and settled.wavelength_um == source.wavelength_um and 0 < settled.energy < 1
+    coarse = fitted_psf(lens, source, 8, 20 * pixel, 26)
+    assert coarse.energy is None  # samples this far apart are no integral
+
+
+def test_a_fit_is_of_the_rays_that_were_aimed():
+    lens, source, pixel, stored = list(cases("double_gauss_28"))[2]
+    aimed = fitted_psf(lens, source, 32, pixel, 46, aim="real")
+    reference = huygens_psf(lens, source, 32, pixel, filling=Filling(aim="real"))
+    assert r_squared(aimed.values, reference.values) > 0.999 > r_squared(aimed.values, stored)
+
+
+@pytest.mark.parametrize(("quality", "dtype", "error"), [("settled", "float64", 1e-4), ("preview", "float32", 1e-2)])
+def test_where_no_rows_can_be_the_nodes_are_summed_one_by_one_to_the_same_picture(quality, dtype, error, monkeypatch):
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    found = fit(lens, source, 46)
+    by_rows, _ = summed(found, 32, pixel, "settled")
+    monkeypatch.setattr("p2sf.fitted.rows_for", lambda *_: None)
+    one_by_one, words = summed(found, 32, pixel, quality)
+    assert np.linalg.norm(one_by_one - by_rows) < error * np.linalg.norm(by_rows)
+    assert one_by_one.dtype.name == dtype
+    radii, directions = (int(word) for word in words.replace(",", "").split() if word.isdigit())
+    assert words == f"{radii} radii × {directions} directions, {dtype}" and directions > radii > 10

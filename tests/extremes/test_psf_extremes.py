@@ -7,7 +7,7 @@ from p2sf.conventions import centred_axis
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.fastpath import intensities, wave_number
 from p2sf.lens import with_f_number
-from p2sf.psf import fft_intensity, plain_intensity, seidel_psf
+from p2sf.psf import fft_intensity, plain_intensity, seidel_psf, suitable_pixel_um
 from p2sf.quadrature import chord_rows, grid_rows
 from p2sf.seidel import coefficients
 from p2sf.transform import padded_fft
@@ -154,3 +154,21 @@ def test_scaling_lens_and_wavelength_leaves_the_picture_alone():
 def test_a_wavefront_without_numbers_is_refused_in_words(six):
     with np.errstate(over="ignore", invalid="ignore"), pytest.raises(GeometryError, match="not finite"):
         seidel_psf(waves(*six), 8, 1.0)
+
+
+def test_a_psf_says_how_it_was_made():
+    one = seidel_psf(waves(w40=0.5), 16, 1.0)
+    quick = seidel_psf(waves(w40=0.5), 16, 1.0, "preview")
+    exact = seidel_psf(waves(w40=0.5), 16, 1.0, "preview", dtype=np.float64)
+    assert [psf.sampling.rsplit(", ", 1)[1] for psf in (one, quick, exact)] == ["float64", "float32", "float64"]
+    assert (one.numbers, one.rays, one.method, one.pixel_um) == (6, 2, "seidel", 1.0)
+    assert isinstance(one.wavelength_um, float) and isinstance(one.strehl, float) and one.wavelength_um == WAVELENGTH_UM
+    stack = seidel_psf(waves(w40=np.zeros(3), wavelength_um=np.array([0.4, 0.5, 0.6])), 8, 1.0)
+    np.testing.assert_array_equal(stack.wavelength_um, [0.4, 0.5, 0.6])
+    assert stack.strehl.shape == stack.energy.shape == (3,)
+
+
+def test_one_sample_is_as_wide_as_the_whole_picture():
+    c = waves(w40=1.0)
+    assert suitable_pixel_um(c, 1) == pytest.approx(2 * suitable_pixel_um(c, 2), rel=1e-15)
+    assert suitable_pixel_um(c, 0) == suitable_pixel_um(c, 1)
