@@ -60,6 +60,7 @@ REGISTRY = (
     tab("PSF", "mtf", "MTF", "mtf:MtfPanel", "mtf:contrast"),
     tab("PSF", "through_focus", "Through focus", "through_focus:ThroughFocusPanel", "through_focus:strip"),
     tab("PSF", "field_map", "Field map", "field_map:FieldMapPanel", "field_map:field_map"),
+    tab("PSF", "beside", "Perfect lens", "beside:BesidePanel", "beside:beside"),
     tab("PSF", "colour", "Colour", "colour:ColourPanel", "colour:question"),
     tab("Rays", "spot", "Spot", "spot:SpotPanel", "rays:spots"),
     tab("Rays", "ray_fan", "Ray fan", "fans:RayFanPanel", "rays:ray_errors"),

@@ -4,6 +4,7 @@ import numpy as np
 
 from app.card import Card, chooser, select
 from app.compute import Live
+from app.contour import contours, interval
 from app.plots import HeatMap
 from app.readout import Readout
 from app.scales import nice, significant
@@ -11,6 +12,7 @@ from app.store import Store
 from app.theme import Tokens
 
 WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-CBC1"
+MODES = (("waves", "W, waves"), ("contour", "contours"), ("wrapped", "wrapped"))
 TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
 
 
@@ -19,7 +21,7 @@ class PupilPanel:
 
     def __init__(self, store: Store):
         self.widget = Card("Pupil phase", TIP)
-        self.mode = chooser((("waves", "W, waves"), ("wrapped", "wrapped")), "How the phase is shown", self.widget)
+        self.mode = chooser(MODES, "How the phase is shown", self.widget)
         self.mode.activated.connect(lambda: store.update(phase=self.mode.currentData()))
         self.widget.add_tool(self.mode)
         self.map = HeatMap("ξ, pupil radii", "η, towards the field", self.widget)
@@ -42,9 +44,12 @@ class PupilPanel:
         else:
             limit = self._limit(pupil.waves)
             labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
-            self._paint(pupil.waves, (-limit, limit), labels)
+            step = interval(pupil.peak_to_valley)
+            shown = contours(pupil.waves, step) if mode == "contour" else pupil.waves
+            self._paint(shown, (-limit, limit), labels)
         numbers = f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ"
-        self.numbers.set_text(f"{numbers} · {pupil.kind}")
+        lines = f"line every {step:g} λ" if mode == "contour" else pupil.kind
+        self.numbers.set_text(f"{numbers} · {lines}")
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
