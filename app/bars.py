@@ -63,7 +63,7 @@ class TopBar(QFrame):
         self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it (Ctrl+B)", None)
         self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
         self.lessons = self._tool(
-            "Lessons", "Lessons, from a point of light to a photograph: begin or leave (F2)", None
+            "Lessons", "Lessons, from a point of light to a photograph: begin or leave (F3)", None
         )
         self.theme = self._tool("Light", "Light or dark", self._turn_theme)
         self.more = self._tool("More", "Report, command palette, colours, theme, language", None)

@@ -34,7 +34,7 @@ class Teaching(QObject):
     def commands(self) -> tuple[Command, ...]:
         """Return what can be done with lessons."""
         return (
-            Command("Lessons: begin or leave", self.toggle, ("F2",), "Lessons"),
+            Command("Lessons: begin or leave", self.toggle, ("F3",), "Lessons"),
             Command("Next step of the lesson", lambda: self.move(1), ("Alt+Right",), "Lessons"),
             Command("Previous step of the lesson", lambda: self.move(-1), ("Alt+Left",), "Lessons"),
             Command("Show the answer", self.reveal, ("Alt+Down",), "Lessons"),
@@ -164,7 +164,7 @@ class Offer(QFrame):
         super().__init__(parent)
         self.setObjectName("bar")
         words = QLabel(tr(OFFER))
-        self.start, self.dismiss = tool("Start", "Begin the first lesson (F2)"), tool("No, thanks", "Do not ask again")
+        self.start, self.dismiss = tool("Start", "Begin the first lesson (F3)"), tool("No, thanks", "Do not ask again")
         self.start.clicked.connect(start)
         self.dismiss.clicked.connect(self.hide)
         row = QHBoxLayout(self)

@@ -21,7 +21,7 @@ def teaching(window):
 
 @pytest.fixture
 def panel(teaching, qtbot, window):
-    qtbot.keyClick(window, Qt.Key.Key_F2)
+    qtbot.keyClick(window, Qt.Key.Key_F3)
     return teaching.panel
 
 
@@ -36,11 +36,11 @@ def shown(label: QLabel) -> str:
 def test_f2_begins_the_first_lesson_and_ends_it_as_it_was(window, qtbot, teaching):
     window.store.update(field_deg=3.5, wavelength_nm=486.0, tab="mtf")
     before = window.store.state
-    qtbot.keyClick(window, Qt.Key.Key_F2)
+    qtbot.keyClick(window, Qt.Key.Key_F3)
     assert window.store.state == FIRST.state(0, before)
     assert teaching.panel.isVisible() and shown(teaching.panel.title) == FIRST.steps[0].title
     window.store.update(field_deg=1.0)
-    qtbot.keyClick(window, Qt.Key.Key_F2)
+    qtbot.keyClick(window, Qt.Key.Key_F3)
     assert window.store.state == before and not teaching.panel.isVisible()
 
 
