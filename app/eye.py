@@ -9,8 +9,8 @@ from app.limits import RANGES
 class Eye:
     """Turn about the vertical and tilt in degrees, and how near: 1 shows the whole scene."""
 
-    turn: float = 32.0
-    tilt: float = 18.0
+    turn: float = 24.0
+    tilt: float = 11.0
     near: float = 1.0
 
 

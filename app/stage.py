@@ -21,7 +21,7 @@ from app.views.solid import Scene
 from p2sf.errors import P2SFError
 
 VIEW_DEG = 16.0  # the eye's angle: small, so that lengths along the axis compare
-ROOM = 1.06
+ROOM = 1.02
 SAMPLES = 8  # a pixel, where edges are smooth
 SHARP_DEG = 30.0  # glass is shaded smooth up to such an edge
 GLASS = {"opacity": 0.42, "specular": 0.6, "specular_power": 30.0, "smooth_shading": True}

@@ -70,8 +70,8 @@ class State:
     lesson_told: bool = False
     language: str = "system"
     colours: str = "standard"
-    eye_turn_deg: float = 32.0
-    eye_tilt_deg: float = 18.0
+    eye_turn_deg: float = 24.0
+    eye_tilt_deg: float = 11.0
     eye_near: float = 1.0
 
     def __post_init__(self):
