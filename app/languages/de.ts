@@ -13,6 +13,7 @@
 <message><source>8 µm pixels</source><translation>8-µm-Pixel</translation></message>
 <message><source>?</source><translation>?</translation></message>
 <message><source>A</source><translation>A</translation></message>
+<message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
 <message><source>A − B</source><translation>A − B</translation></message>
 <message><source>Aberrations</source><translation>Aberrationen</translation></message>
 <message><source>Accept substitutes</source><translation>Ersatz annehmen</translation></message>
@@ -24,6 +25,7 @@
 <message><source>Airy radius, the circle</source><translation>Airy-Radius, der Kreis</translation></message>
 <message><source>All</source><translation>Alle</translation></message>
 <message><source>All at once</source><translation>Alles zugleich</translation></message>
+<message><source>Animated GIF (*.gif);;Numbered PNG frames (*.png)</source><translation>Animiertes GIF (*.gif);;Nummerierte PNG-Bilder (*.png)</translation></message>
 <message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
 <message><source>As the system</source><translation>Wie das System</translation></message>
 <message><source>Aspheric plano-convex condenser, f/2 (synthetic)</source><translation>Asphärischer plankonvexer Kondensor, f/2 (synthetisch)</translation></message>
@@ -174,6 +176,7 @@
 <message><source>Most of all {what}: {share} % of the wavefront variance</source><translation>Am meisten {what}: {share} % der Varianz der Wellenfront</translation></message>
 <message><source>Mostly {what}: {share} % of the wavefront variance</source><translation>Meist {what}: {share} % der Varianz der Wellenfront</translation></message>
 <message><source>Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F).</source><translation>Den Sensor dorthin setzen, wo der RMS von W über die Pupille am kleinsten ist (Strg+F).</translation></message>
+<message><source>Mute: this term counts as zero (M)</source><translation>Stumm: dieser Term zählt als null (M)</translation></message>
 <message><source>NA = n′|u′|, image-space slope of the marginal ray.</source><translation>NA = n′|u′|, bildseitige Steigung des Randstrahls.</translation></message>
 <message><source>Navarro wide-angle schematic eye, 543 nm</source><translation>Schematisches Weitwinkelauge nach Navarro, 543 nm</translation></message>
 <message><source>Next</source><translation>Weiter</translation></message>
@@ -209,6 +212,8 @@
 <message><source>Paraxial image of this depth, from the last vertex.</source><translation>Paraxiales Bild dieses Abstands, vom letzten Scheitel.</translation></message>
 <message><source>Paste a link</source><translation>Link einfügen</translation></message>
 <message><source>Peak of the PSF over that of the same pupil with W = 0.</source><translation>Spitze der PSF über der derselben Pupille mit W = 0.</translation></message>
+<message><source>Perfect lens</source><translation>Ideale Linse</translation></message>
+<message><source>Perfect lens and pixels</source><translation>Ideale Linse und Pixel</translation></message>
 <message><source>Periskop-type symmetric lens, f/11, 100 mm</source><translation>Symmetrisches Objektiv vom Periskop-Typ, f/11, 100 mm</translation></message>
 <message><source>Petzval lens f/1.4, 50 mm</source><translation>Petzval-Objektiv f/1,4, 50 mm</translation></message>
 <message><source>Petzval radius</source><translation>Petzval-Radius</translation></message>
@@ -221,6 +226,7 @@
 <message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>
 <message><source>Pin what is on screen as B, to compare with it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen (Strg+B)</translation></message>
 <message><source>Pixel</source><translation>Pixel</translation></message>
+<message><source>Pixel pitch of the sensor.</source><translation>Pixelabstand des Sensors.</translation></message>
 <message><source>Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch).</source><translation>Pixelabstand des Sensors; seine Nyquist-Frequenz ist 1/(2 Abstand).</translation></message>
 <message><source>Pixels at the field point, or the field</source><translation>Pixel am Feldpunkt, oder das Feld</translation></message>
 <message><source>Places</source><translation>Orte</translation></message>
@@ -310,6 +316,7 @@
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
 <message><source>Snapshot</source><translation>Sichern</translation></message>
 <message><source>Snapshot: PSF data or picture, with the state…</source><translation>Schnappschuss: PSF-Daten oder Bild, mit Zustand …</translation></message>
+<message><source>Solo: only this term counts (S)</source><translation>Solo: nur dieser Term zählt (S)</translation></message>
 <message><source>Spectrum</source><translation>Spektrum</translation></message>
 <message><source>Spherical, 1 λ, best focus</source><translation>Sphärisch, 1 λ, bester Fokus</translation></message>
 <message><source>Spherical, 1 λ, marginal focus</source><translation>Sphärisch, 1 λ, Randfokus</translation></message>
@@ -326,6 +333,7 @@
 <message><source>Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|.</source><translation>Blende: die Fläche, deren Rand das Licht begrenzt; in der Datei genannt, oder gefunden als kleinstes |Rand/y|.</translation></message>
 <message><source>Strehl</source><translation>Strehl</translation></message>
 <message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
+<message><source>Strehl {strehl}</source><translation>Strehl {strehl}</translation></message>
 <message><source>Surfaces of the lens</source><translation>Flächen des Objektivs</translation></message>
 <message><source>Swap</source><translation>Tauschen</translation></message>
 <message><source>Sweep</source><translation>Durchlauf</translation></message>
@@ -337,9 +345,11 @@
 <message><source>Telephoto f/5.6, 127 mm</source><translation>Teleobjektiv f/5,6, 127 mm</translation></message>
 <message><source>Tessar f/4.5 (unit scale, f = 4 in)</source><translation>Tessar f/4,5 (Einheitsmaßstab, f = 4 Zoll)</translation></message>
 <message><source>Textbook wavefronts, in a free pupil</source><translation>Wellenfronten aus dem Lehrbuch, in freier Pupille</translation></message>
+<message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; bring focus and source together to see waves.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; Fokus und Quelle zusammenbringen, um Wellen zu sehen.</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
 <message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP.</source><translation>Das Objektiv maßstäblich: die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP.</translation></message>
+<message><source>The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
 <message><source>The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
 <message><source>The next step (Alt+Right)</source><translation>Der nächste Schritt (Alt+Rechts)</translation></message>
 <message><source>The panel's data are on the clipboard</source><translation>Die Daten des Feldes sind in der Zwischenablage</translation></message>
@@ -489,14 +499,18 @@
 <message><source>object at infinity</source><translation>Objekt im Unendlichen</translation></message>
 <message><source>object at {depth}</source><translation>Objekt bei {depth}</translation></message>
 <message><source>object {h} mm</source><translation>Objekt {h} mm</translation></message>
+<message><source>of light</source><translation>des Lichts</translation></message>
 <message><source>of peak</source><translation>der Spitze</translation></message>
+<message><source>on the pixels, µm</source><translation>auf den Pixeln, µm</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
 <message><source>open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>paraxial</source><translation>paraxial</translation></message>
 <message><source>paraxial, axis</source><translation>paraxial, Achse</translation></message>
+<message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
 <message><source>per pixel</source><translation>je Pixel</translation></message>
 <message><source>perfect lens</source><translation>perfektes Objektiv</translation></message>
+<message><source>perfect lens, µm</source><translation>ideale Linse, µm</translation></message>
 <message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
 <message><source>pictures {wide} µm wide</source><translation>Bilder {wide} µm breit</translation></message>
 <message><source>pictures {wide} µm wide, each over its own peak</source><translation>Bilder {wide} µm breit, jedes über seiner Spitze</translation></message>
@@ -558,10 +572,12 @@
 <message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
 <message><source>the layout</source><translation>der Aufbau</translation></message>
 <message><source>the lens's own</source><translation>die des Objektivs</translation></message>
+<message><source>the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %</source><translation>das mittlere Pixel hält {real} % des Lichts, von dem einer idealen Linse {perfect} %</translation></message>
 <message><source>the open tab</source><translation>das offene Blatt</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
 <message><source>the reference is summed when the sliders rest</source><translation>die Referenz wird summiert, wenn die Regler ruhen</translation></message>
 <message><source>there is no link to paste; copy one that begins with p2sf:</source><translation>kein Link zum Einfügen da; einen kopieren, der mit p2sf: beginnt</translation></message>
+<message><source>this lens, µm</source><translation>diese Linse, µm</translation></message>
 <message><source>through the lens</source><translation>durch das Objektiv</translation></message>
 <message><source>time of one PSF, ms</source><translation>Zeit einer PSF, ms</translation></message>
 <message><source>to</source><translation>bis</translation></message>
@@ -577,6 +593,8 @@
 <message><source>what no single term shows</source><translation>was kein einzelnes Glied zeigt</translation></message>
 <message><source>what-if</source><translation>Was wäre wenn</translation></message>
 <message><source>what-if: altered by hand</source><translation>Was wäre wenn: von Hand geändert</translation></message>
+<message><source>what-if: coefficients altered by hand</source><translation>Was wäre wenn: Koeffizienten von Hand geändert</translation></message>
+<message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
 <message><source>working</source><translation>in Arbeit</translation></message>
 <message><source>wrapped</source><translation>gefaltet</translation></message>
