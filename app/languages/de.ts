@@ -15,6 +15,7 @@
 <message><source>A</source><translation>A</translation></message>
 <message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
 <message><source>A − B</source><translation>A − B</translation></message>
+<message><source>A − B · at most {share} % of the higher peak</source><translation>A − B · höchstens {share} % der höheren Spitze</translation></message>
 <message><source>Aberrations</source><translation>Aberrationen</translation></message>
 <message><source>Accept substitutes</source><translation>Ersatz annehmen</translation></message>
 <message><source>Accuracy</source><translation>Genauigkeit</translation></message>

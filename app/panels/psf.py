@@ -84,7 +84,7 @@ class PsfPanel:
         psf = live.psf
         if live.difference:
             largest = significant(100 * float(np.abs(live.difference.psf).max()), 3)
-            self.badge.set_text(f"{live.side} · at most {largest} % of the higher peak", "text")
+            self.badge.set_text(tr("A − B · at most {share} % of the higher peak", share=largest), "text")
             return
         self._times[live.quality] = significant(1e3 * psf.seconds, 2)
         measured = None if live.setting.altered or psf.method == "geometric" else r_squared
