@@ -27,7 +27,7 @@ def contrasts(state: State) -> tuple[tuple[str, str, str], ...]:
 
 def lens_words(state: State) -> str:
     """Return how a lens is named."""
-    return title(state.lens) + ("" if state.lens_text is None else f" ({tr('edited')})")
+    return tr(title(state.lens)) + ("" if state.lens_text is None else f" ({tr('edited')})")
 
 
 def coefficient_words(state: State) -> str:

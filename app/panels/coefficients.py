@@ -86,7 +86,8 @@ class CoefficientsPanel:
         self.bars.setEnabled(live.side != "B")  # the sliders move A
         self.free.setChecked(state.free_pupil)
         self.reset.setEnabled(altered)
-        colour = f'<span style="color:{self._theme.warning}">{tr(SHORT_NOTE)}</span>'
+        note = "what-if" if live.side else SHORT_NOTE  # beside a side's name there is less room
+        colour = f'<span style="color:{self._theme.warning}">{tr(note)}</span>'
         words = colour if altered else tr("waves at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
         self.widget.set_readout(f"<b>{live.side}</b> &nbsp; {words}" if live.side else words)
 

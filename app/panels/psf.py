@@ -102,7 +102,7 @@ class PsfPanel:
 
 def badge_words(live: Live, times: dict[str, str], r_squared: float | None) -> tuple[str, str]:
     """Return the picture's birth certificate whole, and short where there is little room."""
-    before = tuple(filter(None, (live.side, "what-if" if live.setting.altered else "")))
+    before = tuple(filter(None, (live.side, tr("what-if") if live.setting.altered else "")))
     accuracy = () if r_squared is None else (f"R² {written_r_squared(r_squared)}",)
     method, named = live.psf.method, " / ".join(f"{name} {time}" for name, time in times.items())
     whole = (*before, METHOD_WORDS.get(method, method), f"{named} ms", *(f"{words} vs Huygens" for words in accuracy))
