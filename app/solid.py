@@ -9,8 +9,8 @@ from app.glass import GLASS_INDEX, clear_rims, sag, vertices
 from p2sf.lens import Lens, Surface, indices
 
 CUT = (np.pi, 2.5 * np.pi)  # the sweep that is left, from −x over −y and +x to +y: a quarter is cut away
-STEPS = 60  # of the sweep
-RINGS = 14  # of a sheet, from axis to rim
+STEPS = 48  # of the sweep
+RINGS = 12  # of a sheet, from axis to rim
 
 
 @dataclass(frozen=True)
