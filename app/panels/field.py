@@ -38,8 +38,9 @@ class FieldPanel:
             )
         }
         self.zeros = [chart.add_curve("line") for chart in (self.focus, self.distortion)]
-        self.straight, self.bent = self.grid.add_curve("line"), self.grid.add_curve("positive", 2)
+        self.straight, self.bent = self.grid.add_curve("line"), self.grid.add_curve("positive")
         self.widget = ChartsCard("Field", TIP, (self.focus, self.distortion, self.grid), (4, 4, 3))
+        self._drawn: FieldView | None = None
 
     def show(self, live: Live) -> None:
         """Paint curves and grid."""
@@ -50,7 +51,9 @@ class FieldPanel:
         for name in ("field", "field again"):
             here = abs(live.state.field_deg)
             self.curves[name].set_data((-1e9, 1e9), (here, here))
-        self._show_grid(view)
+        if view is not self._drawn:
+            self._drawn = view
+            self._show_grid(view)
 
     def _show_focus(self, view: FieldView, at, top: float) -> None:
         shown = {"S": view.real.sagittal, "T": view.real.tangential}

@@ -14,8 +14,8 @@ from p2sf.raytrace import hexapolar, pencil
 from p2sf.source import Source
 
 ELSEWHERE_MM = 1000.0  # any depth but infinity: two points make the line
-DEPTHS = {"preview": 25, "settled": 49}
-RINGS = {"preview": 4, "settled": 6}
+DEPTHS = {"preview": 17, "settled": 49}
+RINGS = {"preview": 3, "settled": 6}
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,20 @@
 """Over the field: focal surfaces, distortion, and the distortion grid; exact rays beside the third order."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
 from app.scales import nice
 from p2sf.conventions import degrees_from_slope, slope_from_degrees
 from p2sf.fieldcurves import Foci, Heights, heights, real_foci, seidel_foci
+from p2sf.lens import Lens
+from p2sf.pupils import Stop
 from p2sf.seidel import coefficients
+from p2sf.source import Source
 
 FIELDS = {"preview": 13, "settled": 25}
-GRID = 11  # lines each way over the square inside the field's circle
+GRID = 9  # lines each way over the square inside the field's circle
 AT_LEAST_DEG = 0.05
 SEEN = 0.04  # a grid whose corner moves by this share shows it
 
@@ -33,10 +37,17 @@ class FieldView:
 
 
 def field_curves(live) -> FieldView:
-    """Return the curves of the lens at this depth and wavelength."""
-    setting = live.setting
-    lens, source, stop = setting.lens, setting.source, setting.stop
-    slopes = np.linspace(0.0, widest_slope(live), FIELDS[live.quality])
+    """Return the curves of the lens at this depth and wavelength; the same object while only the field moves."""
+    s = live.setting
+    rim = int(s.stop.surface), float(s.stop.semi_diameter)
+    return curves_of(s.lens, replace(s.source, field_slope=0.0), rim, widest_slope(live), FIELDS[live.quality])
+
+
+@lru_cache(maxsize=4)
+def curves_of(lens: Lens, source: Source, rim: tuple[int, float], widest: float, count: int) -> FieldView:
+    """Return the curves of ``count`` fields up to a slope; ``rim``: the stop's surface (from 1) and radius in mm."""
+    stop = Stop(np.asarray(rim[0]), np.asarray(rim[1]), np.asarray(rim[0]), "file")
+    slopes = np.linspace(0.0, widest, count)
     c = coefficients(lens, source.depth_mm, slopes, source.wavelength_um, stop)
     landed = heights(lens, source, slopes, stop)
     foci = real_foci(lens, source, slopes, stop), seidel_foci(c)
@@ -60,7 +71,7 @@ def widest_slope(live) -> float:
 def grid(paraxial: np.ndarray, distortion: np.ndarray) -> np.ndarray:
     """Return the lines of a square grid whose corners lie at the field's edge, moved along their radii."""
     edge = paraxial[-1] or 1.0
-    line, along = np.linspace(-1, 1, GRID) / np.sqrt(2), np.linspace(-1, 1, 4 * GRID + 1) / np.sqrt(2)
+    line, along = np.linspace(-1, 1, GRID) / np.sqrt(2), np.linspace(-1, 1, 2 * GRID + 1) / np.sqrt(2)
     x, y = np.meshgrid(np.append(along, np.nan), line)
     points = np.stack([np.concatenate([x, y]).ravel(), np.concatenate([y, x]).ravel()], axis=-1)
     radius, known = np.hypot(*points.T), np.isfinite(distortion)
