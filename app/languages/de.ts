@@ -8,12 +8,15 @@
 <message><source>16 µm pixels</source><translation>16-µm-Pixel</translation></message>
 <message><source>32 µm pixels</source><translation>32-µm-Pixel</translation></message>
 <message><source>3D</source><translation>3D</translation></message>
+<message><source>3D needs OpenGL, and none works here; install a driver or Mesa's software renderer (apt-get install libegl1 libgl1-mesa-dri), then open this panel again</source><translation>3D braucht OpenGL, und hier läuft keines; einen Treiber oder Mesas Software-Renderer installieren (apt-get install libegl1 libgl1-mesa-dri), dann dieses Feld wieder öffnen</translation></message>
+<message><source>3D needs pyvista, which is not installed; run pip install pyvista, then open this panel again</source><translation>3D braucht pyvista, das nicht installiert ist; pip install pyvista ausführen, dann dieses Feld wieder öffnen</translation></message>
 <message><source>3D: elements of revolution to their clear rims; the wavefront is W·λ ahead of the sphere about the image point.</source><translation>3D: Drehkörper bis zu ihren freien Rändern; die Wellenfront ist der Kugel um den Bildpunkt um W·λ voraus.</translation></message>
 <message><source>4 µm pixels</source><translation>4-µm-Pixel</translation></message>
 <message><source>8 µm pixels</source><translation>8-µm-Pixel</translation></message>
 <message><source>?</source><translation>?</translation></message>
 <message><source>A</source><translation>A</translation></message>
 <message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
+<message><source>A field of {angle} is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Ein Feld von {angle} liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>A − B</source><translation>A − B</translation></message>
 <message><source>A − B · at most {share} % of the higher peak</source><translation>A − B · höchstens {share} % der höheren Spitze</translation></message>
 <message><source>Aberrations</source><translation>Aberrationen</translation></message>
@@ -26,6 +29,7 @@
 <message><source>Airy radius, the circle</source><translation>Airy-Radius, der Kreis</translation></message>
 <message><source>All</source><translation>Alle</translation></message>
 <message><source>All at once</source><translation>Alles zugleich</translation></message>
+<message><source>An aperture of NA {na} is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Eine Öffnung von NA {na} liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>Animated GIF (*.gif);;Numbered PNG frames (*.png)</source><translation>Animiertes GIF (*.gif);;Nummerierte PNG-Bilder (*.png)</translation></message>
 <message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
 <message><source>As the system</source><translation>Wie das System</translation></message>
@@ -110,9 +114,11 @@
 <message><source>Exchange A and B</source><translation>A und B vertauschen</translation></message>
 <message><source>Exchange A and B: the controls then move the other one</source><translation>A und B vertauschen: die Regler bewegen dann das andere</translation></message>
 <message><source>Exit pupil</source><translation>Austrittspupille</translation></message>
+<message><source>F-number</source><translation>Blendenzahl</translation></message>
 <message><source>Farthest ray</source><translation>Fernster Strahl</translation></message>
 <message><source>Fast double Gauss f/1.4, 50 mm</source><translation>Lichtstarker Doppel-Gauß f/1,4, 50 mm</translation></message>
 <message><source>Field</source><translation>Feld</translation></message>
+<message><source>Field angle</source><translation>Feldwinkel</translation></message>
 <message><source>Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
 <message><source>Field curves</source><translation>Feldkurven</translation></message>
 <message><source>Field map</source><translation>Feldkarte</translation></message>
@@ -155,10 +161,12 @@
 <message><source>Layout</source><translation>Aufbau</translation></message>
 <message><source>Left: sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Right: encircled energy, the share of the window's light within a radius of its centroid; grey: a perfect lens.</source><translation>Links: Schnitte der PSF durch den Hauptstrahl, über ihrer eigenen Spitze; grau: die Airy-Figur (2J₁(v)/v)². Rechts: eingeschlossene Energie, der Anteil des Lichts im Fenster innerhalb eines Radius um den Schwerpunkt; grau: ein perfektes Objektiv.</translation></message>
 <message><source>Lens</source><translation>Objektiv</translation></message>
+<message><source>Lens "{name}" is neither shipped nor a file; did you mean {other}?</source><translation>Das Objektiv "{name}" ist weder mitgeliefert noch eine Datei; ist {other} gemeint?</translation></message>
 <message><source>Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back.</source><translation>Objektiv: eine Zeile je Fläche in der Reihenfolge des Lichts; in eine Zelle tippen, Strg+Z nimmt es zurück.</translation></message>
 <message><source>Lens…</source><translation>Objektiv …</translation></message>
 <message><source>Lesson</source><translation>Lektion</translation></message>
 <message><source>Lessons</source><translation>Lernen</translation></message>
+<message><source>Lessons, from a point of light to a photograph: begin or leave (F2)</source><translation>Lektionen, vom Lichtpunkt zum Foto: beginnen oder verlassen (F2)</translation></message>
 <message><source>Lessons, from a point of light to a photograph: begin or leave (F3)</source><translation>Lektionen, vom Lichtpunkt zum Foto: beginnen oder verlassen (F3)</translation></message>
 <message><source>Lessons: begin or leave</source><translation>Lernen: Lektionen beginnen oder verlassen</translation></message>
 <message><source>Light</source><translation>Hell</translation></message>
@@ -184,6 +192,7 @@
 <message><source>Next lesson</source><translation>Nächste Lektion</translation></message>
 <message><source>Next step of the lesson</source><translation>Nächster Schritt der Lektion</translation></message>
 <message><source>No aberration</source><translation>Keine Aberration</translation></message>
+<message><source>No ray reaches the sensor; choose a smaller field, stop down, or leave clipping off</source><translation>Kein Strahl erreicht den Sensor; ein kleineres Feld wählen, abblenden oder das Abblenden an Rändern auslassen</translation></message>
 <message><source>Nodal point N</source><translation>Knotenpunkt N</translation></message>
 <message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
 <message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
@@ -193,6 +202,7 @@
 <message><source>OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included.</source><translation>OPD-Fächer: (optischer Weg des Hauptstrahls − des Strahls)/λ für exakte Strahlen, mit Kippung.</translation></message>
 <message><source>OPD, waves</source><translation>OPD, Wellen</translation></message>
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
+<message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>Open</source><translation>Öffnen</translation></message>
 <message><source>Open a file…</source><translation>Datei öffnen …</translation></message>
 <message><source>Open a lens file or a saved state (Ctrl+O), or one of the latest</source><translation>Objektivdatei oder gespeicherten Zustand öffnen (Strg+O), oder eine der letzten</translation></message>
@@ -318,6 +328,7 @@
 <message><source>Snapshot</source><translation>Sichern</translation></message>
 <message><source>Snapshot: PSF data or picture, with the state…</source><translation>Schnappschuss: PSF-Daten oder Bild, mit Zustand …</translation></message>
 <message><source>Solo: only this term counts (S)</source><translation>Solo: nur dieser Term zählt (S)</translation></message>
+<message><source>Source depth</source><translation>Quellabstand</translation></message>
 <message><source>Spectrum</source><translation>Spektrum</translation></message>
 <message><source>Spherical, 1 λ, best focus</source><translation>Sphärisch, 1 λ, bester Fokus</translation></message>
 <message><source>Spherical, 1 λ, marginal focus</source><translation>Sphärisch, 1 λ, Randfokus</translation></message>
@@ -348,16 +359,23 @@
 <message><source>Textbook wavefronts, in a free pupil</source><translation>Wellenfronten aus dem Lehrbuch, in freier Pupille</translation></message>
 <message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; bring focus and source together to see waves.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; Fokus und Quelle zusammenbringen, um Wellen zu sehen.</translation></message>
+<message><source>The chief ray is totally reflected at surface {number}; choose a smaller field</source><translation>Der Hauptstrahl wird an Fläche {number} total reflektiert; ein kleineres Feld wählen</translation></message>
+<message><source>The chief ray misses surface {number}; choose a smaller field</source><translation>Der Hauptstrahl verfehlt Fläche {number}; ein kleineres Feld wählen</translation></message>
+<message><source>The distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞</source><translation>Der Abstand "{text}" hat eine unbekannte Einheit; mm, cm, m, km oder ∞ schreiben</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
 <message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP.</source><translation>Das Objektiv maßstäblich: die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP.</translation></message>
 <message><source>The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
 <message><source>The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
 <message><source>The next step (Alt+Right)</source><translation>Der nächste Schritt (Alt+Rechts)</translation></message>
+<message><source>The object lies in the front focal plane, so its image is at infinity; move the source.</source><translation>Das Objekt liegt in der objektseitigen Brennebene, sein Bild also im Unendlichen; die Quelle verschieben.</translation></message>
 <message><source>The panel's data are on the clipboard</source><translation>Die Daten des Feldes sind in der Zwischenablage</translation></message>
 <message><source>The panel's picture is on the clipboard</source><translation>Das Bild des Feldes ist in der Zwischenablage</translation></message>
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
 <message><source>The surface whose rim limits the light.</source><translation>Die Fläche, deren Rand das Licht begrenzt.</translation></message>
+<message><source>The {what} "{text}" has the unit "{unit}"; write the number alone</source><translation>"{text}" hat die Einheit "{unit}" bei: {what}; nur die Zahl schreiben</translation></message>
+<message><source>The {what} "{text}" has the unit "{unit}"; write {known} or no unit</source><translation>"{text}" hat die Einheit "{unit}" bei: {what}; {known} oder keine Einheit schreiben</translation></message>
+<message><source>The {what} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {what}; eine wie 12.5 schreiben</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
 <message><source>This panel has no numbers</source><translation>Dieses Feld hat keine Zahlen</translation></message>
@@ -390,6 +408,7 @@
 <message><source>Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's.</source><translation>Wellenfront W über die Pupille: um wie viele Wellen der optische Weg eines Strahls kürzer als der des Hauptstrahls ist.</translation></message>
 <message><source>Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves.</source><translation>Wellenfrontkoeffizienten: der Höchstwert jedes Glieds von W(ρ, θ) an diesem Feld, in Wellen.</translation></message>
 <message><source>Wavelength</source><translation>Wellenlänge</translation></message>
+<message><source>Wavelength {w} is outside the data of {glass}, {low} to {high}; ask for a wavelength inside, or change the glass</source><translation>Die Wellenlänge {w} liegt außerhalb der Daten von {glass}, {low} bis {high}; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
 <message><source>Wavelength λ in vacuum; the index of each glass n(λ) follows it. F, d and C are Fraunhofer's lines.</source><translation>Wellenlänge λ im Vakuum; der Brechungsindex n(λ) jedes Glases folgt ihr. F, d und C sind Fraunhofers Linien.</translation></message>
 <message><source>Wd = 0: a line towards the field</source><translation>Wd = 0: eine Linie zum Feld hin</translation></message>
 <message><source>Wd = −2 W40: rim rays meet on the axis</source><translation>Wd = −2 W40: Randstrahlen treffen sich auf der Achse</translation></message>
@@ -462,6 +481,7 @@
 <message><source>exact rays, this field</source><translation>exakte Strahlen, dieses Feld</translation></message>
 <message><source>f-number</source><translation>Blendenzahl</translation></message>
 <message><source>f-number N = f′/D: focal length over the diameter of the entrance pupil.</source><translation>Blendenzahl N = f′/D: Brennweite durch den Durchmesser der Eintrittspupille.</translation></message>
+<message><source>field angle</source><translation>Feldwinkel</translation></message>
 <message><source>field curv.</source><translation>Bildwölbung</translation></message>
 <message><source>field curvature</source><translation>Bildfeldwölbung</translation></message>
 <message><source>field, °</source><translation>Feld, °</translation></message>
@@ -539,6 +559,7 @@
 <message><source>seidel: six coefficients</source><translation>seidel: sechs Koeffizienten</translation></message>
 <message><source>seidel: six coefficients, predicted R² ≥ {r}</source><translation>seidel: sechs Koeffizienten, vorhergesagt R² ≥ {r}</translation></message>
 <message><source>sensor</source><translation>Sensor</translation></message>
+<message><source>sensor shift</source><translation>Sensorversatz</translation></message>
 <message><source>sensor shift, µm</source><translation>Sensorversatz, µm</translation></message>
 <message><source>settled {ms} ms</source><translation>ruhend {ms} ms</translation></message>
 <message><source>share of the peak</source><translation>Anteil an der Spitze</translation></message>
@@ -588,6 +609,7 @@
 <message><source>traced: exact wavefront</source><translation>traced: exakte Wellenfront</translation></message>
 <message><source>tungsten 2856 K</source><translation>Glühlampe 2856 K</translation></message>
 <message><source>typed</source><translation>getippt</translation></message>
+<message><source>wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>wavelength, nm</source><translation>Wellenlänge, nm</translation></message>
 <message><source>waves</source><translation>Wellen</translation></message>
 <message><source>waves at {wavelength} nm</source><translation>Wellen bei {wavelength} nm</translation></message>
@@ -609,6 +631,7 @@
 <message><source>{columns} × {rows} pixels of {pitch} µm</source><translation>{columns} × {rows} Pixel zu {pitch} µm</translation></message>
 <message><source>{count} PSFs: {rows} × {columns} places × {waves} wavelengths</source><translation>{count} PSFs: {rows} × {columns} Orte × {waves} Wellenlängen</translation></message>
 <message><source>{count} PSFs: {rows} × {columns} places × {waves} wavelengths, at once and unmeasured</source><translation>{count} PSFs: {rows} × {columns} Orte × {waves} Wellenlängen, sofort und ungemessen</translation></message>
+<message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
 <message><source>{count} surfaces · edited</source><translation>{count} Flächen · bearbeitet</translation></message>
 <message><source>{count} wavelengths</source><translation>{count} Wellenlängen</translation></message>
@@ -617,9 +640,12 @@
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{number} stop</source><translation>{number} Blende</translation></message>
+<message><source>{path}, line {number}: the file holds no lens surface between object and image</source><translation>{path}, Zeile {number}: die Datei enthält keine Linsenfläche zwischen Objekt und Bild</translation></message>
+<message><source>{path}: there is no such file; check the path</source><translation>{path}: eine solche Datei gibt es nicht; den Pfad prüfen</translation></message>
 <message><source>{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes, float32</source><translation>{rows} × {columns} Gauß–Tschebyschow- × Gauß–Legendre-Knoten, float32</translation></message>
 <message><source>{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes, float64</source><translation>{rows} × {columns} Gauß–Tschebyschow- × Gauß–Legendre-Knoten, float64</translation></message>
 <message><source>{step}: pixels of {pitch} µm average finer fringes; the window has a margin of {margin} (error {error})</source><translation>{step}: Pixel zu {pitch} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin} (Fehler {error})</translation></message>
+<message><source>{what} is {value}; give a number from {low} to {high}</source><translation>{what} ist {value}; eine Zahl von {low} bis {high} angeben</translation></message>
 <message><source>±{half} µm hidden</source><translation>±{half} µm verborgen</translation></message>
 <message><source>η, towards the field</source><translation>η, zum Feld hin</translation></message>
 <message><source>λ</source><translation>λ</translation></message>

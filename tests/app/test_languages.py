@@ -2,19 +2,24 @@
 
 import ast
 import re
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QTabWidget, QWidget
 
-from app import languages
+from app import languages, probe
+from app.compute import live
 from app.languages import FOLDER, JOINTS, Spoken, speak, spoken, template, texts
 from app.panels import REGISTRY
+from app.panels.solid import SolidPanel
 from app.speaking import Speaking
+from app.speech import spoken as in_the_windows_words
 from app.state import State
 from app.window import Window
 from app.words import tr
+from p2sf.errors import P2SFError
 
 ROOT = Path(__file__).parents[2]
 LETTERS = re.compile(r"[^\W\d_]{3}")
@@ -75,6 +80,7 @@ def german(only_window):
     """Return a German window, every panel of which was opened, and its translator."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(languages, "Spoken", Listening)
+        patch.setattr(SolidPanel, "_probe", lambda panel: None)  # the renderer says nothing
         speak("de")
         made = Window(State(method="seidel", theme="light", language="de", f_number=8.0), measured=False)
         made.resize(1440, 900)
@@ -114,6 +120,16 @@ def test_nothing_shown_passes_the_language_by(german):
     pieces = {piece.strip() for text in shown(window) for piece in JOINTS.split(text)[::2]}
     passed = {p for p in pieces if LETTERS.search(p) and p not in translator.heard and not is_german(p)}
     assert not passed, "\n".join(sorted(passed))
+
+
+def test_every_panel_and_control_is_defined_by_a_tooltip(german):
+    window, _ = german
+    for panel in window.panels.values():
+        assert LETTERS.search(panel.widget.title.toolTip()), panel.widget.title.text()
+    for part in (*window.controls.rows.values(), window.controls.stopping.stop, window.controls.stopping.clip):
+        assert LETTERS.search(part.toolTip())
+    for button in window.top.findChildren(QAbstractButton):
+        assert button.toolTip(), button.text()
 
 
 @pytest.mark.parametrize("size", [(1440, 900), (1280, 800)])
@@ -156,3 +172,23 @@ def test_a_change_of_language_reopens_the_window_and_undo_brings_it_back(only_wi
     finally:
         speak("en")
         speaking.window.close()
+
+
+@pytest.mark.parametrize(
+    ("changes", "german_words"),
+    [
+        ({"wavelength_nm": 150.0}, "Die Wellenlänge 150 nm liegt außerhalb der Daten von SCHOTT N-SSK2"),
+        ({"field_deg": 95.0}, "Feldwinkel ist 95 °; eine Zahl von −89 bis 89 ° angeben"),
+        ({"field_deg": 60.0, "method": "fitted"}, "Der Hauptstrahl wird an Fläche 5 total reflektiert"),
+    ],
+)
+def test_refusals_of_the_library_are_said_in_german(only_window, changes, german_words):
+    with pytest.raises(P2SFError) as refused:
+        live(replace(State(method="seidel"), **changes))
+    assert german_words in Spoken("de").said(in_the_windows_words(str(refused.value)))
+
+
+def test_every_sentence_about_opengl_is_in_german():
+    for code in (probe.NO_LIBRARY, probe.NO_CONTEXT):
+        assert probe.sentence(code) in GERMAN
+    assert probe.sentence(probe.WORKS) == ""
