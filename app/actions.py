@@ -4,13 +4,14 @@ from pathlib import Path
 
 from PySide6.QtCore import QBuffer, QIODevice, QObject
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox, QWidget
+from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 
 from app.choices import everything, fill
 from app.commands import Command
 from app.copying import card_in_hand, copy_data, copy_picture
 from app.focus import best_shift_um
 from app.helping import help_text
+from app.helppage import HelpPage
 from app.opening import KINDS, REPORT_TAB, Refusal, opened, refusal
 from app.palette import Palette
 from app.panels import REGISTRY
@@ -65,6 +66,7 @@ class Actions(QObject):
             Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+D",), "Files"),
             Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
             Command("Report: one page as PDF…", self.ask_report, ("Ctrl+P",), "Files"),
+            Command("Pop out", self.window.tabs.detach, ("Ctrl+D",), "Panel"),
             Command("Find a command…", self.find, ("Ctrl+K",)),
             Command("Shortcuts", self.help, ("F1", "?")),
             Command("Close the window", self.window.close, ("Ctrl+Q",)),
@@ -148,10 +150,7 @@ class Actions(QObject):
 
     def help(self) -> None:
         """Show shortcuts and what they do."""
-        box = QMessageBox(self.window)
-        box.setWindowTitle(tr("Help"))
-        box.setText(help_text(tuple(self.commands)))
-        box.open()
+        HelpPage(help_text(tuple(self.commands)), self.window).show()
 
     def find(self) -> None:
         """Open the command palette."""

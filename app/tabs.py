@@ -62,6 +62,10 @@ class Tabs(QTabWidget):
             self.blockSignals(False)
             self._show_group()
 
+    def detach(self) -> None:
+        """Ask for the panel in front in a window of its own, or back."""
+        self.detach_asked.emit(self.current())
+
     def open_group(self, group: str) -> None:
         """Open the panel of a group that was last in front, else its first."""
         first = next(key for key, own in self._groups.items() if own == group)
@@ -96,9 +100,8 @@ class Tabs(QTabWidget):
             button.setAccessibleName(tr(tip))
             row.addWidget(button)
         own, everything = holder.findChildren(QToolButton)
-        own.setShortcut("Ctrl+D")
         everything.setShortcut("Alt+0")
-        own.clicked.connect(lambda: self.detach_asked.emit(self.current()))
+        own.clicked.connect(self.detach)
         everything.setMenu(self.menu)
         everything.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         return holder

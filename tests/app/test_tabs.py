@@ -73,6 +73,14 @@ def test_a_double_click_gives_a_tab_its_own_window_and_closing_gives_it_back(win
     assert "mtf" in window.floating.open, "an undone close opens it again"
 
 
+def test_a_key_puts_the_panel_into_its_own_window_and_back(window, qtbot):
+    qtbot.waitUntil(window.isActiveWindow)
+    QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
+    assert window.store.state.windows == ("profiles",)
+    window.floating.toggle("profiles")
+    assert window.store.state.windows == () and window.panels["profiles"].widget.window() is window
+
+
 def test_a_tab_behind_is_not_computed(window):
     window.open_panel("seidel")
     assert set(window.live.views) == {"seidel"}
