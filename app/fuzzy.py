@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-START, NEXT, GAP = 8.0, 4.0, 0.1  # what a letter at a word's start and one right behind the last are worth; a gap costs
+START, NEXT, GAP = 8.0, 6.0, 0.3  # what a letter at a word's start and one right behind the last are worth; a gap costs
 
 
 def score(sought: str, text: str) -> float | None:

@@ -17,7 +17,7 @@ LEAD = "Drag a slider: lens, pupil and PSF follow. Hover over a name for its def
 
 def help_text(commands: tuple[Command, ...]) -> str:
     """Return the page as HTML: what hands do, then every command with keys, group by group."""
-    rows = [_row(keys, tr(words)) for keys, words in HANDS]
+    rows = [_row(tr(keys), tr(words)) for keys, words in HANDS]
     for group in dict.fromkeys(command.group for command in commands):
         known = [command for command in commands if command.group == group and command.keys]
         if known:

@@ -349,6 +349,7 @@
 <message><source>Surfaces of the lens</source><translation>Flächen des Objektivs</translation></message>
 <message><source>Swap</source><translation>Tauschen</translation></message>
 <message><source>Sweep</source><translation>Durchlauf</translation></message>
+<message><source>Tab, Shift+Tab</source><translation>Tab, Umschalt+Tab</translation></message>
 <message><source>Table</source><translation>Tabelle</translation></message>
 <message><source>Take B away (Ctrl+B)</source><translation>B entfernen (Strg+B)</translation></message>
 <message><source>Take back one step (Ctrl+Z)</source><translation>Einen Schritt zurücknehmen (Strg+Z)</translation></message>
@@ -471,6 +472,8 @@
 <message><source>distance from the chief ray, µm</source><translation>Entfernung vom Hauptstrahl, µm</translation></message>
 <message><source>distortion</source><translation>Verzeichnung</translation></message>
 <message><source>distortion, %</source><translation>Verzeichnung, %</translation></message>
+<message><source>double-click</source><translation>Doppelklick</translation></message>
+<message><source>drop a file</source><translation>Datei fallen lassen</translation></message>
 <message><source>earlier picture</source><translation>früheres Bild</translation></message>
 <message><source>earlier picture, working</source><translation>früheres Bild, in Arbeit</translation></message>
 <message><source>edited</source><translation>bearbeitet</translation></message>
@@ -650,6 +653,7 @@
 <message><source>η, towards the field</source><translation>η, zum Feld hin</translation></message>
 <message><source>λ</source><translation>λ</translation></message>
 <message><source>ξ, pupil radii</source><translation>ξ, Pupillenradien</translation></message>
+<message><source>← → ↑ ↓, Page Up/Down</source><translation>← → ↑ ↓, Bild auf/ab</translation></message>
 <message><source>∞</source><translation>∞</translation></message>
 <message><source>⌀ {d} at {z} mm</source><translation>⌀ {d} bei {z} mm</translation></message>
 <message><source>▶</source><translation>▶</translation></message>

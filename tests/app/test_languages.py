@@ -10,8 +10,11 @@ import pytest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QTabWidget, QWidget
 
 from app import languages, probe
+from app.choices import everything
 from app.compute import live
+from app.helping import help_text
 from app.languages import FOLDER, JOINTS, Spoken, speak, spoken, template, texts
+from app.palette import named
 from app.panels import REGISTRY
 from app.panels.solid import SolidPanel
 from app.speaking import Speaking
@@ -89,6 +92,9 @@ def german(only_window):
             if entry.place != "main":
                 made.open_panel(entry.key)
                 made.grab()
+        help_text(tuple(made.actions.commands))
+        for command in everything(made):
+            named(command)
         yield made, QApplication.instance().findChild(Listening)
         made.close()
         speak("en")
