@@ -7,8 +7,8 @@ from p2sf.conventions import centred_axis
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.fastpath import intensities, wave_number
 from p2sf.lens import with_f_number
-from p2sf.psf import fft_intensity, plain_intensity, seidel_psf, suitable_pixel_um
-from p2sf.quadrature import chord_rows, grid_rows
+from p2sf.psf import fft_intensity, fft_samples, plain_intensity, seidel_psf, suitable_pixel_um
+from p2sf.quadrature import chord_rows, even_count, grid_rows
 from p2sf.seidel import coefficients
 from p2sf.transform import padded_fft
 from tests.extremes.settled import PROMISE, error_of, random_case
@@ -172,3 +172,26 @@ def test_one_sample_is_as_wide_as_the_whole_picture():
     c = waves(w40=1.0)
     assert suitable_pixel_um(c, 1) == pytest.approx(2 * suitable_pixel_um(c, 2), rel=1e-15)
     assert suitable_pixel_um(c, 0) == suitable_pixel_um(c, 1)
+
+
+def test_the_padded_fft_takes_what_window_blur_and_rim_ask_for():
+    """NA·pixel/λ is 0.2 at 1 µm: a rim of 64 or 256 samples, a blur of |∇W|/0.2 on both sides, or twice the window."""
+    assert (fft_samples(waves(), 16, 1.0), fft_samples(waves(), 16, 1.0, "settled")) == (
+        even_count(320),
+        even_count(1280),
+    )
+    assert fft_samples(waves(), 400, 1.0) == even_count(800)
+    assert fft_samples(waves(w40=100.0), 16, 1.0) == even_count(2 * 2000 + 16)
+    assert fft_samples(waves(w40=249.0), 16, 2.5) == even_count(4000)  # its pupil is as wide and just fits
+    with pytest.raises(SamplingError, match="too large; use mdft or change the pixel"):
+        fft_samples(waves(w40=256.0), 16, 2.5)
+    for quality, count in (("settled", 1280), ("preview", 320)):
+        words = seidel_psf(waves(), 16, 1.0, quality, "fft").sampling
+        assert words == f"FFT of {even_count(count)} × {even_count(count)} pupil samples"
+
+
+def test_a_stack_by_the_padded_fft_is_its_members():
+    stack = seidel_psf(waves(w40=np.array([0.2, 0.4]), wd=np.array([[0.0], [0.3], [0.6]])), 16, 1.0, sampling="fft")
+    assert stack.values.shape == (3, 2, 16, 16)
+    one = seidel_psf(waves(w40=0.4, wd=0.6), 16, 1.0, sampling="fft").values
+    np.testing.assert_allclose(stack.values[2, 1], one, rtol=0, atol=1e-15)
