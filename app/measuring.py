@@ -33,7 +33,7 @@ class Measuring(QObject):
             self._refuse_altered(live)
             return
         ladder = live.state.tab == "accuracy"
-        if self._last and self._fits(self._last, live, ladder):
+        if self._last and fits(self._last, live, ladder):
             self._tell(self._last)
             return
         self.worker.submit(live, lambda cancelled, progress: measure(live, ladder, cancelled, progress))
@@ -44,12 +44,6 @@ class Measuring(QObject):
         self._window.panels["psf"].show_badge(live, None, False)
         self._each("show_failure", NO_REFERENCE)
 
-    @staticmethod
-    def _fits(known: Accuracy, live: Live, ladder: bool) -> bool:
-        """Return whether a known figure answers for this picture: it may differ in looks but not in optics."""
-        same = known.live.psf.method == live.psf.method and known.live.setting.source == live.setting.source
-        return same and known.live.setting.lens == live.setting.lens and bool(known.rungs or not ladder)
-
     def _on_finished(self, key: Live, accuracy: Accuracy) -> None:
         self._last = accuracy
         self._tell(accuracy)
@@ -58,7 +52,7 @@ class Measuring(QObject):
         live = self._window.live
         if live.setting.altered:
             return
-        stale = not self._fits(accuracy, live, False) or live.quality != "settled"
+        stale = not fits(accuracy, live, False) or live.quality != "settled"
         self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
         self._each("show_accuracy", accuracy, stale)
 
@@ -76,3 +70,17 @@ class Measuring(QObject):
     def stop(self) -> None:
         """End the worker's thread."""
         self.worker.stop()
+
+
+def fits(known: Accuracy, live: Live, ladder: bool) -> bool:
+    """Return whether a known figure answers for this picture: it may differ in looks but neither in light nor window.
+
+    Two fits of one method differ in their ``numbers``, which the tolerance decides.
+    """
+    return picture(known.live) == picture(live) and bool(known.rungs or not ladder)
+
+
+def picture(live: Live) -> tuple:
+    """Return everything that R² of a settled picture depends on."""
+    made, psf = live.setting, live.psf
+    return made.lens, made.source, psf.method, psf.numbers, live.state.clip, psf.values.shape, psf.pixel_um

@@ -1,7 +1,12 @@
 """The background measure: R² against the Huygens sum arrives by itself, and its ladder is in order."""
 
+from dataclasses import replace
+
 import pytest
 
+from app.compute import live
+from app.measuring import fits
+from app.reference import Accuracy
 from app.state import State
 from app.theme import configure_plots
 from app.window import Window
@@ -34,3 +39,17 @@ def test_the_figure_goes_grey_when_the_picture_moves_on(measured, qtbot):
     with measured.store.drag():
         measured.store.update(field_deg=3.0)
         assert badge._colour == "muted"
+
+
+@pytest.mark.parametrize(
+    ("changes", "wide"),
+    [({"clip": True}, 0.0), ({}, 200.0), ({"method": "fitted"}, 0.0), ({"field_deg": 3.0}, 0.0)],
+    ids=["clip", "window", "method", "field"],
+)
+def test_a_figure_answers_for_its_own_picture_only(changes, wide):
+    """R² compares two pictures: other rays cut, another window or method or point, and it is another number."""
+    state = State(method="seidel", field_deg=2.0, f_number=8.0)
+    shown = live(state)
+    known = Accuracy(shown, shown.psf, 0.9)
+    assert fits(known, live(replace(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
+    assert not fits(known, live(replace(state, **changes), at_least_um=wide), False)
