@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import isfinite, pi
 from time import perf_counter
 
 import numpy as np
@@ -30,8 +31,9 @@ Renderer = Callable[[Lens, Source, int, float], Psf]
 class ColourPsf:
     """X, Y, Z of a point's image, ``xyz`` (y, x, 3), rows +y; sample N//2 is the reference wavelength's chief ray.
 
-    Y sums to the share of all light that falls into the window, or to 1 where no share is known. ``wavelengths_um``:
-    what was rendered, by ``methods``; ``shift_um``: how far above the reference's each chief ray lands.
+    Y sums to ``light_in_window``, the share of all light that falls into it; None where samples are too far apart to
+    tell, and then Y sums to an estimate. ``wavelengths_um``: what was rendered, by ``methods``; ``shift_um``: how far
+    above the reference's each chief ray lands.
     """
 
     xyz: np.ndarray
@@ -41,6 +43,7 @@ class ColourPsf:
     shift_um: np.ndarray
     methods: tuple[str, ...]
     seconds: float
+    light_in_window: float | None = None
 
     @property
     def x_um(self) -> np.ndarray:
@@ -74,10 +77,12 @@ def colour_psf(
     wavelengths, weights = bands(spectrum, count, *_limits(lens))
     shifts = chief_shifts_um(lens, source, wavelengths)
     made = [make(lens, replace(source, wavelength_um=float(wave)), *window) for wave in wavelengths]
-    layers = (shifted_up(lit(psf), shift / window[1]) for psf, shift in zip(made, shifts, strict=True))
+    each = zip(made, shares(lens, source, made), shifts, strict=True)
+    layers = (shifted_up(share * psf.values, shift / window[1]) for psf, share, shift in each)
     xyz = sum(layer[..., None] * weight for layer, weight in zip(layers, weights, strict=True))
     methods = tuple(dict.fromkeys(psf.method for psf in made))
-    return ColourPsf(xyz, window[1], spectrum.name, wavelengths, shifts, methods, perf_counter() - started)
+    light = None if any(psf.energy is None for psf in made) else float(xyz[..., 1].sum())
+    return ColourPsf(xyz, window[1], spectrum.name, wavelengths, shifts, methods, perf_counter() - started, light)
 
 
 def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: int, stop: Stop | None = None) -> float:
@@ -98,9 +103,25 @@ def _limits(lens: Lens) -> tuple[tuple[float, float], ...]:
     return (known,) if known else ()
 
 
-def lit(psf: Psf) -> np.ndarray:
-    """Return the PSF with the share of all light in its window as its sum, 1 where no share is known."""
-    return psf.values * (1.0 if psf.energy is None else min(1.0, float(psf.energy)))
+def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:
+    """Return the share of all its light that each wavelength's PSF has in the window, by one rule for all of them.
+
+    What is known where all is; else `estimated_share`, or one wavelength would be weighed otherwise than the next.
+    """
+    if all(psf.energy is not None for psf in made):
+        return np.minimum(1.0, [float(psf.energy) for psf in made])
+    na = coefficients(lens, source.depth_mm, source.field_slope, np.array([psf.wavelength_um for psf in made])).na
+    return np.array(
+        [estimated_share(psf, float(one)) for psf, one in zip(made, np.broadcast_to(na, len(made)), strict=True)]
+    )
+
+
+def estimated_share(psf: Psf, na: float) -> float:
+    """Return Σ samples·π(NA·pixel/λ)², the rule of `psf.energy_fraction`, where samples are too far apart for it."""
+    if psf.strehl is None or not isfinite(psf.strehl):
+        return 1.0 if psf.energy is None else min(1.0, float(psf.energy))
+    total = float(psf.strehl) / float(psf.values.max())  # in units of the unaberrated peak
+    return min(1.0, total * pi * (na * psf.pixel_um / psf.wavelength_um) ** 2)
 
 
 def chief_shifts_um(lens: Lens, source: Source, wavelengths_um) -> np.ndarray:
@@ -146,6 +167,6 @@ def record(found: ColourPsf) -> dict:
         "wavelengths_nm": found.wavelengths_um * NM_PER_UM,
         "chief_ray_shift_um": found.shift_um,
         "methods": list(found.methods),
-        "light_in_window": float(found.xyz[..., 1].sum()),
+        "light_in_window": found.light_in_window,
         "seconds": found.seconds,
     }

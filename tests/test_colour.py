@@ -9,6 +9,7 @@ import pytest
 from p2sf import colour, polychromatic
 from p2sf.cli import main
 from p2sf.errors import RequestError
+from p2sf.fieldcurves import heights
 from p2sf.gaussian import image_distance
 from p2sf.lens import with_f_number, with_sensor
 from p2sf.library import find_lens
@@ -99,7 +100,34 @@ def test_one_line_is_the_plain_psf():
     source = Source(field_slope=0.1)
     plain = polychromatic.by_ladder("seidel")(lens, source, 48, 1.0)
     found = lines(lens, source, 587.5618)
-    assert found.xyz[..., 1] == pytest.approx(polychromatic.lit(plain), abs=1e-12)
+    assert found.xyz[..., 1] == pytest.approx(plain.energy * plain.values, abs=1e-12)
+    assert found.light_in_window == pytest.approx(plain.energy)
+
+
+def test_the_colour_does_not_jump_where_samples_grow_too_far_apart_to_tell_the_light():
+    """λ/2NA runs from 1.15 µm for blue to 2.1 µm for red: from pitch to pitch other wavelengths have a known share.
+
+    A step here is 2 %: of a window that catches 2 to 6 % of a smooth blur, the light grows by 4 % of itself.
+    """
+    source = Source(field_slope=np.tan(np.radians(14.0)), wavelength_um=D_UM)
+    pitches = np.geomspace(1.1, 2.3, 38)
+    found = [polychromatic.colour_psf(find_lens("double_gauss_28"), source, Spectrum("equal"), (16, p), "seidel", 9)
+             for p in pitches]  # fmt: skip
+    xy = np.array([colour.chromaticity(one.xyz.sum((0, 1))) for one in found])
+    assert np.abs(np.diff(xy, axis=0)).max() < 0.002
+    light = [one.xyz[..., 1].sum() for one in found]
+    assert np.abs(np.diff(light)).max() < 0.003
+    assert [one.light_in_window is None for one in found] == sorted(one.light_in_window is None for one in found)
+    assert found[0].light_in_window == pytest.approx(light[0]) and found[-1].light_in_window is None
+
+
+def test_a_share_nobody_knows_is_a_dash(capsys):
+    command = "psf double_gauss_28 --field-deg 14 --spectrum equal --pixels 16 --method seidel --pixel-um 2.2"
+    assert main(command.split()) == 0
+    row = next(line for line in capsys.readouterr().out.splitlines() if "light inside" in line)
+    assert row.split()[-1] == "–"
+    assert main([*command.split(), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["light_in_window"] is None
 
 
 def test_a_simple_lens_focused_for_blue_has_a_blue_core_in_a_red_halo():
@@ -122,7 +150,8 @@ def test_lateral_colour_puts_the_colours_where_their_chief_rays_land():
     blue, red = (lines(lens, source, nm, window=(96, 0.5)) for nm in (486.1327, 656.2725))
     places = [(f.xyz[..., 1].sum(1) * f.y_um).sum() / f.xyz[..., 1].sum() for f in (blue, red)]
     landed = polychromatic.chief_shifts_um(lens, source, np.array([F_UM, C_UM]))
-    assert abs(landed[0] - landed[1]) > 2
+    own = heights(lens, replace(source, wavelength_um=F_UM), 0.2).real - heights(lens, source, 0.2).real
+    assert landed[0] == pytest.approx(1e3 * own, abs=1e-9) and landed[0] - landed[1] > 2
     # Coma moves either centroid alike, to some tenths of a micron between the two colours.
     assert places[0] - places[1] == pytest.approx(landed[0] - landed[1], abs=0.6)
 
