@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
-from app.languages import speak
+from app.languages import ENGLISH, speak
 from app.lesson import shipped_lessons
 from app.limits import CHOICES
 from app.panels import REGISTRY
@@ -59,7 +59,7 @@ def working(window: Window) -> bool:
 
 def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
     """Save a picture of the window in a state, its accuracy ``measured`` or not."""
-    speak(state.language)
+    speak(ENGLISH if state.language == "system" else state.language)  # the same pictures on every machine
     window = Window(state, measured)
     window.resize(*size)
     window.show()
