@@ -8,7 +8,7 @@ from app.rung import WINDOWS
 from app.scales import nice
 from app.state import State
 from app.views.field import widest_slope
-from app.views.sampled import by_coefficients, in_window, optics
+from app.views.sampled import everywhere_by_coefficients, in_window, optics
 from p2sf.conventions import degrees_from_slope
 from p2sf.errors import P2SFError
 from p2sf.psf import suitable_pixel_um
@@ -37,7 +37,9 @@ def field_map(live) -> FieldMap:
     slopes = np.array([0.0, 0.5, 1.0]) * corner
     c = coefficients(s.lens, s.source.depth_mm, slopes, s.source.wavelength_um, s.stop)
     wide = nice(MOST_OF * pixels * float(np.max(suitable_pixel_um(c, pixels))), WINDOWS)
-    return FieldMap(replace(optics(live.state), field_deg=0.0), corner, (pixels, wide / pixels), by_coefficients(live))
+    return FieldMap(
+        replace(optics(live.state), field_deg=0.0), corner, (pixels, wide / pixels), everywhere_by_coefficients(live)
+    )
 
 
 def places() -> np.ndarray:

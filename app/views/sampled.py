@@ -21,8 +21,16 @@ def optics(state: State) -> State:
 
 
 def by_coefficients(live) -> bool:
-    """Return whether the six coefficients make the picture, and so every small one beside it."""
+    """Return whether the six coefficients make the present point's picture, and so what is shown of that point."""
     return live.rung == "seidel" or live.setting.altered
+
+
+def everywhere_by_coefficients(live) -> bool:
+    """Return whether the six coefficients make every picture: asked for by name, or altered by hand.
+
+    What ``auto`` has chosen holds for the present point alone, and says nothing of other fields and sensor positions.
+    """
+    return live.state.method == "seidel" or live.setting.altered
 
 
 def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:

@@ -9,7 +9,7 @@ from app.rung import WINDOWS
 from app.scales import nice
 from app.setting import setting
 from app.state import State
-from app.views.sampled import by_coefficients, in_window, optics
+from app.views.sampled import everywhere_by_coefficients, in_window, optics
 from p2sf.errors import P2SFError
 from p2sf.fieldcurves import real_foci, seidel_foci
 from p2sf.measures import airy_radius_um
@@ -50,7 +50,7 @@ def strip(live) -> Strip:
     low, high, half = reach(set_up)
     shifts = tuple(np.linspace(low, high, COUNT[live.quality]).tolist())
     pixels = PIXELS[live.quality]
-    return Strip(state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), by_coefficients(live))
+    return Strip(state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), everywhere_by_coefficients(live))
 
 
 def reach(set_up) -> tuple[float, float, float]:

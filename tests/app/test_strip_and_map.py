@@ -148,6 +148,23 @@ def test_hidden_strip_and_map_ask_nothing(window, strip, qtbot):
     assert strip.asking.asked is asked and not strip.asking.worker.busy
 
 
+@pytest.mark.parametrize(
+    ("ask", "points"),
+    [
+        (field_map.field_map, ({"field_deg": 0.0}, {"field_deg": 14.0})),
+        (through_focus.strip, ({"sensor_shift_um": 0.0}, {"sensor_shift_um": 400.0})),
+    ],
+    ids=["map", "strip"],
+)
+def test_what_auto_chose_for_one_point_does_not_make_the_pictures_of_all(ask, points):
+    """Six coefficients do near the axis and where all is blurred, and miss elsewhere: `auto` changes its mind."""
+    state = replace(FIRST, method="auto", field_deg=2.0, f_number=5.6)
+    answers = [live(replace(state, **point)) for point in points]
+    assert {answer.rung for answer in answers} == {"seidel", "fitted"}
+    first, second = map(ask, answers)
+    assert first == second and not first.six
+
+
 @pytest.mark.parametrize("lens", ["relay", "eye_navarro", "landscape"])
 def test_other_lenses_have_a_strip_with_their_foci_inside(lens):
     state = replace(with_lens(FIRST, lens), method="seidel")
