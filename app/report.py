@@ -46,7 +46,7 @@ class Page:
         flags = {-1: Qt.AlignmentFlag.AlignLeft, 0: Qt.AlignmentFlag.AlignHCenter, 1: Qt.AlignmentFlag.AlignRight}
         box = self.pixels(room)
         self.painter.setPen(QColor(LIGHT.text))
-        self.painter.drawText(box, flags[side] | Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap, words)
+        self.painter.drawText(box, flags[side] | Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap, tr(words))
 
     def pixels(self, room: QRectF) -> QRectF:
         """Return a rectangle in the painter's own unit."""

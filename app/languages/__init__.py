@@ -29,9 +29,9 @@ class Spoken(QTranslator):
         braced = sorted((source for source in self.texts if "{" in source), key=lambda s: -len(BRACES.sub("", s)))
         self.templates = tuple(template(source, self.texts[source]) for source in braced)
 
-    def translate(self, context, source, disambiguation=None, n=-1) -> str:
+    def translate(self, context, source, disambiguation=None, n=-1) -> str | None:
         """Return one of our texts in the language, as it is where the language has nothing; nothing for Qt's own."""
-        return self.said(source) if context == CONTEXT else ""
+        return self.said(source) if context == CONTEXT else None  # not "": Qt would show that
 
     def said(self, source: str) -> str:
         """Return a text in the language: as it stands there, or by the first template it fits, else piece by piece."""
@@ -62,7 +62,9 @@ class Spoken(QTranslator):
 def template(source: str, said: str):
     """Return what tells whether a text fits a source with braces, and the translation, its braces numbered alike."""
     names = BRACES.findall(source)
-    form = "".join("((?:(?! · |\n).)+?)" if part in names else re.escape(part) for part in re.split(r"(\{\w*\})", source))
+    form = "".join(
+        "((?:(?! · |\n).)+?)" if part in names else re.escape(part) for part in re.split(r"(\{\w*\})", source)
+    )
     for number, name in enumerate(names):
         said = said.replace(name, f"{{{number}}}", 1)
     return re.compile(form).fullmatch, said

@@ -7,6 +7,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QTabWidget, QWidget
 
 from app import languages, probe
@@ -109,7 +110,8 @@ def test_nothing_shown_is_missing(german):
 def shown(window) -> set[str]:
     """Return the text of everything in a window that has one."""
     found = set()
-    for widget in [window, *window.findChildren(QWidget)]:
+    own = [w for w in window.findChildren(QWidget) if not w.objectName().startswith("Scroll")]  # these are Qt's
+    for widget in [window, *own]:
         found |= {widget.toolTip(), widget.accessibleName()}
         if isinstance(widget, QAbstractButton | QLabel):
             found.add(widget.text())
@@ -151,6 +153,16 @@ def test_every_label_and_button_fits(german, size):
         if part.width() < part.minimumSizeHint().width() and part.objectName() != "readout" and part.text()
     }
     assert len(parts) > 40 and cut == set()
+
+
+def test_qts_own_words_are_its_own_or_its_translators(qapp):
+    speak("de")
+    try:
+        assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Abbrechen"
+        assert QCoreApplication.translate("nobody's", "words %1") == "words %1"
+    finally:
+        speak("en")
+    assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Cancel"
 
 
 def test_english_needs_no_file_and_an_unknown_language_is_english(qapp):
