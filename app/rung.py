@@ -12,7 +12,7 @@ from app.state import State
 from app.whatif import NOTE
 from p2sf.huygens import Filling, huygens_psf
 from p2sf.measures import airy_radius_um
-from p2sf.psf import Psf, seidel_psf, suitable_pixel_um
+from p2sf.psf import Psf, check_image, seidel_psf, suitable_pixel_um
 from p2sf.raytrace import pencil
 from p2sf.wavefront import steepest_slope
 
@@ -43,8 +43,9 @@ def rendered(state: State, set_up: Setting, quality: str, held: str = "", at_lea
     """Return the PSF by the state's method, or by the rung ``auto`` chooses, or by the one ``held`` while moving.
 
     The window is as wide as the PSF asks for, and ``at_least_um``. What is altered by hand has no rays: the six
-    coefficients make its picture.
+    coefficients make its picture. Raises GeometryError for an image at infinity.
     """
+    check_image(set_up.coefficients)
     if set_up.altered:
         method, why = "seidel", f"seidel from the six coefficients ({NOTE})"
     else:

@@ -12,7 +12,7 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM, centred_axis
 from p2sf.errors import RequestError
 from p2sf.ladder import render
 from p2sf.lens import Lens, lens_range_um
-from p2sf.psf import Psf, suitable_pixel_um
+from p2sf.psf import Psf, check_image, suitable_pixel_um
 from p2sf.pupils import Stop
 from p2sf.raytrace import pencil
 from p2sf.seidel import coefficients
@@ -86,7 +86,11 @@ def colour_psf(
 
 
 def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: int, stop: Stop | None = None) -> float:
-    """Return the pitch at which the window shows the PSF of every colour, lateral colour included, µm."""
+    """Return the pitch at which the window shows the PSF of every colour, lateral colour included, µm.
+
+    Raises GeometryError where the image of the source's own colour lies at infinity, and so that of none other near.
+    """
+    check_image(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop))
     waves, _ = bands(spectrum, LOOKED_AT, *_limits(lens))
     c = coefficients(lens, source.depth_mm, source.field_slope, waves, stop)
     shift = np.abs(chief_shifts_um(lens, source, waves))

@@ -3,9 +3,11 @@ import pytest
 
 from app.compute import live
 from app.geometric import exact_landing, finely, geometric_psf, polar
+from app.limits import CHOICES
 from app.setting import setting
 from app.state import State
 from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.errors import GeometryError
 from p2sf.quadrature import disc_nodes
 from p2sf.raytrace import pencil
 
@@ -74,3 +76,14 @@ def test_the_window_says_that_it_shows_rays_only():
     assert "ray density, no diffraction" in answer.why
     assert any("ray density, no diffraction" in sentence for sentence in answer.warnings)
     assert not any("ray density" in sentence for sentence in live(State(method="fitted")).warnings)
+
+
+FRONT_FOCUS_MM = 29.32063039659634  # the depth whose image the default lens puts at infinity, to the last bit
+
+
+@pytest.mark.parametrize("quality", ["settled", "preview"])
+@pytest.mark.parametrize("method", CHOICES["method"])
+def test_an_object_in_the_front_focal_plane_is_the_same_sentence_by_every_method(method, quality):
+    with pytest.raises(GeometryError, match=r"lies at infinity .*; move the object or refocus"):
+        live(State(depth_mm=FRONT_FOCUS_MM, method=method), quality)
+    assert live(State(depth_mm=FRONT_FOCUS_MM * (1 + 1e-12), method=method), quality).psf.values.sum() > 0.5
