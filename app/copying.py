@@ -95,7 +95,7 @@ def _of_plot(plot: pg.PlotWidget) -> Rows:
 
 
 def _of_heat_map(heat: HeatMap) -> Rows:
-    """Return a grid: x along the first row, y down the first column, rows +y."""
+    """Return a grid of what the map means: x along the first row, y down the first column, rows +y."""
     if heat.values is None:
         return []
     rows, columns = heat.values.shape
@@ -103,7 +103,8 @@ def _of_heat_map(heat: HeatMap) -> Rows:
     x = left + (np.arange(columns) + 0.5) * width / columns
     y = bottom + (np.arange(rows) + 0.5) * height / rows
     bottom_label, left_label = heat.chart.labels
-    head = [f"{left_label} \\ {bottom_label}", *map(_number, x)]
+    quantity = f"{tr(heat.quantity)}: " if heat.quantity else ""
+    head = [f"{quantity}{left_label} \\ {bottom_label}", *map(_number, x)]
     return [head, *([_number(at), *map(_number, row)] for at, row in zip(y, heat.values, strict=True))]
 
 

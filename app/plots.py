@@ -150,6 +150,7 @@ class HeatMap(QWidget):
         super().__init__(parent)
         self.chart, self.bar = Chart(bottom, left, aspect=True), ColourBar(self)
         self.indices, self.values = np.zeros((1, 1), np.uint8), None
+        self.quantity = ""
         self._name, self._rect = "CET-L4", None
         self._table = lookup(self._name)
         row = QHBoxLayout(self)
@@ -160,8 +161,13 @@ class HeatMap(QWidget):
 
     def show_values(self, values: np.ndarray, levels: tuple[float, float], rect: tuple[float, float, float, float]):
         """Show rows +y of ``values`` over (x, y, width, height)."""
-        self.values, self.indices, self._rect = values, as_indices(values, *levels), rect
+        self.indices, self._rect = as_indices(values, *levels), rect
+        self.means(values, "")
         self.chart.show_pixels(self._table[self.indices], rect)
+
+    def means(self, values: np.ndarray, quantity: str) -> None:
+        """Say what is copied for what is shown: ``values`` not stretched for the eye, their quantity and unit."""
+        self.values, self.quantity = values, quantity
 
     @property
     def rect_shown(self) -> tuple[float, float, float, float] | None:

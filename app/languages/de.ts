@@ -19,6 +19,7 @@
 <message><source>A field of {angle} is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Ein Feld von {angle} liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>A − B</source><translation>A − B</translation></message>
 <message><source>A − B · at most {share} % of the higher peak</source><translation>A − B · höchstens {share} % der höheren Spitze</translation></message>
+<message><source>A − B, share of the higher peak</source><translation>A − B, Anteil der höheren Spitze</translation></message>
 <message><source>Aberrations</source><translation>Aberrationen</translation></message>
 <message><source>Accept substitutes</source><translation>Ersatz annehmen</translation></message>
 <message><source>Accuracy</source><translation>Genauigkeit</translation></message>
@@ -216,6 +217,9 @@
 <message><source>PSF over the field</source><translation>PSF über das Feld</translation></message>
 <message><source>PSF profiles</source><translation>PSF-Profile</translation></message>
 <message><source>PSF × {psf} wide, height: {scale}</source><translation>PSF × {psf} breit, Höhe: {scale}</translation></message>
+<message><source>PSF, peak = 1</source><translation>PSF, Spitze = 1</translation></message>
+<message><source>PSF, perfect peak = 1</source><translation>PSF, perfekte Spitze = 1</translation></message>
+<message><source>PSF, sum = 1</source><translation>PSF, Summe = 1</translation></message>
 <message><source>PSFs, {wide} µm wide, √ of peak = 1</source><translation>PSFs, {wide} µm breit, √ mit Spitze = 1</translation></message>
 <message><source>Panel</source><translation>Feld</translation></message>
 <message><source>Panels of the group {group} (Alt+{number})</source><translation>Felder der Gruppe {group} (Alt+{number})</translation></message>
@@ -393,6 +397,7 @@
 <message><source>Units of the colour bar</source><translation>Einheit der Farbskala</translation></message>
 <message><source>Unpin</source><translation>B lösen</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
+<message><source>W modulo 1, waves</source><translation>W modulo 1, Wellen</translation></message>
 <message><source>W × {front} along the rays</source><translation>W × {front} längs der Strahlen</translation></message>
 <message><source>W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm</source><translation>W × {front} längs der Strahlen · PSF × {psf} breit, Höhe: {scale} · {wavelength} nm</translation></message>
 <message><source>W, waves</source><translation>W, Wellen</translation></message>
@@ -469,6 +474,7 @@
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
 <message><source>defocus</source><translation>Defokus</translation></message>
 <message><source>depth, even in 1/depth</source><translation>Abstand, gleichmäßig in 1/Abstand</translation></message>
+<message><source>difference, share of the reference's peak</source><translation>Differenz, Anteil der Spitze der Referenz</translation></message>
 <message><source>distance from the chief ray, µm</source><translation>Entfernung vom Hauptstrahl, µm</translation></message>
 <message><source>distortion</source><translation>Verzeichnung</translation></message>
 <message><source>distortion, %</source><translation>Verzeichnung, %</translation></message>
@@ -565,6 +571,7 @@
 <message><source>sensor shift</source><translation>Sensorversatz</translation></message>
 <message><source>sensor shift, µm</source><translation>Sensorversatz, µm</translation></message>
 <message><source>settled {ms} ms</source><translation>ruhend {ms} ms</translation></message>
+<message><source>share of the light in a pixel</source><translation>Anteil des Lichts in einem Pixel</translation></message>
 <message><source>share of the peak</source><translation>Anteil an der Spitze</translation></message>
 <message><source>sharp from {near} to {far}</source><translation>scharf von {near} bis {far}</translation></message>
 <message><source>sharp from {near} to {far} · hyperfocal distance {focus}</source><translation>scharf von {near} bis {far} · hyperfokale Entfernung {focus}</translation></message>

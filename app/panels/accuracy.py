@@ -85,10 +85,12 @@ class AccuracyPanel:
         rect, peak = (start, start, count * step, count * step), float(reference.values.max())
         scale = accuracy.live.state.psf_scale
         self.reference.show_values(stretched(reference.values / peak, scale), (0.0, 1.0), rect)
+        self.reference.means(reference.values / peak, "PSF, peak = 1")
         self.reference.bar.show_scale(PSF_MAP, "peak = 1", ((0.0, "0"), (1.0, "1")))
         delta = (psf.values - reference.values) / peak
         limit = nice(max(1e-6, float(np.abs(delta).max())))
         self.difference.show_values(delta, (-limit, limit), rect)
+        self.difference.means(delta, "difference, share of the reference's peak")
         labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
         self.difference.bar.show_scale(DIFFERENCE_MAP, "of peak", labels)
         for chart in (self.reference, self.difference):

@@ -18,6 +18,7 @@ TIP = (
     "over square pixels, the middle one centred on the chief ray."
 )
 NAMES = ("this lens, µm", "perfect lens, µm", "on the pixels, µm")
+MEANINGS = ("PSF, peak = 1", "PSF, peak = 1", "share of the light in a pixel")
 PIXEL_TIP = "Pixel pitch of the sensor."
 
 
@@ -39,11 +40,13 @@ class BesidePanel:
         half = view.real.shape[0] * view.sample_um / 2
         top = float(view.pixels.max()) or 1.0
         shown = ((view.real, view.sample_um), (view.perfect, view.sample_um), (view.pixels / top, view.pixel_um))
-        for heat, (values, step) in zip(self.maps, shown, strict=True):
+        for heat, (values, step), means in zip(self.maps, shown, MEANINGS, strict=True):
             start = -(values.shape[0] // 2 + 0.5) * step
             rect = (start, start, values.shape[0] * step, values.shape[0] * step)
             heat.show_values(stretched(np.asarray(values, float), live.state.psf_scale), (0.0, 1.0), rect)
+            heat.means(values, means)
             heat.set_extent(half)
+        self.maps[2].means(view.pixels, MEANINGS[2])
         for heat in self.maps[:2]:
             heat.bar.show_scale(BRIGHTNESS, tr("peak"), ((0.0, "0"), (1.0, "1")))
         self.maps[2].bar.show_scale(BRIGHTNESS, tr("of light"), ((0.0, "0"), (1.0, f"{100 * top:.3g} %")))

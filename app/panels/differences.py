@@ -20,6 +20,7 @@ def show_signed(heat: HeatMap, values: np.ndarray, rect, scale: str, unit: str) 
     top, power = limit(values), 1 if scale == "linear" else 2
     heat.set_map(DIFFERENCE_MAP)
     heat.show_values(np.sign(values) * np.abs(values / top) ** (1 / power), (-1.0, 1.0), rect)
+    heat.means(values, "A − B, share of the higher peak")
     parts = [(0.5, top * 0.5**power), (1.0, top)]
     labels = [
         ((1 + side * part) / 2, f"{sign}{value:.2g}") for side, sign in ((-1, "−"), (1, "+")) for part, value in parts

@@ -59,6 +59,7 @@ class PsfPanel:
         else:
             self.map.set_map(PSF_MAP)
             self.map.show_values(stretched(psf.values / peak, state.psf_scale), (0.0, 1.0), rect)
+            self.map.means(psf.values * (top_value(state, psf, peak) / peak), QUANTITIES[state.psf_units])
             self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.psf_units], labels(state, psf, peak))
         self.airy.token = self.arrow.token = "muted" if live.difference else WHITE
         self._frame(count * step / 2, live)
@@ -111,6 +112,7 @@ def badge_words(live: Live, times: dict[str, str], r_squared: float | None) -> t
 
 
 UNIT_WORDS = {"peak": "peak = 1", "sum": "per pixel", "strehl": "Strehl"}
+QUANTITIES = {"peak": "PSF, peak = 1", "sum": "PSF, sum = 1", "strehl": "PSF, perfect peak = 1"}
 
 
 def decade(top: float, decades: int) -> str:
@@ -120,9 +122,14 @@ def decade(top: float, decades: int) -> str:
     return f"{top * 10.0**-decades:.2g}".replace("e-0", "e−")
 
 
+def top_value(state, psf, peak: float) -> float:
+    """Return the brightest sample in the chosen units."""
+    return {"peak": 1.0, "sum": peak, "strehl": float(psf.strehl)}[state.psf_units]
+
+
 def labels(state, psf, peak: float) -> tuple[tuple[float, str], ...]:
     """Return the colour bar's labels: parts of the bar and the value there in the chosen units."""
-    top = {"peak": 1.0, "sum": peak, "strehl": float(psf.strehl)}[state.psf_units]
+    top = top_value(state, psf, peak)
     if state.psf_scale == "log":
         return tuple((1 - k / DECADES, decade(top, k)) for k in range(DECADES + 1))
     power = 2 if state.psf_scale == "sqrt" else 1

@@ -41,12 +41,14 @@ class PupilPanel:
         self._use_map(WRAPPED_MAP if mode == "wrapped" else WAVES_MAP)
         if mode == "wrapped":
             self._paint(np.mod(pupil.waves, 1.0), (0.0, 1.0), ((0.0, "0"), (0.5, "½"), (1.0, "1")))
+            self.map.means(self.map.values, "W modulo 1, waves")
         else:
             limit = self._limit(pupil.waves)
             labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
             step = interval(pupil.peak_to_valley)
             shown = contours(pupil.waves, step) if mode == "contour" else pupil.waves
             self._paint(shown, (-limit, limit), labels)
+            self.map.means(pupil.waves, "W, waves")
         numbers = f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ"
         lines = f"line every {step:g} λ" if mode == "contour" else pupil.kind
         self.numbers.set_text(f"{numbers} · {lines}")

@@ -10,7 +10,9 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 
-from app.copying import copy_menu, data_of
+from app.copying import copy_menu, data_of, table
+from app.languages import speak
+from app.pinning import pin
 from app.report import SHARES, fields, write_report
 from app.state import State
 from p2sf.errors import P2SFError
@@ -37,6 +39,34 @@ def test_a_heat_map_is_copied_as_a_grid_with_its_places(window):
     assert [float(cell) for cell in rows[0][1:]] == pytest.approx(psf.x_um, abs=1e-5)
 
 
+@pytest.mark.parametrize("scale", ["sqrt", "log"])
+def test_what_is_copied_is_light_and_not_brightness(window, scale):
+    """The root or logarithm that a map is shown by is for the eye; the numbers are the PSF's, in the bar's units."""
+    window.store.update(psf_scale=scale, psf_units="sum", tab="beside", phase="contour")
+    psf, maps = window.live.psf, window.panels["beside"].maps
+    rows, grid = grid_of(window.panels["psf"].map)
+    assert rows[0][0].startswith("PSF, sum = 1: y, µm") and grid == pytest.approx(psf.values, rel=1e-6, abs=1e-12)
+    view = window.live.views["beside"]
+    for heat, values in zip(maps, (view.real, view.perfect, view.pixels), strict=True):
+        assert grid_of(heat)[1] == pytest.approx(np.asarray(values), rel=1e-6, abs=1e-12)
+    rows, grid = grid_of(window.panels["pupil"].map)
+    waves = window.live.pupil.waves
+    assert rows[0][0].startswith("W, waves: ") and grid == pytest.approx(waves, rel=1e-6, abs=1e-9, nan_ok=True)
+
+
+def test_a_difference_is_copied_as_shares_of_the_higher_peak(window):
+    window.store.replace(pin(window.store.state))
+    window.store.update(f_number=8.0, shown="difference")
+    rows, grid = grid_of(window.panels["psf"].map)
+    assert rows[0][0].startswith("A − B") and grid == pytest.approx(window.live.difference.psf, rel=1e-6, abs=1e-9)
+
+
+def grid_of(heat):
+    """Return the rows of a map's CSV, and its numbers without their places."""
+    rows = table(heat)
+    return rows, np.array([[float(cell or "nan") for cell in row[1:]] for row in rows[1:]])
+
+
 @pytest.mark.parametrize("key", ["coefficients", "lens", "first_order", "seidel", "spot", "ray_fan"])
 def test_other_panels_have_their_numbers_too(window, key):
     window.open_panel(key) if key != "coefficients" else None
@@ -55,9 +85,14 @@ def test_the_picture_on_the_clipboard_is_the_panel(window, qtbot):
     menu.deleteLater()
 
 
-def test_the_report_is_one_page_of_a4_with_drawing_numbers_and_pictures(qapp, tmp_path):
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_the_report_is_one_page_of_a4_with_drawing_numbers_and_pictures(qapp, tmp_path, language):
     state = State(method="seidel", f_number=8.0)
-    write_report(state, str(tmp_path / "page.pdf"))
+    speak(language)
+    try:
+        write_report(state, str(tmp_path / "page.pdf"))
+    finally:
+        speak("en")
     document = (tmp_path / "page.pdf").read_bytes()
     assert document.startswith(b"%PDF-")
     assert len(re.findall(rb"/Type\s*/Page\b", document)) == 1
