@@ -77,6 +77,10 @@ class Lens:
     def __hash__(self):
         return self._hash
 
+    def __getstate__(self) -> dict:
+        # Texts hash otherwise in each process, so the hash of this one must not travel into another.
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
     @cached_property
     def _hash(self) -> int:
         # Every slider step looks a lens up a dozen times, and there are a hundred numbers to hash.

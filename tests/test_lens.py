@@ -1,7 +1,13 @@
 """The lens as data: what cannot be a lens is refused with its place, value and remedy."""
 
+import copy
+import os
+import pickle
+import subprocess
+import sys
 from dataclasses import FrozenInstanceError, replace
 from math import inf, nan
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,7 +15,9 @@ import pytest
 from p2sf.errors import GeometryError
 from p2sf.glass import ConstantIndex, TabulatedIndex
 from p2sf.lens import Aperture, Lens, Surface, indices, with_f_number, with_sensor
+from p2sf.library import find_lens
 
+ROOT = Path(__file__).parent.parent
 RIM = Aperture("stop_semi_diameter", 2.0)
 LENS = Lens((Surface(50.0, 4.0, ConstantIndex(1.5)), Surface(-50.0, 48.0)), RIM, 1)
 
@@ -79,3 +87,19 @@ def test_indices_come_in_the_order_light_meets_them():
     table = indices(lens, [[0.4, 0.5, 0.6]])
     assert table.shape == (3, 1, 3)
     np.testing.assert_allclose(table[1, 0], [1.6, 1.55, 1.5])
+
+
+def test_a_lens_from_another_process_is_found_where_an_equal_one_is_kept():
+    """Texts hash otherwise in each process, so a hash that travelled along would not be this one's."""
+    code = """
+import pickle, sys
+from p2sf.library import find_lens
+lens = find_lens("tessar")
+hash(lens), lens.curvatures, lens.media
+sys.stdout.buffer.write(pickle.dumps(lens))
+"""
+    environment = {**os.environ, "PYTHONHASHSEED": "12345"}
+    sent = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, cwd=ROOT, env=environment)
+    here, came = find_lens("tessar"), pickle.loads(sent.stdout)
+    assert came == here and {here: "kept"}.get(came) == "kept"
+    assert copy.deepcopy(came) == copy.copy(came) == here
