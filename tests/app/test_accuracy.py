@@ -5,8 +5,10 @@ from dataclasses import replace
 import pytest
 
 from app.compute import live
+from app.measures import MEASURES
 from app.measuring import fits
 from app.reference import Accuracy
+from app.scales import written_r_squared
 from app.state import State
 from app.theme import configure_plots
 from app.window import Window
@@ -39,6 +41,13 @@ def test_the_figure_goes_grey_when_the_picture_moves_on(measured, qtbot):
     with measured.store.drag():
         measured.store.update(field_deg=3.0)
         assert badge._colour == "muted"
+
+
+def test_a_lesson_claims_what_the_panel_says(measured, qtbot):
+    badge = measured.panels["psf"].badge
+    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+    said = written_r_squared(MEASURES["r_squared"](measured.store.state))
+    assert f"R² {said} " in measured.panels["accuracy"].message.text()
 
 
 @pytest.mark.parametrize(
