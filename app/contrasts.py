@@ -1,5 +1,8 @@
 """In what A and B differ, in words. No Qt in here."""
 
+from collections.abc import Callable
+from math import isclose
+
 from app.quantities import QUANTITIES
 from app.setting import prescription, ranges, title
 from app.state import State
@@ -7,6 +10,13 @@ from app.whatif import UNTOUCHED, is_altered
 from app.words import tr
 
 LINK_WORDS = {quantity.key: quantity.title for quantity in QUANTITIES}
+SAME = 1e-9  # relative: below, two values differ by rounding
+OTHERS = (
+    ("method", "Method", str),
+    ("tolerance", "Tolerance", lambda value: f"R² ≥ {value:g}"),
+    ("stop", "Stop", lambda value: tr("as in the file" if value == "file" else "found")),
+    ("clip", "Clip at rims", lambda value: tr("on") if value else tr("off")),
+)
 LINK_WORDS |= {"method": "Method", "added_waves": "Added waves"}
 
 
@@ -16,13 +26,21 @@ def contrasts(state: State) -> tuple[tuple[str, str, str], ...]:
     found = [("Lens", lens_words(a), lens_words(b))] if (a.lens, a.lens_text) != (b.lens, b.lens_text) else []
     limits = [ranges(prescription(side)) for side in (a, b)]
     for quantity in QUANTITIES:
-        words = [quantity.write(quantity.shown(side, limit)) for side, limit in zip((a, b), limits, strict=True)]
-        if words[0] != words[1]:
-            found.append((quantity.title, *words))
-    found += [("Method", a.method, b.method)] if a.method != b.method else []
+        values = [quantity.shown(side, limit) for side, limit in zip((a, b), limits, strict=True)]
+        if not isclose(*values, rel_tol=SAME):
+            found.append((quantity.title, *distinct(quantity.write, *values)))
+    for name, title_of_it, words in OTHERS:
+        sides = [getattr(side, name) for side in (a, b)]
+        found += [(title_of_it, *map(words, sides))] if sides[0] != sides[1] else []
     if any(getattr(a, name) != getattr(b, name) for name in UNTOUCHED):
         found.append(("Coefficients", coefficient_words(a), coefficient_words(b)))
     return tuple(found)
+
+
+def distinct(write: Callable[[float], str], first: float, second: float) -> tuple[str, str]:
+    """Return how two values are written, with more digits where the usual ones hide what differs."""
+    words = write(first), write(second)
+    return words if words[0] != words[1] else (f"{first:.9g}", f"{second:.9g}")
 
 
 def lens_words(state: State) -> str:

@@ -387,6 +387,7 @@
 <message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Dieses Feld steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
 <message><source>Through focus</source><translation>Durch den Fokus</translation></message>
 <message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Durch den Fokus: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
+<message><source>Tolerance</source><translation>Toleranz</translation></message>
 <message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
 <message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
 <message><source>Tools</source><translation>Werkzeuge</translation></message>
@@ -525,6 +526,9 @@
 <message><source>marginal rays, axial point</source><translation>Randstrahlen, Achspunkt</translation></message>
 <message><source>mercury g e</source><translation>Quecksilber g e</translation></message>
 <message><source>move the slider that has the focus</source><translation>den Regler bewegen, der den Fokus hat</translation></message>
+<message><source>off</source><translation>aus</translation></message>
+<message><source>on</source><translation>an</translation></message>
+<message><source>the lens itself</source><translation>ganz vorn am Objektiv</translation></message>
 <message><source>no depth before the lens is sharp</source><translation>kein Abstand vor dem Objektiv ist scharf</translation></message>
 <message><source>object at infinity</source><translation>Objekt im Unendlichen</translation></message>
 <message><source>object at {depth}</source><translation>Objekt bei {depth}</translation></message>

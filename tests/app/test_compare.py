@@ -15,6 +15,7 @@ from app.pupil import TERMS
 from app.state import State
 from app.views.mtf import contrast
 from app.views.profiles import profiles
+from p2sf.library import lenses_folder
 
 VIEWS = {"profiles": profiles, "mtf": contrast}
 A = State(method="seidel", f_number=4.0, field_deg=5.0, theme="light")
@@ -83,6 +84,21 @@ def test_equal_setups_differ_nowhere():
     assert not found.psf.any()
     assert not np.nan_to_num(found.pupil.waves).any()
     assert contrasts(pin(A)) == ()
+
+
+UNLIKE = {
+    **{"lens": "achromat_f6", "lens_text": "as it is", "depth_mm": 900.0, "focus_mm": 900.0, "sensor_shift_um": 7.0},
+    **{"field_deg": 5.0001, "wavelength_nm": 500.0, "f_number": 8.0, "stop": "auto", "clip": True, "method": "traced"},
+    **{"tolerance": 0.9, "added_waves": (0.5, *(0.0,) * 5), "muted": ("w40",), "solo": ("w31",), "free_pupil": True},
+}
+
+
+@pytest.mark.parametrize("name", OPTICS)
+def test_whatever_makes_another_picture_is_named(name):
+    """B differs from A in one entry of what makes a picture: the strip must not call the two the same."""
+    value = (lenses_folder() / f"{A.lens}.toml").read_text("utf-8") if name == "lens_text" else UNLIKE[name]
+    title, a, b = contrasts(replace(pin(A), **{name: value}))[0]
+    assert title and a != b
 
 
 def test_two_methods_are_put_on_one_grid():
