@@ -65,7 +65,8 @@ class DepthOfFieldPanel:
             curve.set_data(view.near, blur)
         self.tolerated.set_data(edges, (view.tolerated_um,) * 2)
         self._frame(view, edges)
-        self.chart.sharp = tuple(1 / mm for mm in view.sharp_mm[::-1]) if view.sharp_mm else None
+        ends = (1 / mm if mm else edges[1] for mm in (view.sharp_mm or ())[::-1])
+        self.chart.sharp = tuple(ends) or None
         self.chart.show_notes((), ((1 / live.state.depth_mm, "chief"),))
         self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {sentence(view)}")
 
@@ -89,6 +90,6 @@ def sentence(view: DepthOfField) -> str:
     """Return in words which depths are sharp."""
     if not view.sharp_mm:
         return tr("no depth before the lens is sharp")
-    near, far = map(written_distance, view.sharp_mm)
+    near, far = (written_distance(mm) if mm else tr("the lens itself") for mm in view.sharp_mm)
     focus = written_distance(view.hyperfocal_mm)
     return tr("sharp from {near} to {far} · hyperfocal distance {focus}", near=near, far=far, focus=focus)

@@ -56,6 +56,10 @@ def shown(clear: tuple[float, float] | None, closest: float) -> tuple[float, flo
     """Return the 1/depth to show, 1/mm: what is sharp with as much again on either side, else everything."""
     if clear is None:
         return 0.0, closest
+    if not clear[0]:
+        return 0.0, closest
+    if not clear[0]:
+        return 0.0, closest
     far, near = 1 / clear[1], 1 / clear[0]
     return max(0.0, 2 * far - near), max(min(closest, 2 * near - far), 1.01 * near)
 
@@ -85,14 +89,27 @@ def real_blur(live, depths) -> np.ndarray:
 def sharp(setting, tolerated_um: float) -> tuple[float, float] | None:
     """Return nearest and farthest depth in mm with a blur within ``tolerated_um``; None if no real depth has one.
 
-    In s = 1/(object to entrance pupil) the marginal ray is linear (DESIGN.md section 2): h = h∞ + k·s.
+    In s = 1/(object to entrance pupil) the marginal ray is linear (DESIGN.md section 2): h = h∞ + k·s. The nearest is
+    0 where an object on the first surface is still sharp.
     """
-    pupil = float(setting.pupils.entrance_from_first)
-    roots = linear_roots(setting, pupil, tolerated_um / 2 / UM_PER_MM)
-    if not roots:
-        return None
-    far, near = sorted(s / (1 - pupil * s) for s in roots)  # 1/depth of s = 1/(depth + pupil)
-    return (1 / near, 1 / far if far > 0 else inf) if near > 0 else None
+    pupil, half_mm = float(setting.pupils.entrance_from_first), tolerated_um / 2 / UM_PER_MM
+    roots = linear_roots(setting, pupil, half_mm)
+    if not roots:  # the same blur everywhere
+        return (0.0, inf) if abs(float(axial_heights(setting, np.array([inf]))[0])) <= half_mm else None
+    for low, high in real_depths(pupil):
+        far, near = max(low, min(roots)), min(high, max(roots))
+        if far < near:
+            return _depth(near, pupil), _depth(far, pupil)
+    return None
+
+
+def real_depths(pupil: float) -> list[tuple[float, float]]:
+    """Return the ranges of s in which the depth 1/s − pupil is positive, the one that ends at infinity first."""
+    return [(0.0, 1 / pupil)] if pupil > 0 else [(0.0, inf), *([(-inf, 1 / pupil)] if pupil else [])]
+
+
+def _depth(s: float, pupil: float) -> float:
+    return max(0.0, 1 / s - pupil) if s else inf
 
 
 def linear_roots(setting, pupil: float, half_mm: float, sensor_mm: float | None = None) -> list[float]:

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from app.compute import live
 from app.setting import with_lens
 from app.state import State
-from app.views.depth_of_field import depth_of_field
+from app.views.depth_of_field import axial_heights, depth_of_field
 from app.views.field import field_curves
 from app.views.first_order import first_order
 
@@ -126,6 +126,46 @@ def test_the_curve_of_blur_crosses_the_tolerated_one_where_the_shade_ends(window
     assert np.interp(panel.chart.sharp, near, blur) == pytest.approx([30.0, 30.0], rel=0.01)
     assert blur.min() < 3 and 1 / near[blur.argmin()] == pytest.approx(2000, rel=0.02)
     assert "sharp from 1.93" in panel.widget.readout.text()
+
+
+@pytest.mark.parametrize("lens", ["reverse_telephoto", "double_gauss_28", "plano_convex", "relay", "eye_navarro"])
+@pytest.mark.parametrize("blur", [30.0, 500.0, 2000.0, 10000.0])
+def test_what_is_called_sharp_is_what_the_blur_at_each_depth_says(lens, blur):
+    """Against the blur itself, from next to the lens to 10 km; 2 mm is all depths of the reverse telephoto."""
+    state = replace(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
+    found = live(state, "preview")
+    answer, depths = depth_of_field(found), np.geomspace(1e-3, 1e7, 400)
+    sharp = 2e3 * np.abs(axial_heights(found.setting, depths)) <= blur
+    near, far = answer.sharp_mm or (inf, 0.0)
+    assert np.array_equal((depths >= near) & (depths <= far), sharp)
+    assert np.isfinite(answer.near).all()
+
+
+def test_where_every_depth_is_sharp_the_panel_says_so(window):
+    window.store.update(lens="reverse_telephoto", tab="depth_of_field", blur_um=2000.0)
+    panel = window.panels["depth_of_field"]
+    assert "sharp from the lens itself to ∞" in panel.widget.readout.text()
+    assert panel.chart.sharp == (0.0, window.live.views["depth_of_field"].near[-1])
+
+
+@pytest.mark.parametrize("lens", ["reverse_telephoto", "double_gauss_28", "plano_convex", "relay", "eye_navarro"])
+@pytest.mark.parametrize("blur", [30.0, 500.0, 2000.0, 10000.0])
+def test_what_is_called_sharp_is_what_the_blur_at_each_depth_says(lens, blur):
+    """Against the blur itself, from next to the lens to 10 km; 2 mm is all depths of the reverse telephoto."""
+    state = replace(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
+    found = live(state, "preview")
+    answer, depths = depth_of_field(found), np.geomspace(1e-3, 1e7, 400)
+    sharp = 2e3 * np.abs(axial_heights(found.setting, depths)) <= blur
+    near, far = answer.sharp_mm or (inf, 0.0)
+    assert np.array_equal((depths >= near) & (depths <= far), sharp)
+    assert np.isfinite(answer.near).all()
+
+
+def test_where_every_depth_is_sharp_the_panel_says_so(window):
+    window.store.update(lens="reverse_telephoto", tab="depth_of_field", blur_um=2000.0)
+    panel = window.panels["depth_of_field"]
+    assert "sharp from the lens itself to ∞" in panel.widget.readout.text()
+    assert panel.chart.sharp == (0.0, window.live.views["depth_of_field"].near[-1])
 
 
 def test_a_typed_blur_widens_what_is_sharp_and_nonsense_is_refused(window, qtbot):
