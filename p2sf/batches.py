@@ -45,7 +45,7 @@ def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: 
         flat /= total[some, None].astype(dtype)
         values[some] = found
         most = rows if most is None or rows.weight.size > most.weight.size else most
-    words = f"{'' if len(terms) == 1 else 'up to '}{most.name if most else 'no nodes'}, {values.dtype.type.__name__}"
+    words = f"{'' if len(terms) <= 1 else 'up to '}{most.name if most else 'no nodes'}, {values.dtype.type.__name__}"
     return Stack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), words)
 
 

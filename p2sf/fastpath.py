@@ -80,8 +80,8 @@ def wave_number(coefficients: Coefficients) -> np.ndarray:
 
 def groups(scale: np.ndarray) -> list[np.ndarray]:
     """Return the indices of equal scales together; they share their kernels."""
-    if scale.size == 1:
-        return [np.zeros(1, dtype=int)]
+    if scale.size <= 1:
+        return [np.zeros(1, dtype=int)] * scale.size
     _, group = np.unique(scale, return_inverse=True)
     order = np.argsort(group, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)

@@ -107,7 +107,7 @@ def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) ->
 def _by_fft(coefficients, pixels, pixel_um, quality) -> Stack:
     """Return the stack by the paper's FFT, one PSF at a time."""
     shape = np.broadcast_shapes(*(np.shape(x) for x in vars(coefficients).values()))
-    samples = fft_samples(coefficients, pixels, pixel_um, quality)
+    samples = fft_samples(coefficients, pixels, pixel_um, quality) if 0 not in shape else 0
     flat = [np.broadcast_to(x, shape).ravel() for x in vars(coefficients).values()]
     planes = [fft_intensity(Coefficients(*one), pixels, pixel_um, samples) for one in zip(*flat, strict=True)]
     values = np.reshape(planes, (*shape, pixels, pixels))
@@ -202,6 +202,8 @@ def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None
     if count > LARGEST_SAMPLES:
         raise SamplingError(f"{count:.3g} PSF samples exceed {LARGEST_SAMPLES:.3g}; ask for fewer pixels or fewer PSFs")
     if pixel_um is None:
+        if not count:
+            raise SamplingError("a stack of no PSFs has no width of its own; give the pixel in µm")
         return float(np.max(suitable_pixel_um(coefficients, pixels)))
     if not (isfinite(pixel_um) and pixel_um > 0):
         raise SamplingError(f"a pixel of {pixel_um} µm; give a positive number")

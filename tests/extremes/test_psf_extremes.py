@@ -195,3 +195,13 @@ def test_a_stack_by_the_padded_fft_is_its_members():
     assert stack.values.shape == (3, 2, 16, 16)
     one = seidel_psf(waves(w40=0.4, wd=0.6), 16, 1.0, sampling="fft").values
     np.testing.assert_allclose(stack.values[2, 1], one, rtol=0, atol=1e-15)
+
+
+def test_a_stack_of_no_psfs_is_empty_and_needs_a_pixel():
+    nothing = waves(w40=np.zeros((2, 0)))
+    for sampling, words in (("mdft", "no nodes, float64"), ("fft", "FFT of 0 × 0 pupil samples")):
+        found = seidel_psf(nothing, 16, 1.0, sampling=sampling)
+        assert (found.values.shape, found.strehl.shape, found.energy.shape) == ((2, 0, 16, 16), (2, 0), (2, 0))
+        assert found.sampling == words
+    with pytest.raises(SamplingError, match="give the pixel in µm"):
+        seidel_psf(nothing, 16)
