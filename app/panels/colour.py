@@ -87,13 +87,13 @@ class ColourPanel:
         changed, self._scale = scale != self._scale, scale
         asked = live.views["colour"]
         if isinstance(asked, str):
-            self.widget.set_readout(asked)
+            self.asking.refuse(asked)
             return
         self.asking.ask(asked)
-        if changed and self.found:
-            self._paint(*self.found)
+        if changed:
+            self.asking.again()
 
-    def _paint(self, asked: ColourQuestion, found: Colours) -> None:
+    def _paint(self, asked: ColourQuestion, found: Colours) -> str:
         self.found = asked, found
         count, step = asked.window
         start = -(count // 2 + 0.5) * step
@@ -102,7 +102,7 @@ class ColourPanel:
         self.picture.set_range((-half, half), (-half, half))
         self.spectrum.show_found(found)
         spread = float(np.ptp(found.psf.shift_um))
-        self.widget.set_readout(
+        return (
             f"{len(found.psf.wavelengths_um)} wavelengths · lateral colour {signed(spread, 2)} µm · "
             f"{1e3 * found.psf.seconds:.0f} ms"
         )

@@ -50,10 +50,10 @@ class FieldMapPanel:
         self._field = abs(live.state.field_deg)
         changed, self._scale = live.state.psf_scale != self._scale, live.state.psf_scale
         self.asking.ask(live.views["field_map"])
-        if self.found and changed:
-            self._paint(*self.found)
+        if changed:
+            self.asking.again()
 
-    def _paint(self, asked: FieldMap, found: np.ndarray) -> None:
+    def _paint(self, asked: FieldMap, found: np.ndarray) -> str:
         self.found = asked, found
         where = places()
         spacing = float(where[0, 1, 0] - where[0, 0, 0])
@@ -67,7 +67,7 @@ class FieldMapPanel:
         shown = (tile(stretched(found[place], self._scale), *map(float, where[place])) for place in kept)
         self.chart.show_tiles(shown, spacing, SHAPE[0])
         corner, wide = float(degrees_from_slope(asked.corner_slope)), asked.window[0] * asked.window[1]
-        self.widget.set_readout(f"corner {corner:.3g}° · pictures {wide:.3g} µm wide, each over its own peak")
+        return f"corner {corner:.3g}° · pictures {wide:.3g} µm wide, each over its own peak"
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

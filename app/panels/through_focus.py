@@ -99,12 +99,11 @@ class ThroughFocusPanel:
         asked, scale = live.views["through_focus"], live.state.psf_scale
         if scale != self._scale:
             self._scale = scale
-            if self.found:
-                self._paint(*self.found)
+            self.asking.again()
         self.chart.show_sensor(live.state.sensor_shift_um)
         self.asking.ask(asked)
 
-    def _paint(self, asked: Strip, found: Focused) -> None:
+    def _paint(self, asked: Strip, found: Focused) -> str:
         self.found = asked, found
         shifts = np.array(asked.shifts_um)
         step = shifts[1] - shifts[0]
@@ -116,7 +115,7 @@ class ThroughFocusPanel:
         notes = [(x, 0.93, f"▾ {name}", token, 0) for name, x, token in foci if np.isfinite(x)]
         self.chart.show_notes(notes)
         wide = asked.window[0] * asked.window[1]
-        self.widget.set_readout(
+        return (
             f"S {signed(found.sagittal, 1)} · T {signed(found.tangential, 1)} · best {signed(found.best, 1)} µm · "
             f"pictures {wide:.3g} µm wide"
         )

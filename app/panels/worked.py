@@ -6,29 +6,56 @@ from PySide6.QtCore import QObject
 
 from app.worker import LatestWins
 
+EARLIER = " · earlier picture"
+
 
 class Asking(QObject):
     """Asks ``answer(question, stopped, tell)`` off the window's thread; ``paint(question, found)`` shows it.
 
-    ``tell(share, found so far)`` has it painted while it grows. ``failed(sentence)`` says why there is none.
+    ``tell(share, found so far)`` has it painted while it grows. ``say`` is told the words that ``paint`` returns,
+    marked while another question's picture is on screen, or a sentence on why there is none.
     """
 
-    def __init__(self, owner: QObject, answer: Callable, paint: Callable, failed: Callable[[str], None]):
+    def __init__(self, owner: QObject, answer: Callable, paint: Callable[..., str], say: Callable[[str], None]):
         super().__init__(owner)
-        self._answer, self._paint = answer, paint
+        self._answer, self._paint, self._say = answer, paint, say
         self._so_far: dict[object, object] = {}
         self.asked: object = None
+        self._shown: tuple[object, object] | None = None
+        self._words = self._refusal = ""
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_finished)
-        self.worker.failed.connect(lambda key, sentence: failed(sentence))
+        self.worker.failed.connect(self._on_failed)
         self.worker.progressed.connect(self._on_progress)
 
     def ask(self, question) -> None:
         """Ask, unless this is what was asked last."""
         if question == self.asked:
             return
-        self.asked = question
+        self.asked, self._refusal = question, ""
+        self._tell()
         self.worker.submit(question, lambda cancelled, progress: self._work(question, cancelled, progress))
+
+    def refuse(self, sentence: str) -> None:
+        """Say why there is nothing to ask; what is on its way is no longer wanted."""
+        self.asked, self._refusal = None, sentence
+        self.worker.cancel()
+        self._tell()
+
+    def again(self) -> None:
+        """Paint what is there once more, for another look at it."""
+        if self._shown:
+            self._show(*self._shown)
+
+    def _show(self, question, found) -> None:
+        self._shown = question, found
+        self._words = self._paint(question, found)
+        self._tell()
+
+    def _tell(self) -> None:
+        earlier = EARLIER if self._shown and self._shown[0] != self.asked else ""
+        if self._refusal or self._words:
+            self._say(self._refusal or self._words + earlier)
 
     def _work(self, question, cancelled, progress):
         def tell(share: float, found) -> None:
@@ -38,9 +65,15 @@ class Asking(QObject):
         return self._answer(question, cancelled.is_set, tell)
 
     def _on_progress(self, question, share: float) -> None:
-        if question in self._so_far:
-            self._paint(question, self._so_far[question])
+        if question in self._so_far and self.asked is not None:
+            self._show(question, self._so_far[question])
 
     def _on_finished(self, question, found) -> None:
         self._so_far.clear()
-        self._paint(question, found)
+        if self.asked is not None:
+            self._show(question, found)
+
+    def _on_failed(self, question, sentence: str) -> None:
+        if question == self.asked:
+            self._refusal = sentence
+            self._tell()

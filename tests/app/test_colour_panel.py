@@ -105,3 +105,19 @@ def test_a_spectrum_the_glass_does_not_pass_is_said_in_the_panel(window, panel, 
     window.store.update(spectrum="lines:550")
     filled(panel, qtbot)
     assert "1 wavelengths" in panel.widget.readout.text()
+
+
+def test_a_refused_spectrum_says_so_until_there_is_a_picture_again(window, panel, qtbot):
+    """What was on its way when the spectrum was refused must not talk over the refusal, and the way back is open."""
+    words = panel.widget.readout.text()
+    window.store.update(f_number=11.0)
+    assert panel.asking.worker.busy
+    window.store.update(spectrum="lines:200")
+    refusal = panel.widget.readout.text()
+    assert "200" in refusal and refusal != words
+    qtbot.waitUntil(lambda: not panel.asking.worker.busy)
+    assert panel.widget.readout.text() == refusal
+    window.store.update(f_number=8.0)
+    window.store.update(spectrum="lines:486,656")
+    filled(panel, qtbot)
+    assert panel.widget.readout.text().split(" · ")[:2] == words.split(" · ")[:2]

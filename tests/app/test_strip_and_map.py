@@ -141,6 +141,18 @@ def test_coma_points_away_from_the_axis_at_every_place():
     assert len({side > 0 for side in sides}) == 1 and told == sorted(told), "and all the same way"
 
 
+@pytest.mark.parametrize("key", ["through_focus", "field_map", "colour"])
+def test_an_earlier_picture_is_marked_until_its_own_is_there(window, qtbot, key):
+    window.store.update(tab=key, f_number=8.0)
+    panel = window.panels[key]
+    filled(panel, qtbot)
+    words = panel.widget.readout.text()
+    window.store.update(f_number=11.0)
+    assert panel.widget.readout.text() == f"{words} · earlier picture"
+    filled(panel, qtbot)
+    assert "earlier" not in panel.widget.readout.text()
+
+
 def test_hidden_strip_and_map_ask_nothing(window, strip, qtbot):
     window.open_panel("profiles")
     asked = strip.asking.asked
