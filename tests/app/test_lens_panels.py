@@ -148,26 +148,6 @@ def test_where_every_depth_is_sharp_the_panel_says_so(window):
     assert panel.chart.sharp == (0.0, window.live.views["depth_of_field"].near[-1])
 
 
-@pytest.mark.parametrize("lens", ["reverse_telephoto", "double_gauss_28", "plano_convex", "relay", "eye_navarro"])
-@pytest.mark.parametrize("blur", [30.0, 500.0, 2000.0, 10000.0])
-def test_what_is_called_sharp_is_what_the_blur_at_each_depth_says(lens, blur):
-    """Against the blur itself, from next to the lens to 10 km; 2 mm is all depths of the reverse telephoto."""
-    state = replace(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
-    found = live(state, "preview")
-    answer, depths = depth_of_field(found), np.geomspace(1e-3, 1e7, 400)
-    sharp = 2e3 * np.abs(axial_heights(found.setting, depths)) <= blur
-    near, far = answer.sharp_mm or (inf, 0.0)
-    assert np.array_equal((depths >= near) & (depths <= far), sharp)
-    assert np.isfinite(answer.near).all()
-
-
-def test_where_every_depth_is_sharp_the_panel_says_so(window):
-    window.store.update(lens="reverse_telephoto", tab="depth_of_field", blur_um=2000.0)
-    panel = window.panels["depth_of_field"]
-    assert "sharp from the lens itself to ∞" in panel.widget.readout.text()
-    assert panel.chart.sharp == (0.0, window.live.views["depth_of_field"].near[-1])
-
-
 def test_a_typed_blur_widens_what_is_sharp_and_nonsense_is_refused(window, qtbot):
     panel = opened(window, "depth_of_field", focus_mm=2000.0)
     before = window.live.views["depth_of_field"].sharp_mm
