@@ -33,7 +33,7 @@ def text_inside(path) -> str | None:
         return None
     try:
         found = PICTURES[kind](path) if kind in PICTURES else READERS[kind](path)[1].get("state")
-    except (OSError, BadZipFile, EOFError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, BadZipFile, EOFError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None  # whoever reads it as something else says what is wrong with it
     return found if isinstance(found, str) else None
 

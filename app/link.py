@@ -29,7 +29,7 @@ def state_of_link(text: str) -> State:
     try:
         packed = urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
         document = json.loads(unpacked(packed))
-    except (ValueError, binascii.Error, zlib.error):
+    except (ValueError, RecursionError, binascii.Error, zlib.error):
         raise P2SFError("the link is cut off or changed; copy all of it again, from p2sf: to its last letter") from None
     if not isinstance(document, dict) or not isinstance(document.get("state"), dict):
         raise P2SFError("the link holds no state of the explorer; copy it again from the explorer")

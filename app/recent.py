@@ -21,7 +21,7 @@ def recent_files() -> tuple[str, ...]:
     """Return the files that are still there, newest first; none when the list is missing or damaged."""
     try:
         listed = json.loads(recent_path().read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return ()
     paths = [item for item in listed if isinstance(item, str)] if isinstance(listed, list) else []
     return tuple(path for path in paths if os.path.isfile(path))[:MOST]

@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import dataclass, fields, replace
-from math import inf, isfinite, isnan
+from math import inf, isfinite
 from pathlib import Path
 
 from app.limits import CHOICES, KINDS, LINKABLE, MOST_WAVES, OPTIONAL, PLAIN, PLAYABLE, RANGES
@@ -12,6 +12,7 @@ from p2sf.spectrum import spectrum_of
 
 SCHEMA = "p2sf-explorer-state"
 VERSION = 1
+TELLABLE, TOLD = 10**300, 60  # a whole number that a float can still hold; letters of what is none
 
 
 @dataclass(frozen=True)
@@ -139,9 +140,9 @@ def _check_number(value, name: str, limits: tuple[float, float], words: str, uni
     if value is None and name in OPTIONAL:
         return
     low, high = limits
-    number = isinstance(value, int | float) and not isinstance(value, bool) and not isnan(value)
+    number = isinstance(value, int | float) and not isinstance(value, bool) and value == value
     if not number or not low <= value <= high:
-        shown = f"{value:g}" if number else repr(value)
+        shown = f"{value:g}" if number and (isinstance(value, float) or abs(value) < TELLABLE) else repr(value)[:TOLD]
         raise P2SFError(
             f"{words} is {shown} {unit}".rstrip() + f"; give a number from {low:g} to {high:g} {unit}".rstrip()
         )
@@ -177,11 +178,17 @@ def _read(name: str, value):
 
 def state_from_dict(values: dict) -> State:
     """Return the state of plain JSON values, defaults for what is absent; P2SFError for anything else."""
+    pinned = values.get("pinned")
+    if isinstance(pinned, dict) and pinned.get("pinned"):
+        raise P2SFError("what is pinned as B must be one state with nothing pinned in it; pin it again")
     known = {field.name for field in fields(State)}
     unknown = sorted(set(values) - known)
     if unknown:
         raise P2SFError(f'the state has an unknown entry "{unknown[0]}"; known are {", ".join(sorted(known))}')
-    return replace(State(), **{name: _read(name, value) for name, value in values.items()})
+    try:
+        return replace(State(), **{name: _read(name, value) for name, value in values.items()})
+    except RecursionError:  # lists in lists, as deep as JSON was read just so
+        raise P2SFError("the state's lists are nested too deep; save it again from the explorer") from None
 
 
 def state_to_json(state: State, **extra) -> str:
@@ -196,6 +203,8 @@ def state_from_json(text: str, where: str = "the state") -> State:
         document = json.loads(text)
     except json.JSONDecodeError as error:
         raise P2SFError(f"{where}, line {error.lineno}: not JSON ({error.msg}); correct it or save it again") from None
+    except (ValueError, RecursionError):
+        raise P2SFError(f"{where} is nested too deep or holds too long a number; save it again") from None
     if (
         not isinstance(document, dict)
         or document.get("schema") != SCHEMA

@@ -36,7 +36,11 @@ def test_a_link_is_short_and_survives_the_line_breaks_of_a_letter():
 
 
 def packed(document) -> str:
-    return PREFIX + urlsafe_b64encode(zlib.compress(json.dumps(document).encode())).decode()
+    return deflated(json.dumps(document).encode())
+
+
+def deflated(text: bytes) -> str:
+    return PREFIX + urlsafe_b64encode(zlib.compress(text)).decode()
 
 
 @pytest.mark.parametrize(
@@ -49,6 +53,8 @@ def packed(document) -> str:
         (packed({"version": 99, "state": {}}), "version 99"),
         (packed({"version": 1, "state": {"magic": 1}}), 'unknown entry "magic"'),
         (packed({"version": 1, "state": {"lens_text": "x" * 5_000_000}}), "cut off or changed"),
+        (deflated(b'{"version": 1, "state": ' + b'{"pinned": ' * 300 + b"{}" + b"}" * 301), "nothing pinned in it"),
+        (deflated(b"[" * 100_000), "cut off or changed"),
     ],
 )
 def test_a_bad_link_is_a_sentence(text, words):
@@ -95,7 +101,10 @@ def test_the_next_start_finds_the_last_window(window):
 GONE = '{"schema": "p2sf-explorer-state", "version": 1, "state": {"lens": "gone"}}'
 
 
-@pytest.mark.parametrize("text", ["", "{", GONE, "[]"])
+DEEP = GONE.replace('"gone"', "[" * 980 + "]" * 980)
+
+
+@pytest.mark.parametrize("text", ["", "{", GONE, "[]", DEEP, "[" * 100_000])
 def test_a_torn_or_stale_session_costs_only_the_memory(window, text):
     session_path().parent.mkdir(parents=True, exist_ok=True)
     session_path().write_text(text)

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.pupil import TERMS
-from app.state import CHOICES, LINKABLE, State, read_state, state_from_json, state_to_json
+from app.state import CHOICES, LINKABLE, SCHEMA, State, read_state, state_from_json, state_to_json
 from p2sf.errors import P2SFError
 
 finite = {"allow_nan": False, "allow_infinity": False}
@@ -104,6 +104,35 @@ def test_a_bad_state_file_is_a_sentence(tmp_path, text, words):
     path.write_text(text)
     with pytest.raises(P2SFError, match=words):
         read_state(path)
+
+
+def nested(value: str, depth: int) -> str:
+    """Return a value in so many lists."""
+    return "[" * depth + value + "]" * depth
+
+
+def pinned(depth: int) -> str:
+    return '{"pinned": ' * depth + "{}" + "}" * depth
+
+
+@pytest.mark.parametrize("depth", [*range(750, 1000, 7), 100_000])
+@pytest.mark.parametrize("entry", ["windows", "field_deg", "play_range", "lens_text", "muted", "spectrum", "nothing"])
+def test_a_state_nested_as_deep_as_python_can_and_deeper_is_a_sentence(entry, depth):
+    """Some depths JSON still reads and what follows does not: where that begins depends on who calls."""
+    with pytest.raises(P2SFError):
+        state_from_json(f'{{"schema": "{SCHEMA}", "version": 1, "state": {{"{entry}": {nested("1", depth)}}}}}')
+
+
+@pytest.mark.parametrize("depth", [3, 300, 950, 100_000])
+def test_only_one_state_is_pinned(depth):
+    with pytest.raises(P2SFError, match=r"nothing pinned in it|nested too deep"):
+        state_from_json(f'{{"schema": "{SCHEMA}", "version": 1, "state": {pinned(depth)}}}')
+
+
+@pytest.mark.parametrize("digits", [400, 5000])
+def test_a_whole_number_no_float_can_hold_is_a_sentence(digits):
+    with pytest.raises(P2SFError, match=r"field angle is 999|too long a number"):
+        state_from_json(f'{{"schema": "{SCHEMA}", "version": 1, "state": {{"field_deg": {"9" * digits}}}}}')
 
 
 def test_a_missing_state_file_is_a_sentence(tmp_path):
