@@ -58,8 +58,6 @@ def shown(clear: tuple[float, float] | None, closest: float) -> tuple[float, flo
         return 0.0, closest
     if not clear[0]:
         return 0.0, closest
-    if not clear[0]:
-        return 0.0, closest
     far, near = 1 / clear[1], 1 / clear[0]
     return max(0.0, 2 * far - near), max(min(closest, 2 * near - far), 1.01 * near)
 
