@@ -79,6 +79,12 @@ class Chart(QWidget):
         """Return what the bottom and the left axis show."""
         return self._labels
 
+    def name_axes(self, bottom: str, left: str) -> None:
+        """Give the axes other names."""
+        if (tr(bottom), tr(left)) != self._labels:
+            self._labels = tr(bottom), tr(left)
+            self.forget_ground()
+
     def add_curve(self, token: str, width: float = 1.0, alpha: int = 255) -> Curve:
         """Return a new curve on top of the others."""
         self.curves.append(Curve(token, width, alpha))

@@ -638,6 +638,7 @@
 <message><source>x, µm</source><translation>x, µm</translation></message>
 <message><source>x, µm from the chief ray</source><translation>x, µm vom Hauptstrahl</translation></message>
 <message><source>y, µm</source><translation>y, µm</translation></message>
+<message><source>y, µm (towards the axis)</source><translation>y, µm (zur Achse hin)</translation></message>
 <message><source>y, µm (towards the field)</source><translation>y, µm (zum Feld hin)</translation></message>
 <message><source>y–ȳ</source><translation>y–ȳ</translation></message>
 <message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>

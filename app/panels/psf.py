@@ -19,6 +19,7 @@ SHORT_WORDS = {"geometric": "ray density"}
 QUALITIES = ("preview", "settled")
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
 ARROW = np.array([[0.86, 0.86, 0.83, 0.86, 0.89], [0.74, 0.92, 0.84, 0.92, 0.84]])
+Y_WORDS = {1: "y, µm (towards the field)", -1: "y, µm (towards the axis)"}  # by the side of the axis it lands on
 TIP = "Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW)."
 SCALES = (("linear", "linear"), ("sqrt", "square root"), ("log", "log"))
 UNITS = (("peak", "peak = 1"), ("sum", "sum = 1"), ("strehl", "Strehl"))
@@ -35,7 +36,7 @@ class PsfPanel:
         self.units.activated.connect(lambda: store.update(psf_units=self.units.currentData()))
         self.widget.add_tool(self.scale)
         self.widget.add_tool(self.units)
-        self.map = HeatMap("x, µm", "y, µm (towards the field)", self.widget)
+        self.map = HeatMap("x, µm", Y_WORDS[1], self.widget)
         self.map.set_map(PSF_MAP)
         self.airy, self.arrow = (self.map.chart.add_curve(WHITE, width, 210) for width in (1, 2))
         self.badge = Readout(self.widget, pill=True, colour="text")
@@ -73,8 +74,10 @@ class PsfPanel:
             self._airy = live.airy_radius_um
             turn = np.linspace(0, 2 * np.pi, 73)
             self.airy.set_data(self._airy * np.cos(turn), self._airy * np.sin(turn))
-        shown = half if live.setting.source.field_slope else np.nan
-        self.arrow.set_data(shown * ARROW[0], shown * ARROW[1])
+        side = int(np.sign(live.setting.coefficients.image_height))
+        self.map.chart.name_axes("x, µm", Y_WORDS[side or 1])
+        shown = half if side else np.nan
+        self.arrow.set_data(shown * ARROW[0], shown * side * ARROW[1])
 
     def show_badge(self, live: Live, r_squared: float | None, stale: bool) -> None:
         """Name method, times and measured R² against the Huygens sum; grey while that is of an earlier picture.

@@ -6,6 +6,7 @@ import numpy as np
 
 from app.rung import WINDOWS
 from app.scales import nice
+from app.setting import setting
 from app.state import State
 from app.views.field import widest_slope
 from app.views.sampled import everywhere_by_coefficients, in_window, optics
@@ -70,13 +71,14 @@ def answer(asked: FieldMap, stopped, tell) -> np.ndarray:
 
 
 def one(asked: FieldMap, ring: float) -> np.ndarray:
-    """Return the PSF at a share of the corner's field over its peak, NaN where there is none."""
+    """Return the PSF at a share of the corner's field over its peak, +y away from the axis, NaN where there is none."""
     state = replace(asked.state, field_deg=float(degrees_from_slope(ring * asked.corner_slope)))
     try:
         values = in_window(state, asked.window, asked.six).values
     except P2SFError:  # rays lost at the edge of the field: an empty place says so
         return np.full((asked.window[0],) * 2, np.nan)
-    return values / (float(values.max()) or 1.0)
+    outward = values if float(setting(state).coefficients.image_height) >= 0 else turned(values, np.pi)
+    return outward / (float(values.max()) or 1.0)
 
 
 def turned(values: np.ndarray, angle: float) -> np.ndarray:

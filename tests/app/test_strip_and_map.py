@@ -11,6 +11,7 @@ from app.setting import setting, with_lens
 from app.state import State
 from app.views import field_map, through_focus
 from app.views.sampled import in_window, optics
+from p2sf.conventions import degrees_from_slope
 
 FIRST = State(method="seidel", theme="light")
 PURE = replace(FIRST, free_pupil=True)
@@ -151,6 +152,31 @@ def test_an_earlier_picture_is_marked_until_its_own_is_there(window, qtbot, key)
     assert panel.widget.readout.text() == f"{words} · earlier picture"
     filled(panel, qtbot)
     assert "earlier" not in panel.widget.readout.text()
+
+
+def test_the_top_of_the_map_is_the_field_that_lands_there():
+    """A relay images upright: what lands above the axis comes from the other side than in a camera."""
+    state = replace(with_lens(FIRST, "relay"), method="seidel", solo=("w31",), depth_mm=96.0, focus_mm=96.0)
+    question = field_map.field_map(live(state, "preview"))
+    lands = {}
+    for side in (1, -1):
+        one = replace(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
+        values = in_window(one, question.window, True).values
+        lands[float(setting(one).coefficients.image_height) > 0] = values / values.max()
+    shown = field_map.one(question, 1.0)
+    assert shown[1:, 1:] == pytest.approx(lands[True][1:, 1:], abs=1e-4)
+    assert np.abs(shown - lands[False]).max() > 0.1, "coma tells the two apart"
+
+
+@pytest.mark.parametrize(("lens", "field", "up"), [("", 5.0, 1), ("", -5.0, -1), ("relay", 0.2, -1), ("", 0.0, 0)])
+def test_the_arrow_points_to_where_farther_fields_land(window, lens, field, up):
+    state = with_lens(window.store.state, lens) if lens else window.store.state
+    window.store.replace(replace(state, field_deg=field))
+    near, far = (float(setting(replace(state, field_deg=part * field)).coefficients.image_height) for part in (1, 1.1))
+    panel = window.panels["psf"]
+    tip = panel.arrow.data()[1][1]
+    assert np.sign(far - near) == up == (0 if np.isnan(tip) else np.sign(tip))
+    assert ("axis" in panel.map.chart.labels[1]) == (up < 0)
 
 
 def test_hidden_strip_and_map_ask_nothing(window, strip, qtbot):
