@@ -1,22 +1,30 @@
 """Films a sweep: the window goes through its frames one by one, a worker writes them."""
 
+from dataclasses import replace
+
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
 from app.film import Frame, Reel, check_film, write_film
-from app.sweep import Sweep, changes, sweep
+from app.pinning import with_links
+from app.state import State
+from app.sweep import changes, sweep
 from app.words import tr
 from app.worker import LatestWins
 from p2sf.errors import P2SFError
 
 FRAMES_PER_S = 12
+TICK_MS = 4  # between looks at what is being computed
+MEASURED = "accuracy"  # the tab that is filled by the measuring of pictures, which rests otherwise
 
 
 class Filming(QObject):
     """``start`` films the state's sweep once, from its first value to its last; ``cancel`` leaves no file.
 
-    ``progressed`` tells the part done, ``ended`` a sentence: what was written, or why not. The state stays as it is.
+    Each frame waits for the panels that fill in the background. What changes meanwhile is not filmed: the moments are
+    those of the state at the start. ``progressed`` tells the part done, ``ended`` a sentence: what was written, or why
+    not. The state stays as it is.
     """
 
     progressed, ended = Signal(float), Signal(str)
@@ -28,9 +36,10 @@ class Filming(QObject):
         self._worker.failed.connect(lambda key, sentence: self._end(sentence))
         self._timer = QTimer(self)
         self._timer.timeout.connect(self._next)
-        self._reel, self._number, self._count = Reel(), 0, 0
-        self._sweep: Sweep | None = None
+        self._reel, self._number, self._shown = Reel(), 0, False
+        self._moments: tuple[State, ...] = ()
         self._subject: QWidget = window
+        window.store.changed.connect(self._disturb)
 
     @property
     def busy(self) -> bool:
@@ -42,15 +51,16 @@ class Filming(QObject):
         state = self._window.store.state
         try:
             check_film(path)
+            self._moments = moments(state)
         except P2SFError as error:
             self._window.refuse(str(error))
             return False
-        self._subject, self._sweep, self._reel = subject or self._window, sweep(state), Reel()
-        self._number, self._count = 0, max(2, round(FRAMES_PER_S * state.play_seconds))
-        self._window.measuring.rest(True)
+        self._subject, self._reel = subject or self._window, Reel()
+        self._number, self._shown = 0, False
+        self._window.measuring.rest(state.tab != MEASURED)
         reel, frame_ms = self._reel, round(1000 / FRAMES_PER_S)
         self._worker.submit(path, lambda cancelled, _: write_film(reel.frames(cancelled), path, frame_ms))
-        self._timer.start(0)
+        self._timer.start(TICK_MS)
         return True
 
     def cancel(self) -> None:
@@ -63,20 +73,32 @@ class Filming(QObject):
         self._timer.stop()
         self._worker.stop()
 
+    def _disturb(self) -> None:
+        """Note that the window shows something else than the moment to be filmed."""
+        self._shown = False
+
     def _next(self) -> None:
-        """Show and hand over one frame, unless the writer is behind."""
+        """Show a moment, and hand over its frame once all of it is there, unless the writer is behind."""
         if self._reel.full:
             return
-        if self._number == self._count:
+        if self._number == len(self._moments):
             self._timer.stop()
             self._reel.put(None)
             return
-        state = self._window.store.state
-        moved = changes(state, self._sweep.value(self._number / (self._count - 1)))
-        self._window.refresh(self._window.store.changed_by(moved))
+        if not self._shown:
+            self._shown = True
+            self._window.refresh(self._moments[self._number])
+        if not self._shown or self._filling():
+            return
         self._reel.put(frame_of(self._subject))
-        self._number += 1
-        self.progressed.emit(self._number / self._count)
+        self._number, self._shown = self._number + 1, False
+        self.progressed.emit(self._number / len(self._moments))
+
+    def _filling(self) -> bool:
+        """Return whether something on show is still being computed."""
+        panels = self._window.panels.values()
+        workers = [worker for panel in panels for worker in panel.widget.findChildren(LatestWins)]
+        return any(worker.busy for worker in (*workers, self._window.measuring.worker))
 
     def _written(self, paths) -> str:
         if len(paths) == 1:
@@ -88,6 +110,13 @@ class Filming(QObject):
         self._window.measuring.rest(False)
         self._window.refresh(self._window.store.state)
         self.ended.emit(sentence)
+
+
+def moments(state: State) -> tuple[State, ...]:
+    """Return the states of a film's frames: the state's sweep once, its links moving along."""
+    way, count = sweep(state), max(2, round(FRAMES_PER_S * state.play_seconds))
+    moved = (changes(state, way.value(number / (count - 1))) for number in range(count))
+    return tuple(replace(state, **with_links(state, each)) for each in moved)
 
 
 def frame_of(widget: QWidget) -> Frame:

@@ -161,7 +161,7 @@ class PlayBar(QFrame):
     def _show_filming(self, on: bool) -> None:
         for part in (self.progress, self.stop_film):
             part.setVisible(on)
-        for part in (self.subject, self.export, self.turn, self.key):
+        for part in (self.subject, self.export, self.turn, self.key, self.close_bar):
             part.setEnabled(not on)
         self.progress.setValue(0)
 

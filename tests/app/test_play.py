@@ -175,6 +175,60 @@ def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qt
         assert np.array_equal(part, middle)
 
 
+def filmed(window, qtbot, path, subject: str, meanwhile=lambda: None) -> str:
+    bar = window.play
+    bar.subject.setCurrentIndex(bar.subject.findData(subject))
+    with qtbot.waitSignal(bar.filming.ended, timeout=60000) as told:
+        assert bar.film(str(path))
+        assert not bar.close_bar.isEnabled()
+        with qtbot.waitSignal(bar.filming.progressed, timeout=20000):
+            pass
+        meanwhile()
+    assert bar.close_bar.isEnabled()
+    return told.args[0]
+
+
+def part_of(path, widget, chart) -> np.ndarray:
+    """Return where a chart stands in a filmed widget."""
+    corner = chart.mapTo(widget, chart.rect().topLeft())
+    film = np.asarray(Image.open(path).convert("RGB"))
+    return film[corner.y() : corner.y() + chart.height(), corner.x() : corner.x() + chart.width()]
+
+
+def test_what_changes_while_a_film_is_made_is_not_in_it(window, qtbot, tmp_path):
+    """Undo takes the sweep out of the state, and another depth comes in: the film is the same to the pixel."""
+    sweeping = dict(play="added_wd", play_range=(0.0, 1.0), play_seconds=0.25, free_pupil=True)
+
+    def meddle():
+        window.store.undo()
+        assert not window.store.state.play
+        window.store.update(wavelength_nm=450.0, free_pupil=True)
+
+    for name, meanwhile in (("calm", lambda: None), ("busy", meddle)):
+        window.store.replace(window.store.state)
+        window.store.update(wavelength_nm=587.5618, **sweeping)
+        assert "3 frames" in filmed(window, qtbot, tmp_path / f"{name}.png", "psf", meanwhile)
+    assert window.live.state == window.store.state
+    assert window.store.state.wavelength_nm == 450.0
+    chart = window.panels["psf"].map.chart
+    for number in (1, 2, 3):
+        both = [part_of(tmp_path / f"{name}_{number:04d}.png", window.panels["psf"].widget, chart)
+                for name in ("calm", "busy")]  # fmt: skip
+        assert np.array_equal(*both)
+
+
+@pytest.mark.parametrize(("tab", "chart"), [("through_focus", "chart"), ("colour", "picture")])
+def test_a_film_waits_for_the_panels_that_fill_in_the_background(window, qtbot, tmp_path, tab, chart):
+    window.store.update(tab=tab, play="f_number", play_range=(4.0, 8.0), play_seconds=0.2)
+    panel = window.panels[tab]
+    assert "2 frames" in filmed(window, qtbot, tmp_path / "way.png", "tabs")
+    for number, f_number in enumerate((4.0, 8.0), 1):
+        window.store.update(f_number=f_number)
+        qtbot.waitUntil(lambda: not panel.asking.worker.busy, timeout=20000)
+        found = part_of(tmp_path / f"way_{number:04d}.png", window.tabs, getattr(panel, chart))
+        assert np.array_equal(found, frame_pixels(getattr(panel, chart)))
+
+
 def frame_pixels(widget) -> np.ndarray:
     found = frame_of(widget)
     return np.frombuffer(found.rgb, np.uint8).reshape(found.height, found.width, 3)
