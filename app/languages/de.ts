@@ -424,6 +424,7 @@
 <message><source>Wd = −W40 leaves a sixteenth of the variance</source><translation>Wd = −W40 lässt ein Sechzehntel der Varianz</translation></message>
 <message><source>Wd added</source><translation>Wd hinzu</translation></message>
 <message><source>Wd defocus</source><translation>Wd Defokus</translation></message>
+<message><source>Wd is muted, so moving the sensor does not focus; set Wd by its slider, or reset the what-if</source><translation>Wd ist stumm, also stellt ein anderer Ort des Sensors nicht scharf; Wd am Regler einstellen oder das Was-wäre-wenn zurücksetzen</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
@@ -528,6 +529,7 @@
 <message><source>move the slider that has the focus</source><translation>den Regler bewegen, der den Fokus hat</translation></message>
 <message><source>off</source><translation>aus</translation></message>
 <message><source>on</source><translation>an</translation></message>
+<message><source>the free pupil has no lens, so moving the sensor does not focus; set Wd by its slider, or reset the what-if</source><translation>die freie Pupille hat kein Objektiv, also stellt ein anderer Ort des Sensors nicht scharf; Wd am Regler einstellen oder das Was-wäre-wenn zurücksetzen</translation></message>
 <message><source>the lens itself</source><translation>ganz vorn am Objektiv</translation></message>
 <message><source>no depth before the lens is sharp</source><translation>kein Abstand vor dem Objektiv ist scharf</translation></message>
 <message><source>object at infinity</source><translation>Objekt im Unendlichen</translation></message>

@@ -101,6 +101,11 @@ class ThroughFocusPanel:
             self._scale = scale
             self.asking.again()
         self.chart.show_sensor(live.state.sensor_shift_um)
+        if isinstance(asked, str):
+            self.chart.show_tiles((), 1.0)
+            self.chart.show_notes([])
+            self.asking.refuse(asked)
+            return
         self.asking.ask(asked)
 
     def _paint(self, asked: Strip, found: Focused) -> str:

@@ -38,7 +38,7 @@ class Asking(QObject):
 
     def refuse(self, sentence: str) -> None:
         """Say why there is nothing to ask; what is on its way is no longer wanted."""
-        self.asked, self._refusal = None, sentence
+        self.asked, self._refusal, self._shown = None, sentence, None
         self.worker.cancel()
         self._tell()
 

@@ -10,7 +10,8 @@ from app.scales import nice
 from app.setting import setting
 from app.state import State
 from app.views.sampled import everywhere_by_coefficients, in_window, optics
-from p2sf.errors import P2SFError
+from app.whatif import check_focusable
+from p2sf.errors import GeometryError, P2SFError
 from p2sf.fieldcurves import real_foci, seidel_foci
 from p2sf.measures import airy_radius_um
 
@@ -43,8 +44,15 @@ class Focused:
     best: float
 
 
-def strip(live) -> Strip:
-    """Return what to show for the present lens and source; the sensor shift has no part in it, so it stands still."""
+def strip(live) -> Strip | str:
+    """Return what to show for the present lens and source; the sensor shift has no part in it, so it stands still.
+
+    A sentence in its place where moving the sensor does not focus: every picture would be the same.
+    """
+    try:
+        check_focusable(live.state)
+    except GeometryError as error:
+        return str(error)
     state = replace(optics(live.state), sensor_shift_um=0.0)
     set_up = setting(state)
     low, high, half = reach(set_up)

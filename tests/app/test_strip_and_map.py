@@ -11,6 +11,7 @@ from app.setting import setting, with_lens
 from app.state import State
 from app.views import field_map, through_focus
 from app.views.sampled import in_window, optics
+from app.whatif import UNTOUCHED
 from p2sf.conventions import degrees_from_slope
 
 FIRST = State(method="seidel", theme="light")
@@ -82,6 +83,18 @@ def test_dragging_the_sensor_moves_the_slider_and_leaves_the_strip(window, strip
     assert window.live.quality == "settled" and window.store.can_undo
     filled(strip, qtbot)
     assert strip.asking.asked == asked, "the strip does not move with the sensor"
+
+
+@pytest.mark.parametrize("changes", [{"free_pupil": True}, {"muted": ("wd",)}, {"solo": ("w40",)}])
+def test_where_the_sensor_does_not_focus_there_is_a_sentence_and_no_strip(window, strip, qtbot, changes):
+    """With Wd set aside every picture is the same wherever the sensor stands: foci would be marks of nothing."""
+    window.store.update(**changes)
+    assert "moving the sensor does not focus" in strip.widget.readout.text()
+    window.store.update(psf_scale="linear")
+    assert not strip.chart.tiles and not strip.chart.notes
+    window.store.update(**UNTOUCHED)
+    filled(strip, qtbot)
+    assert len(strip.chart.tiles) == len(strip.asking.asked.shifts_um)
 
 
 def test_arrow_keys_move_the_sensor(window, strip, qtbot):
