@@ -42,6 +42,7 @@
 <message><source>Atlas of PSFs over depth and field</source><translation>Atlas der PSFs über Abstand und Feld</translation></message>
 <message><source>Autofocus: best RMS wavefront</source><translation>Autofokus: kleinster RMS von W</translation></message>
 <message><source>B</source><translation>B</translation></message>
+<message><source>B is on screen, and the controls move A; show A, or swap the two, to change this one</source><translation>B ist zu sehen, und die Regler bewegen A; A zeigen oder beide tauschen, um dieses zu ändern</translation></message>
 <message><source>Back</source><translation>Zurück</translation></message>
 <message><source>Back focus F′</source><translation>Bildseitiger Brennpunkt F′</translation></message>
 <message><source>Back to file</source><translation>Zurück zur Datei</translation></message>
@@ -377,6 +378,7 @@
 <message><source>The panel's picture is on the clipboard</source><translation>Das Bild des Feldes ist in der Zwischenablage</translation></message>
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
+<message><source>The rim of surface {rim} is narrower for this object than the stop on surface {stop}; the stop is kept, choose stop auto to let the narrowest rim decide.</source><translation>Der Rand von Fläche {rim} ist für dieses Objekt enger als die Blende auf Fläche {stop}; die Blende bleibt, Blende „automatisch“ lässt den engsten Rand entscheiden.</translation></message>
 <message><source>The surface whose rim limits the light.</source><translation>Die Fläche, deren Rand das Licht begrenzt.</translation></message>
 <message><source>The {what} "{text}" has the unit "{unit}"; write the number alone</source><translation>"{text}" hat die Einheit "{unit}" bei: {what}; nur die Zahl schreiben</translation></message>
 <message><source>The {what} "{text}" has the unit "{unit}"; write {known} or no unit</source><translation>"{text}" hat die Einheit "{unit}" bei: {what}; {known} oder keine Einheit schreiben</translation></message>

@@ -12,6 +12,7 @@ from typing import Protocol
 from PySide6.QtWidgets import QWidget
 
 from app.compute import Live, View
+from app.guard import PanelStore
 from app.store import Store
 from app.theme import Tokens
 
@@ -83,8 +84,8 @@ REGISTRY = (
 
 
 def build(entry: Entry, store: Store) -> Panel:
-    """Return a new panel of a registry line."""
-    return _named(entry.panel)(store)
+    """Return a new panel of a registry line; what it shows of B it does not put into A."""
+    return _named(entry.panel)(PanelStore(store))
 
 
 def view_of(entry: Entry) -> View | None:

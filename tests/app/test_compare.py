@@ -166,6 +166,24 @@ def test_swap_gives_the_controls_the_other_one(both, qtbot):
     assert both.live.state.f_number == 8.0
 
 
+def test_what_a_panel_shows_of_b_is_not_put_into_a(both, qtbot):
+    """The strip's arrow keys step from the sensor on screen, which is B's; A keeps its own, and a sentence says why."""
+    both.store.update(tab="through_focus", sensor_shift_um=30.0, shown="b")
+    chart, before = both.panels["through_focus"].chart, both.store.state
+    assert chart.sensor_um == 0.0
+    for side in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+        qtbot.keyClick(chart, side)
+        assert both.store.state == before and both.banner.isVisible()
+    both.panels["psf"].scale.setCurrentIndex(0)
+    both.panels["psf"].scale.activated.emit(0)
+    assert both.store.state.psf_scale == "linear", "looks are common to both"
+    both.controls.rows["sensor_shift_um"].edit.committed.emit("40")
+    assert both.store.state.sensor_shift_um == 40.0, "the controls show A and move it"
+    both.store.update(shown="a")
+    qtbot.keyClick(chart, Qt.Key.Key_Right)
+    assert both.store.state.sensor_shift_um > 40.0
+
+
 def test_b_stands_still_while_a_is_dragged(both):
     with both.store.drag():
         both.store.update(field_deg=3.0)
