@@ -67,13 +67,20 @@ def answer(asked: ColourQuestion, stopped, tell) -> Colours:
     set_up, spectrum = setting(asked.state), spectrum_of(asked.spectrum)
 
     def one(lens, source, pixels, pixel_um):
-        state = replace(asked.state, wavelength_nm=NM_PER_UM * source.wavelength_um)
-        return in_window(state, (pixels, pixel_um), asked.six)
+        return in_window(at_wavelength(asked.state, NM_PER_UM * source.wavelength_um), (pixels, pixel_um), asked.six)
 
-    found = colour_psf(set_up.lens, set_up.source, spectrum, asked.window, one, asked.count)
+    # A free pupil has no glass: the axis of the lens, where no colour lands beside another, stands for it.
+    source = replace(set_up.source, field_slope=0.0) if asked.state.free_pupil else set_up.source
+    found = colour_psf(set_up.lens, source, spectrum, asked.window, one, asked.count)
     waves = np.array(spectrum.numbers) / NM_PER_UM if spectrum.kind == "lines" else FINE_UM
     power = np.ones(waves.size) if spectrum.kind == "lines" else relative_power(spectrum, waves)
     return Colours(found, NM_PER_UM * waves, power * matching(waves)[:, 1], hues(waves))
+
+
+def at_wavelength(state: State, wavelength_nm: float) -> State:
+    """Return the setup at another wavelength; what is added by hand is a path, and so more waves of a shorter one."""
+    ratio = state.wavelength_nm / wavelength_nm
+    return replace(state, wavelength_nm=wavelength_nm, added_waves=tuple(ratio * waves for waves in state.added_waves))
 
 
 def hues(wavelength_um: np.ndarray) -> np.ndarray:

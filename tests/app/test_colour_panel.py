@@ -63,6 +63,21 @@ def test_the_hue_of_a_wavelength_is_its_own():
     assert (red.argmax(), green.argmax(), blue.argmax()) == (0, 1, 2)
 
 
+def test_what_is_added_by_hand_is_one_path_in_every_colour():
+    """A step of a micrometre is more waves of blue than of red: W·λ stays (Welford 1986, ch. 7)."""
+    state = replace(FIRST, free_pupil=True, added_waves=(0.5, 0.0, 0.0, 0.0, 1.0, 0.0))
+    made = [setting(colour.at_wavelength(state, nm)).coefficients for nm in (450.0, 587.5618, 650.0)]
+    for term, waves in (("w40", 0.5), ("wd", 1.0)):
+        paths = [float(getattr(c, term) * c.wavelength_um) for c in made]
+        assert paths == pytest.approx([waves * 0.5875618] * 3)
+
+
+def test_a_free_pupil_has_no_lateral_colour():
+    _, found = asked(field_deg=14.0, f_number=8.0, free_pupil=True, spectrum="lines:450,640")
+    assert not found.psf.shift_um.any()
+    assert asked(field_deg=14.0, f_number=8.0, spectrum="lines:450,640")[1].psf.shift_um.any()
+
+
 @pytest.fixture
 def panel(window, qtbot):
     window.store.update(tab="colour", f_number=8.0, spectrum="lines:486,656")
