@@ -2,13 +2,13 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, QObject
+from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 
 from app.choices import everything, fill
 from app.commands import Command
-from app.copying import card_in_hand, copy_data, copy_picture
+from app.copying import card_in_hand, copy_data, copy_picture, png_of
 from app.focus import best_shift_um
 from app.helping import help_text
 from app.helppage import HelpPage
@@ -196,11 +196,3 @@ class Actions(QObject):
     def _ask_panel(self, key: str) -> None:
         self.window.open_panel(key)
         self.ask_snapshot("Picture (*.png)", self.window.panels[key].widget)
-
-
-def png_of(widget: QWidget) -> bytes:
-    """Return a widget's picture as PNG."""
-    buffer = QBuffer()
-    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    widget.grab().save(buffer, "PNG")
-    return bytes(buffer.data())

@@ -5,7 +5,7 @@ import io
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QMimeData, Qt
+from PySide6.QtCore import QBuffer, QIODevice, QMimeData, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QMenu, QTableView, QWidget
 
@@ -35,6 +35,14 @@ def card_in_hand(window: QWidget) -> QWidget | None:
         if widget is not None:
             return widget
     return window.panels[window.tabs.current()].widget
+
+
+def png_of(widget: QWidget) -> bytes:
+    """Return a widget's picture as PNG."""
+    buffer = QBuffer()
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    widget.grab().save(buffer, "PNG")
+    return bytes(buffer.data())
 
 
 def copy_picture(widget: QWidget) -> None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 import numpy as np
-from PySide6.QtCore import QMarginsF, QPointF, QRectF, QSizeF, Qt
+from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QImage, QPageSize, QPainter, QPdfWriter, QPen, QPolygonF
 
 from app.brightness import stretched
@@ -20,7 +20,7 @@ from app.state import State
 from app.theme import LIGHT, tokens
 from app.thumbnail import glass
 from app.words import tr
-from p2sf.errors import P2SFError
+from p2sf.export import write_beside
 
 PAGE = QSizeF(210.0, 297.0)  # A4, mm; everything below is in mm
 MARGIN, DPI = 15.0, 300
@@ -63,19 +63,26 @@ class Page:
 
 
 def write_report(state: State, path: str) -> None:
-    """Write the page as PDF; P2SFError when it cannot be computed or written."""
+    """Write the page as PDF, whole or not at all; P2SFError when it cannot be computed or written."""
     answers = [live(at) for at in (state, *fields(state))]
-    writer = QPdfWriter(path)
+    document = pdf(answers[0], answers[1:])
+    write_beside(path, lambda handle: handle.write(document))
+
+
+def pdf(answer: Live, over_field: list[Live]) -> bytes:
+    """Return the page as a PDF document. It is made in memory, since Qt does not tell of a disk that is full."""
+    made = QBuffer()
+    made.open(QIODevice.OpenModeFlag.WriteOnly)
+    writer = QPdfWriter(made)
     writer.setPageSize(QPageSize(QPageSize.PageSizeId.A4))
     writer.setPageMargins(QMarginsF(0, 0, 0, 0))
     writer.setResolution(DPI)
-    writer.setTitle(answers[0].setting.lens.name)
-    painter = QPainter()
-    if not painter.begin(writer):
-        raise P2SFError(f"{path} cannot be written; choose a folder that exists and can be written to")
+    writer.setTitle(answer.setting.lens.name)
+    painter = QPainter(writer)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    paint(Page(painter, DPI / 25.4), answers[0], answers[1:])
+    paint(Page(painter, DPI / 25.4), answer, over_field)
     painter.end()
+    return bytes(made.data())
 
 
 def fields(state: State) -> tuple[State, ...]:

@@ -4,8 +4,10 @@ It shows no window: the picture is an array, so that it works wherever OpenGL do
 need not paint the window around it through OpenGL.
 """
 
+from collections.abc import Callable
 from math import cos, radians, sin, tan
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pyvista
@@ -18,7 +20,8 @@ from app.plots import as_indices, lookup
 from app.solid import Mesh
 from app.theme import Tokens
 from app.views.solid import Scene
-from p2sf.errors import P2SFError
+from p2sf.errors import ExportError, P2SFError
+from p2sf.export import check_place, write_beside
 
 VIEW_DEG = 16.0  # the eye's angle: small, so that lengths along the axis compare
 ROOM = 1.02
@@ -85,14 +88,13 @@ class Stage:
         return np.ascontiguousarray(vtk_to_numpy(pixels).reshape(height, width, 4)[::-1])
 
     def save(self, path: str) -> None:
-        """Write the scene as .gltf or .obj; P2SFError for another ending or where it cannot be written."""
+        """Write the scene as .gltf or .obj, whole or not at all; P2SFError for another ending or where it cannot be."""
         ending = Path(path).suffix.lower()
         if ending not in WRITERS:
             known = " or ".join(WRITERS)
             raise P2SFError(f'{Path(path).name} has the ending "{ending}"; give the scene a name in {known}')
-        if not Path(path).absolute().parent.is_dir():
-            raise P2SFError(f"{path} cannot be written: its folder is not there; choose another")
-        getattr(self._plotter, WRITERS[ending])(path)
+        check_place(path)
+        write_drafted(path, getattr(self._plotter, WRITERS[ending]))
 
     def close(self) -> None:
         """Give the graphics memory back."""
@@ -133,6 +135,25 @@ class Stage:
         self.remade += 1
         self._drawn[name] = mesh
         self._plotter.add_mesh(mesh, name=name, reset_camera=False, render=False, show_scalar_bar=False, **look)
+
+
+def write_drafted(path: str, write: Callable[[str], object]) -> None:
+    """Let ``write`` fill a file of this name in a folder of its own, then put it, and what it wrote with it, in place.
+
+    VTK says nothing of a disk that is full. So each file is written once more with a line's end after it: the byte more
+    finds no room where the draft found too little. Raises ExportError.
+    """
+    target = Path(path).absolute()
+    try:
+        with TemporaryDirectory(suffix=".part", prefix=".", dir=target.parent) as folder:
+            write(str(Path(folder) / target.name))
+            made = {draft.name: draft.read_bytes() for draft in Path(folder).iterdir()}
+    except OSError as error:
+        raise ExportError(f"{path} cannot be written, {error.strerror}; choose a folder you may write to") from error
+    if not all(made.get(name) for name in {target.name, *made}):
+        raise ExportError(f"{path} cannot be written, the draft beside it stayed empty; choose another disk")
+    for name in sorted(made, key=lambda name: name == target.name):
+        write_beside(target.with_name(name), lambda handle, name=name: handle.write(made[name] + b"\n"))
 
 
 def _fill(array, values: np.ndarray) -> None:

@@ -7,10 +7,11 @@ from PySide6.QtGui import QColor, QImage, QPainter, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.compute import Live
+from app.copying import png_of
 from app.eye import EYE, Eye, nearer, turned
 from app.store import Store
 from app.theme import LIGHT, Tokens
-from p2sf.errors import P2SFError
+from p2sf.export import write_beside
 
 MOST_PIXELS = 640 * 480  # of a picture while something moves; the settled one has every pixel of the widget
 WAVES_MAP = "CET-D1A"
@@ -70,9 +71,9 @@ class StageView(QWidget):
         return max(8, round(ratio * self.width())), max(8, round(ratio * self.height()))
 
     def save_picture(self, path: str) -> None:
-        """Write what is shown as a picture; P2SFError when it cannot be written."""
-        if not self.parentWidget().grab().save(path, "PNG"):
-            raise P2SFError(f"{path} cannot be written; choose a folder that exists and can be written to")
+        """Write what is shown as a picture, whole or not at all; P2SFError when it cannot be written."""
+        picture = png_of(self.parentWidget())
+        write_beside(path, lambda handle: handle.write(picture))
 
     def _moving(self) -> bool:
         return bool(self._held) or self._live is None or self._live.quality == "preview"

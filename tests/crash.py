@@ -13,7 +13,7 @@ import signal
 import sys
 import tempfile
 import time
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from itertools import count
 from pathlib import Path
 
@@ -103,6 +103,16 @@ def write_for_ever(folder: Path, first: int) -> None:
             write()
 
 
+@contextmanager
+def small_disk(most: int):
+    """Let no file of this process grow beyond so many bytes, which to a writer looks like a full disk."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+
+
 def full(folder: Path) -> str:
     """Run every writer on a disk that takes 2 kB a file; return the sentences."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -110,12 +120,11 @@ def full(folder: Path) -> str:
     for name, write in writers(folder, 1).items():
         (folder / name).write_bytes(OLD)
         before = sorted(os.listdir(folder))
-        resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT if name != "lens.toml" else 200, resource.RLIM_INFINITY))
-        try:
-            write()
-        except P2SFError as error:
-            told.append(f"{name}: {error}")
-        resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+        with small_disk(LIMIT if name != "lens.toml" else 200):
+            try:
+                write()
+            except P2SFError as error:
+                told.append(f"{name}: {error}")
         kept = name == "recent.json" or (told[-1].startswith(name) and (folder / name).read_bytes() == OLD)
         assert kept and sorted(os.listdir(folder)) == before, (name, told)
     return "\n".join(told)

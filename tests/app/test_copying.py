@@ -16,6 +16,7 @@ from app.pinning import pin
 from app.report import SHARES, fields, write_report
 from app.state import State
 from p2sf.errors import P2SFError
+from tests.crash import small_disk
 
 
 def test_the_curves_of_the_open_panel_are_copied_as_they_are(window, qtbot):
@@ -119,3 +120,11 @@ def test_the_report_shows_the_field_from_the_axis_to_the_lens_files_widest():
 def test_a_report_that_cannot_be_written_is_a_sentence(qapp, tmp_path):
     with pytest.raises(P2SFError, match="cannot be written"):
         write_report(State(method="seidel", f_number=8.0), str(tmp_path / "no" / "page.pdf"))
+
+
+def test_a_report_on_a_full_disk_is_a_sentence_and_the_old_one_stays(qapp, tmp_path):
+    old = tmp_path / "page.pdf"
+    old.write_bytes(b"old")
+    with small_disk(2000), pytest.raises(P2SFError, match="cannot be written"):
+        write_report(State(method="seidel", f_number=8.0), str(old))
+    assert (list(tmp_path.iterdir()), old.read_bytes()) == ([old], b"old")

@@ -15,6 +15,7 @@ from app.store import Store
 from app.theme import LIGHT
 from app.views.solid import scene
 from p2sf.errors import P2SFError
+from tests.crash import small_disk
 
 FIRST = State(method="seidel", theme="light")
 MAPS = "CET-D1A", "inferno"
@@ -79,6 +80,18 @@ def test_the_scene_is_written_and_read_by_others(stage, tmp_path):
         stage.save(str(tmp_path / "lens.stl"))
 
 
+@pytest.mark.parametrize("room", [0, 20_000])
+@pytest.mark.parametrize("ending", ["gltf", "obj"])
+def test_a_scene_on_a_full_disk_is_a_sentence_and_the_old_one_stays(stage, tmp_path, ending, room):
+    shown(stage)
+    old = tmp_path / f"lens.{ending}"
+    old.write_bytes(b"old")
+    with small_disk(room), pytest.raises(P2SFError, match="cannot be written"):
+        stage.save(str(old))
+    assert old.read_bytes() == b"old"
+    assert {path.name for path in tmp_path.iterdir()} <= {old.name, "lens.mtl"}  # colours of no shape are no harm
+
+
 @pytest.fixture
 def panel(qtbot):
     made = SolidPanel(Store(FIRST))
@@ -129,3 +142,7 @@ def test_the_panel_opens_turns_and_keeps_its_eye_in_the_state(panel, qtbot, tmp_
     assert panel.save(str(tmp_path / "view.png"))
     assert (tmp_path / "view.png").stat().st_size > 5000
     assert not panel.save(str(tmp_path / "no" / "scene.obj"))
+    before = (tmp_path / "view.png").read_bytes()
+    with small_disk(2000):
+        assert not panel.save(str(tmp_path / "view.png"))
+    assert (tmp_path / "view.png").read_bytes() == before
