@@ -6,10 +6,13 @@ from pathlib import Path
 import pytest
 
 from app import compute
+from app.changes import changed
 from app.claims import Claim, holds, measured, parse_claim
 from app.lesson import FOLDER, found_lessons, lesson_files, parse_lesson, read_lesson, shipped_lessons
 from app.measures import MEASURES
 from app.panels import REGISTRY
+from app.quantities import QUANTITIES
+from app.setting import prescription, ranges
 from app.state import State
 from p2sf.errors import P2SFError
 
@@ -78,6 +81,18 @@ def test_every_step_has_a_picture_a_panel_and_something_to_read(lesson):
         assert compute.live(state, "preview").psf.values.sum() == pytest.approx(1, abs=1e-3)
         assert state.tab in TABS and set(state.windows) <= TABS
         assert step.title and (step.text or step.attempt)
+
+
+@pytest.mark.parametrize("lesson", LESSONS, ids=lambda lesson: lesson.name)
+def test_whatever_a_lesson_sets_can_be_set_by_the_slider(lesson):
+    """A value beyond the slider's end jumps to the end at the first touch, and nobody can drag it "on"."""
+    for number, step in enumerate(lesson.steps):
+        first = lesson.state(number)
+        for state in (first, *(changed(first, claim.first) for claim in step.claims)):
+            limits = ranges(prescription(state))
+            for quantity in QUANTITIES:
+                value, scale = quantity.shown(state, limits), quantity.scale(limits)
+                assert scale.value(scale.travel(value)) == pytest.approx(value), f"step {number + 1}: {quantity.title}"
 
 
 def test_the_course_is_whole():
