@@ -13,6 +13,7 @@ from app.solid import Mesh, grid_faces
 from p2sf.conventions import UM_PER_MM
 from p2sf.psf import Psf
 from p2sf.raytrace import Pencil, hexapolar, opd_on_sphere, pencil, pupil_rays, trace
+from p2sf.wavefront import wavefront
 
 RINGS = 2  # of rays in the bundle: 19 of them
 FRONT = (10, 48)  # rings and directions of the wavefront
@@ -60,10 +61,12 @@ def front(setting: Setting, drawn: Drawing, last_z: float) -> Front:
     """Return the wavefront behind the lens: the sphere about the image point, W·λ·factor ahead of it along the rays.
 
     A positive W is a shorter path, so the light is ahead. ``last_z``: where the last surface ends, mm; the wavefront
-    is drawn as it leaves the exit pupil, or the lens where the pupil lies inside. Raises GeometryError.
+    is drawn as it leaves the exit pupil, or the lens where the pupil lies inside. What is altered by hand has no rays:
+    W is then that of the six coefficients. Raises GeometryError.
     """
     rays = pencil(setting.lens, setting.source, *_polar())
-    waves = np.nan_to_num(opd_on_sphere(rays, _exit_radius(setting, rays)))
+    exact = None if setting.altered else opd_on_sphere(rays, _exit_radius(setting, rays))
+    waves = np.asarray(wavefront(setting.coefficients, *_polar())) if exact is None else np.nan_to_num(exact)
     kx, ky, kz = (np.where(rays.passed, k, chief) for k, chief in _cosines(rays))
     radius = _drawn_radius(setting, drawn, last_z, float(rays.chief_kz[0]))
     swing = SWING * radius * float(np.hypot(kx, ky - rays.chief_ky).max())

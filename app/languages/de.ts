@@ -432,7 +432,7 @@
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
-<message><source>What-if: coefficients altered by hand; rays, spots and fans stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Strahlen, Spots und Fächer bleiben die des Objektivs.</translation></message>
+<message><source>What-if: coefficients altered by hand; rays, spots, fans, sums per surface, field curves, chromatic shift, depth of field, image and database stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Strahlen, Spots, Fächer, Summen je Fläche, Feldkurven, Farbverschiebung, Schärfentiefe, Bild und Datenbank bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
 <message><source>When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the difference, and what every method costs in time and error appear here.</source><translation>Wenn die Regler ruhen, wird das Bild mit einer auskonvergierten Summe exakter Strahlen (Huygens) verglichen: Referenz, Unterschied und was jede Methode an Zeit und Fehler kostet, erscheinen hier.</translation></message>
 <message><source>Where the sensor stands, from the last vertex.</source><translation>Wo der Sensor steht, vom letzten Scheitel.</translation></message>

@@ -1,5 +1,6 @@
 """What if a coefficient were another: laws of the altered six, textbook pictures, the desk under a person's hands."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -8,10 +9,12 @@ from PySide6.QtCore import Qt
 
 from app import compute
 from app.focus import best_shift_um
+from app.panels import REGISTRY, view_of
 from app.pupil import TERMS
 from app.reference import measure
 from app.setting import setting
 from app.state import State
+from app.views.solid import scene
 from app.whatif import PRESETS, UNTOUCHED, is_altered, of_preset, toggled, with_added
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.psf import seidel_psf
@@ -55,6 +58,28 @@ def test_the_picture_is_of_the_altered_six_whatever_the_method(changes):
     assert "coefficients altered by hand" in live.warnings[0]
     with pytest.raises(SamplingError, match="does not apply"):
         measure(live, False, None, None)
+
+
+NAMED = {
+    **{"spot": "spots", "ray_fan": "fans", "opd_fan": "fans", "seidel": "sums per surface", "field": "field curves"},
+    **{"chromatic": "chromatic shift", "depth_of_field": "depth of field", "image": "image", "database": "database"},
+}
+OF_THE_LENS = {"lens", "first_order", "ybar", "import"}  # data of the lens: nobody expects other waves in them
+
+
+def test_the_warning_names_every_tab_that_does_not_follow():
+    own, other = (compute.live(State(method="seidel", added_waves=(w, w, 0.0, 0.0, w, 0.0))) for w in (0.0, 0.5))
+    views = {entry.key: view_of(entry) for entry in REGISTRY if view_of(entry)}
+    still = {key for key, view in views.items() if pickle.dumps(view(own)) == pickle.dumps(view(other))}
+    assert still - OF_THE_LENS == set(NAMED)
+    assert all(word in other.warnings[0] for word in NAMED.values())
+
+
+def test_the_wavefront_in_space_is_the_altered_one():
+    """A free pupil with W31 alone: ½ λ ahead at the rim towards the field, ½ λ behind on the other side."""
+    state = State(free_pupil=True, added_waves=with_added(State(), "w31", 0.5))
+    waves = scene(compute.live(state, "preview")).front.waves
+    assert (waves.max(), waves.min()) == pytest.approx((0.5, -0.5))
 
 
 def psf_of(words: str):
