@@ -12,7 +12,7 @@ DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| =
 GEOMETRIC = (
     "the blur is so large that the picture is ray density, no diffraction; bring focus and source together to see waves"
 )
-UNALTERED = "rays, spots, fans, sums per surface, field curves, chromatic shift, depth of field, image and database"
+UNALTERED = "image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface"
 WIDE_DEG, FAST_NA = 25.0, 0.30  # tan and sin differ by 10 % at 25°; an NA of 0.3 is f/1.7
 
 
