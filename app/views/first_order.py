@@ -28,7 +28,7 @@ def lens_rows(live) -> tuple[Row, ...]:
         ("Principal point H′", length(float(p.rear_principal_from_last)), "From the last vertex."),
         ("Nodal point N", length(float(p.front_nodal_from_first)), "From the first vertex."),
         ("Nodal point N′", length(float(p.rear_nodal_from_last)), "From the last vertex."),
-        ("Petzval radius", length(petzval_radius(s)), "−1/(n′ΣcΔ(1/n)): the image's curvature without astigmatism."),
+        ("Petzval radius", length(petzval_radius(s)), "1/(n′ΣcΔ(1/n)): the image's curvature without astigmatism."),
         ("Track", length(track(s)), "First vertex to sensor."),
     )
 

@@ -170,3 +170,17 @@ def test_every_kind_of_lens_has_an_answer(lens):
     assert np.isfinite(field_curves(answer).real.sagittal[0])
     found = depth_of_field(answer)
     assert found.sharp_mm is None or found.sharp_mm[0] < found.sharp_mm[1]
+
+
+def test_the_petzval_radius_is_what_its_tip_says(window):
+    """A thin positive lens in air has −n·f′ (Welford 1986, §8.4), and so a sum of the same sign: c(1/n − 1) < 0."""
+    window.store.replace(with_lens(window.store.state, "singlet_f6"))
+    rows = {name: (value, tip) for column in first_order(window.live) for name, value, tip in column}
+    value, tip = rows["Petzval radius"]
+    radius = float(value.split()[0].replace("−", "-"))
+    s = window.live.setting
+    n = s.rays.index
+    total = sum(surface.curvature * (1 / n[k + 1] - 1 / n[k]) for k, surface in enumerate(s.lens.surfaces)) * n[-1]
+    sign = -1 if tip.startswith("−") else 1
+    assert radius == pytest.approx(sign / float(total), rel=1e-3)
+    assert radius == pytest.approx(-float(n[1]) * s.focal_length_mm, rel=0.03), "thick by a few per cent"
