@@ -132,8 +132,9 @@ class ImagePanel:
         self.widget.set_readout(wide + (WORKING if self._stale() else f" · {self._answer.quality}{doing}"))
 
     def _on_answer(self, key: Question, found: Answer) -> None:
-        self._answer = found
-        self._paint()
+        if key == self._asked or self._stale():  # a plan of before, late to stop, must not cover the present picture
+            self._answer = found
+            self._paint()
         if self._settled:
             self._refine()
         self._show_readout()

@@ -203,3 +203,15 @@ def test_a_photo_that_is_gone_is_one_sentence(window, panel, qtbot):
 def test_shown_pictures_have_the_scene_left_and_the_image_right(found):
     before, after, more = shown("lens", found.plan, found.before, found.lattice, Watch())
     assert before is found.before and more == () and not np.array_equal(before, after)
+
+
+def test_a_late_answer_to_an_earlier_question_does_not_cover_the_present_picture(window, panel, qtbot):
+    """The worker that plans stops when it can, and may still hand over what was asked before."""
+    present, asked_now = panel._answer, panel._asked
+    earlier = replace(present, question=replace(asked_now, centre_mm=asked_now.centre_mm + 1.0), quality="planned")
+    panel.fine.finished.emit(earlier.question, earlier)
+    assert panel._answer is present and "earlier" not in panel.widget.readout.text()
+    window.store.update(field_deg=2.0)
+    panel.fine.finished.emit(earlier.question, earlier)
+    assert panel._answer is earlier and "earlier" in panel.widget.readout.text(), "better than one older still"
+    qtbot.waitUntil(lambda: panel._answer.question == panel._asked)
