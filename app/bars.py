@@ -5,7 +5,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
-from app.card import chooser, select
+from app.card import chooser, described, select
 from app.compute import Live
 from app.lens_cards import shown_title
 from app.lens_chooser import LensChooser
@@ -49,8 +49,7 @@ class TopBar(QFrame):
         self.edited = QLabel(tr("edited"), self)
         self.edited.setObjectName("badge")
         self.edited.setToolTip(tr("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)"))
-        words = tuple((name, METHOD_WORDS[name]) for name in CHOICES["method"])
-        self.method = chooser(words, METHOD_TIP, self)
+        self.method = described({name: METHOD_WORDS[name] for name in CHOICES["method"]}, METHOD_TIP, self)
         tolerances = tuple((str(t), f"R² ≥ {t:g}") for t in TOLERANCES)
         self.tolerance = chooser(tolerances, TOLERANCE_TIP, self)
         for box in (self.method, self.tolerance):

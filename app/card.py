@@ -2,10 +2,21 @@
 
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QPainter, QPalette, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QStyledItemDelegate,
+    QVBoxLayout,
+    QWidget,
+)
 
 from app.copying import copy_menu
 from app.words import tr
+
+LIST_AIR = 24  # beside the longest line of an open list
 
 
 class Card(QFrame):
@@ -79,6 +90,25 @@ def chooser(choices: tuple[tuple[str, str], ...], tip: str, parent=None) -> QCom
     box.setAccessibleName(tr(tip))
     for value, words in choices:
         box.addItem(tr(words), value)
+    return box
+
+
+class Describing(QStyledItemDelegate):
+    """Writes in the open list what a choice means; the closed box shows its name alone."""
+
+    def initStyleOption(self, option, index) -> None:
+        """Put the meaning in place of the name."""
+        super().initStyleOption(option, index)
+        option.text = index.data(Qt.ItemDataRole.ToolTipRole) or option.text
+
+
+def described(choices: dict[str, str], tip: str, parent=None) -> QComboBox:
+    """Return a combo box of names that its open list explains."""
+    box = chooser(tuple((name, name) for name in choices), tip, parent)
+    box.setItemDelegate(Describing(box))
+    for k, words in enumerate(choices.values()):
+        box.setItemData(k, tr(words), Qt.ItemDataRole.ToolTipRole)
+    box.view().setMinimumWidth(box.view().sizeHintForColumn(0) + LIST_AIR)
     return box
 
 

@@ -24,6 +24,7 @@ SUBJECTS = (
     ("tabs", "the open tab"),
 )
 EDIT_WIDTH = 82
+TURN_WIDTH = 44  # holds ❚❚ beside the button's air
 
 
 class PlayBar(QFrame):
@@ -65,7 +66,7 @@ class PlayBar(QFrame):
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 4, 10, 4)
         row.setSpacing(6)
-        self.turn.setFixedWidth(34)
+        self.turn.setFixedWidth(TURN_WIDTH)
         self.progress.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (self.turn, self.key, self.first, QLabel("→"), self.last, QLabel(tr("in")), self.seconds):
             row.addWidget(part)

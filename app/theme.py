@@ -205,6 +205,8 @@ def _inputs(t: Tokens) -> str:
     QTabWidget::pane {{ border: none; }}
     QTabWidget::tab-bar {{ left: 4px; }}
     QTabBar {{ background: transparent; qproperty-drawBase: 0; }}
+    QTabBar QToolButton {{ padding: 0; min-height: 0; border-radius: 3px; }}
+    QTabBar::tear {{ width: 0; }}
     QTabBar::tab {{ padding: 4px 12px; color: {t.muted}; border: none; border-bottom: 2px solid transparent; }}
     QTabBar::tab:selected {{ color: {t.text}; border-bottom: 2px solid {t.accent}; }}
     QTabBar::tab:focus {{ color: {t.accent}; }}
