@@ -368,6 +368,7 @@
 <message><source>The chief ray is totally reflected at surface {number}; choose a smaller field</source><translation>Der Hauptstrahl wird an Fläche {number} total reflektiert; ein kleineres Feld wählen</translation></message>
 <message><source>The chief ray misses surface {number}; choose a smaller field</source><translation>Der Hauptstrahl verfehlt Fläche {number}; ein kleineres Feld wählen</translation></message>
 <message><source>The distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞</source><translation>Der Abstand "{text}" hat eine unbekannte Einheit; mm, cm, m, km oder ∞ schreiben</translation></message>
+<message><source>The image of this object lies at ∞ (NA 0), so the sensor holds no PSF; move the object or refocus</source><translation>Das Bild dieses Objekts liegt bei ∞ (NA 0), auf dem Sensor gibt es also keine PSF; das Objekt verschieben oder neu fokussieren</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
 <message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP.</source><translation>Das Objektiv maßstäblich: die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP.</translation></message>
 <message><source>The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
@@ -377,6 +378,7 @@
 <message><source>The panel's data are on the clipboard</source><translation>Die Daten des Feldes sind in der Zwischenablage</translation></message>
 <message><source>The panel's picture is on the clipboard</source><translation>Das Bild des Feldes ist in der Zwischenablage</translation></message>
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
+<message><source>The state's lists are nested too deep; save it again from the explorer</source><translation>Die Listen des Zustands sind zu tief verschachtelt; im Explorer neu speichern</translation></message>
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
 <message><source>The rim of surface {rim} is narrower for this object than the stop on surface {stop}; the stop is kept, choose stop auto to let the narrowest rim decide.</source><translation>Der Rand von Fläche {rim} ist für dieses Objekt enger als die Blende auf Fläche {stop}; die Blende bleibt, die Wahl „gefunden“ lässt den engsten Rand entscheiden.</translation></message>
 <message><source>The surface whose rim limits the light.</source><translation>Die Fläche, deren Rand das Licht begrenzt.</translation></message>
@@ -429,6 +431,7 @@
 <message><source>Wd is muted, so moving the sensor does not focus; set Wd by its slider, or reset the what-if</source><translation>Wd ist stumm, also stellt ein anderer Ort des Sensors nicht scharf; Wd am Regler einstellen oder das Was-wäre-wenn zurücksetzen</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
+<message><source>What is pinned as B must be one state with nothing pinned in it; pin it again</source><translation>Was als B gemerkt ist, muss ein einzelner Zustand sein, in dem nichts gemerkt ist; neu merken</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
@@ -659,6 +662,7 @@
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{number} stop</source><translation>{number} Blende</translation></message>
+<message><source>{path} is nested too deep or holds too long a number; save it again</source><translation>{path} ist zu tief verschachtelt oder enthält eine zu lange Zahl; neu speichern</translation></message>
 <message><source>{path}, line {number}: the file holds no lens surface between object and image</source><translation>{path}, Zeile {number}: die Datei enthält keine Linsenfläche zwischen Objekt und Bild</translation></message>
 <message><source>{path}: there is no such file; check the path</source><translation>{path}: eine solche Datei gibt es nicht; den Pfad prüfen</translation></message>
 <message><source>{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes, float32</source><translation>{rows} × {columns} Gauß–Tschebyschow- × Gauß–Legendre-Knoten, float32</translation></message>
