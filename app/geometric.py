@@ -62,27 +62,31 @@ def exact_landing(set_up: Setting, quality: str = "settled", clip: bool = False)
 
 
 def polar(radii: int, directions: int):
-    """Return ξ, η and equal-area weights at cell centres in ρ² and θ of the half disc ξ > 0, (radii, directions)."""
-    rho = np.sqrt((np.arange(radii) + 0.5) / radii)[:, None]
+    """Return ξ, η and weights of cells even in ρ and θ of the half disc ξ > 0, (radii, directions); their sum is ½.
+
+    Rings of equal area would begin so far out that an evenly lit blur has a dark hole in its middle.
+    """
+    rho = ((np.arange(radii) + 0.5) / radii)[:, None]
     theta = (np.arange(directions) + 0.5) * np.pi / directions
-    return rho * np.sin(theta), rho * np.cos(theta), np.full((radii, directions), 0.5 / (radii * directions))
+    weight = np.broadcast_to(rho / (radii * directions), (radii, directions))
+    return rho * np.sin(theta), rho * np.cos(theta), weight
 
 
 def finely(values: np.ndarray, grid: tuple[int, int]) -> np.ndarray:
     """Return values of coarse polar cells on the cells of a finer grid, straight lines in ρ and θ."""
-    radii, directions = _between(values.shape[0], grid[0], 0.5), _between(values.shape[1], grid[1], 1.0)
+    radii, directions = (_between(coarse, fine) for coarse, fine in zip(values.shape, grid, strict=True))
     lost = ~np.isfinite(values)
     found = radii @ np.where(lost, 0.0, values) @ directions.T
     return np.where(np.abs(radii) @ lost @ np.abs(directions).T > 0, np.inf, found) if lost.any() else found
 
 
 @lru_cache(maxsize=8)
-def _between(coarse: int, fine: int, power: float) -> np.ndarray:
-    """Return the linear interpolation from ``coarse`` cell centres to ``fine`` ones, in a power of their place.
+def _between(coarse: int, fine: int) -> np.ndarray:
+    """Return the linear interpolation from ``coarse`` cell centres to ``fine`` ones.
 
     Beyond the outermost centres the lines go on straight: ρ reaches the rim, where the farthest rays are.
     """
-    known, wanted = (((np.arange(n) + 0.5) / n) ** power for n in (coarse, fine))
+    known, wanted = ((np.arange(n) + 0.5) / n for n in (coarse, fine))
     left = np.clip(np.searchsorted(known, wanted) - 1, 0, coarse - 2)
     part = (wanted - known[left]) / (known[left + 1] - known[left])
     matrix = np.zeros((fine, coarse))
