@@ -1,5 +1,6 @@
 """The one place the state lives while the window is open: changes, undo, redo."""
 
+from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -105,6 +106,10 @@ class Store(QObject):
     def can_redo(self) -> bool:
         """Return whether there is a step to take again."""
         return self._at + 1 < len(self._states)
+
+    def latest(self, wanted: Callable[[State], bool]) -> State | None:
+        """Return the last state, the present one or a step to undo to, that is ``wanted``; None where none is."""
+        return next((state for state in reversed(self._states[: self._at + 1]) if wanted(state)), None)
 
     def undo(self) -> None:
         """Take back one step."""

@@ -16,6 +16,8 @@ from p2sf.errors import P2SFError
 BESIDE = (0.29, 0.32, 0.39)  # of the row of pupil, PSF and coefficients, beside a lesson
 OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
 
+NOTHING_BEFORE = "The window began with this lesson, so there is nothing to put back: its lens stays"
+
 
 class Teaching(QObject):
     """Owns the lesson's page, made when the first lesson begins; the state says which lesson and step are on."""
@@ -26,7 +28,6 @@ class Teaching(QObject):
         self.panel: LessonPanel | None = None
         self.offer: Offer | None = None
         self._lessons: dict[str, Lesson] = {}
-        self._before: State | None = None
         self._sizes: list[int] | None = None
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
@@ -57,8 +58,6 @@ class Teaching(QObject):
 
     def begin(self, name: str) -> None:
         """Begin a lesson; what was on screen before the first one comes back at the end."""
-        if not self.store.state.lesson:
-            self._before = self.store.state
         self._go(name, 0)
 
     def move(self, step: int) -> None:
@@ -79,11 +78,13 @@ class Teaching(QObject):
             self.store.update(lesson_told=True)
 
     def leave(self) -> None:
-        """End the lesson and put back what was on screen before it."""
+        """End the lesson and put back what was on screen before it, which the steps of undo know."""
         here = replace(self.store.state, lesson="", lesson_step=0, lesson_told=False)
         kept = {name: getattr(here, name) for name in PERSONAL}
-        self.store.replace(replace(self._before, **kept) if self._before else here)
-        self._before = None
+        before = self.store.latest(lambda state: not state.lesson)
+        self.store.replace(replace(before, **kept) if before else here)
+        if not before:
+            self.store.said.emit(tr(NOTHING_BEFORE))
 
     def _go(self, name: str, number: int) -> None:
         if self.offer:

@@ -382,6 +382,7 @@
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
 <message><source>The rim of surface {rim} is narrower for this object than the stop on surface {stop}; the stop is kept, choose stop auto to let the narrowest rim decide.</source><translation>Der Rand von Fläche {rim} ist für dieses Objekt enger als die Blende auf Fläche {stop}; die Blende bleibt, die Wahl „gefunden“ lässt den engsten Rand entscheiden.</translation></message>
 <message><source>The surface whose rim limits the light.</source><translation>Die Fläche, deren Rand das Licht begrenzt.</translation></message>
+<message><source>The window began with this lesson, so there is nothing to put back: its lens stays</source><translation>Das Fenster begann mit dieser Lektion, also gibt es nichts zurückzuholen: ihr Objektiv bleibt</translation></message>
 <message><source>The {what} "{text}" has the unit "{unit}"; write the number alone</source><translation>"{text}" hat die Einheit "{unit}" bei: {what}; nur die Zahl schreiben</translation></message>
 <message><source>The {what} "{text}" has the unit "{unit}"; write {known} or no unit</source><translation>"{text}" hat die Einheit "{unit}" bei: {what}; {known} oder keine Einheit schreiben</translation></message>
 <message><source>The {what} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {what}; eine wie 12.5 schreiben</translation></message>

@@ -1,5 +1,7 @@
 """Lessons in the window: begun, gone through, answered and left by keyboard and mouse; the first start's offer."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
@@ -44,6 +46,28 @@ def test_f2_begins_the_first_lesson_and_ends_it_as_it_was(window, qtbot, teachin
     assert window.store.state == before and not teaching.panel.isVisible()
 
 
+def test_leaving_once_more_after_undo_still_puts_back_what_was_before(window, qtbot, teaching):
+    window.store.update(field_deg=3.5, wavelength_nm=486.0)
+    before = window.store.state
+    teaching.toggle()
+    window.teaching.move(1)
+    teaching.leave()
+    window.store.undo()
+    assert window.store.state.lesson == FIRST.name
+    teaching.leave()
+    assert window.store.state == before
+
+
+def test_where_nothing_was_before_the_lesson_stays_and_says_so(window, teaching):
+    teaching.toggle()
+    kept, window.store._states, window.store._at = window.store.state, [window.store.state], 0
+    told = []
+    window.store.said.connect(told.append)
+    teaching.leave()
+    window.store.said.disconnect(told.append)
+    assert window.store.state == replace(kept, lesson="") and "nothing to put back" in told[0]
+
+
 def test_next_and_back_set_the_window_and_keys_do_the_same(window, qtbot, panel):
     qtbot.mouseClick(panel.next, Qt.MouseButton.LeftButton)
     assert window.store.state == FIRST.state(1, window.store.state) and window.live.state.field_deg == 10
@@ -86,7 +110,7 @@ def test_after_the_last_step_comes_the_next_lesson_and_the_list_leads_to_any(win
     panel.choice.activated.emit(panel.choice.currentIndex())
     last = shipped_lessons()[-1]
     assert window.store.state.lesson == last.name
-    before = window.teaching._before
+    before = window.store.latest(lambda state: not state.lesson)
     for _ in last.steps:
         teaching.move(1)
     assert window.store.state == before
