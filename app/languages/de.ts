@@ -8,8 +8,8 @@
 <message><source>16 µm pixels</source><translation>16-µm-Pixel</translation></message>
 <message><source>32 µm pixels</source><translation>32-µm-Pixel</translation></message>
 <message><source>3D</source><translation>3D</translation></message>
-<message><source>3D needs OpenGL, and none works here; install a driver or Mesa's software renderer (apt-get install libegl1 libgl1-mesa-dri), then open this panel again</source><translation>3D braucht OpenGL, und hier läuft keines; einen Treiber oder Mesas Software-Renderer installieren (apt-get install libegl1 libgl1-mesa-dri), dann dieses Feld wieder öffnen</translation></message>
-<message><source>3D needs pyvista, which is not installed; run pip install pyvista, then open this panel again</source><translation>3D braucht pyvista, das nicht installiert ist; pip install pyvista ausführen, dann dieses Feld wieder öffnen</translation></message>
+<message><source>3D needs OpenGL, and none works here; install a driver or Mesa's software renderer (apt-get install libegl1 libgl1-mesa-dri), then open this panel again</source><translation>3D braucht OpenGL, und hier läuft keines; einen Treiber oder Mesas Software-Renderer installieren (apt-get install libegl1 libgl1-mesa-dri), dann diese Ansicht wieder öffnen</translation></message>
+<message><source>3D needs pyvista, which is not installed; run pip install pyvista, then open this panel again</source><translation>3D braucht pyvista, das nicht installiert ist; pip install pyvista ausführen, dann diese Ansicht wieder öffnen</translation></message>
 <message><source>3D: elements of revolution to their clear rims; the wavefront is W·λ ahead of the sphere about the image point.</source><translation>3D: Drehkörper bis zu ihren freien Rändern; die Wellenfront ist der Kugel um den Bildpunkt um W·λ voraus.</translation></message>
 <message><source>4 µm pixels</source><translation>4-µm-Pixel</translation></message>
 <message><source>8 µm pixels</source><translation>8-µm-Pixel</translation></message>
@@ -59,8 +59,8 @@
 <message><source>Cividis</source><translation>Cividis</translation></message>
 <message><source>Clear rim, mm; ∞ is unlimited. On the stop it is the aperture.</source><translation>Freier Rand, mm; ∞ ist unbegrenzt. An der Blende ist er die Öffnung.</translation></message>
 <message><source>Click or press Enter to make this surface the stop; the f-number stays.</source><translation>Klicken oder Enter macht diese Fläche zur Blende; die Blendenzahl bleibt.</translation></message>
-<message><source>Clip at rims</source><translation>Abblenden</translation></message>
-<message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Abblenden: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
+<message><source>Clip at rims</source><translation>Randbeschnitt</translation></message>
+<message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Randbeschnitt: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
 <message><source>Close</source><translation>Schließen</translation></message>
 <message><source>Close the window</source><translation>Fenster schließen</translation></message>
 <message><source>Coarse</source><translation>Grob</translation></message>
@@ -83,18 +83,18 @@
 <message><source>Copy data as CSV</source><translation>Daten als CSV kopieren</translation></message>
 <message><source>Copy link</source><translation>Link kopieren</translation></message>
 <message><source>Copy picture</source><translation>Bild kopieren</translation></message>
-<message><source>Copy the panel's data as CSV</source><translation>Daten des Feldes als CSV kopieren</translation></message>
-<message><source>Copy the panel's picture</source><translation>Bild des Feldes kopieren</translation></message>
+<message><source>Copy the panel's data as CSV</source><translation>Daten der Ansicht als CSV kopieren</translation></message>
+<message><source>Copy the panel's picture</source><translation>Bild der Ansicht kopieren</translation></message>
 <message><source>Dark</source><translation>Dunkel</translation></message>
 <message><source>Database</source><translation>Datenbank</translation></message>
 <message><source>Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; drag on a map or the atlas to set the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas setzt die Quelle.</translation></message>
 <message><source>Defocus is {wd} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down.</source><translation>Der Defokus ist {wd} λ, jenseits der 10 λ der Methode; Fokus oder Quelle näher bringen oder abblenden.</translation></message>
 <message><source>Defocus, 1 λ</source><translation>Defokus, 1 λ</translation></message>
 <message><source>Delete</source><translation>Löschen</translation></message>
-<message><source>Depth</source><translation>Abstand</translation></message>
+<message><source>Depth</source><translation>Objektabstand</translation></message>
 <message><source>Depth of field</source><translation>Schärfentiefe</translation></message>
 <message><source>Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
-<message><source>Depth: distance from the source to the first vertex. The slider is even in vergence, 1/depth.</source><translation>Abstand: von der Quelle bis zum ersten Scheitel. Der Regler ist gleichmäßig in der Vergenz, 1/Abstand.</translation></message>
+<message><source>Depth: distance from the source to the first vertex. The slider is even in vergence, 1/depth.</source><translation>Objektabstand: von der Quelle bis zum ersten Scheitel. Der Regler ist gleichmäßig in der Vergenz, 1/Abstand.</translation></message>
 <message><source>Depths</source><translation>Abstände</translation></message>
 <message><source>Deutsch</source><translation>Deutsch</translation></message>
 <message><source>Diameter, and place from the first vertex.</source><translation>Durchmesser, und Ort vom ersten Scheitel.</translation></message>
@@ -111,7 +111,7 @@
 <message><source>English</source><translation>English</translation></message>
 <message><source>Entrance pupil</source><translation>Eintrittspupille</translation></message>
 <message><source>Error</source><translation>Fehler</translation></message>
-<message><source>Every panel by its group (Alt+0)</source><translation>Jedes Feld nach seiner Gruppe (Alt+0)</translation></message>
+<message><source>Every panel by its group (Alt+0)</source><translation>Jede Ansicht nach ihrer Gruppe (Alt+0)</translation></message>
 <message><source>ExP</source><translation>ExP</translation></message>
 <message><source>Exchange A and B</source><translation>A und B vertauschen</translation></message>
 <message><source>Exchange A and B: the controls then move the other one</source><translation>A und B vertauschen: die Regler bewegen dann das andere</translation></message>
@@ -128,7 +128,7 @@
 <message><source>Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field).</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld).</translation></message>
 <message><source>Files</source><translation>Dateien</translation></message>
 <message><source>Film…</source><translation>Film …</translation></message>
-<message><source>Find a command, a panel, a lens or a preset</source><translation>Befehl, Feld, Objektiv oder Vorgabe finden</translation></message>
+<message><source>Find a command, a panel, a lens or a preset</source><translation>Befehl, Ansicht, Objektiv oder Vorgabe finden</translation></message>
 <message><source>Find a command…</source><translation>Befehl finden …</translation></message>
 <message><source>First dark ring of a perfect lens, 0.61 λ/NA.</source><translation>Erster dunkler Ring eines perfekten Objektivs, 0,61 λ/NA.</translation></message>
 <message><source>First order</source><translation>Erste Ordnung</translation></message>
@@ -136,9 +136,9 @@
 <message><source>First-order data: everything that follows from paraxial rays alone; hover over a row for its definition.</source><translation>Daten erster Ordnung: alles, was allein aus paraxialen Strahlen folgt; über einer Zeile steht ihre Definition.</translation></message>
 <message><source>Focal length f′</source><translation>Brennweite f′</translation></message>
 <message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
-<message><source>Focus distance</source><translation>Entfernung</translation></message>
-<message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s.</source><translation>Einstellentfernung: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s.</translation></message>
-<message><source>Free pupil</source><translation>Frei</translation></message>
+<message><source>Focus distance</source><translation>Fokus auf</translation></message>
+<message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s.</translation></message>
+<message><source>Free pupil</source><translation>Freie Pupille</translation></message>
 <message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
 <message><source>Front focus F</source><translation>Objektseitiger Brennpunkt F</translation></message>
 <message><source>Glass or index</source><translation>Glas oder Index</translation></message>
@@ -168,7 +168,6 @@
 <message><source>Lens…</source><translation>Objektiv …</translation></message>
 <message><source>Lesson</source><translation>Lektion</translation></message>
 <message><source>Lessons</source><translation>Lernen</translation></message>
-<message><source>Lessons, from a point of light to a photograph: begin or leave (F2)</source><translation>Lektionen, vom Lichtpunkt zum Foto: beginnen oder verlassen (F2)</translation></message>
 <message><source>Lessons, from a point of light to a photograph: begin or leave (F3)</source><translation>Lektionen, vom Lichtpunkt zum Foto: beginnen oder verlassen (F3)</translation></message>
 <message><source>Lessons: begin or leave</source><translation>Lernen: Lektionen beginnen oder verlassen</translation></message>
 <message><source>Light</source><translation>Hell</translation></message>
@@ -194,7 +193,7 @@
 <message><source>Next lesson</source><translation>Nächste Lektion</translation></message>
 <message><source>Next step of the lesson</source><translation>Nächster Schritt der Lektion</translation></message>
 <message><source>No aberration</source><translation>Keine Aberration</translation></message>
-<message><source>No ray reaches the sensor; choose a smaller field, stop down, or leave clipping off</source><translation>Kein Strahl erreicht den Sensor; ein kleineres Feld wählen, abblenden oder das Abblenden an Rändern auslassen</translation></message>
+<message><source>No ray reaches the sensor; choose a smaller field, stop down, or leave clipping off</source><translation>Kein Strahl erreicht den Sensor; ein kleineres Feld wählen, abblenden oder den Randbeschnitt auslassen</translation></message>
 <message><source>Nodal point N</source><translation>Knotenpunkt N</translation></message>
 <message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
 <message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
@@ -222,8 +221,8 @@
 <message><source>PSF, perfect peak = 1</source><translation>PSF, perfekte Spitze = 1</translation></message>
 <message><source>PSF, sum = 1</source><translation>PSF, Summe = 1</translation></message>
 <message><source>PSFs, {wide} µm wide, √ of peak = 1</source><translation>PSFs, {wide} µm breit, √ mit Spitze = 1</translation></message>
-<message><source>Panel</source><translation>Feld</translation></message>
-<message><source>Panels of the group {group} (Alt+{number})</source><translation>Felder der Gruppe {group} (Alt+{number})</translation></message>
+<message><source>Panel</source><translation>Ansicht</translation></message>
+<message><source>Panels of the group {group} (Alt+{number})</source><translation>Ansichten der Gruppe {group} (Alt+{number})</translation></message>
 <message><source>Paraxial image</source><translation>Paraxiales Bild</translation></message>
 <message><source>Paraxial image of this depth, from the last vertex.</source><translation>Paraxiales Bild dieses Abstands, vom letzten Scheitel.</translation></message>
 <message><source>Paste a link</source><translation>Link einfügen</translation></message>
@@ -237,7 +236,7 @@
 <message><source>Photo…</source><translation>Foto …</translation></message>
 <message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
 <message><source>Picture before and after the lens; left and right arrows move the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile links und rechts verschieben die Teilung</translation></message>
-<message><source>Picture of one panel</source><translation>Bild eines Feldes</translation></message>
+<message><source>Picture of one panel</source><translation>Bild einer Ansicht</translation></message>
 <message><source>Pin B</source><translation>B merken</translation></message>
 <message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>
 <message><source>Pin what is on screen as B, to compare with it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen (Strg+B)</translation></message>
@@ -278,15 +277,15 @@
 <message><source>Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil.</source><translation>Strahlfächer: wie weit vom Hauptstrahl ein exakter Strahl landet, über seinem Ort in der Pupille.</translation></message>
 <message><source>Rays</source><translation>Strahlen</translation></message>
 <message><source>Rear-stop landscape singlet</source><translation>Landschaftslinse mit hinterer Blende</translation></message>
-<message><source>Redo</source><translation>Vor</translation></message>
+<message><source>Redo</source><translation>Wiederholen</translation></message>
 <message><source>Relay of two achromats, stop between, upright pupil (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, aufrechte Pupille (synthetisch; nur endliche Objekte)</translation></message>
 <message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
 <message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
-<message><source>Reset</source><translation>Zurück</translation></message>
+<message><source>Reset</source><translation>Nullen</translation></message>
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
-<message><source>Rims clip {lost} of {all} rays, and fitted describes the whole pupil; choose traced or huygens, or leave clip off</source><translation>Ränder nehmen {lost} von {all} Strahlen weg, und fitted beschreibt die ganze Pupille; traced oder huygens wählen oder das Abblenden auslassen</translation></message>
+<message><source>Rims clip {lost} of {all} rays, and fitted describes the whole pupil; choose traced or huygens, or leave clip off</source><translation>Ränder nehmen {lost} von {all} Strahlen weg, und fitted beschreibt die ganze Pupille; traced oder huygens wählen oder den Randbeschnitt auslassen</translation></message>
 <message><source>R² ≥ 0.9</source><translation>R² ≥ 0.9</translation></message>
 <message><source>R² ≥ 0.95</source><translation>R² ≥ 0.95</translation></message>
 <message><source>R² ≥ 0.99</source><translation>R² ≥ 0.99</translation></message>
@@ -365,6 +364,7 @@
 <message><source>Textbook wavefronts, in a free pupil</source><translation>Wellenfronten aus dem Lehrbuch, in freier Pupille</translation></message>
 <message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; bring focus and source together to see waves.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; Fokus und Quelle zusammenbringen, um Wellen zu sehen.</translation></message>
+<message><source>The blur is so large that the picture is ray density, no diffraction; stop down or go nearer the axis to see waves.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; abblenden oder näher an die Achse gehen, um Wellen zu sehen.</translation></message>
 <message><source>The chief ray is totally reflected at surface {number}; choose a smaller field</source><translation>Der Hauptstrahl wird an Fläche {number} total reflektiert; ein kleineres Feld wählen</translation></message>
 <message><source>The chief ray misses surface {number}; choose a smaller field</source><translation>Der Hauptstrahl verfehlt Fläche {number}; ein kleineres Feld wählen</translation></message>
 <message><source>The distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞</source><translation>Der Abstand "{text}" hat eine unbekannte Einheit; mm, cm, m, km oder ∞ schreiben</translation></message>
@@ -375,8 +375,8 @@
 <message><source>The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
 <message><source>The next step (Alt+Right)</source><translation>Der nächste Schritt (Alt+Rechts)</translation></message>
 <message><source>The object lies in the front focal plane, so its image is at infinity; move the source.</source><translation>Das Objekt liegt in der objektseitigen Brennebene, sein Bild also im Unendlichen; die Quelle verschieben.</translation></message>
-<message><source>The panel's data are on the clipboard</source><translation>Die Daten des Feldes sind in der Zwischenablage</translation></message>
-<message><source>The panel's picture is on the clipboard</source><translation>Das Bild des Feldes ist in der Zwischenablage</translation></message>
+<message><source>The panel's data are on the clipboard</source><translation>Die Daten der Ansicht sind in der Zwischenablage</translation></message>
+<message><source>The panel's picture is on the clipboard</source><translation>Das Bild der Ansicht ist in der Zwischenablage</translation></message>
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
 <message><source>The state's lists are nested too deep; save it again from the explorer</source><translation>Die Listen des Zustands sind zu tief verschachtelt; im Explorer neu speichern</translation></message>
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
@@ -388,8 +388,8 @@
 <message><source>The {what} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {what}; eine wie 12.5 schreiben</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
-<message><source>This panel has no numbers</source><translation>Dieses Feld hat keine Zahlen</translation></message>
-<message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Dieses Feld steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
+<message><source>This panel has no numbers</source><translation>Diese Ansicht hat keine Zahlen</translation></message>
+<message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Diese Ansicht steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
 <message><source>Through focus</source><translation>Durch den Fokus</translation></message>
 <message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Durch den Fokus: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
 <message><source>Tolerance</source><translation>Toleranz</translation></message>
@@ -399,7 +399,7 @@
 <message><source>Track</source><translation>Baulänge</translation></message>
 <message><source>Try</source><translation>Versuchen</translation></message>
 <message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
-<message><source>Undo</source><translation>Zurück</translation></message>
+<message><source>Undo</source><translation>Rückgängig</translation></message>
 <message><source>Units of the colour bar</source><translation>Einheit der Farbskala</translation></message>
 <message><source>Unpin</source><translation>B lösen</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
@@ -450,7 +450,7 @@
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
 <message><source>a sharp core in a wide halo</source><translation>ein scharfer Kern in weitem Hof</translation></message>
 <message><source>air</source><translation>Luft</translation></message>
-<message><source>all panels</source><translation>alle Felder</translation></message>
+<message><source>all panels</source><translation>alle Ansichten</translation></message>
 <message><source>all, stacked</source><translation>alle, gestapelt</translation></message>
 <message><source>along x</source><translation>längs x</translation></message>
 <message><source>along y</source><translation>längs y</translation></message>
@@ -512,6 +512,7 @@
 <message><source>free pupil</source><translation>freie Pupille</translation></message>
 <message><source>from</source><translation>von</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
+<message><source>geometric: ray density, no diffraction; {share} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {share} % des Lichts der Pupille im Bild</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
 <message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
 <message><source>hyperfocal distance {focus}</source><translation>hyperfokale Entfernung {focus}</translation></message>
@@ -561,7 +562,7 @@
 <message><source>planned</source><translation>geplant</translation></message>
 <message><source>planning</source><translation>plant</translation></message>
 <message><source>present field</source><translation>jetziges Feld</translation></message>
-<message><source>preview {fast} / settled {ms} ms</source><translation>Vorschau {fast} / ruhend {ms} ms</translation></message>
+<message><source>preview {fast} / settled {ms} ms</source><translation>Vorschau {fast} / fertig {ms} ms</translation></message>
 <message><source>preview {ms} ms</source><translation>Vorschau {ms} ms</translation></message>
 <message><source>radius, µm</source><translation>Radius, µm</translation></message>
 <message><source>ray density</source><translation>Strahlendichte</translation></message>
@@ -582,7 +583,7 @@
 <message><source>sensor</source><translation>Sensor</translation></message>
 <message><source>sensor shift</source><translation>Sensorversatz</translation></message>
 <message><source>sensor shift, µm</source><translation>Sensorversatz, µm</translation></message>
-<message><source>settled {ms} ms</source><translation>ruhend {ms} ms</translation></message>
+<message><source>settled {ms} ms</source><translation>fertig {ms} ms</translation></message>
 <message><source>share of the light in a pixel</source><translation>Anteil des Lichts in einem Pixel</translation></message>
 <message><source>share of the peak</source><translation>Anteil an der Spitze</translation></message>
 <message><source>sharp from {near} to {far}</source><translation>scharf von {near} bis {far}</translation></message>

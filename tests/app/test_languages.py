@@ -180,8 +180,8 @@ def test_a_change_of_language_reopens_the_window_and_undo_brings_it_back(only_wi
         first.store.update(field_deg=7.0)
         first.store.update(language="de")
         speaking.reopen()
-        assert spoken() == "de" and tr("Undo") == "Zurück"
-        assert speaking.window is not first and speaking.window.top.undo.text() == "Zurück"
+        assert spoken() == "de" and tr("Undo") == "Rückgängig"
+        assert speaking.window is not first and speaking.window.top.undo.text() == "Rückgängig"
         speaking.window.store.undo()
         speaking.reopen()
         assert spoken() == "en" and speaking.window.top.undo.text() == "Undo"
