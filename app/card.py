@@ -36,10 +36,26 @@ class Card(QFrame):
         self.head.setSpacing(8)
         self.head.addWidget(self.title)
         self.head.addWidget(self.readout, 1)
+        self.under = QHBoxLayout()  # the tools' line where they do not fit beside the title
+        self.tools: list[QWidget] = []
         self.column = QVBoxLayout(self)
         self.column.setContentsMargins(10, 7, 10, 8)
         self.column.setSpacing(5)
         self.column.addLayout(self.head)
+        self.column.addLayout(self.under)
+
+    def resizeEvent(self, event) -> None:
+        """Put the tools on a line of their own where they do not fit beside the title, and back where they do."""
+        super().resizeEvent(event)
+        parts = [self.title, *(tool for tool in self.tools if not tool.isHidden())]
+        needed = sum(part.sizeHint().width() + self.head.spacing() for part in parts)
+        margins = self.column.contentsMargins()
+        fits = needed <= self.width() - margins.left() - margins.right()
+        before, after = (self.under, self.head) if fits else (self.head, self.under)
+        for tool in self.tools:
+            if before.indexOf(tool) >= 0:
+                before.removeWidget(tool)
+                after.addWidget(tool)
 
     def contextMenuEvent(self, event) -> None:
         """Offer the panel's picture and its data."""
@@ -55,6 +71,7 @@ class Card(QFrame):
 
     def add_tool(self, widget: QWidget) -> None:
         """Put a small control at the right end of the title line."""
+        self.tools.append(widget)
         self.head.addWidget(widget)
 
     def set_body(self, widget: QWidget) -> None:

@@ -67,7 +67,7 @@ class Chart(QWidget):
         self.theme: Tokens = LIGHT
         self.curves: list[Curve] = []
         self.bottom_ticks: tuple[tuple[float, str], ...] = ()  # in place of round numbers
-        self.left_axis = True
+        self.left_axis = self.left_name = True
         self._labels, self._aspect, self._framed = (tr(bottom), tr(left)), aspect, framed
         self._asked = ((0.0, 1.0), (0.0, 1.0))
         self._scale: tuple[float, float, float, float] | None = None
@@ -116,7 +116,7 @@ class Chart(QWidget):
         """Return where data are shown, in pixels."""
         if not self._framed:
             return QRectF(self.rect())
-        left = (44 if self.left_axis else 8) + (16 if self._labels[1] else 0)
+        left = (44 if self.left_axis else 8) + (16 if self._labels[1] and self.left_name else 0)
         bottom = 20 + (16 if self._labels[0] else 0)
         return QRectF(left, 5, max(10, self.width() - left - 9), max(10, self.height() - bottom - 5))
 
@@ -220,6 +220,8 @@ def _paint_left(painter: QPainter, chart: Chart, label: str, y_range: tuple[floa
         y = float(chart.to_pixels(0.0, value)[1])
         _tick(painter, theme, QPointF(area.left(), y), QPointF(area.left() + 4, y))
         write(painter, QRectF(area.left() - 60, y - 8, 55, 16), text, side=1)
+    if not chart.left_name:
+        return
     painter.setPen(QColor(theme.muted))
     painter.rotate(-90)
     write(painter, QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), label)

@@ -15,6 +15,7 @@ from app.theme import LIGHT, Tokens
 from app.words import tr
 
 BRIGHTNESS = "brightness"  # the name of whichever colours the theme has for it
+NARROW_PX = 210  # below it a heat map is nothing but its picture
 EMPTY = 255  # the one index of a colour table that is kept for "no value"
 
 
@@ -158,6 +159,15 @@ class HeatMap(QWidget):
         row.setSpacing(0)
         row.addWidget(self.chart, 1)
         row.addWidget(self.bar)
+
+    def resizeEvent(self, event) -> None:
+        """Leave the picture the room of the colour bar and of the left axis's name where there is little."""
+        super().resizeEvent(event)
+        wide = event.size().width() >= NARROW_PX
+        if wide != self.chart.left_name:
+            self.chart.left_name = wide
+            self.bar.setVisible(wide)
+            self.chart.forget_ground()
 
     def show_values(self, values: np.ndarray, levels: tuple[float, float], rect: tuple[float, float, float, float]):
         """Show rows +y of ``values`` over (x, y, width, height)."""

@@ -51,7 +51,7 @@ class PupilPanel:
             self.map.means(pupil.waves, "W, waves")
         numbers = f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ"
         lines = f"line every {step:g} λ" if mode == "contour" else pupil.kind
-        self.numbers.set_text(f"{numbers} · {lines}")
+        self.numbers.set_text(f"{numbers} · {lines}", short=numbers)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QWidget
 
+from app.card import Card, chooser
 from app.compute import live
 from app.glass import clear_rims, glass_of, still
+from app.plots import HeatMap
 from app.readout import Readout
 from app.setting import default_state, load, setting, shipped
 from app.speech import spoken
@@ -109,3 +112,25 @@ def test_accuracy_says_what_will_be_there(window):
     window.open_panel("accuracy")
     panel = window.panels["accuracy"]
     assert panel.empty.isVisible() and "Huygens" in panel.empty.text()
+
+
+def test_a_narrow_heat_map_keeps_its_picture_and_a_wide_one_its_colour_bar(qtbot):
+    shown = HeatMap("x, µm", "y, µm")
+    qtbot.addWidget(shown)
+    for width, bar in ((176, False), (300, True), (176, False)):
+        shown.resize(width, 200)
+        shown.show()
+        qtbot.waitUntil(lambda bar=bar: shown.bar.isVisible() is bar)
+        qtbot.waitUntil(lambda width=width: shown.chart.area.width() > 0.55 * width)
+
+
+def test_tools_that_do_not_fit_beside_the_title_stand_under_it(qtbot):
+    card = Card("Pupil phase")
+    qtbot.addWidget(card)
+    card.add_tool(chooser((("waves", "W, waves"),), "How the phase is shown", card))
+    card.set_body(QWidget())
+    for width, below in ((180, True), (400, False)):
+        card.resize(width, 200)
+        card.show()
+        qtbot.waitUntil(lambda below=below: (card.tools[0].y() > card.title.geometry().bottom()) is below)
+        qtbot.waitUntil(lambda: card.title.width() >= card.title.sizeHint().width())
