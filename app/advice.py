@@ -9,9 +9,9 @@ from app.setting import Setting
 from app.whatif import NOTE
 
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
-GEOMETRIC = (
-    "the blur is so large that the picture is ray density, no diffraction; bring focus and source together to see waves"
-)
+GEOMETRIC = "the blur is so large that the picture is ray density, no diffraction; "
+TOGETHER = "bring focus and source together to see waves"
+NEARER = "stop down or go nearer the axis to see waves"
 UNALTERED = "image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface"
 WIDE_DEG, FAST_NA = 25.0, 0.30  # tan and sin differ by 10 % at 25°; an NA of 0.3 is f/1.7
 
@@ -24,7 +24,7 @@ def warnings(setting: Setting, exact: bool, lost_rays: int = 0, geometric: bool 
     found = [
         _by_hand(setting),
         _image_at_infinity(setting),
-        GEOMETRIC if geometric else None,
+        _blurred(setting) if geometric else None,
         _lost(lost_rays),
         None if exact else _defocus(setting),
         None if exact else _paraxial(setting),
@@ -45,6 +45,12 @@ def _image_at_infinity(setting: Setting) -> str | None:
     if isinf(float(setting.coefficients.image_distance)):
         return "the object lies in the front focal plane, so its image is at infinity; move the source"
     return None
+
+
+def _blurred(setting: Setting) -> str:
+    c = setting.coefficients
+    others = max(abs(float(waves)) for waves in (c.w40, c.w31, c.w22, c.w20))
+    return GEOMETRIC + (TOGETHER if abs(float(c.wd)) > others else NEARER)
 
 
 def _lost(count: int) -> str | None:

@@ -1,9 +1,9 @@
 """Which rung of the ladder makes the picture, and the picture itself. No Qt in here."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import floor, log10
 
-from app.geometric import geometric_psf
+from app.geometric import geometric_psf, main_reach_um
 from app.pupil import PupilMap
 from app.quick import edge_points, landing_um, quick, quick_psf, quick_pupil
 from app.scales import nice
@@ -21,6 +21,8 @@ WHOLE = 64  # samples over which the six coefficients are asked for a window tha
 WINDOWS = (1, 1.5, 2, 3, 4, 5, 6, 8)
 STEEPEST = 80.0  # waves of slope: beyond, a sample of the window is some four Airy radii wide
 BLURRED = "geometric: ray density, no diffraction"
+PARTLY = BLURRED + "; {:.0f} % of the pupil's light is in view"
+ALL_LIGHT = 0.995
 MOVING = "fitted while the slider moves, {0} when it rests"
 ROOM = 5  # Airy radii around what rays say, for what diffraction adds
 
@@ -52,11 +54,10 @@ def rendered(state: State, set_up: Setting, quality: str, held: str = "", at_lea
         method, why = (held, "") if held else chosen(state, set_up)
     if quality == "preview" and method != "seidel":
         return moving(state, set_up, method, at_least_um)
+    if too_blurred(set_up):
+        return blurred(state, set_up, method, quality, at_least_um)
     pixels = PIXELS[quality]
     pitch = max(at_least_um, window_um(set_up, method)) / pixels
-    if too_blurred(set_up):
-        exact = method != "seidel"
-        return Made(geometric_psf(set_up, exact, (pixels, pitch), quality, state.clip), BLURRED, exact, method)
     if method == "seidel":
         return Made(seidel_psf(set_up.coefficients, pixels, pitch, quality), why, False, method)
     return Made(by_rays(state, set_up, method, (pixels, pitch), quality), why, True, method)
@@ -65,15 +66,23 @@ def rendered(state: State, set_up: Setting, quality: str, held: str = "", at_lea
 def moving(state: State, set_up: Setting, method: str, at_least_um: float = 0.0) -> Made:
     """Return what is shown in place of a slower rung while a slider moves; fitted, or traced where rays are lost."""
     pixels, made = PIXELS["preview"], quick(set_up, state.clip)
+    pupil = quick_pupil(made) if made else None
+    if too_blurred(set_up):
+        return replace(blurred(state, set_up, method, "preview", at_least_um), pupil=pupil)
     rays = made.rays if made else edge_pencil(set_up)
     pitch = max(at_least_um, ray_window_um(set_up, landing_um(rays))) / pixels
     why = MOVING.format(method) if method != "fitted" else ""
-    pupil = quick_pupil(made) if made else None
-    if too_blurred(set_up):
-        return Made(geometric_psf(set_up, True, (pixels, pitch), "preview", state.clip), BLURRED, True, method, pupil)
     if made:
         return Made(quick_psf(made, pixels, pitch), why, True, method, pupil)
     return Made(by_rays(state, set_up, "traced", (pixels, pitch), "preview"), "", True, method)
+
+
+def blurred(state: State, set_up: Setting, method: str, quality: str, at_least_um: float) -> Made:
+    """Return the density of rays, in a window as wide as most of them reach."""
+    exact, pixels = method != "seidel", PIXELS[quality]
+    wide = min(window_um(set_up, method), ray_window_um(set_up, main_reach_um(set_up, exact, state.clip)))
+    psf = geometric_psf(set_up, exact, (pixels, max(at_least_um, wide) / pixels), quality, state.clip)
+    return Made(psf, BLURRED if psf.energy > ALL_LIGHT else PARTLY.format(100 * psf.energy), exact, method)
 
 
 def by_rays(state: State, set_up: Setting, method: str, window: tuple[int, float], quality: str) -> Psf:

@@ -8,6 +8,7 @@ from app.setting import setting
 from app.state import State
 from p2sf.conventions import UM_PER_MM, centred_axis
 from p2sf.errors import GeometryError
+from p2sf.measures import radius_of_energy
 from p2sf.quadrature import disc_nodes
 from p2sf.raytrace import pencil
 
@@ -90,6 +91,25 @@ def test_the_window_says_that_it_shows_rays_only():
     assert "ray density, no diffraction" in answer.why
     assert any("ray density, no diffraction" in sentence for sentence in answer.warnings)
     assert not any("ray density" in sentence for sentence in live(State(method="fitted")).warnings)
+
+
+@pytest.mark.parametrize("name", ["wide_angle_35", "fast_gauss_f14"])
+def test_a_few_far_rays_do_not_shrink_the_picture_to_a_dot(name):
+    state = State(lens=name)
+    answer = live(state)
+    half = answer.psf.pixel_um * answer.psf.values.shape[0] / 2
+    assert answer.psf.method == "geometric"
+    assert radius_of_energy(answer.psf, 0.8) > half / 4  # of 128 pixels at least 32 are across what matters
+    assert 0.85 < answer.psf.energy < 0.995  # nine tenths at least but for what diffraction and round widths change
+    assert f"; {100 * answer.psf.energy:.0f} % of the pupil's light is in view" in answer.why
+    assert live(state, "preview").psf.pixel_um == pytest.approx(2 * answer.psf.pixel_um)
+    assert any("stop down or go nearer the axis" in sentence for sentence in answer.warnings)
+
+
+def test_a_blur_of_defocus_is_seen_to_its_rim_and_asks_for_focus():
+    answer = live(BLURRED)
+    assert answer.psf.energy == pytest.approx(1)
+    assert any("bring focus and source together" in sentence for sentence in answer.warnings)
 
 
 FRONT_FOCUS_MM = 29.32063039659634  # the depth whose image the default lens puts at infinity, to the last bit
