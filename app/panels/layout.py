@@ -12,7 +12,7 @@ from app.chart import Chart
 from app.compute import Live
 from app.ink import polygon
 from app.layout import Drawing, Outline
-from app.panels.marks import paint_marks
+from app.panels.marks import ROW_PX, paint_marks
 from app.panels.source import SourceHandle
 from app.panels.surfacelight import SurfaceLight
 from app.scales import nice
@@ -88,7 +88,8 @@ class LayoutChart(Chart):
         """Fill the height or the width with lens and sensor; what is left is room at the left, where the source is."""
         d, half = self._drawn
         box, length = self.area, d.right - d.left
-        tall = 2.25 * max(d.half_height, half)
+        rows = max(0.1, 1 - 2 * ROW_PX / box.height())  # the names' rows above and under the glass
+        tall = max(2 * d.half_height / rows, 2.25 * max(d.half_height, half))
         wide = nice(max(1.5 * length, tall * box.width() / box.height()), WIDTHS)
         right = d.right + 0.06 * wide + 0.2 * max(0.0, wide - 1.7 * length)
         right = STEP * wide * ceil(right / (STEP * wide))  # in steps, so that glass stands still while the sensor moves

@@ -60,9 +60,11 @@ def test_a_missing_value_has_an_index_of_its_own():
     assert as_indices(np.array([-9.0, 0.0, 1.0, 9.0, np.nan]), 0.0, 1.0).tolist() == [0, 0, 254, 254, EMPTY]
 
 
-def test_names_at_one_place_do_not_touch(qapp):
-    taken = []
+def test_names_at_one_place_do_not_touch_and_one_without_room_is_left_out(qapp):
+    taken, rooms = [], []
     for name in ("EnP", "ExP", "H", "H′", "F′"):
-        room = free_room(name, 100.0, 50.0, 1, taken)
-        assert not any(room.intersects(other) for other in taken)
-        taken.append(room)
+        rooms.append(free_room(name, 100.0, 50.0, taken, 200.0))
+        assert not any(rooms[-1] and rooms[-1].intersects(other) for other in taken)
+        taken += filter(None, rooms[-1:])
+    assert rooms[0] and rooms[1] and rooms[-1] is None
+    assert free_room("EnP", 199.0, 50.0, [], 200.0).right() <= 200.0
