@@ -10,6 +10,7 @@ from app.compute import Live
 from app.panels.tiles import TilesChart, tile
 from app.panels.worked import Asking
 from app.scales import signed
+from app.setting import prescription, ranges
 from app.store import Store
 from app.theme import Tokens
 from app.views.through_focus import Focused, Strip, answer
@@ -102,6 +103,8 @@ class ThroughFocusPanel:
             self.asking.again()
         self.chart.show_sensor(live.state.sensor_shift_um)
         if isinstance(asked, str):
+            half = ranges(prescription(live.state)).shift_um
+            self.chart.set_range((-half, half), (0.0, 1.0))
             self.chart.show_tiles((), 1.0)
             self.chart.show_notes([])
             self.asking.refuse(asked)

@@ -92,6 +92,7 @@ def test_where_the_sensor_does_not_focus_there_is_a_sentence_and_no_strip(window
     assert "moving the sensor does not focus" in strip.widget.readout.text()
     window.store.update(psf_scale="linear")
     assert not strip.chart.tiles and not strip.chart.notes
+    assert strip.chart.ranges()[0] == (-200.0, 200.0), "the sensor's line stands on its slider's travel"
     window.store.update(**UNTOUCHED)
     filled(strip, qtbot)
     assert len(strip.chart.tiles) == len(strip.asking.asked.shifts_um)
