@@ -136,7 +136,7 @@ def palette(theme: Tokens) -> QPalette:
 
 def stylesheet(theme: Tokens) -> str:
     """Return the style sheet of the window."""
-    return _grounds(theme) + _inputs(theme)
+    return _grounds(theme) + _inputs(theme) + _lists(theme)
 
 
 def _grounds(t: Tokens) -> str:
@@ -199,6 +199,12 @@ def _inputs(t: Tokens) -> str:
     QComboBox::down-arrow {{ image: none; }}
     QComboBox QAbstractItemView {{ background: {t.card}; border: 1px solid {t.line};
         selection-background-color: {t.accent}; selection-color: {t.accent_text}; outline: none; }}
+    """
+
+
+def _lists(t: Tokens) -> str:
+    """Return the look of menus, tabs and tips."""
+    return f"""
     QMenu {{ background: {t.card}; border: 1px solid {t.line}; padding: 4px; }}
     QMenu::item {{ padding: 4px 20px 4px 12px; border-radius: 4px; }}
     QMenu::item:selected {{ background: {t.accent}; color: {t.accent_text}; }}
