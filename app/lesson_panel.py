@@ -48,7 +48,7 @@ class LessonPanel(QFrame):
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
-        head.addWidget(self.choice, 1)
+        head.addWidget(self.count, 1)
         head.addWidget(self.exit)
         page = QWidget()
         page.setObjectName("page")
@@ -67,13 +67,13 @@ class LessonPanel(QFrame):
             part.setAutoFillBackground(False)
         foot = QHBoxLayout()
         foot.addWidget(self.back)
-        foot.addWidget(self.count, 1)
+        foot.addStretch(1)
         foot.addWidget(self.next)
-        self.count.setAlignment(Qt.AlignmentFlag.AlignCenter)
         column = QVBoxLayout(self)
         column.setContentsMargins(12, 10, 8, 12)
         column.setSpacing(10)
         column.addLayout(head)
+        column.addWidget(self.choice)
         column.addWidget(self.scroll, 1)
         column.addLayout(foot)
 
@@ -95,6 +95,7 @@ class LessonPanel(QFrame):
         new, self._shown = (lesson, number) != self._shown[:2], (lesson, number, told)
         step, last = lesson.steps[number], len(lesson.steps) - 1
         select(self.choice, lesson.name)
+        self.choice.setToolTip(lesson.title)  # the longest one is wider than the page
         texts = (
             (self.about, lesson.about if number == 0 else ""),
             (self.title, step.title),

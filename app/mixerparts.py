@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from app.ink import write
+from app.ink import set_text, write
 from app.pupil import TERMS
 from app.scales import signed
 from app.theme import Tokens
@@ -103,7 +103,9 @@ def paint_names(painter: QPainter, places: Places, theme: Tokens, number: int) -
     write(painter, symbol, NAMES[name], -1, 13)
     if two:
         painter.setPen(QColor(theme.muted))
-        write(painter, QRectF(0, row.center().y(), 66, 13), tr(SHORT[name]), -1)
+        words = tr(SHORT[name])
+        fits = set_text(words).size().width() <= LEFT - 2 * GAP
+        write(painter, QRectF(0, row.center().y(), 66, 13), words, -1, 11 if fits else 10)
 
 
 def paint_slider(painter: QPainter, places: Places, theme: Tokens, number: int, part: float, focused: bool) -> None:
@@ -152,5 +154,6 @@ def paint_overflow(painter: QPainter, bar: QRectF, theme: Tokens, right: bool) -
 
 
 def waves(value: float) -> str:
-    """Return a coefficient as the desk writes it."""
-    return f"{signed(value, 2 if abs(value) < 100 else 1)} λ"
+    """Return a coefficient as the desk writes it, no longer than its column."""
+    size = abs(value)
+    return f"{signed(value, 2 if size < 10 else 1 if size < 100 else 0)} λ"

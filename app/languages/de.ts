@@ -115,6 +115,7 @@
 <message><source>ExP</source><translation>ExP</translation></message>
 <message><source>Exchange A and B</source><translation>A und B vertauschen</translation></message>
 <message><source>Exchange A and B: the controls then move the other one</source><translation>A und B vertauschen: die Regler bewegen dann das andere</translation></message>
+<message><source>Exit</source><translation>Beenden</translation></message>
 <message><source>Exit pupil</source><translation>Austrittspupille</translation></message>
 <message><source>F-number</source><translation>Blendenzahl</translation></message>
 <message><source>Farthest ray</source><translation>Fernster Strahl</translation></message>

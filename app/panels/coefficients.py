@@ -89,7 +89,8 @@ class CoefficientsPanel:
         note = "what-if" if live.side else SHORT_NOTE  # beside a side's name there is less room
         colour = f'<span style="color:{self._theme.warning}">{tr(note)}</span>'
         words = colour if altered else tr("waves at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
-        self.widget.set_readout(f"<b>{live.side}</b> &nbsp; {words}" if live.side else words)
+        words = "" if live.difference and not altered else words  # "A − B" needs the room, and λ stand at the numbers
+        self.widget.set_readout(" &nbsp; ".join(filter(None, (live.side and f"<b>{live.side}</b>", words))))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -9,6 +9,8 @@ from PySide6.QtCore import Qt
 
 from app import compute
 from app.focus import best_shift_um
+from app.ink import set_text
+from app.mixerparts import NUMBER, waves
 from app.panels import REGISTRY, view_of
 from app.pupil import TERMS
 from app.reference import measure
@@ -213,3 +215,11 @@ def test_presets_and_reset(window, qtbot):
     qtbot.mouseClick(panel.reset, Qt.MouseButton.LeftButton)
     assert {name: getattr(window.store.state, name) for name in UNTOUCHED} == UNTOUCHED
     assert not panel.reset.isEnabled()
+
+
+@pytest.mark.parametrize(
+    ("value", "words"), [(-5.5, "−5.50 λ"), (-15.91, "−15.9 λ"), (560.44, "560 λ"), (-5606.4, "−5606 λ")]
+)
+def test_a_large_coefficient_is_no_longer_than_its_column(qapp, value, words):
+    assert waves(value) == words
+    assert set_text(words, 13).size().width() <= NUMBER
