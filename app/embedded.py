@@ -8,7 +8,9 @@ from app.state import State, state_from_json
 from p2sf.export.psf_files import READERS
 
 KEYWORD = "p2sf-state"  # of the PNG text chunk
-HEAD = 128
+HEAD = 200
+DATABASE = "this is a database of PSFs, not a lens or a state; use it with p2sf psf, or open its lens"
+STATELESS = "there is no readable state in this picture or PSF; open a snapshot, written by the window with Ctrl+E"
 CSV_HEAD = b"# point spread function"
 BEGINNINGS = (
     (b"\x89PNG", "png"),
@@ -38,13 +40,26 @@ def text_inside(path) -> str | None:
     return found if isinstance(found, str) else None
 
 
-def kind_of(path) -> str | None:
-    """Return which snapshot a file may be by its first bytes, None for none."""
+def foreign(path) -> str | None:
+    """Return why a file without a state in it is no lens either; None where it may be one, as in a zip."""
+    kind = kind_of(path)
+    if kind == ".npz":
+        start = _beginning(path)
+        return DATABASE if b"p2sf_database.npy" in start else STATELESS if b".npy" in start else None
+    return kind and STATELESS
+
+
+def _beginning(path) -> bytes:
     try:
         with open(path, "rb") as stream:
-            head = stream.read(HEAD)
+            return stream.read(HEAD)
     except OSError:
-        return None
+        return b""
+
+
+def kind_of(path) -> str | None:
+    """Return which snapshot a file may be by its first bytes, None for none."""
+    head = _beginning(path)
     return next((kind for beginning, kind in BEGINNINGS if head.startswith(beginning)), None)
 
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
-from app.embedded import state_inside
+from app.embedded import foreign, state_inside
 from app.setting import with_lens
 from app.state import SCHEMA, State, read_state
-from p2sf.errors import P2SFError
+from p2sf.errors import LensFileError, P2SFError
 from p2sf.lensfile.importing import Import, import_lens
 from p2sf.lensfile.toml import lens_to_toml
 
@@ -43,6 +43,9 @@ def opened(state: State, path: str) -> State:
     inside = state_inside(path)
     if inside:
         return inside
+    reason = foreign(path)
+    if reason:
+        raise LensFileError(reason, path)
     fresh = with_lens(state, path)
     return fresh if imported(path).report.format == OWN_FORMAT else replace(fresh, tab=REPORT_TAB)
 

@@ -1,5 +1,7 @@
 """A snapshot reopened is the same state, and its data the PSF that was on screen."""
 
+import zipfile
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
@@ -7,14 +9,20 @@ from PySide6.QtGui import QDropEvent, QImage
 
 from app.__main__ import starting_state
 from app.display import display_problem
-from app.embedded import state_inside
+from app.embedded import foreign, state_inside
+from app.opening import opened
 from app.snapshot import DATA_ENDINGS
 from app.state import State, read_state
-from p2sf.export import read_psf
+from p2sf.database import Space, build_database, depth_nodes
+from p2sf.databasefile import save_database
+from p2sf.errors import LensFileError
+from p2sf.export import read_psf, write_psf
 from p2sf.interchange.fitspsf import read_psf_fits
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.library import find_lens
+from p2sf.psf import seidel_psf
 from tests.app.conftest import FIRST
+from tests.waves import waves
 
 
 @pytest.fixture
@@ -87,6 +95,24 @@ def test_a_picture_without_a_state_is_no_lens_and_says_so(window, tmp_path):
     assert state_inside(tmp_path / "photo.png") is None
     assert not window.actions.open_path(str(tmp_path / "photo.png"))
     assert window.banner.isVisible()
+
+
+@pytest.mark.parametrize("ending", [".npz", ".tiff", ".csv", ".png"])
+def test_a_psf_of_the_command_line_holds_no_state_and_a_database_is_named(tmp_path, ending):
+    psf = write_psf(seidel_psf(waves(), 16), tmp_path / f"psf{ending}", {})
+    with pytest.raises(LensFileError, match="no readable state"):
+        opened(State(), str(psf))
+    space = Space(depth_nodes(500), np.linspace(0, 0.1, 12), np.linspace(0.5, 0.6, 12))
+    lens = find_lens("singlet_f6")
+    kept = save_database(build_database(lens, space), lens, tmp_path / "kept.npz")
+    with pytest.raises(LensFileError, match="a database of PSFs"):
+        opened(State(), str(kept))
+
+
+def test_a_lens_in_a_zip_is_still_a_lens(tmp_path):
+    with zipfile.ZipFile(tmp_path / "lens.zip", "w") as archive:
+        archive.writestr("lens.zmx", "")
+    assert foreign(tmp_path / "lens.zip") is None
 
 
 @pytest.mark.parametrize("ending", [".npz", ".tiff", ".fits", ".csv", ".png"])
