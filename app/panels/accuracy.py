@@ -2,13 +2,13 @@
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from app.brightness import stretched
 from app.card import Card
 from app.compute import Live
-from app.ink import small_font
+from app.ink import set_text, small_font
 from app.panels.psf import PSF_MAP
 from app.plots import HeatMap, plot_widget, restyle_plot
 from app.readout import Readout
@@ -25,6 +25,7 @@ EMPTY = (
     "difference, and what every method costs in time and error appear here."
 )
 SMALLEST_ERROR = 1e-9
+LADDER_SHARE = 6 / 14  # of the card's width
 
 
 class AccuracyPanel:
@@ -107,17 +108,21 @@ class AccuracyPanel:
         brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in rungs]
         places = [(np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in rungs]
         self.points.setData([x for x, _ in places], [y for _, y in places], brush=brushes, pen=None)  # in decades
-        for rung, place in zip(rungs, places, strict=True):
-            label = pg.TextItem(
-                f"{rung.method}  R² {written_r_squared(rung.r_squared)}", self._theme.muted, anchor=(0, 0.5)
-            )
+        if not places:
+            return
+        x, y = zip(*places, strict=True)
+        left, right = min(x) - 0.3, max(x) + 0.3
+        self.ladder.setRange(xRange=(left, right), yRange=(min(y) - 0.5, max(y) + 0.5), padding=0)
+        box = QRectF(left, min(y) - 0.5, right - left, max(y) - min(y) + 1)
+        size = self.widget.width() * LADDER_SHARE - 70, max(60.0, self.widget.height() - 100.0)  # of its area, pixels
+        dots = [((a - box.x()) / box.width() * size[0], (box.bottom() - b) / box.height() * size[1]) for a, b in places]
+        words = [rung_words(rung) for rung in rungs]
+        for text, place, anchor in zip(words, places, anchors(words, dots, size), strict=True):
+            label = pg.TextItem(text, self._theme.muted, anchor=anchor)
             label.setFont(small_font())
-            label.setPos(place[0] + 0.06, place[1])
+            label.setPos(*place)
             self.ladder.addItem(label, ignoreBounds=True)
             self.names.append(label)
-        if places:
-            x, y = zip(*places, strict=True)
-            self.ladder.setRange(xRange=(min(x) - 0.3, max(x) + 1.2), yRange=(min(y) - 0.5, max(y) + 0.5), padding=0)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -127,3 +132,25 @@ class AccuracyPanel:
         restyle_plot(self.ladder, theme)
         for name in self.names:
             name.setColor(theme.muted)
+
+
+def rung_words(rung: Rung) -> str:
+    """Return a method's name and R²; the reference has no R² against itself."""
+    return rung.method if rung.method == "huygens" else f"{rung.method}  R² {written_r_squared(rung.r_squared)}"
+
+
+def anchors(words: list[str], dots: list[tuple[float, float]], size: tuple[float, float]) -> list[tuple[float, float]]:
+    """Return where each text hangs on its dot (pixels, y down): at a side, level, under or over, clear of others."""
+    taken, found = [QRectF(x - 5, y - 5, 10, 10) for x, y in dots], []
+    for text, (x, y) in zip(words, dots, strict=True):
+        wide, tall = set_text(text).size().width() + 10, set_text(text).size().height()
+        rooms = {(over, down): QRectF(x + 5 - over * (wide + 5), y - down * tall, wide, tall) for over, down in SIDES}
+        inside = [at for at, room in rooms.items() if QRectF(0, -4, size[0], size[1] + 8).contains(room)]
+        free = [at for at in inside if not any(rooms[at].intersects(other) for other in taken)]
+        chosen = (free or inside or list(SIDES))[0]
+        taken.append(rooms[chosen])
+        found.append((chosen[0] + (0.06 if chosen[0] else -0.06), chosen[1]))
+    return found
+
+
+SIDES = tuple((over, down) for down in (0.5, 0.0, 1.0) for over in (0.0, 1.0))  # right or left; level, under, over

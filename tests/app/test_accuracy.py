@@ -7,6 +7,7 @@ import pytest
 from app.compute import live
 from app.measures import MEASURES
 from app.measuring import fits
+from app.panels.accuracy import anchors
 from app.reference import Accuracy
 from app.scales import written_r_squared
 from app.state import State
@@ -62,3 +63,12 @@ def test_a_figure_answers_for_its_own_picture_only(changes, wide):
     known = Accuracy(shown, shown.psf, 0.9)
     assert fits(known, live(replace(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
     assert not fits(known, live(replace(state, **changes), at_least_um=wide), False)
+
+
+def test_names_on_the_ladder_stay_inside_and_take_different_sides(qapp):
+    """Two dots at one height, the second where the first one's name would reach: the names part company."""
+    first, second, last = anchors(
+        ["seidel R² 0.8", "gaussian R² 0.9", "huygens"], [(20, 20), (90, 20), (310, 80)], (330, 95)
+    )
+    assert first[0] <= 0 and (second[0] <= 0 or second[1] != first[1])
+    assert last[0] > 1  # hangs to the left of its dot: at the right it would run out
