@@ -5,15 +5,13 @@ what stands still (axes, labels, glass) is painted once, and a thick line is two
 rasteriser draws twenty times faster than an outline it must fill.
 """
 
-from math import ceil, floor
-
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.ink import polylines, set_text, write
-from app.scales import nice, signed
+from app.scales import ticks
 from app.theme import LIGHT, Tokens
 from app.words import tr
 
@@ -68,7 +66,7 @@ class Chart(QWidget):
         self.curves: list[Curve] = []
         self.bottom_ticks: tuple[tuple[float, str], ...] = ()  # in place of round numbers
         self.left_axis = self.left_name = True
-        self._labels, self._aspect, self._framed = (tr(bottom), tr(left)), aspect, framed
+        self._labels, self.round, self._framed = (tr(bottom), tr(left)), aspect, framed
         self._asked = ((0.0, 1.0), (0.0, 1.0))
         self._scale: tuple[float, float, float, float] | None = None
         self._ground: QPixmap | None = None
@@ -122,7 +120,7 @@ class Chart(QWidget):
 
     def ranges(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Return the shown ranges: those asked for, one of them widened where circles must be round."""
-        if not self._aspect:
+        if not self.round:
             return self._asked
         area, spans = self.area, [high - low for low, high in self._asked]
         scale = max(spans[0] / area.width(), spans[1] / area.height())
@@ -201,22 +199,34 @@ def paint_axes(painter: QPainter, chart: Chart, labels: tuple[str, str]) -> None
     area, theme = chart.area, chart.theme
     painter.setPen(QPen(QColor(theme.line), 1))
     painter.drawLine(area.bottomLeft(), area.bottomRight())
-    x_range, y_range = chart.ranges()
-    for value, text in chart.bottom_ticks or ticks(*x_range, area.width() / TICK_EVERY_PX["bottom"]):
+    for value, text in bottom_marks(chart):
         x = float(chart.to_pixels(value, 0.0)[0])
         _tick(painter, theme, QPointF(x, area.bottom()), QPointF(x, area.bottom() - 4))
         middle = min(x, chart.width() - set_text(text).size().width() / 2)  # the last one stays whole
         write(painter, QRectF(middle - 40, area.bottom() + 3, 80, 15), text)
     write(painter, QRectF(area.left(), area.bottom() + 18, area.width(), 16), labels[0])
     if chart.left_axis:
-        _paint_left(painter, chart, labels[1], y_range)
+        _paint_left(painter, chart, labels[1])
 
 
-def _paint_left(painter: QPainter, chart: Chart, label: str, y_range: tuple[float, float]) -> None:
+def left_marks(chart: Chart):
+    """Return the left axis's places and their words."""
+    return ticks(*chart.ranges()[1], chart.area.height() / TICK_EVERY_PX["left"])
+
+
+def bottom_marks(chart: Chart):
+    """Return the bottom axis's places and their words; of a round picture those of the left axis, where they fit."""
+    every = TICK_EVERY_PX["bottom"]
+    if chart.round:
+        every = max(set_text(text).size().width() for _, text in left_marks(chart)) + 14
+    return chart.bottom_ticks or ticks(*chart.ranges()[0], chart.area.width() / every)
+
+
+def _paint_left(painter: QPainter, chart: Chart, label: str) -> None:
     area, theme = chart.area, chart.theme
     painter.setPen(QPen(QColor(theme.line), 1))
     painter.drawLine(area.bottomLeft(), area.topLeft())
-    for value, text in ticks(*y_range, area.height() / TICK_EVERY_PX["left"]):
+    for value, text in left_marks(chart):
         y = float(chart.to_pixels(0.0, value)[1])
         _tick(painter, theme, QPointF(area.left(), y), QPointF(area.left() + 4, y))
         write(painter, QRectF(area.left() - 60, y - 8, 55, 16), text, side=1)
@@ -232,11 +242,3 @@ def _tick(painter: QPainter, theme: Tokens, start: QPointF, end: QPointF) -> Non
     painter.setPen(QPen(QColor(theme.line), 1))
     painter.drawLine(start, end)
     painter.setPen(QColor(theme.muted))
-
-
-def ticks(low: float, high: float, most: float):
-    """Return round places between two values, ``most`` of them at most (3 at least), each with its words."""
-    step = nice((high - low) / max(2.0, most))
-    places = max(0, -floor(np.log10(step) + 1e-9))
-    found = [step * k for k in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
-    return [(value, signed(value, places)) for value in found]

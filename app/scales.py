@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import exp, floor, inf, isfinite, isinf, isnan, log, log10
+from math import ceil, exp, floor, inf, isfinite, isinf, isnan, log, log10
 
 from p2sf.errors import P2SFError
 
@@ -104,6 +104,23 @@ def written_r_squared(value: float) -> str:
     if value > 0.9999:
         return "> 0.9999"
     return f"{value:.4f}" if value > 0.99 else f"{value:.3f}".replace("-", "−")
+
+
+def ticks(low: float, high: float, most: float):
+    """Return round places between two values, some ``most`` of them, with their words; never zero alone."""
+    step = nice((high - low) / max(2.0, most))
+    counts = _multiples(step, low, high)
+    if len(counts) < 2:
+        step = nice(step / 2.6)  # the round number below
+        counts = _multiples(step, low, high)
+        if len(counts) > 3:
+            step, counts = 2 * step, _multiples(2 * step, low, high)
+    places = max(0, -floor(log10(step) + 1e-9))
+    return [(step * k, signed(step * k, places)) for k in counts]
+
+
+def _multiples(step: float, low: float, high: float) -> range:
+    return range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)
 
 
 def read_distance(text: str) -> float:

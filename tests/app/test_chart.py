@@ -1,11 +1,14 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF
 
-from app.chart import Chart, ticks
-from app.ink import polylines
+from app.chart import Chart, bottom_marks
+from app.ink import polylines, set_text
 from app.panels.marks import free_room
 from app.plots import EMPTY, as_indices
+from app.scales import ticks
 from app.theme import LIGHT
 
 
@@ -40,6 +43,27 @@ def test_ticks_are_few_round_inside_and_written_as_they_are(low, high):
     for value, text in found:
         assert low - 1e-9 <= value <= high * (1 + 1e-9)
         assert float(text.replace("−", "-")) == pytest.approx(value, abs=1e-9 * (high - low))
+
+
+@pytest.mark.parametrize("half", [101.0, 147.0, 199.0, 260.0, 499.0, 1040.0, 0.35])
+@pytest.mark.parametrize("most", [1.2, 1.9, 2.5])
+def test_an_axis_with_little_room_says_its_scale_all_the_same(half, most):
+    found = [value for value, _ in ticks(-half, half, most)]
+    assert len(found) == 3 and found[1] == 0 and found[2] == -found[0] > 0.4 * half
+
+
+@pytest.mark.parametrize("half", [104.0, 4680.0, 832.0])
+def test_marks_below_a_round_picture_are_three_at_least_and_stand_apart(chart, half):
+    chart.set_range((-half, half), (-half, half))
+    for width in (100, 120, 160, 200, 260, 400):
+        chart.resize(width + 69, 250)
+        chart.forget_ground()  # no resize event reaches a chart that is not on screen
+        below = [
+            (float(chart.to_pixels(value, 0.0)[0]), set_text(text).size().width())
+            for value, text in bottom_marks(chart)
+        ]
+        assert len(below) >= 3
+        assert all(b - a > (one + other) / 2 for (a, one), (b, other) in pairwise(below))
 
 
 def test_a_line_breaks_where_a_value_is_missing():
