@@ -4,7 +4,9 @@ import json
 
 import pytest
 
+import p2sf.tradeoff as module
 from p2sf.cli import main
+from p2sf.library import find_lens
 
 SMALL = ("tradeoff", "landscape", "--fields-deg", "0", "--pixels", "16")
 
@@ -69,3 +71,13 @@ def test_what_cannot_be_is_one_sentence(arguments, said, capsys):
     assert main(["tradeoff", "landscape", *arguments]) == 2
     error = capsys.readouterr().err
     assert said in error and error.count("\n") == 1
+
+
+def test_no_method_is_timed_at_its_first_call(monkeypatch):
+
+    called, timed = [], []
+    made, clock = module._made, module._timed
+    monkeypatch.setattr(module, "_made", lambda *given: called.append(given[-2:]) or made(*given))
+    monkeypatch.setattr(module, "_timed", lambda once: timed.append(tuple(called)) or clock(once))
+    module.tradeoff(find_lens("landscape"), (0.0,), methods=("gaussian", "seidel"), pixels=16)
+    assert {("gaussian", "settled"), ("seidel", "preview"), ("seidel", "settled")} <= set(timed[0])
