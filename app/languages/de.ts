@@ -672,7 +672,7 @@
 <message><source>{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes, float64</source><translation>{rows} × {columns} Gauß–Tschebyschow- × Gauß–Legendre-Knoten, float64</translation></message>
 <message><source>{step}: pixels of {pitch} µm average finer fringes; the window has a margin of {margin} (error {error})</source><translation>{step}: Pixel zu {pitch} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin} (Fehler {error})</translation></message>
 <message><source>{what} is {value}; give a number from {low} to {high}</source><translation>{what} ist {value}; eine Zahl von {low} bis {high} angeben</translation></message>
-<message><source>±{half} µm hidden</source><translation>±{half} µm verborgen</translation></message>
+<message><source>±{half} µm depth of focus</source><translation>±{half} µm Schärfentiefe im Bild</translation></message>
 <message><source>η, towards the field</source><translation>η, zum Feld hin</translation></message>
 <message><source>λ</source><translation>λ</translation></message>
 <message><source>ξ, pupil radii</source><translation>ξ, Pupillenradien</translation></message>

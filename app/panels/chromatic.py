@@ -49,7 +49,7 @@ class ChromaticPanel:
         spread = signed(float(paraxial.max() - paraxial.min()), 1)
         looks = legend(LOOKS, self._theme)
         self.widget.set_readout(
-            f"{looks} &nbsp; {spread} µm over the spectrum · ±{view.depth_of_focus_um:.3g} µm hidden"
+            f"{looks} &nbsp; {spread} µm over the spectrum · ±{view.depth_of_focus_um:.3g} µm depth of focus"
         )
 
     def restyle(self, theme: Tokens) -> None:

@@ -47,7 +47,7 @@ def rows(found: ColourPsf, output: Path | None) -> list[tuple]:
         ("methods", ", ".join(found.methods), ""),
         ("samples", f"{found.xyz.shape[1]} × {found.xyz.shape[0]}", ""),
         ("pixel", found.pixel_um, "µm"),
-        ("light inside the window", known["light_in_window"], ""),
+        ("light in the picture", known["light_in_window"], ""),
         ("lateral colour between the outermost chief rays", shift, "µm"),
         ("chromaticity x, y (CIE 1931)", f"{x:.4f}, {y:.4f}", ""),
         ("time", 1e3 * found.seconds, "ms"),

@@ -222,4 +222,4 @@ def about_rows(meta: dict, held: dict) -> list[tuple]:
 
 def error_rows(errors: dict[str, float]) -> list[tuple]:
     """Return one row per coefficient: the largest error against direct evaluation."""
-    return [(f"largest error of {kind.upper()}", value, "waves") for kind, value in errors.items()]
+    return [(f"largest error of {kind.capitalize()}", value, "waves") for kind, value in errors.items()]

@@ -19,7 +19,11 @@ from p2sf.scene.table import plan_facts, plan_rows, plan_sentences
 
 CHART = "chart:"
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
-SceneFile = Annotated[Path, Parameter(help="A scene as TOML: sensor, depths, channels and tolerance.")]
+SCENE_HELP = (
+    "A scene as TOML: tolerance = 0.05, f_number, focus_mm; [sensor] rows, columns, pixel_um, centre_mm; "
+    "[depth] near_mm, far_mm or map; [[channel]] name, wavelengths_nm, weights, by default red, green and blue."
+)
+SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]
 
 
 def plan_command(
@@ -109,8 +113,12 @@ def image(
     rows, columns = written.shape[:2]
     if as_json:
         return print_json({"file": str(output), "rows": rows, "columns": columns, "encoding": encoding, **facts})
-    print(f"{output}: {columns} × {rows} pixels, {encoding}" + "".join(f", {k} {v}" for k, v in facts.items()))
+    print(f"{output}: {columns} × {rows} pixels, {encoding}" + "".join(f", {key.replace('_', ' ')} {_short(value)}" for key, value in facts.items()))
     return None
+
+
+def _short(value) -> str:
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
 
 
 def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray, str]:
