@@ -113,7 +113,10 @@ def image(
     rows, columns = written.shape[:2]
     if as_json:
         return print_json({"file": str(output), "rows": rows, "columns": columns, "encoding": encoding, **facts})
-    print(f"{output}: {columns} × {rows} pixels, {encoding}" + "".join(f", {key.replace('_', ' ')} {_short(value)}" for key, value in facts.items()))
+    print(
+        f"{output}: {columns} × {rows} pixels, {encoding}"
+        + "".join(f", {key.replace('_', ' ')} {_short(value)}" for key, value in facts.items())
+    )
     return None
 
 
