@@ -440,6 +440,23 @@
 <message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
 <message><source>When the sliders rest a plan follows, unless pixels hide the PSF.</source><translation>Wenn die Regler ruhen, folgt ein Plan, sofern die Pixel die PSF nicht verbergen.</translation></message>
+<message><source>{choice}: {why} (error {error})</source><translation>{choice}: {why} (Fehler {error})</translation></message>
+<message><source>{error} relative, keeps {tolerance}; the full grid takes {count} times as long</source><translation>{error} relativ, hält {tolerance} ein; das volle Gitter dauert {count}-mal so lang</translation></message>
+<message><source>{error} relative, does not keep {tolerance}; the full grid takes {count} times as long</source><translation>{error} relativ, hält {tolerance} nicht ein; das volle Gitter dauert {count}-mal so lang</translation></message>
+<message><source>the scene has one depth</source><translation>die Szene hat nur einen Abstand</translation></message>
+<message><source>1 node</source><translation>1 Knoten</translation></message>
+<message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
+<message><source>{rows} × {columns} nodes</source><translation>{rows} × {columns} Knoten</translation></message>
+<message><source>kernels in the middle of a cell are then the mean of its corners</source><translation>Kerne mitten in einer Zelle sind dann das Mittel ihrer Ecken</translation></message>
+<message><source>defocus grows with 1/distance, so nodes stand at equal steps of it</source><translation>die Defokussierung wächst mit 1/Abstand, daher stehen die Knoten in gleichen Schritten davon</translation></message>
+<message><source>at the corner {count} phase terms stay below {waves} waves RMS together, the strongest (n={n}, m={m}) has {most} waves</source><translation>in der Ecke bleiben {count} Phasenterme zusammen unter {waves} Wellen RMS, der stärkste (n={n}, m={m}) hat {most} Wellen</translation></message>
+<message><source>at the corner {count} phase terms stay below {waves} waves RMS together</source><translation>in der Ecke bleiben {count} Phasenterme zusammen unter {waves} Wellen RMS</translation></message>
+<message><source>{count} kept</source><translation>{count} behalten</translation></message>
+<message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper rung does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
+<message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
+<message><source>pixels of {pixel} µm average finer fringes; the window has a margin of {margin}</source><translation>Pixel von {pixel} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin}</translation></message>
+<message><source>PSF, √</source><translation>PSF, √</translation></message>
+<message><source>the six Seidel coefficients keep the pixels' error here</source><translation>die sechs Seidel-Koeffizienten halten hier den Fehler der Pixel ein</translation></message>
 <message><source>When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the difference, and what every method costs in time and error appear here.</source><translation>Wenn die Regler ruhen, wird das Bild mit einer auskonvergierten Summe exakter Strahlen (Huygens) verglichen: Referenz, Unterschied und was jede Methode an Zeit und Fehler kostet, erscheinen hier.</translation></message>
 <message><source>Where the sensor stands, from the last vertex.</source><translation>Wo der Sensor steht, vom letzten Scheitel.</translation></message>
 <message><source>Which coefficient</source><translation>Welcher Koeffizient</translation></message>

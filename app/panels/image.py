@@ -148,7 +148,10 @@ class ImagePanel:
         found = self._answer
         self.wipe.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
         self.headline.setText(tr(f"{found.headline} · {found.seconds:.2g} s"))
-        lines = (f"<p><b>{escape(what)}</b> {escape(sentence)}</p>" for what, sentence in found.words)
+        lines = (
+            f"<p><b>{escape(what, quote=False)}</b> {escape(sentence, quote=False)}</p>"
+            for what, sentence in found.words
+        )
         self.words.setText(tr("".join(lines)))
         rows, columns = found.after.shape[:2]
         self._look(self._place[0] * (rows - 1), self._place[1] * (columns - 1))
