@@ -86,17 +86,22 @@ class Card(QFrame):
             self.readout.setToolTip(text)
 
 
+def paint_chevron(widget: QWidget) -> None:
+    """Paint the small arrow of a box that opens at its right end."""
+    painter = QPainter(widget)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(QPen(widget.palette().color(QPalette.ColorRole.PlaceholderText), 1.6))
+    x, y = widget.width() - 13.0, widget.height() / 2 - 1.5
+    painter.drawPolyline(QPolygonF([QPointF(x - 3.5, y), QPointF(x, y + 3.5), QPointF(x + 3.5, y)]))
+
+
 class Chooser(QComboBox):
     """A combo box with a plain chevron: a style sheet takes the native arrow away."""
 
     def paintEvent(self, event) -> None:
         """Paint the box, then the chevron."""
         super().paintEvent(event)
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(self.palette().color(QPalette.ColorRole.PlaceholderText), 1.6))
-        x, y = self.width() - 13.0, self.height() / 2 - 1.5
-        painter.drawPolyline(QPolygonF([QPointF(x - 3.5, y), QPointF(x, y + 3.5), QPointF(x + 3.5, y)]))
+        paint_chevron(self)
 
 
 def chooser(choices: tuple[tuple[str, str], ...], tip: str, parent=None) -> QComboBox:

@@ -1,7 +1,7 @@
 """The lens chooser: a button with the present lens's title, and a gallery of the shipped ones under it."""
 
-from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QPolygonF, QStandardItem, QStandardItemModel
+from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QPainter, QPen, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import (
     QFrame,
     QLabel,
@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
 )
 
+from app.card import paint_chevron
 from app.lens_cards import LensCard, lens_card
 from app.plots import small_font
 from app.setting import shipped, title
@@ -88,11 +89,7 @@ class LensChooser(QPushButton):
     def paintEvent(self, event) -> None:
         """Paint the button, then a chevron."""
         super().paintEvent(event)
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(self.palette().color(QPalette.ColorRole.PlaceholderText), 1.6))
-        x, y = self.width() - 13.0, self.height() / 2 - 1.5
-        painter.drawPolyline(QPolygonF([QPointF(x - 3.5, y), QPointF(x, y + 3.5), QPointF(x + 3.5, y)]))
+        paint_chevron(self)
 
 
 class Gallery(QFrame):

@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+import pytest
+
+from p2sf.errors import LensFileError
 from p2sf.lensfile.importing import Import, import_lens, import_text
 from p2sf.lensfile.resolve import GlassSources
 from p2sf.lensfile.sourcetext import LensText
@@ -21,6 +24,13 @@ def read(name: str, *changes: tuple[str, str], accept: bool = False, catalogues=
         assert old in text, f"{old!r} is not in {name}"
         text = text.replace(old, new)
     return import_text(LensText(name, "utf-8", text), GlassSources(tuple(catalogues), {}, accept))
+
+
+def refused_at(name: str, change: tuple[str, str], said: str) -> None:
+    """Hold that a file with this change is refused in these words, with its name and a line."""
+    with pytest.raises(LensFileError, match=said) as caught:
+        read(name, change)
+    assert caught.value.path == name and caught.value.line
 
 
 def read_file(path, **options) -> Import:

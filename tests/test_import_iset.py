@@ -7,7 +7,7 @@ import pytest
 from p2sf.errors import LensFileError
 from p2sf.gaussian import cardinal_points
 from p2sf.lensfile import load_lens
-from tests.imports import FOLDER, read
+from tests.imports import FOLDER, read, refused_at
 
 TRIPLET, GAUSS = "triplet.json", "gauss.dat"
 
@@ -90,10 +90,7 @@ REFUSED = {
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_what_is_refused_says_where_and_why(case):
-    change, said = REFUSED[case]
-    with pytest.raises(LensFileError, match=said) as caught:
-        read(TRIPLET, change)
-    assert caught.value.path == TRIPLET and caught.value.line
+    refused_at(TRIPLET, *REFUSED[case])
 
 
 def test_a_row_of_five_columns_is_refused_at_its_line():

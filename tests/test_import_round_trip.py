@@ -14,7 +14,7 @@ from p2sf.lensfile.writing import lens_to_iset, write_lens
 from p2sf.library import find_lens, shipped_lenses
 from p2sf.pupils import find_stop, stop_rim
 from p2sf.seidel import coefficients
-from tests.imports import FILES, FOLDER, read
+from tests.imports import FILES, FOLDER, read, text_of
 
 
 def with_own_glass() -> Lens:
@@ -77,14 +77,10 @@ def test_iset_is_the_same_lens_at_its_reference_wavelength(name, tmp_path):
 
 def test_iset_indices_over_the_spectrum():
     lens = find_lens("achromat_f6")
-    again = read("triplet.json", (read_text("triplet.json"), lens_to_iset(lens, spectral=True))).lens
+    again = read("triplet.json", (text_of("triplet.json"), lens_to_iset(lens, spectral=True))).lens
     waves = np.array([0.4, 0.55, 0.7])  # samples of the table, so nothing is interpolated
     for new, old in zip(again.media[-len(lens.media) :], lens.media, strict=True):
         assert new.index(waves) == pytest.approx(old.index(waves), rel=1e-14)
-
-
-def read_text(name: str) -> str:
-    return (FOLDER / name).read_text(encoding="utf-8")
 
 
 def test_own_glasses_travel_in_a_catalogue_beside_the_lens(tmp_path):

@@ -6,7 +6,7 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.lensfile import load_lens
-from tests.imports import FOLDER, read
+from tests.imports import FOLDER, read, refused_at, text_of
 
 BENCH, TABLE = "bench.txt", "singlet.csv"
 
@@ -39,12 +39,8 @@ def test_bench_aspheres_start_at_a4_or_at_a2_where_it_says_so():
 
 def test_bench_rows_parted_by_spaces():
     text = "[lens data]\n1 50.0 4.0 1.5168 20.0 64.2\n2 -50.0 AB 20.0\n[variable distances]\n"
-    spaced = read(BENCH, (read_text(BENCH), "[variable distances]\nAB 47.5\nF-Number 8\n" + text)).lens
+    spaced = read(BENCH, (text_of(BENCH), "[variable distances]\nAB 47.5\nF-Number 8\n" + text)).lens
     assert spaced.surfaces[1].medium.label == "1.0" and spaced.sensor_mm == 47.5
-
-
-def read_text(name):
-    return (FOLDER / name).read_text(encoding="utf-8")
 
 
 BENCH_REFUSED = {
@@ -60,10 +56,7 @@ BENCH_REFUSED = {
 
 @pytest.mark.parametrize("case", BENCH_REFUSED)
 def test_what_a_bench_text_is_refused_for(case):
-    change, said = BENCH_REFUSED[case]
-    with pytest.raises(LensFileError, match=said) as caught:
-        read(BENCH, change)
-    assert caught.value.line
+    refused_at(BENCH, *BENCH_REFUSED[case])
 
 
 def test_the_table_is_read_as_it_stands():
@@ -97,10 +90,7 @@ TABLE_REFUSED = {
 
 @pytest.mark.parametrize("case", TABLE_REFUSED)
 def test_what_a_table_is_refused_for(case):
-    change, said = TABLE_REFUSED[case]
-    with pytest.raises(LensFileError, match=said) as caught:
-        read(TABLE, change)
-    assert caught.value.line
+    refused_at(TABLE, *TABLE_REFUSED[case])
 
 
 @pytest.mark.parametrize("content", ["", "hello", "a,b\n1,2\n", "PK\x03\x04", "[1, 2]", "NM X 2\n"])

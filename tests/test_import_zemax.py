@@ -18,7 +18,7 @@ from p2sf.pupils import (
     stop_rim,
     working_f_number,
 )
-from tests.imports import FOLDER, read, read_file, text_of
+from tests.imports import FOLDER, read, read_file, refused_at, text_of
 
 DOUBLET = "doublet.zmx"
 ENCODINGS = ("utf-8", "utf-8-sig", "latin-1", "utf-16", "utf-16-le", "utf-16-be")
@@ -200,10 +200,7 @@ REFUSED = {
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_what_is_refused_says_where_and_why(case):
-    change, said = REFUSED[case]
-    with pytest.raises(LensFileError, match=said) as caught:
-        read(DOUBLET, change)
-    assert caught.value.path == DOUBLET and caught.value.line
+    refused_at(DOUBLET, *REFUSED[case])
 
 
 def test_a_substitute_is_offered_and_only_taken_with_consent():

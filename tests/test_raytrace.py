@@ -9,7 +9,6 @@ import pytest
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.gaussian import image_distance
-from p2sf.glass import ConstantIndex
 from p2sf.lens import Aperture, Lens, Surface, with_sensor
 from p2sf.pupils import numerical_aperture
 from p2sf.raytrace import (
@@ -27,9 +26,9 @@ from p2sf.raytrace import (
 )
 from p2sf.seidel import coefficients
 from p2sf.source import Source
+from tests.pencils import GLASS, disc, double_gauss, one_surface
 from tests.reference import LENSES, huygens_rows, prescription_lens
 
-GLASS = ConstantIndex(1.5)
 # The witness promises its OPD to 1e-9 waves of paths of 1e5 waves; ours keeps 3.5e-9 in double precision.
 OPD_TOLERANCE = 1e-8
 
@@ -38,21 +37,6 @@ def case(name, row):
     lens = with_sensor(prescription_lens(name, row["wavelength_nm"]), row["sensor_mm"])
     depth = inf if row["depth_mm"] is None else row["depth_mm"]
     return lens, Source(depth, np.tan(np.deg2rad(row["field_deg"])), row["wavelength_nm"] / 1000)
-
-
-def one_surface(conic=0.0, aspheric=(), radius=20.0, medium=GLASS, rim=8.0):
-    surface = Surface(radius, 60.0, medium, conic, aspheric)
-    return Lens((surface,), Aperture("stop_semi_diameter", rim), 1)
-
-
-def double_gauss():
-    return prescription_lens("double_gauss_28", 656.2725)
-
-
-def disc(count=200, seed=1):
-    rng = np.random.default_rng(seed)
-    radius, angle = np.sqrt(rng.random(count)), 2 * np.pi * rng.random(count)
-    return radius * np.cos(angle), radius * np.sin(angle)
 
 
 @pytest.mark.parametrize("name", LENSES)
