@@ -20,7 +20,9 @@ FENCE = "---"
 FIRST = State()
 PERSONAL = ("theme", "language", "colours")  # a lesson changes the optics and leaves these to whoever sits there
 HEADER = ("title", "about", "lens", "state")
-STEP = ("set", "move", "try", "ask", "tell", "claim")
+WORDS = ("try", "ask", "tell")
+STEP = ("set", "move", *WORDS, "claim")
+ENGLISH = "en"
 ENTRY = re.compile(r"([a-z]+):\s*(.*)")
 
 
@@ -48,6 +50,7 @@ class Lesson:
     lens: str
     changes: tuple[tuple[str, object], ...]
     steps: tuple[Step, ...]
+    language: str = ENGLISH  # of its words
 
     def state(self, number: int, like: State = FIRST) -> State:
         """Return what the window shows at a step (from 0), with the PERSONAL entries of ``like``; P2SFError."""
@@ -70,15 +73,19 @@ def own_folder() -> Path:
     return user_data_path("p2sf-explorer", appauthor=False) / "lessons"
 
 
-def found_lessons(folders: tuple[Path, ...]) -> tuple[dict[str, Lesson], tuple[str, ...]]:
+def found_lessons(folders: tuple[Path, ...], language: str = ENGLISH) -> tuple[dict[str, Lesson], tuple[str, ...]]:
     """Return the lessons of these folders by name, in its order, and a sentence for every file that is none.
 
-    A lesson of a later folder takes the place of one of the same name.
+    A lesson of a later folder takes the place of one of the same name. Its words are those of the file of the same name
+    in a folder ``language`` beside it, where there is one.
     """
     found, faults = {}, []
     for path in (path for folder in folders for path in lesson_files(folder)):
         try:
             found[path.stem] = read_lesson(path)
+            words = path.parent / language / path.name
+            if language != ENGLISH and words.is_file():
+                found[path.stem] = with_words(found[path.stem], words, language)
         except P2SFError as error:
             faults.append(str(error))
     return dict(sorted(found.items())), tuple(faults)
@@ -91,39 +98,76 @@ def lesson_files(folder: Path = FOLDER) -> tuple[Path, ...]:
 
 def read_lesson(path) -> Lesson:
     """Return the lesson of a file; P2SFError says what is wrong and in which line."""
+    return parse_lesson(_text(path), Path(path).stem, str(path))
+
+
+def _text(path) -> str:
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        return Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise P2SFError(f"{path} cannot be read ({type(error).__name__}); give a lesson as UTF-8 text") from None
-    return parse_lesson(text, Path(path).stem, str(path))
+
+
+def with_words(lesson: Lesson, path, language: str) -> Lesson:
+    """Return a lesson in the words of a file in another language; what it sets, moves and claims stays as it is.
+
+    P2SFError for a file of other steps, or with more than words in it.
+    """
+    where = str(path)
+    head, body = _halves(_text(path), where)
+    found = {name: text for name, (_, text) in _entries(head, where, HEADER[:2]).items()}
+    parts = _parts(body, where)
+    if len(parts) != len(lesson.steps):
+        there = "there is 1 step" if len(parts) == 1 else f"there are {len(parts)} steps"
+        raise fault(where, 1, f"{there} of words, and the lesson has {len(lesson.steps)}; say each in its place")
+    steps = tuple(_step(part, where, WORDS) for part in parts)
+    spoken = tuple(
+        replace(new, changes=old.changes, move=old.move, claims=old.claims)
+        for new, old in zip(steps, lesson.steps, strict=True)
+    )
+    return replace(lesson, **found, steps=spoken, language=language)
 
 
 def parse_lesson(text: str, name: str, where: str) -> Lesson:
     """Return the lesson of a file's text; P2SFError names ``where`` and the line."""
+    head, body = _halves(text, where)
+    header = _header(head, where)
+    steps = tuple(_step(part, where) for part in _parts(body, where))
+    if not steps:
+        raise fault(
+            where, head[-1][0] + 1, "there is no step; begin one with a line such as ## A point becomes a patch"
+        )
+    return Lesson(name, *header, steps)
+
+
+def _halves(text: str, where: str):
+    """Return the numbered lines of the header, and those below it."""
     lines = list(enumerate(text.splitlines(), 1))
     if not lines or lines[0][1].strip() != FENCE:
         raise fault(where, 1, f'a lesson begins with a line "{FENCE}"; put title, about and lens below it')
     close = next((n for n, line in lines[1:] if line.strip() == FENCE), None)
     if close is None:
         raise fault(where, 1, f'the header has no end; close it with a line "{FENCE}"')
-    header = _header(lines[1 : close - 1], where)
-    steps = tuple(_step(part, where) for part in _parts(lines[close:], where))
-    if not steps:
-        raise fault(where, close, "there is no step; begin one with a line such as ## A point becomes a patch")
-    return Lesson(name, *header, steps)
+    return lines[1 : close - 1], lines[close:]
 
 
-def _header(lines, where: str):
+def _entries(lines, where: str, allowed: tuple[str, ...]) -> dict[str, tuple[int, str]]:
+    """Return the line number and text of every entry of a header."""
     found = {}
     for number, line in lines:
         entry = ENTRY.fullmatch(line.strip())
-        if line.strip() and (not entry or entry[1] not in HEADER):
-            raise fault(where, number, f'"{line.strip()}" is no entry of the header; give {", ".join(HEADER)}')
+        if line.strip() and (not entry or entry[1] not in allowed):
+            raise fault(where, number, f'"{line.strip()}" is no entry of the header; give {", ".join(allowed)}')
         if entry:
             found[entry[1]] = number, entry[2]
-    for name in HEADER[:3]:
+    for name in allowed[:3]:
         if not found.get(name, (0, ""))[1]:
             raise fault(where, 1, f'the header lacks "{name}"; add a line such as {name}: …')
+    return found
+
+
+def _header(lines, where: str):
+    found = _entries(lines, where, HEADER)
     changes = read_changes(found["state"][1], found["state"][0], where) if "state" in found else ()
     lens = beside(found["lens"][1], where)
     _check_lens(lens, found["lens"][0], where)
@@ -143,13 +187,13 @@ def _parts(lines, where: str):
     return parts
 
 
-def _step(lines, where: str) -> Step:
+def _step(lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
     found: dict[str, list[tuple[int, str]]] = {name: [] for name in STEP}
     text, last = [], None
     for number, line in lines[1:]:
         entry = ENTRY.fullmatch(line)
-        if entry and entry[1] not in STEP:
-            raise fault(where, number, f'"{entry[1]}:" is no entry of a step; give {", ".join(STEP)}')
+        if entry and entry[1] not in allowed:
+            raise fault(where, number, f'"{entry[1]}:" is no entry of a step here; give {", ".join(allowed)}')
         if entry:
             last = found[entry[1]]
             last.append((number, entry[2]))
@@ -159,7 +203,7 @@ def _step(lines, where: str) -> Step:
             last = None
             text.append(line)
     changes = tuple(change for number, value in found["set"] for change in read_changes(value, number, where))
-    words = {name: " ".join(value for _, value in found[name]) for name in ("try", "ask", "tell")}
+    words = {name: " ".join(value for _, value in found[name]) for name in WORDS}
     if bool(words["ask"]) != bool(words["tell"]):
         raise fault(where, lines[0][0], "a question and its answer go together; give both ask: and tell:")
     move = _move(found["move"], where)

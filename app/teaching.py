@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel
 
 from app import recent
 from app.commands import Command
+from app.languages import spoken
 from app.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from app.lesson_panel import LessonPanel, tool
 from app.state import State
@@ -17,6 +18,7 @@ BESIDE = (0.29, 0.32, 0.39)  # of the row of pupil, PSF and coefficients, beside
 OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
 
 NOTHING_BEFORE = "The window began with this lesson, so there is nothing to put back: its lens stays"
+UNTRANSLATED = "This lesson has not been translated and stands here as it was written"
 
 
 class Teaching(QObject):
@@ -29,6 +31,7 @@ class Teaching(QObject):
         self.offer: Offer | None = None
         self._lessons: dict[str, Lesson] = {}
         self._sizes: list[int] | None = None
+        self._owned_up = False
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
 
@@ -44,7 +47,7 @@ class Teaching(QObject):
     def lessons(self) -> dict[str, Lesson]:
         """Return the lessons by name; a bad file is told in the banner and costs only itself."""
         if not self._lessons:
-            self._lessons, faults = found_lessons((FOLDER, own_folder()))
+            self._lessons, faults = found_lessons((FOLDER, own_folder()), spoken())
             if faults:  # after the picture of the step, which takes the banner away
                 QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
         return self._lessons
@@ -102,10 +105,17 @@ class Teaching(QObject):
         if lesson:
             number = min(int(state.lesson_step), len(lesson.steps) - 1)
             self.panel.show_step(lesson, number, state.lesson_told)
+            self._own_up(lesson)
         if self.panel:
             self.panel.setVisible(lesson is not None)
             self._share_room(lesson is not None)
         self._point(lesson.steps[number].move if lesson else "")
+
+    def _own_up(self, lesson: Lesson) -> None:
+        """Say once that a lesson is in another language than the window, after the picture of its step is there."""
+        if not self._owned_up and lesson.language != spoken():
+            self._owned_up = True
+            QTimer.singleShot(0, lambda: self.store.said.emit(tr(UNTRANSLATED)))
 
     def _make_panel(self) -> None:
         self.panel = LessonPanel(tuple(self.lessons().values()), self.window)

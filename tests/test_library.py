@@ -190,7 +190,7 @@ def test_the_wheel_carries_the_lenses_and_lessons(tmp_path):
     wheel = next(WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"]))
     names = set(zipfile.ZipFile(wheel).namelist())
     assert {f"p2sf/lenses/{name}.toml" for name in shipped_lenses()} <= names
-    assert {f"app/lessons/{path.name}" for path in (ROOT / "app" / "lessons").iterdir()} <= names
+    assert {str(path.relative_to(ROOT)) for path in (ROOT / "app" / "lessons").rglob("*.*")} <= names
     zipfile.ZipFile(wheel).extractall(tmp_path / "site")
     assert lenses_folder(tmp_path / "site" / "p2sf") == tmp_path / "site" / "p2sf" / "lenses"
 

@@ -699,5 +699,6 @@
 <message><source>⌀ {d} at {z} mm</source><translation>⌀ {d} bei {z} mm</translation></message>
 <message><source>▶</source><translation>▶</translation></message>
 <message><source>▾ best</source><translation>▾ best</translation></message>
+<message><source>This lesson has not been translated and stands here as it was written</source><translation>Diese Lektion ist nicht übersetzt und steht hier, wie sie geschrieben wurde</translation></message>
 </context>
 </TS>
