@@ -4,6 +4,7 @@ from math import isinf
 
 import numpy as np
 
+from app.pupil import strongest
 from app.scales import significant
 from app.setting import Setting
 from app.whatif import NOTE
@@ -48,9 +49,12 @@ def _image_at_infinity(setting: Setting) -> str | None:
 
 
 def _blurred(setting: Setting) -> str:
-    c = setting.coefficients
-    others = max(abs(float(waves)) for waves in (c.w40, c.w31, c.w22, c.w20))
-    return GEOMETRIC + (TOGETHER if abs(float(c.wd)) > others else NEARER)
+    return GEOMETRIC + remedy(setting)
+
+
+def remedy(setting: Setting) -> str:
+    """Return what brings waves back into view, after what blurs most."""
+    return TOGETHER if strongest(setting.coefficients) == "wd" else NEARER
 
 
 def _lost(count: int) -> str | None:

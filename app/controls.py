@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.compute import Live
-from app.facts import rows
+from app.facts import OF_A, rows
 from app.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
 from app.readout import FactTable, Readout, scrolled
 from app.scales import Vergence, short_distance, signed
@@ -238,9 +238,10 @@ class Controls(QWidget):
         image = float(live.setting.coefficients.image_height)
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
-        self.sentence.setText(tr(live.dominant))
+        apart = live.state.shown != "a"  # B or A − B is on screen, and this column stays A's
+        self.sentence.setText(f"A: {tr(live.dominant)}" if apart else tr(live.dominant))
         self.detail.setText(tr(live.why))
-        self.facts.show_rows(rows(live))
+        self.facts.show_rows((OF_A, *rows(live)) if apart else rows(live))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

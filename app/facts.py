@@ -4,6 +4,8 @@ from math import isinf
 
 from app.scales import signed, significant, written_distance
 
+OF_A = ("A", "", "The figures below and the sentence above are those of A, which the controls move.")
+
 
 def rows(live) -> tuple[tuple[str, str, str], ...]:
     """Return (name, value with unit, definition) of what a person asks first."""

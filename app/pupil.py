@@ -51,13 +51,24 @@ def variance_parts(coefficients) -> dict[str, float]:
     """Return how the variance of W over the disc (waves²) splits into orthogonal shapes; tilt is left out.
 
     Spherical beyond its best focus W40²/180, coma beyond its tilt W31²/72, astigmatism about its medial focus W22²/24,
-    and all focus together (W40 + W20 + Wd + W22/2)²/12 (Mahajan 1991, table 2-1). The focus goes by the name of its
-    larger cause.
+    and all focus together (W40 + W20 + Wd + W22/2)²/12 (Mahajan 1991, table 2-1). What pushes the focus the way it is
+    off shares that part, each by its size; what pulls against it has none.
     """
     w40, w31, w22, w20, wd = (float(getattr(coefficients, name)) for name in ("w40", "w31", "w22", "w20", "wd"))
-    causes = {"wd": wd, "w20": w20 + w22 / 2}
-    focus = max(causes, key=lambda name: abs(causes[name]))
-    return {"w40": w40**2 / 180, "w31": w31**2 / 72, "w22": w22**2 / 24, focus: (w40 + w20 + wd + w22 / 2) ** 2 / 12}
+    causes = {"w40": w40, "w20": w20 + w22 / 2, "wd": wd}
+    focus = sum(causes.values())
+    pushes = {name: max(0.0, cause * focus) for name, cause in causes.items()}
+    whole = sum(pushes.values()) or 1.0
+    shares = {name: focus**2 / 12 * push / whole for name, push in pushes.items()}
+    return {"w40": w40**2 / 180 + shares["w40"], "w31": w31**2 / 72, "w22": w22**2 / 24} | {
+        name: shares[name] for name in ("w20", "wd")
+    }
+
+
+def strongest(coefficients) -> str:
+    """Return the term that makes most of the variance of W."""
+    parts = variance_parts(coefficients)
+    return max(parts, key=parts.__getitem__)
 
 
 def dominant(coefficients) -> str:
@@ -66,6 +77,6 @@ def dominant(coefficients) -> str:
     total = sum(parts.values())
     if total < 1 / 14**2 / 10:
         return f"Diffraction-limited: RMS {np.sqrt(total):.3f} λ"
-    name = max(parts, key=parts.__getitem__)
+    name = strongest(coefficients)
     share = parts[name] / total
     return f"{'Mostly' if share > 0.5 else 'Most of all'} {WORDS[name]}: {100 * share:.0f} % of the wavefront variance"

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from statistics import median
 from threading import Event
 
+from app.advice import remedy
 from app.compute import Live
 from app.whatif import NO_REFERENCE
 from p2sf.accuracy import r_squared, relative_l2
@@ -44,7 +45,7 @@ def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[floa
     if live.setting.altered:
         raise SamplingError(NO_REFERENCE)
     if live.psf.method == "geometric":
-        raise SamplingError("the blur is too large for a reference here; bring focus and source together")
+        raise SamplingError(f"the blur is too large for a reference here; {remedy(live.setting)}")
     share = 0.5 if ladder else 1.0
     reference = huygens_psf(
         live.setting.lens,

@@ -700,5 +700,8 @@
 <message><source>▶</source><translation>▶</translation></message>
 <message><source>▾ best</source><translation>▾ best</translation></message>
 <message><source>This lesson has not been translated and stands here as it was written</source><translation>Diese Lektion ist nicht übersetzt und steht hier, wie sie geschrieben wurde</translation></message>
+<message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
+<message><source>the blur is too large for a reference here; bring focus and source together to see waves</source><translation>die Unschärfe ist hier zu groß für eine Referenz; Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
+<message><source>the blur is too large for a reference here; stop down or go nearer the axis to see waves</source><translation>die Unschärfe ist hier zu groß für eine Referenz; abblenden oder näher an die Achse gehen, um Wellen zu sehen</translation></message>
 </context>
 </TS>
