@@ -2,10 +2,10 @@
 
 What makes it fast, in the order of gain:
 
-* **Both folds.** With the field along y the pupil is even in ξ, and of W only coma is odd in η. Write
-  W = e + o with o = W31ρ²η; a node and its three mirror images, each of weight w, then add up to
+* **Both folds.** With the field along y the pupil is even in ξ. Let P± be it at (ξ, ±η), η > 0, where W differs by
+  the sign of coma alone; a node and its three mirror images, each of weight w, then add up to
 
-      4w·exp(i2πe)·cos(kξx)·[cos(2πo)·cos(kηy) − sin(2πo)·sin(kηy)],   k = −2πn'u'/λ,
+      2w·cos(kξx)·[(P₊ + P₋)·cos(kηy) + i(P₊ − P₋)·sin(kηy)],   k = −2πn'u'/λ,
 
   so all kernels are real and belong to a quarter of the pupil and a quarter of the picture.
 * **Rows.** Nodes of equal η share their kernel in y (`quadrature.RowNodes`): the sum is two small products.
@@ -23,10 +23,11 @@ import numpy as np
 from p2sf.quadrature import RowNodes
 from p2sf.seidel import Coefficients
 from p2sf.turns import TURN, cosine_sine
-from p2sf.wavefront import shape_coefficients, spread
+from p2sf.wavefront import bound_of, shape_coefficients, spread
 
 BATCH = 10  # PSFs at a time: their 128² pupils of float32 just fit a second-level cache
 KERNEL_BYTES = 2**22  # most that one kernel may take; more rows than that are summed block by block
+SINGLE_SLOPE = 128.0  # waves: W reaches half of it at most, where float32 rounds by 4e-6 of a wave
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class Kernels:
 
 @dataclass(frozen=True)
 class Monomials:
-    """What multiplies W40, W31, W22 and W20 + Wd in e, then in o, (4, 2·nodes); the weights, (rows, columns)."""
+    """What multiplies W40, W31, W22 and W20 + Wd at η, then at −η, (4, 2·nodes); half the weights, (rows, columns)."""
 
     phases: np.ndarray
     weight: np.ndarray
@@ -90,57 +91,57 @@ def groups(scale: np.ndarray) -> list[np.ndarray]:
 def _fields(shape, rows: RowNodes, setting):
     """Return the parts of the fields even and odd in y, (2, batch, y, x) each, axis 0 real and imaginary."""
     blocks = _blocks(rows, setting[1], setting[2])
-    upright, odd = _block_fields(shape, blocks[0], setting)
+    even, odd = _block_fields(shape, blocks[0], setting)
     for block in blocks[1:]:
-        more_upright, more_odd = _block_fields(shape, block, setting)
-        upright += more_upright
+        more_even, more_odd = _block_fields(shape, block, setting)
+        even += more_even
         odd += more_odd
-    return upright, odd
+    return even, odd
 
 
 def _block_fields(shape, rows: RowNodes, setting):
     # A single PSF is likely to be asked for again, a batch of a stack is not and would only fill the cache.
     kernels = (kernels_for if len(shape) == 1 else kernels_for.__wrapped__)(rows, *setting)
-    half = _across(folded_pupils(shape, _monomials(rows, setting[2])), kernels.across)
-    return kernels.up_even @ half[:2], kernels.up_odd @ half[2:]
+    half = _across(half_pupils(shape, rows, setting[2]), kernels.across)
+    upper, lower = half[:, :, 0], half[:, :, 1]
+    even, odd = kernels.up_even @ (upper + lower), kernels.up_odd @ (upper - lower)[::-1]
+    np.negative(odd[0], out=odd[0])  # i times the difference
+    return even, odd
 
 
-def folded_pupils(shape: np.ndarray, monomials: Monomials) -> np.ndarray:
-    """Return w·exp(i2πe)·(cos 2πo, sin 2πo), shape (4, batch, rows, columns): real and imaginary of either.
+def half_pupils(shape: np.ndarray, rows: RowNodes, dtype) -> np.ndarray:
+    """Return w/2·exp(i2πW) at η, then at −η, shape (2, batch, 2, rows, columns), axis 0 real and imaginary.
 
     ``shape``: (batch, 4) of W40, W31, W22, W20 + Wd in waves.
     """
-    weight = monomials.weight
-    waves = (shape @ monomials.phases).reshape(len(shape), 2, *weight.shape)
-    cosines, sines = cosine_sine(waves, weight.dtype)
-    cosine, sine = cosines[:, 0], sines[:, 0]
-    pupil = np.empty((4, len(shape), *weight.shape), weight.dtype)
-    for first, part in ((0, cosines[:, 1]), (2, sines[:, 1])):
-        part *= weight
-        np.multiply(cosine, part, out=pupil[first])
-        np.multiply(sine, part, out=pupil[first + 1])
-    return pupil
+    single = dtype == np.float32 and bound_of(shape).max() < SINGLE_SLOPE
+    phases = np.float32 if single else np.float64
+    monomials = _monomials(rows, phases, dtype)
+    waves = (shape.astype(phases) @ monomials.phases).reshape(len(shape), 2, *monomials.weight.shape)
+    pupils = cosine_sine(waves, dtype)
+    pupils *= monomials.weight
+    return pupils
 
 
 def _across(pupil: np.ndarray, across: np.ndarray) -> np.ndarray:
-    """Return the product along ξ, (4, batch, rows, x): one product for a shared kernel, else one per row."""
-    parts, batch, rows, columns = pupil.shape
+    """Return the product along ξ, (…, rows, x): one product for a shared kernel, else one per row."""
+    *parts, rows, columns = pupil.shape
     if len(across) == 1:
-        return (pupil.reshape(-1, columns) @ across[0]).reshape(parts, batch, rows, -1)
+        return (pupil.reshape(-1, columns) @ across[0]).reshape(*parts, rows, -1)
     by_row = pupil.reshape(-1, rows, columns).transpose(1, 0, 2)  # a view serves, here and behind
-    return (by_row @ across).transpose(1, 0, 2).reshape(parts, batch, rows, -1)
+    return (by_row @ across).transpose(1, 0, 2).reshape(*parts, rows, -1)
 
 
 def unfolded(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
-    """Return |even ± odd|² on the whole picture from offsets ≥ 0: minus above the chief ray, even in x.
+    """Return |even ± odd|² on the whole picture from offsets ≥ 0: plus above the chief ray, even in x.
 
     ``even`` and ``odd`` in y: (2, batch, y, x), real and imaginary, used up; (batch, pixels, pixels).
     """
     batch, low = even.shape[1], pixels // 2
     high = pixels - low
     right = np.empty((batch, pixels, low + 1), even.dtype)
-    _modulus(even - odd, slice(0, high), right[:, low:])
-    _modulus(np.add(even, odd, out=even), slice(low, 0, -1), right[:, :low])
+    _modulus(even + odd, slice(0, high), right[:, low:])
+    _modulus(np.subtract(even, odd, out=even), slice(low, 0, -1), right[:, :low])
     out = np.empty((batch, pixels, pixels), even.dtype)
     out[..., low:] = right[..., :high]
     out[..., :low] = right[..., low:0:-1]
@@ -162,11 +163,19 @@ def kernels_for(rows: RowNodes, cycles: float, pixels: int, dtype) -> Kernels:
 
 
 def _multiples(angle: np.ndarray, count: int, dtype) -> np.ndarray:
-    """Return cos(m·angle), m = 0 … count − 1 last; float64 by Chebyshev's recurrence, ten times faster than cos."""
+    """Return cos(m·angle), m = 0 … count − 1 last; float64 by Chebyshev's recurrence, ten times faster than cos.
+
+    In float32 the upper half follows from the lower: cos(h + j)θ = 2·cos hθ·cos jθ − cos(h − j)θ.
+    """
+    out = np.ones((count, *angle.shape), dtype)
     if dtype == np.float32:
-        phase = angle.astype(dtype)[..., None] * np.arange(count, dtype=dtype)
-        return np.cos(phase, out=phase)
-    out = np.ones((count, *angle.shape))
+        half = count // 2
+        low, high = out[: half + 1], out[half + 1 :]
+        np.multiply(np.arange(half + 1, dtype=dtype).reshape(-1, *[1] * angle.ndim), angle.astype(dtype), out=low)
+        np.cos(low, out=low)
+        np.multiply(low[1 : len(high) + 1], 2 * low[half], out=high)
+        high -= low[half - len(high) : half][::-1]
+        return np.moveaxis(out, 0, -1)
     out[1:2] = np.cos(angle)
     twice = 2 * np.cos(angle)
     for m in range(2, count):
@@ -176,13 +185,12 @@ def _multiples(angle: np.ndarray, count: int, dtype) -> np.ndarray:
 
 
 @lru_cache(maxsize=32)
-def _monomials(rows: RowNodes, dtype) -> Monomials:
+def _monomials(rows: RowNodes, phases, dtype) -> Monomials:
     eta = rows.eta[:, None]
     square = rows.xi**2 + eta**2
-    none = np.zeros_like(square)
-    even = np.stack([square**2, none, np.broadcast_to(eta**2, square.shape), square])
-    odd = np.stack([none, square * eta, none, none])
-    return Monomials(np.concatenate([x.reshape(4, -1) for x in (even, odd)], 1), rows.weight.astype(dtype))
+    upper = np.stack([square**2, square * eta, np.broadcast_to(eta**2, square.shape), square]).reshape(4, -1)
+    both = np.concatenate([upper, upper * [[1], [-1], [1], [1]]], axis=1)
+    return Monomials(both.astype(phases), (rows.weight / 2).astype(dtype))
 
 
 @lru_cache(maxsize=16)

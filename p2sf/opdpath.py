@@ -30,13 +30,13 @@ def opd_intensity(opd_waves, area, cycles: float, pixels: int, dtype=np.float32)
     right = area[:, size // 2 :]
     parts = up @ (_pupil(opd[:, size // 2 :], right, dtype) @ across)
     even, odd = np.split(parts, 2, axis=1)
-    turned = np.stack([odd[1], -odd[0]])  # −i times the part odd in y
+    turned = np.stack([-odd[1], odd[0]])  # i times the part odd in y
     return unfolded(even[:, None], turned[:, None], pixels)[0] * dtype(1 / (2 * right.sum()) ** 2)
 
 
 def _pupil(opd, area, dtype):
     """Return real and imaginary part of area·exp(i2πW), stacked; whole waves are taken off in the array's precision."""
-    pupil = np.stack(cosine_sine(opd.astype(np.result_type(opd, np.float32)), dtype))
+    pupil = cosine_sine(opd.astype(np.result_type(opd, np.float32)), dtype)
     pupil *= area.astype(dtype)
     return pupil
 
