@@ -96,7 +96,7 @@ def _grid_samples(slope: float, reach: float) -> float:
 def _rows(slopes: np.ndarray, reach: float, quality: str) -> RowNodes:
     """Return the rule that carries the largest of each kind of slope."""
     if quality == "settled":
-        rows, columns = chords_for(*slopes, reach)
+        rows, columns = chords_for(*slopes, reach, reach / sqrt(2))
     else:
         rows = columns = max(PREVIEW_GRID, even_count(_grid_samples(float(slopes[0]), reach)))
     if rows * columns > 4 * LARGEST_NODES:

@@ -122,7 +122,7 @@ def test_the_rules_settle_every_psf(c, reach):
     radial, angular = nodes_for(slope, corner, twist)
     finer = polar(c, reach, 2 * radial, 2 * angular)
     assert relative_l2(polar(c, reach, radial, angular), finer) < SETTLED_TOLERANCE / 10
-    rows = chord_rows(*chords_for(*steepest_chords(c), corner))
+    rows = chord_rows(*chords_for(*steepest_chords(c), corner, reach))
     pixel_um = 2 * reach / 16 / 0.2  # the test coefficients have NA/λ = 0.2 per µm
     assert relative_l2(intensities(c, 16, pixel_um, rows, np.float64), finer) < SETTLED_TOLERANCE / 10
 
