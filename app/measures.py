@@ -90,7 +90,7 @@ def axial_colour_um(state: State) -> float:
 
 @lru_cache(maxsize=16)
 def r_squared(state: State) -> float:
-    """Return R² of the picture against the Huygens sum in the window shown, as the panel Accuracy says it."""
+    """Return R² of the picture against the Huygens sum in the point's window, as the panel Accuracy says it."""
     from app.reference import measure
 
     return measure(_live(state), False, Event(), lambda part: None).r_squared

@@ -1,4 +1,4 @@
-"""How good the picture is: the Huygens reference at the same point, in the same window. No Qt in here."""
+"""How good the picture is: the Huygens reference at the same point, in one window for every method. No Qt in here."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,6 +7,7 @@ from threading import Event
 
 from app.advice import remedy
 from app.compute import Live
+from app.rung import PIXELS, window_um
 from app.whatif import NO_REFERENCE
 from p2sf.accuracy import r_squared, relative_l2
 from p2sf.errors import SamplingError
@@ -32,9 +33,14 @@ class Rung:
 
 @dataclass(frozen=True)
 class Accuracy:
-    """The reference beside the picture it belongs to, the picture's R², and the ladder when it was asked for."""
+    """The answer measured, its ``picture`` beside the ``reference``, its R², and the ladder when it was asked for.
+
+    All of them stand in the window that the rays of the point ask for, so that a method has one R² at a point, whatever
+    is on screen.
+    """
 
     live: Live
+    picture: Psf
     reference: Psf
     r_squared: float
     rungs: tuple[Rung, ...] = ()
@@ -50,16 +56,25 @@ def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[floa
     reference = huygens_psf(
         live.setting.lens,
         live.setting.source,
-        live.psf.values.shape[-1],
-        live.psf.pixel_um,
+        PIXELS["settled"],
+        window_um(live.setting, "huygens") / PIXELS["settled"],
         REFERENCE_TOLERANCE,
         lambda part: progress(share * part),
         cancelled.is_set,
         Filling(clip=live.state.clip),
     )
-    found = r_squared(live.psf.values, reference.values)
+    shown = in_window(live, reference)
+    found = r_squared(shown.values, reference.values)
     rungs = tuple(climb(live, reference, cancelled, lambda part: progress(0.5 + part / 2))) if ladder else ()
-    return Accuracy(live, reference, found, rungs)
+    return Accuracy(live, shown, reference, found, rungs)
+
+
+def in_window(live: Live, reference: Psf) -> Psf:
+    """Return the picture if it stands in the reference's window, else the same method's PSF there."""
+    psf = live.psf
+    if (psf.values.shape, psf.pixel_um) == (reference.values.shape, reference.pixel_um):
+        return psf
+    return one(live, psf.method, reference)
 
 
 def climb(live: Live, reference: Psf, cancelled: Event, progress: Callable[[float], None]):
@@ -87,4 +102,5 @@ def one(live: Live, method: str, reference: Psf) -> Psf:
     from p2sf.ladder import render
 
     pixels, pitch = reference.values.shape[-1], reference.pixel_um
-    return render(live.setting.lens, live.setting.source, method, pixels, pitch, clip=live.state.clip)
+    made, state = live.setting, live.state
+    return render(made.lens, made.source, method, pixels, pitch, tolerance=state.tolerance, clip=state.clip)

@@ -703,5 +703,9 @@
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>the blur is too large for a reference here; bring focus and source together to see waves</source><translation>die Unschärfe ist hier zu groß für eine Referenz; Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
 <message><source>the blur is too large for a reference here; stop down or go nearer the axis to see waves</source><translation>die Unschärfe ist hier zu groß für eine Referenz; abblenden oder näher an die Achse gehen, um Wellen zu sehen</translation></message>
+<message><source>{rung} follows: its sum of waves takes a moment</source><translation>{rung} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
+<message><source>fitted while the slider moves, {rung} when it rests</source><translation>fitted, solange der Regler sich bewegt, {rung}, wenn er ruht</translation></message>
+<message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
+<message><source>reference from {count} rays, {seconds} s</source><translation>Referenz aus {count} Strahlen, {seconds} s</translation></message>
 </context>
 </TS>

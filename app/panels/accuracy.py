@@ -13,7 +13,7 @@ from app.panels.psf import PSF_MAP
 from app.plots import HeatMap, plot_widget, restyle_plot
 from app.readout import Readout
 from app.reference import Accuracy, Rung
-from app.scales import nice, written_r_squared
+from app.scales import nice, significant, written_r_squared
 from app.store import Store
 from app.theme import LIGHT, Tokens
 from app.words import tr
@@ -80,7 +80,7 @@ class AccuracyPanel:
         """Paint reference, difference and ladder."""
         self.body.setVisible(True)
         self.empty.setVisible(False)
-        psf, reference = accuracy.live.psf, accuracy.reference
+        psf, reference = accuracy.picture, accuracy.reference
         count, step = reference.values.shape[-1], reference.pixel_um
         start = -(count // 2 + 0.5) * step
         rect, peak = (start, start, count * step, count * step), float(reference.values.max())
@@ -98,7 +98,8 @@ class AccuracyPanel:
             chart.set_extent(count * step / 2)
         self._show_ladder(accuracy.rungs, psf.method)
         r2 = written_r_squared(accuracy.r_squared)
-        text = f"{psf.method} vs Huygens: R² {r2} · reference from {reference.rays} rays, {reference.seconds:.2f} s"
+        text = f"{psf.method} vs Huygens: R² {r2} in {significant(count * step, 3)} µm"
+        text += f" · reference from {reference.rays} rays, {reference.seconds:.2f} s"
         self.message.set_text(text + (" · earlier picture" if stale else ""), "muted" if stale else "text")
 
     def _show_ladder(self, rungs: tuple[Rung, ...], shown: str) -> None:

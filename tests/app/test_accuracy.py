@@ -1,6 +1,7 @@
 """The background measure: R² against the Huygens sum arrives by itself, and its ladder is in order."""
 
 from dataclasses import replace
+from threading import Event
 
 import pytest
 
@@ -8,7 +9,7 @@ from app.compute import live
 from app.measures import MEASURES
 from app.measuring import fits
 from app.panels.accuracy import anchors
-from app.reference import Accuracy
+from app.reference import Accuracy, measure
 from app.scales import written_r_squared
 from app.state import State
 from app.theme import configure_plots
@@ -36,6 +37,19 @@ def test_the_badge_and_the_ladder_arrive_by_themselves(measured, qtbot):
     assert "vs Huygens" in measured.panels["accuracy"].message.text()
 
 
+def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
+    """The six coefficients ask for a wider window than the rays do; measured there they would have another figure."""
+    found = {}
+    for method in ("seidel", "fitted"):
+        shown = live(State(method=method, field_deg=10.0, wavelength_nm=656.3, f_number=4.0))
+        accuracy = measure(shown, True, Event(), lambda part: None)
+        rungs = {rung.method: rung.r_squared for rung in accuracy.rungs}
+        assert accuracy.r_squared == pytest.approx(rungs[method], abs=1e-12)
+        found[method] = shown.psf.pixel_um, rungs
+    assert found["seidel"][0] != found["fitted"][0], "the state no longer tells one window from two"
+    assert found["seidel"][1] == pytest.approx(found["fitted"][1], abs=1e-12)
+
+
 def test_the_figure_goes_grey_when_the_picture_moves_on(measured, qtbot):
     badge = measured.panels["psf"].badge
     qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
@@ -60,7 +74,7 @@ def test_a_figure_answers_for_its_own_picture_only(changes, wide):
     """R² compares two pictures: other rays cut, another window or method or point, and it is another number."""
     state = State(method="seidel", field_deg=2.0, f_number=8.0)
     shown = live(state)
-    known = Accuracy(shown, shown.psf, 0.9)
+    known = Accuracy(shown, shown.psf, shown.psf, 0.9)
     assert fits(known, live(replace(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
     assert not fits(known, live(replace(state, **changes), at_least_um=wide), False)
 
