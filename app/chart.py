@@ -7,10 +7,10 @@ rasteriser draws twenty times faster than an outline it must fill.
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPixmap
+from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPixmap, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.ink import polylines, set_text, write
+from app.ink import pen, polylines, width_of, write
 from app.scales import ticks
 from app.theme import LIGHT, Tokens
 from app.words import tr
@@ -43,9 +43,7 @@ class Curve:
         """Paint the line."""
         if not self.x.size:
             return
-        colour = QColor(getattr(chart.theme, self.token, self.token))
-        colour.setAlpha(self.alpha)
-        painter.setPen(QPen(colour, 1))
+        painter.setPen(pen(getattr(chart.theme, self.token, self.token), self.alpha))
         for part in polylines(*chart.to_pixels(self.x, self.y)):
             if self.width <= 1:
                 painter.drawPolyline(part)
@@ -157,11 +155,13 @@ class Chart(QWidget):
         """Paint what stands still, then image, curves, and what lies above."""
         if self._ground is None or self._ground.devicePixelRatio() != self.devicePixelRatioF():
             self._ground = self._painted_ground()
-        painter = QPainter(self)
+        painter, image = QPainter(self), self._image and self._image_room()
+        if image:  # what it covers need not be copied: a picture of this size takes a quarter of a millisecond
+            painter.setClipRegion(QRegion(self.rect()) - QRegion((image & self.area).toRect().adjusted(2, 2, -2, -2)))
         painter.drawPixmap(0, 0, self._ground)
         painter.setClipRect(self.area)
-        if self._image:
-            self._paint_image(painter)
+        if image:
+            self._paint_image(painter, image)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         for curve in self.curves:
             curve.paint(painter, self)
@@ -173,12 +173,15 @@ class Chart(QWidget):
     def paint_over(self, painter: QPainter) -> None:
         """Paint what lies above the curves; a kind of chart says what."""
 
-    def _paint_image(self, painter: QPainter) -> None:
-        pixels, (x, y, width, height) = self._image
-        (left, right), (bottom, top) = self.to_pixels(np.array([x, x + width]), np.array([y, y + height]))
+    def _image_room(self) -> QRectF:
+        x, y, width, height = self._image[1]
+        (left, bottom), (right, top) = self.to_pixels(x, y), self.to_pixels(x + width, y + height)
+        return QRectF(left, top, right - left, bottom - top)
+
+    def _paint_image(self, painter: QPainter, room: QRectF) -> None:
+        pixels = self._image[0]
         rows, columns = pixels.shape
-        image = QImage(pixels.data, columns, rows, 4 * columns, QImage.Format.Format_RGB32)
-        painter.drawImage(QRectF(left, top, right - left, bottom - top), image)
+        painter.drawImage(room, QImage(pixels.data, columns, rows, 4 * columns, QImage.Format.Format_RGB32))
 
     def _painted_ground(self) -> QPixmap:
         ratio = self.devicePixelRatioF()
@@ -202,7 +205,7 @@ def paint_axes(painter: QPainter, chart: Chart, labels: tuple[str, str]) -> None
     for value, text in bottom_marks(chart):
         x = float(chart.to_pixels(value, 0.0)[0])
         _tick(painter, theme, QPointF(x, area.bottom()), QPointF(x, area.bottom() - 4))
-        middle = min(x, chart.width() - set_text(text).size().width() / 2)  # the last one stays whole
+        middle = min(x, chart.width() - width_of(text) / 2)  # the last one stays whole
         write(painter, QRectF(middle - 40, area.bottom() + 3, 80, 15), text)
     write(painter, QRectF(area.left(), area.bottom() + 18, area.width(), 16), labels[0])
     if chart.left_axis:
@@ -218,7 +221,7 @@ def bottom_marks(chart: Chart):
     """Return the bottom axis's places and their words; of a round picture those of the left axis, where they fit."""
     every = TICK_EVERY_PX["bottom"]
     if chart.round:
-        every = max(set_text(text).size().width() for _, text in left_marks(chart)) + 14
+        every = max(width_of(text) for _, text in left_marks(chart)) + 14
     return chart.bottom_ticks or ticks(*chart.ranges()[0], chart.area.width() / every)
 
 

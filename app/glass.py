@@ -38,6 +38,7 @@ class Glass:
     left: float
 
 
+@lru_cache(maxsize=8)
 def still(lens: Lens) -> Lens:
     """Return the lens without what sliders change: its sensor at 1 mm, its aperture set aside where rims are known."""
     placed = with_sensor(lens, 1.0)

@@ -1,15 +1,17 @@
 """Words and lines on a QPainter, prepared once where they can be."""
 
+import re
 from functools import lru_cache
 
 import numpy as np
 from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QPainter, QPolygonF, QStaticText, QTransform
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText, QTransform
 
 from app.words import tr
 
 FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
+number_in = re.compile(r"\d").search
 
 
 @lru_cache(maxsize=8)
@@ -18,6 +20,20 @@ def small_font(size: int = 11) -> QFont:
     font = QFont()
     font.setPixelSize(size)
     return font
+
+
+@lru_cache(maxsize=8)
+def metrics(size: int = 11) -> QFontMetricsF:
+    """Return the measures of `small_font`."""
+    return QFontMetricsF(small_font(size))
+
+
+@lru_cache(maxsize=256)
+def pen(colour: str, alpha: int = 255, width: float = 1.0) -> QPen:
+    """Return a pen of a colour such as #3366cc; one for everybody, so it is not to be changed."""
+    ink = QColor(colour)
+    ink.setAlpha(alpha)
+    return QPen(ink, width)
 
 
 @lru_cache(maxsize=1024)
@@ -29,27 +45,51 @@ def set_text(words: str, size: int = 11) -> QStaticText:
     return text
 
 
+def width_of(words: str, size: int = 11) -> float:
+    """Return how wide words are, in pixels; with a number among them, letter by letter."""
+    if number_in(words):
+        return sum(letter_width(letter, size) for letter in tr(words))
+    return set_text(words, size).size().width()
+
+
+@lru_cache(maxsize=512)
+def letter_width(letter: str, size: int) -> float:
+    """Return how wide one letter is, in pixels."""
+    return metrics(size).horizontalAdvance(letter)
+
+
 def write(painter: QPainter, room: QRectF, words: str, side: int = 0, size: int = 11) -> None:
-    """Paint words in the middle of a room's height, at its left (side −1), middle (0) or right end (1)."""
-    text = set_text(words, size)
-    taken = text.size()
-    left = room.left() + (side + 1) / 2 * (room.width() - taken.width())
+    """Paint words in the middle of a room's height, at its left (side −1), middle (0) or right end (1).
+
+    A number is another on the next frame: laying it out to be kept costs twice what painting it does.
+    """
+    left = room.left() + (side + 1) / 2 * (room.width() - width_of(words, size))
     painter.setFont(small_font(size))
-    painter.drawStaticText(QPointF(left, room.center().y() - taken.height() / 2), text)
+    if number_in(words):
+        measures = metrics(size)
+        base = room.center().y() - measures.height() / 2 + measures.ascent()
+        painter.drawText(QPointF(left, base), tr(words))
+    else:
+        text = set_text(words, size)
+        painter.drawStaticText(QPointF(left, room.center().y() - text.size().height() / 2), text)
 
 
 def polylines(x: np.ndarray, y: np.ndarray):
     """Yield the unbroken parts of a line in pixels."""
-    points = np.clip(np.stack([x, y], axis=-1), -FARTHEST_PX, FARTHEST_PX)
-    broken = np.flatnonzero(np.isnan(points).any(axis=1))
-    for part in np.split(points, broken) if broken.size else (points,):
-        part = part[1:] if part.size and np.isnan(part[0]).any() else part
-        if len(part):
-            yield polygon(part)
+    if all(np.abs(part).max(initial=0.0) <= FARTHEST_PX for part in (x, y)):  # which no NaN is
+        yield polygon(x, y)
+        return
+    x, y = np.clip(x, -FARTHEST_PX, FARTHEST_PX), np.clip(y, -FARTHEST_PX, FARTHEST_PX)
+    start = 0
+    for end in (*np.flatnonzero(np.isnan(x + y)).tolist(), len(x)):
+        if end > start:
+            yield polygon(x[start:end], y[start:end])
+        start = end + 1
 
 
-def polygon(points: np.ndarray) -> QPolygonF:
-    """Return (points, 2) as Qt wants them, copied as one block: point by point takes ten times as long."""
-    made = create_qpolygonf(len(points))
-    ndarray_from_qpolygonf(made)[:] = points
+def polygon(x: np.ndarray, y: np.ndarray) -> QPolygonF:
+    """Return points as Qt wants them, copied as one block: point by point takes ten times as long."""
+    made = create_qpolygonf(len(x))
+    points = ndarray_from_qpolygonf(made)
+    points[:, 0], points[:, 1] = x, y
     return made

@@ -84,13 +84,16 @@ class Mixer(QWidget):
     def show_values(self, values: dict[str, float], own: dict[str, float], added: dict[str, float], **on) -> None:
         """Show coefficients as they count, the lens's own, and what is added to each, waves; ``on``: muted, solo."""
         before = self.limit, self.waves, self.on
+        moved = [n for n, k in enumerate(TERMS) if (values[k], own[k]) != (self.values[k], self.own[k])]
         self.values, self.own, self.waves, self.on = values, own, added, on
         if not self._dragged:
             everything = [abs(v) for kind in (values, own, added) for name, v in kind.items() if name != "w11"]
             self.limit = nice(max(SMALLEST_LIMIT, abs(added["w11"]), *everything))
         if before != (self.limit, self.waves, self.on):
             self._ground = None
-        self.update()
+            self.update()
+        for number in moved:
+            self.update(self.places.row(number).toAlignedRect())
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -109,6 +112,8 @@ class Mixer(QWidget):
         painter, places = QPainter(self), self.places
         painter.drawPixmap(0, 0, self._ground)
         for number, name in enumerate(TERMS):
+            if not event.region().intersects(places.row(number).toAlignedRect()):
+                continue
             value, part = self.values[name], held(self.values[name], self.limit)
             parts.paint_value(painter, places, self._theme, number, part, parts.waves(value))
             if abs(value) > self.limit:

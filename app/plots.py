@@ -152,7 +152,7 @@ class HeatMap(QWidget):
         self.chart, self.bar = Chart(bottom, left, aspect=True), ColourBar(self)
         self.indices, self.values = np.zeros((1, 1), np.uint8), None
         self.quantity = ""
-        self._name, self._rect = "CET-L4", None
+        self._name, self._rect, self._mapped = "CET-L4", None, None
         self._table = lookup(self._name)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
@@ -190,9 +190,10 @@ class HeatMap(QWidget):
 
     def set_map(self, name: str) -> None:
         """Use a colour map by name."""
-        self._name = name
-        self._table = lookup(named(name, self.chart.theme)).copy()
-        self._table[EMPTY] = QColor(self.chart.theme.card).rgb()
+        if (name, self.chart.theme) != self._mapped:
+            self._mapped, self._name = (name, self.chart.theme), name
+            self._table = lookup(named(name, self.chart.theme)).copy()
+            self._table[EMPTY] = QColor(self.chart.theme.card).rgb()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

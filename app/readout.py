@@ -1,10 +1,10 @@
 """Numbers that change every frame, painted directly: a QLabel would lay out the window anew for each."""
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPainter
+from PySide6.QtGui import QColor, QPainter
 from PySide6.QtWidgets import QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
 
-from app.ink import set_text, small_font, write
+from app.ink import metrics, width_of, write
 from app.theme import LIGHT, Tokens
 from app.words import tr
 
@@ -59,9 +59,9 @@ class Readout(QWidget):
     def _cut(self) -> str:
         room = self.width() - (2 * PAD if self._pill else 0)
         for text in filter(None, (self._text, self._short)):
-            if set_text(text, SIZE).size().width() <= room:
+            if width_of(text, SIZE) <= room:
                 return text
-        return QFontMetricsF(small_font(SIZE)).elidedText(self._short or self._text, Qt.TextElideMode.ElideRight, room)
+        return metrics(SIZE).elidedText(self._short or self._text, Qt.TextElideMode.ElideRight, room)
 
     def paintEvent(self, event) -> None:
         """Paint ground and text."""
@@ -72,7 +72,7 @@ class Readout(QWidget):
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(self._theme.faint))
-            wide = set_text(text, SIZE).size().width() + 2 * PAD
+            wide = width_of(text, SIZE) + 2 * PAD
             painter.drawRoundedRect(QRectF(0, 0, wide, self.height()), 4, 4)
         painter.setPen(QColor(getattr(self._theme, self._colour)))
         room = QRectF(pad, 0, self.width() - 2 * pad, self.height())
@@ -100,9 +100,14 @@ class FactTable(QWidget):
         """Show (name, value, definition) rows."""
         if len(rows) != len(self._rows):
             self.setFixedHeight(round(self.ROW * len(rows)))
-        if rows != self._rows:
-            self._rows = rows
             self.update()
+        for k, (row, before) in enumerate(zip(rows, self._rows, strict=False)):
+            if row != before:
+                self.update(self._room(k).toAlignedRect())
+        self._rows = rows
+
+    def _room(self, number: int) -> QRectF:
+        return QRectF(0, number * self.ROW, self.width(), self.ROW)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -119,11 +124,13 @@ class FactTable(QWidget):
         return super().event(event)
 
     def paintEvent(self, event) -> None:
-        """Paint the rows."""
-        painter = QPainter(self)
-        painter.fillRect(self.rect(), QColor(self._theme.card))
+        """Paint the rows that have changed."""
+        painter, changed = QPainter(self), event.region()
+        painter.fillRect(event.rect(), QColor(self._theme.card))
         for k, (name, value, _) in enumerate(self._rows):
-            line = QRectF(0, k * self.ROW, self.width(), self.ROW)
+            line = self._room(k)
+            if not changed.intersects(line.toRect()):
+                continue
             painter.setPen(QColor(self._theme.muted))
             write(painter, line, tr(name), -1, SIZE)
             painter.setPen(QColor(self._theme.text))

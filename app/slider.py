@@ -1,7 +1,7 @@
 """A slider painted by hand: travel 0 to 1, ticks, and for wavelengths the spectrum itself."""
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
+from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QAbstractSlider, QSizePolicy
 
 from app.theme import LIGHT, Tokens
@@ -9,6 +9,7 @@ from app.theme import LIGHT, Tokens
 STEPS = 1000
 HANDLE = 7.0
 MARGIN = 9.0
+MIDDLE = 11.0  # of groove and handle, from the top
 KEYS = Qt.Key
 MOVES = (KEYS.Key_Left, KEYS.Key_Right, KEYS.Key_Up, KEYS.Key_Down, KEYS.Key_PageUp, KEYS.Key_PageDown)
 MOVES += (KEYS.Key_Home, KEYS.Key_End)
@@ -30,22 +31,23 @@ class Slider(QAbstractSlider):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._theme, self._ticks, self._spectrum = LIGHT, (), ()
+        self._ground: QPixmap | None = None
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme = theme
-        self.update()
+        self._forget_ground()
 
     def set_ticks(self, ticks: tuple[tuple[float, str], ...]) -> None:
         """Mark travels (0 to 1) with a short label under the groove."""
         self._ticks = ticks
         self.updateGeometry()
-        self.update()
+        self._forget_ground()
 
     def set_spectrum(self, colours: tuple[tuple[float, str], ...]) -> None:
         """Paint the groove as a gradient of (travel, colour)."""
         self._spectrum = colours
-        self.update()
+        self._forget_ground()
 
     def sizeHint(self) -> QSize:
         """Return a height that has room for the tick labels when there are any."""
@@ -107,31 +109,49 @@ class Slider(QAbstractSlider):
         travel = (point.x() - MARGIN) / max(1.0, self.width() - 2 * MARGIN)
         self.setValue(round(STEPS * travel))
 
+    def _forget_ground(self) -> None:
+        self._ground = None
+        self.update()
+
     def paintEvent(self, event) -> None:
-        """Paint groove, ticks and handle."""
+        """Paint groove and ticks, which stand still, then how far the handle has come and the handle."""
+        if self._ground is None or self._ground.size() != self.size() * self.devicePixelRatioF():
+            self._ground = self._painted_ground()
         painter = QPainter(self)
-        painter.fillRect(self.rect(), QColor(self._theme.card))
+        painter.drawPixmap(0, 0, self._ground)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        middle = 11.0
-        self._paint_groove(painter, middle)
-        self._paint_ticks(painter, middle)
-        self._paint_handle(painter, middle)
+        if not self._spectrum:
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(self._theme.accent if self.isEnabled() else self._theme.muted))
+            painter.drawRoundedRect(QRectF(MARGIN, MIDDLE - 2, self.handle_x() - MARGIN, 4), 2, 2)
+        self._paint_handle(painter, MIDDLE)
+
+    def _painted_ground(self) -> QPixmap:
+        ratio = self.devicePixelRatioF()
+        ground = QPixmap(self.size() * ratio)
+        ground.setDevicePixelRatio(ratio)
+        ground.fill(QColor(self._theme.card))
+        painter = QPainter(ground)
+        painter.setFont(self.font())
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._paint_groove(painter, MIDDLE)
+        self._paint_ticks(painter, MIDDLE)
+        painter.end()
+        return ground
 
     def _paint_groove(self, painter: QPainter, middle: float) -> None:
-        theme, half = self._theme, 5.0 if self._spectrum else 2.0
+        half = 5.0 if self._spectrum else 2.0
         groove = QRectF(MARGIN, middle - half, self.width() - 2 * MARGIN, 2 * half)
         painter.setPen(Qt.PenStyle.NoPen)
-        if self._spectrum:
-            gradient = QLinearGradient(groove.topLeft(), groove.topRight())
-            for travel, colour in self._spectrum:
-                gradient.setColorAt(travel, QColor(colour))
-            painter.setBrush(gradient)
-            painter.drawRoundedRect(groove, 2, 2)
+        if not self._spectrum:
+            painter.setBrush(QColor(self._theme.line))
+            painter.drawRoundedRect(groove, half, half)
             return
-        painter.setBrush(QColor(theme.line))
-        painter.drawRoundedRect(groove, half, half)
-        painter.setBrush(QColor(theme.accent if self.isEnabled() else theme.muted))
-        painter.drawRoundedRect(QRectF(groove.left(), groove.top(), self.handle_x() - MARGIN, 2 * half), half, half)
+        gradient = QLinearGradient(groove.topLeft(), groove.topRight())
+        for travel, colour in self._spectrum:
+            gradient.setColorAt(travel, QColor(colour))
+        painter.setBrush(gradient)
+        painter.drawRoundedRect(groove, 2, 2)
 
     def _paint_ticks(self, painter: QPainter, middle: float) -> None:
         font = painter.font()

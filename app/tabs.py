@@ -32,8 +32,9 @@ class Tabs(QTabWidget):
         super().__init__(parent)
         self._groups = {entry.key: entry.group for entry in entries}
         self._last: dict[str, str] = {}
+        self._pages = {entry.key: page(entry.key) for entry in entries}
         for entry in entries:
-            self.addTab(page(entry.key), tr(entry.title))
+            self.addTab(self._pages[entry.key], tr(entry.title))
         self.buttons = GroupButtons(tuple(g for g in GROUPS if g in self._groups.values()), self)
         self.buttons.chosen.connect(self.open_group)
         self.setCornerWidget(self.buttons, Qt.Corner.TopLeftCorner)
@@ -47,7 +48,7 @@ class Tabs(QTabWidget):
 
     def pages(self) -> dict[str, QWidget]:
         """Return the page of every panel."""
-        return {self.widget(k).objectName(): self.widget(k) for k in range(self.count())}
+        return self._pages
 
     def current(self) -> str:
         """Return the panel at the front."""

@@ -123,7 +123,7 @@ class LayoutChart(Chart):
         painter.fillRect(QRectF(x - width / 2, top, width, bottom - top), QColor(self.theme.text))
 
     def _polygon(self, outline: Outline) -> QPolygonF:
-        return polygon(np.stack(self.to_pixels(outline.z, outline.y), axis=-1))
+        return polygon(*self.to_pixels(outline.z, outline.y))
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint marks, names and the source."""

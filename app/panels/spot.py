@@ -45,7 +45,7 @@ class SpotChart(Chart):
         pen = QPen(QColor(self.theme.marginal), 3)
         pen.setCapStyle(Qt.PenCapStyle.RoundCap)
         painter.setPen(pen)
-        painter.drawPoints(polygon(np.stack(self.to_pixels(*self.points.T), axis=-1)))
+        painter.drawPoints(polygon(*self.to_pixels(*self.points.T)))
 
 
 class SpotPanel:
