@@ -5,7 +5,17 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
 
-from app.scales import Linear, Logarithmic, Vergence, read_distance, read_number, signed, significant, written_distance
+from app.scales import (
+    Linear,
+    Logarithmic,
+    Vergence,
+    read_distance,
+    read_f_number,
+    read_number,
+    signed,
+    significant,
+    written_distance,
+)
 from app.setting import Ranges
 from app.state import State
 
@@ -100,7 +110,7 @@ F_NUMBER = Quantity(
     tip="f-number N = f′/D: focal length over the diameter of the entrance pupil.",
     scale=lambda ranges: Logarithmic(*ranges.f_number),
     write=lambda value: f"f/{significant(value, 3)}",
-    read=_reader("f-number"),
+    read=read_f_number,
     shown=lambda state, ranges: ranges.file_f_number if state.f_number is None else state.f_number,
     buttons=(("file", None, "Open the lens as its file has it"),),
     ticks=_f_ticks(),

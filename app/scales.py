@@ -1,5 +1,6 @@
 """How a slider's travel, 0 to 1, maps to a quantity, and how quantities are written and read. No Qt in here."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil, exp, floor, inf, isfinite, isinf, isnan, log, log10
@@ -9,6 +10,7 @@ from p2sf.errors import P2SFError
 INFINITE = ("∞", "inf", "infinity")
 MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
 NO_UNIT = {"": 1.0}
+APERTURE = re.compile(r"^\s*([fF]\s*/?|1\s*:)\s*(?=[\d.,])")  # f/5.6, F5.6, f 5.6, 1:5.6
 
 
 @dataclass(frozen=True)
@@ -135,12 +137,17 @@ def read_distance(text: str) -> float:
     return read_number(number, "distance") * MM_PER_UNIT[unit]
 
 
+def read_f_number(text: str) -> float:
+    """Return an f-number written bare or as photographers do, "f/5.6", "F5.6" or "1:5.6"; P2SFError otherwise."""
+    return read_number(APERTURE.sub("", text), "f-number")
+
+
 def read_number(text: str, words: str, units: Mapping[str, float] = NO_UNIT) -> float:
     """Return the number a person typed in the quantity's own unit; true minus and decimal comma allowed.
 
     ``units`` says what may stand behind the number and what it multiplies by. P2SFError for anything else.
     """
-    plain = text.strip().replace("−", "-").replace(",", ".").lower().removeprefix("f/")
+    plain = text.strip().replace("−", "-").replace(",", ".").lower()
     number = plain.rstrip("abcdfghijklmnopqrstuvwxyzµ°λ/ ")
     unit = plain[len(number) :].strip()
     try:

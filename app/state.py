@@ -143,8 +143,9 @@ def _check_number(value, name: str, limits: tuple[float, float], words: str, uni
     number = isinstance(value, int | float) and not isinstance(value, bool) and value == value
     if not number or not low <= value <= high:
         shown = f"{value:g}" if number and (isinstance(value, float) or abs(value) < TELLABLE) else repr(value)[:TOLD]
+        gap = "" if unit == "°" else " "
         raise P2SFError(
-            f"{words} is {shown} {unit}".rstrip() + f"; give a number from {low:g} to {high:g} {unit}".rstrip()
+            f"{words} is {shown}{gap}{unit}".rstrip() + f"; give a number from {low:g} to {high:g}{gap}{unit}".rstrip()
         )
 
 

@@ -38,7 +38,7 @@ class Teaching(QObject):
     def commands(self) -> tuple[Command, ...]:
         """Return what can be done with lessons."""
         return (
-            Command("Lessons: begin or leave", self.toggle, ("F3",), "Lessons"),
+            Command("Begin or leave a lesson", self.toggle, ("F3",), "Lessons"),
             Command("Next step of the lesson", lambda: self.move(1), ("Alt+Right",), "Lessons"),
             Command("Previous step of the lesson", lambda: self.move(-1), ("Alt+Left",), "Lessons"),
             Command("Show the answer", self.reveal, ("Alt+Down",), "Lessons"),

@@ -170,7 +170,7 @@
 <message><source>Lesson</source><translation>Lektion</translation></message>
 <message><source>Lessons</source><translation>Lernen</translation></message>
 <message><source>Lessons, from a point of light to a photograph: begin or leave (F3)</source><translation>Lektionen, vom Lichtpunkt zum Foto: beginnen oder verlassen (F3)</translation></message>
-<message><source>Lessons: begin or leave</source><translation>Lernen: Lektionen beginnen oder verlassen</translation></message>
+<message><source>Begin or leave a lesson</source><translation>Lektion beginnen oder verlassen</translation></message>
 <message><source>Light</source><translation>Hell</translation></message>
 <message><source>Light or dark</source><translation>Hell oder dunkel</translation></message>
 <message><source>Link</source><translation>Koppeln</translation></message>

@@ -63,6 +63,7 @@ class CoefficientsPanel:
         button.setText(tr(text))
         button.setToolTip(tr(tip))
         button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        button.setStyleSheet("padding: 1px 2px")  # three of them share the card's width, narrow beside a lesson
         return button
 
     def _preset_menu(self) -> QMenu:

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QApplication
 from app.choices import everything
 from app.fuzzy import ranked, score
 from app.helppage import HelpPage
+from app.palette import named
 from app.panels import REGISTRY
 from app.setting import shipped, title
 from app.whatif import PRESETS
@@ -41,6 +42,11 @@ def test_the_palette_lists_every_panel_lens_and_preset(window):
     listed = {command.title for command in everything(window)}
     assert listed >= {entry.title for entry in REGISTRY if entry.place != "main"}
     assert listed >= {title(name) for name in shipped()} | {preset.title for preset in PRESETS}
+
+
+def test_no_command_says_its_group_twice(window):
+    names = [named(command) for command in everything(window)]
+    assert not [name for name in names if name.split(": ")[1].startswith(name.split(": ")[0])]
 
 
 def test_typing_and_enter_do_what_is_found(window, qtbot):

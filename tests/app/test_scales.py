@@ -42,7 +42,7 @@ def test_what_is_written_can_be_read(mm):
 @pytest.mark.parametrize(
     ("key", "text", "value"),
     [
-        ("f_number", "f/2.8", 2.8),
+        *(("f_number", text, 5.6) for text in ("5.6", "5,6", "f/5.6", "F5.6", "f 5,6", "F/5.6", "f / 5.6", "1:5.6")),
         ("field_deg", "−10°", -10),
         ("wavelength_nm", "0.55 µm", 550),
         ("field_deg", "1e1", 10),
@@ -53,7 +53,14 @@ def test_numbers_with_units(key, text, value):
 
 
 @pytest.mark.parametrize(
-    ("key", "text"), [("sensor_shift_um", "2 m"), ("field_deg", "2 m"), ("f_number", "550 nm"), ("depth_mm", "10°")]
+    ("key", "text"),
+    [
+        ("sensor_shift_um", "2 m"),
+        ("f_number", "1:5.6 mm"),
+        ("field_deg", "2 m"),
+        ("f_number", "550 nm"),
+        ("depth_mm", "10°"),
+    ],
 )
 def test_a_foreign_unit_is_refused_and_never_dropped(key, text):
     with pytest.raises(P2SFError, match="unit"):

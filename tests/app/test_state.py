@@ -66,7 +66,7 @@ def test_infinity_is_plain_json():
     [
         ({"depth_mm": -1.0}, "source depth is -1 mm"),
         ({"depth_mm": float("nan")}, "source depth is nan mm"),
-        ({"field_deg": 90.0}, "field angle is 90 °"),
+        ({"field_deg": 90.0}, "field angle is 90°"),
         ({"field_deg": "wide"}, "field angle is 'wide'"),
         ({"method": "magic"}, 'method is "magic"; choose one of auto'),
         ({"lens": ""}, "names no lens"),
