@@ -13,6 +13,7 @@ from app.pinning import side_b
 from app.pupil import TERMS, PupilMap, pupil_map
 from app.setting import prescription
 from app.state import State
+from app.wavesums import Asked, Done
 
 DIFFERENCE = "A − B"
 CURVES = ("profiles", "mtf")  # views whose entries are curves over the first of them
@@ -35,28 +36,51 @@ class Answers:
     b: Live | None
     seen: Live
 
+    @property
+    def owed(self) -> Asked | None:
+        """Return the sum of waves that A's picture stands in for, else B's."""
+        return self.a.owed or (self.b and self.b.owed)
 
-def answers(state: State, quality: str, views: Mapping[str, View], last: Answers | None = None) -> Answers:
+
+def answers(
+    state: State, quality: str, views: Mapping[str, View], last: Answers | None = None, done: Done | None = None
+) -> Answers:
     """Return the answers for a state. While a slider moves, ``last`` tells which rung ``auto`` had chosen for each.
+
+    ``done`` as for `compute.live`.
 
     Raises P2SFError where there is no answer.
     """
     moving = quality == "preview"
     if not state.pinned:
-        a = compute.live(state, quality, views, held(last.a if last and moving else None, state))
+        a = compute.live(state, quality, views, held(last.a if last and moving else None, state), done=done)
         return Answers(a, None, a)
     begun, other = perf_counter(), side_b(state)
-    a = compute.live(state, quality, {}, held(last.a if last and moving else None, state))
-    b = _b(other, quality, held(last.b if last and moving else None, other), width_um(a), prescription(other))
+    a = compute.live(state, quality, {}, held(last.a if last and moving else None, state), done=done)
+    asks = _Asks(
+        quality, held(last.b if last and moving else None, other), width_um(a), done, done.version if done else 0
+    )
+    b = _b(other, asks, prescription(other))
     if width_um(b) > width_um(a) * (1 + 1e-9):
-        a = compute.live(state, quality, {}, a.rung if state.method == "auto" else "", width_um(b))
+        a = compute.live(state, quality, {}, a.rung if state.method == "auto" else "", width_um(b), done)
     return Answers(a, b, seen(state, a, b, views, begun))
 
 
+@dataclass(frozen=True)
+class _Asks:
+    """What B's answer depends on beside its state; ``version`` is that of ``done``."""
+
+    quality: str
+    kept: str
+    at_least_um: float
+    done: Done | None
+    version: int
+
+
 @lru_cache(maxsize=4)
-def _b(state: State, quality: str, kept: str, at_least_um: float, lens) -> Live:
+def _b(state: State, asks: _Asks, lens) -> Live:
     """Return B's answer; it stands still while only A moves. ``lens`` tells of a file that has changed."""
-    return compute.live(state, quality, {}, kept, at_least_um)
+    return compute.live(state, asks.quality, {}, asks.kept, asks.at_least_um, asks.done)
 
 
 def held(last: Live | None, state: State) -> str:

@@ -12,6 +12,7 @@ from app.pupil import PupilMap, disc, dominant, pupil_map
 from app.rung import rendered
 from app.setting import Setting, setting
 from app.state import State
+from app.wavesums import Asked, Done
 from p2sf.measures import airy_radius_um
 from p2sf.psf import Psf
 from p2sf.raytrace import opd_map
@@ -26,8 +27,8 @@ class Live:
     """One answer: setting, drawing, pupil, PSF, sentences, and what the open panels asked for in ``views``.
 
     ``rung`` is the method chosen, by a person or by ``auto``; ``milliseconds`` names what each part took; ``quality``
-    is "preview" while a slider moves, else "settled"; with a B pinned, ``side``
-    names what is on screen and ``difference`` is what A − B shows in place of this answer.
+    is "preview" while a slider moves, else "settled"; ``owed`` is the sum of waves that the PSF stands in for. With a
+    B pinned, ``side`` names what is on screen and ``difference`` is what A − B shows in place of this answer.
     """
 
     state: State
@@ -44,6 +45,7 @@ class Live:
     milliseconds: Mapping[str, float]
     views: Mapping[str, object] = field(default_factory=dict)
     side: str = ""
+    owed: Asked | None = None
     difference: object = None
 
 
@@ -57,16 +59,18 @@ def live(
     views: Mapping[str, View] | None = None,
     held: str = "",
     at_least_um: float = 0.0,
+    done: Done | None = None,
 ) -> Live:
     """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest.
 
     ``held`` names the rung that ``auto`` keeps while a slider moves; the PSF's window is ``at_least_um`` wide.
+    With ``done``, a sum of waves too slow for a frame is taken from there or left owing; without, waited for.
     """
     begun = perf_counter()
     set_up = setting(state)
     drawn = layout(set_up)
     placed = perf_counter()
-    made = rendered(state, set_up, quality, held, at_least_um)
+    made = rendered(state, set_up, quality, held, at_least_um, done)
     psf, finished = made.psf, perf_counter()
     lost = sum(not ray.passed for ray in drawn.rays)
     answer = Live(
@@ -81,6 +85,7 @@ def live(
         warnings=warnings(set_up, made.exact, lost, psf.method == "geometric"),
         why=made.why,
         rung=made.rung,
+        owed=made.owed,
         milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (finished - placed)},
     )
     return with_views(answer, views or {}, begun)

@@ -98,7 +98,8 @@ class Filming(QObject):
         """Return whether something on show is still being computed."""
         panels = self._window.panels.values()
         workers = [worker for panel in panels for worker in panel.widget.findChildren(LatestWins)]
-        return any(worker.busy for worker in (*workers, self._window.measuring.worker))
+        own = self._window.measuring.worker, self._window.settling.worker
+        return any(worker.busy for worker in (*workers, *own))
 
     def _written(self, paths) -> str:
         if len(paths) == 1:

@@ -26,8 +26,8 @@ class Measuring(QObject):
         self._resting = resting
 
     def watch(self, live: Live) -> None:
-        """Measure a settled answer; show an earlier figure in grey meanwhile."""
-        if not self._enabled or self._resting or live.quality != "settled":
+        """Measure a settled answer that stands in for no other; show an earlier figure in grey meanwhile."""
+        if not self._enabled or self._resting or live.quality != "settled" or live.owed:
             return
         if live.setting.altered:
             self._refuse_altered(live)
@@ -52,7 +52,7 @@ class Measuring(QObject):
         live = self._window.live
         if live.setting.altered:
             return
-        stale = not fits(accuracy, live, False) or live.quality != "settled"
+        stale = not fits(accuracy, live, False) or live.quality != "settled" or live.owed is not None
         self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
         self._each("show_accuracy", accuracy, stale)
 

@@ -1,6 +1,6 @@
 """The picture while a slider moves: one trace of some eighty rays gives PSF, window and pupil map. No Qt in here."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from time import perf_counter
 
@@ -9,11 +9,15 @@ import numpy as np
 from app.pupil import PupilMap, disc, pupil_map
 from app.setting import Setting
 from p2sf.conventions import UM_PER_MM
+from p2sf.errors import GeometryError
 from p2sf.fitted import psf_of_fit
 from p2sf.psf import Psf
 from p2sf.raydata import RayData, ray_data
-from p2sf.rayfit import LEVELS, fit_rays, level_rays
+from p2sf.rayfit import LEVELS, FittedPencil, fit_rays, level_rays
 from p2sf.raytrace import Pencil, opd_on_sphere, pencil
+from p2sf.rendering import Made, psf_from_intensity
+from p2sf.rows import rows_for
+from p2sf.vignetting import CLIPPED
 from p2sf.zernike import basis
 
 LEVEL = LEVELS[0]  # 26 numbers
@@ -60,10 +64,33 @@ def landing_um(rays: Pencil) -> float:
 
 def quick_psf(made: Quick, pixels: int, pixel_um: float) -> Psf:
     """Return the PSF of the fit, float32."""
+    return psf_of_fit(_fit(made), made.set_up.source.wavelength_um, (pixels, pixel_um), "preview", made.begun)
+
+
+def _fit(made: Quick) -> FittedPencil:
     data, count = ray_data(made.rays), level_rays(LEVEL)[0].size
     own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
-    found = fit_rays(own, LEVEL, count)
-    return psf_of_fit(found, made.set_up.source.wavelength_um, (pixels, pixel_um), "preview", made.begun)
+    return fit_rays(own, LEVEL, count)
+
+
+def clipped_psf(made: Quick, pixels: int, pixel_um: float) -> Psf | None:
+    """Return the PSF of the fit to all rays, summed over the nodes whose own rays pass the rims; None without rows.
+
+    A yes or no at each node makes a ragged edge, good for a picture that moves. Raises GeometryError where none passes.
+    """
+    found, set_up = _fit(made), made.set_up
+    nodes = rows_for(found, pixels, pixel_um, "preview")
+    if nodes is None:
+        return None
+    rays = pencil(set_up.lens, set_up.source, nodes.xi.ravel(), nodes.eta.ravel(), clip=True)
+    weight = np.where(rays.passed.reshape(nodes.xi.shape), nodes.weight, 0.0)
+    if not weight.any():
+        raise GeometryError(CLIPPED)
+    clear = replace(nodes, weight=weight / weight.sum())
+    intensity = clear.intensity(*found.at_points(nodes.xi, nodes.eta), pixels, pixel_um, np.float32)
+    words = f"{nodes.words}, those that the rims let pass"
+    label = Made("fitted", found.numbers, found.rays + nodes.xi.size, words, made.begun)
+    return psf_from_intensity(intensity, pixel_um, set_up.source.wavelength_um, None, label)
 
 
 def quick_pupil(made: Quick) -> PupilMap:

@@ -5,12 +5,13 @@ from math import floor, log10
 
 from app.geometric import geometric_psf, main_reach_um
 from app.pupil import PupilMap
-from app.quick import edge_points, landing_um, quick, quick_psf, quick_pupil
+from app.quick import clipped_psf, edge_points, landing_um, quick, quick_psf, quick_pupil
 from app.scales import nice
 from app.setting import Setting
 from app.state import State
+from app.wavesums import Asked, Done, asked, by_rays, row_nodes, slow
 from app.whatif import NOTE
-from p2sf.huygens import Filling, huygens_psf
+from p2sf.errors import GeometryError
 from p2sf.measures import airy_radius_um
 from p2sf.psf import Psf, check_image, seidel_psf, suitable_pixel_um
 from p2sf.raytrace import pencil
@@ -24,6 +25,9 @@ BLURRED = "geometric: ray density, no diffraction"
 PARTLY = BLURRED + "; {:.0f} % of the pupil's light is in view"
 ALL_LIGHT = 0.995
 MOVING = "fitted while the slider moves, {0} when it rests"
+SOON = "{0} follows: its sum of waves takes a moment"
+FARTHEST = 160.0  # waves of slope of a ray: beyond, too, a sample is several Airy radii wide
+QUICK_NODES = 150_000  # of a picture that moves: some 60 ms on a slow machine
 ROOM = 5  # Airy radii around what rays say, for what diffraction adds
 
 
@@ -31,7 +35,8 @@ ROOM = 5  # Airy radii around what rays say, for what diffraction adds
 class Made:
     """A PSF, why this rung made it, whether exact rays describe it or six coefficients, and which ``rung`` was chosen.
 
-    ``pupil`` is the wavefront where the picture's own rays gave it at once.
+    ``pupil`` is the wavefront where the picture's own rays gave it at once. ``owed`` is the sum of waves that this
+    picture stands in for.
     """
 
     psf: Psf
@@ -39,13 +44,17 @@ class Made:
     exact: bool
     rung: str
     pupil: PupilMap | None = None
+    owed: Asked | None = None
 
 
-def rendered(state: State, set_up: Setting, quality: str, held: str = "", at_least_um: float = 0.0) -> Made:
+def rendered(
+    state: State, set_up: Setting, quality: str, held: str = "", at_least_um: float = 0.0, done: Done | None = None
+) -> Made:
     """Return the PSF by the state's method, or by the rung ``auto`` chooses, or by the one ``held`` while moving.
 
     The window is as wide as the PSF asks for, and ``at_least_um``. What is altered by hand has no rays: the six
-    coefficients make its picture. Raises GeometryError for an image at infinity.
+    coefficients make its picture. A sum too slow for a frame is taken from ``done``, or owed; without ``done`` it is
+    waited for. Raises GeometryError for an image at infinity.
     """
     check_image(set_up.coefficients)
     if set_up.altered:
@@ -53,28 +62,69 @@ def rendered(state: State, set_up: Setting, quality: str, held: str = "", at_lea
     else:
         method, why = (held, "") if held else chosen(state, set_up)
     if quality == "preview" and method != "seidel":
-        return moving(state, set_up, method, at_least_um)
+        return moving(state, set_up, method, at_least_um, done)
     if too_blurred(set_up):
         return blurred(state, set_up, method, quality, at_least_um)
-    pixels = PIXELS[quality]
-    pitch = max(at_least_um, window_um(set_up, method)) / pixels
-    if method == "seidel":
-        return Made(seidel_psf(set_up.coefficients, pixels, pitch, quality), why, False, method)
-    return Made(by_rays(state, set_up, method, (pixels, pitch), quality), why, True, method)
+    if method != "seidel":
+        return resting(state, set_up, (method, why), at_least_um, done)
+    pitch = max(at_least_um, window_um(set_up, method)) / PIXELS[quality]
+    return Made(seidel_psf(set_up.coefficients, PIXELS[quality], pitch, quality), why, False, method)
 
 
-def moving(state: State, set_up: Setting, method: str, at_least_um: float = 0.0) -> Made:
-    """Return what is shown in place of a slower rung while a slider moves; fitted, or traced where rays are lost."""
-    pixels, made = PIXELS["preview"], quick(set_up, state.clip)
-    pupil = quick_pupil(made) if made else None
-    if too_blurred(set_up):
-        return replace(blurred(state, set_up, method, "preview", at_least_um), pupil=pupil)
-    rays = made.rays if made else edge_pencil(set_up)
-    pitch = max(at_least_um, ray_window_um(set_up, landing_um(rays))) / pixels
+def resting(state: State, set_up: Setting, choice: tuple[str, str], at_least_um: float, done: Done | None) -> Made:
+    """Return the settled picture of a rung that traces rays; what stands in for it while it is owed."""
+    (method, why), landing = choice, landing_um(edge_pencil(set_up))
+    if slope(set_up, landing) > FARTHEST:
+        return blurred(state, set_up, method, "settled", at_least_um)
+    pixels = PIXELS["settled"]
+    window = pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels
+    wanted = asked(state, set_up, method, window)
+    if done is None or not slow(wanted, slope(set_up, landing), float(set_up.coefficients.na)):
+        return Made(by_rays(wanted), why, True, method)
+    if found := done.get(wanted):
+        return Made(found, why, True, method)
+    stand_in = moving(state, set_up, method, at_least_um, done, "settled")
+    return replace(stand_in, why=SOON.format(method), owed=wanted)
+
+
+def moving(
+    state: State,
+    set_up: Setting,
+    method: str,
+    at_least_um: float = 0.0,
+    done: Done | None = None,
+    quality: str = "preview",
+) -> Made:
+    """Return what is shown in place of a slower rung: the density of rays where blur is large, else fitted.
+
+    Where rays are lost traced is waited for, without ``done``. ``quality`` tells how many samples the picture has.
+    """
+    pixels, made = PIXELS[quality], quick(set_up, state.clip)
+    pupil = quick_pupil(made) if made and quality == "preview" else None
+    landing = landing_um(made.rays if made else edge_pencil(set_up))
+    window = pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels
+    wanted = asked(state, set_up, "traced", window)
+    many = row_nodes(wanted, slope(set_up, landing), float(set_up.coefficients.na)) > QUICK_NODES
+    if too_blurred(set_up) or many:
+        return replace(blurred(state, set_up, method, quality, at_least_um), pupil=pupil)
     why = MOVING.format(method) if method != "fitted" else ""
     if made:
-        return Made(quick_psf(made, pixels, pitch), why, True, method, pupil)
-    return Made(by_rays(state, set_up, "traced", (pixels, pitch), "preview"), "", True, method)
+        return Made(quick_psf(made, *window), why, True, method, pupil)
+    if done is None:
+        return Made(by_rays(wanted, "preview"), "", True, method)
+    return replace(rimmed(state, set_up, method, window, quality), why=why)
+
+
+def rimmed(state: State, set_up: Setting, method: str, window: tuple[int, float], quality: str) -> Made:
+    """Return what moves where rims clip: the fit to all rays, summed over those that pass, else their density."""
+    made = quick(set_up)
+    try:
+        found = made and clipped_psf(made, *window)
+    except GeometryError:  # every ray is clipped, or the fit is no map: the density says which
+        found = None
+    if found is None:
+        return blurred(state, set_up, method, quality, window[0] * window[1])
+    return Made(found, "", True, method)
 
 
 def blurred(state: State, set_up: Setting, method: str, quality: str, at_least_um: float) -> Made:
@@ -85,18 +135,14 @@ def blurred(state: State, set_up: Setting, method: str, quality: str, at_least_u
     return Made(psf, BLURRED if psf.energy > ALL_LIGHT else PARTLY.format(100 * psf.energy), exact, method)
 
 
-def by_rays(state: State, set_up: Setting, method: str, window: tuple[int, float], quality: str) -> Psf:
-    """Return the PSF of a rung that traces rays; huygens in one pass, its converged sum is the accuracy worker's."""
-    if method == "huygens":
-        return huygens_psf(set_up.lens, set_up.source, *window, None, filling=Filling(clip=state.clip))
-    from p2sf.ladder import render
-
-    return render(set_up.lens, set_up.source, method, *window, quality, state.tolerance, state.clip)
-
-
 def too_blurred(set_up: Setting) -> bool:
     """Return whether a wave sum would take too long for a picture that shows only the density of rays anyway."""
     return float(steepest_slope(set_up.coefficients)) > STEEPEST
+
+
+def slope(set_up: Setting, landing: float) -> float:
+    """Return the slope of the wavefront, waves per pupil radius, of a ray that lands so far from the chief ray, µm."""
+    return landing * float(set_up.coefficients.na) / set_up.source.wavelength_um
 
 
 def window_um(set_up: Setting, method: str) -> float:

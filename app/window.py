@@ -20,6 +20,7 @@ from app.measuring import Measuring
 from app.opening import is_file
 from app.panels import REGISTRY, Panel, build, view_of
 from app.playbar import PlayBar
+from app.settling import Settling
 from app.sharing import Sharing
 from app.state import State
 from app.store import Store
@@ -55,7 +56,7 @@ class Window(QMainWindow):
         self._theme = None
         self._lay_out()
         self.actions, self.measuring = Actions(self), Measuring(self, measured)
-        self.sharing = Sharing(self)
+        self.sharing, self.settling = Sharing(self), Settling(self)
         self.teaching = Teaching(self)
         for command in (*self.compare.commands(), *self.play.commands(), *self.teaching.commands()):
             self.actions.add(command)
@@ -115,13 +116,14 @@ class Window(QMainWindow):
         for key in self._visible():
             self.panels[key].show(live)
         self.status.show_live(live, self.frame_ms)
+        self.settling.watch(state, self._answers.owed)
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._painted(begun))
 
     def _answer(self, state: State) -> Answers:
         """Return the settled answers, or while a slider moves previews by the rungs that ``auto`` had chosen."""
         quality = "preview" if self.store.moving else "settled"
-        return answers(state, quality, self._wanted(), self._answers)
+        return answers(state, quality, self._wanted(), self._answers, self.settling.done)
 
     def refuse(self, sentence: str) -> None:
         """Say in the banner why something cannot be; the last good picture stays."""
@@ -177,6 +179,7 @@ class Window(QMainWindow):
         """End the background work with the window."""
         self.play.stop()
         self.measuring.stop()
+        self.settling.stop()
         self.floating.stop()
         for panel in self.panels.values():
             getattr(panel, "stop", lambda: None)()

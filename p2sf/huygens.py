@@ -71,7 +71,7 @@ def huygens_psf(
     started = perf_counter()
     window = pixels, pixel_um
     if tolerance is None:
-        found, counts = _once(lens, source, window, filling)
+        found, counts = _once(lens, source, window, filling, _Watch(None, cancelled, live=True))
         reached, rays = None, _nodes(counts)
     else:
         watch = _Watch(progress, cancelled)
@@ -82,11 +82,11 @@ def huygens_psf(
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, found.blur_um2, made)
 
 
-def _once(lens, source, window, filling):
+def _once(lens, source, window, filling, watch: "_Watch"):
     """Return the field of one pass in float32: as many rays as a 128² grid, more where the blur needs more."""
     needed = first_counts(lens, source, window, filling)
     counts = LIVE if needed[0] <= LIVE[0] and needed[1] <= LIVE[1] else needed
-    return huygens_field(lens, source, counts, window, filling, _Watch(live=True)), counts
+    return huygens_field(lens, source, counts, window, filling, watch), counts
 
 
 def _settle(lens, source, window, filling, tolerance, watch: "_Watch"):

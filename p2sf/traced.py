@@ -5,7 +5,9 @@ its row's by what the fit leaves; since the phase over frequency has the gradien
 phase there by −y·(row − ray) is right to second order in that miss. Phase, fx and the area of every node are exact.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from time import perf_counter
 
 import numpy as np
@@ -36,18 +38,20 @@ def traced_psf(
     pixel_um: float,
     quality: str = "settled",
     filling: Filling = PLAIN,
+    cancelled: Callable[[], bool] | None = None,
 ) -> Psf:
     """Return the PSF of exact rays, one pass: "settled" in float64, "preview" fewer rays in float32.
 
     Where rays are lost or clipped, or no fit puts them in rows well enough, they are summed node by node as the
-    reference is, to FALLBACK_TOLERANCE.
+    reference is, to FALLBACK_TOLERANCE, which takes long: ``cancelled`` is asked between blocks of them (`Cancelled`).
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
     started = perf_counter()
     rows = None if filling.clip else _rows(lens, source, (pixels, pixel_um), quality, filling.aim)
     if rows is None:
         tolerance = FALLBACK_TOLERANCE if quality == "settled" else None
-        return replace(huygens_psf(lens, source, pixels, pixel_um, tolerance, filling=filling), method="traced")
+        one_by_one = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, filling)
+        return replace(one_by_one, method="traced")
     found, nodes = rows
     phase, fx = exact_rows(lens, source, nodes, filling.aim)
     intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
@@ -58,18 +62,27 @@ def traced_psf(
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made)
 
 
+def in_rows(lens: Lens, source: Source) -> bool:
+    """Return whether a fit puts the rays of a whole pupil in rows: whether `traced_psf` is quick."""
+    return _fit(lens, source, PLAIN.aim) is not None
+
+
 def _rows(lens, source, window, quality, aim) -> tuple[FittedPencil, FrequencyRows] | None:
+    found = _fit(lens, source, aim)
+    nodes = found and rows_for(found, *window, quality)
+    return nodes and (found, nodes)
+
+
+@lru_cache(maxsize=2)
+def _fit(lens: Lens, source: Source, aim: str) -> FittedPencil | None:
+    """Return the map that puts rays in rows; None where rays are lost, or no polynomial does it well enough."""
     try:
         found = fit(lens, source, FEWEST, aim)
-        found = (
-            found if found.error_waves < RESIDUAL_WAVES else fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
-        )
+        if found.error_waves >= RESIDUAL_WAVES:
+            found = fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
     except GeometryError:  # rays lost: the reference's nodes end where they begin to be
         return None
-    if found.error_waves > RESIDUAL_WAVES:  # no polynomial puts these rays in rows well enough
-        return None
-    nodes = rows_for(found, *window, quality)
-    return nodes and (found, nodes)
+    return None if found.error_waves > RESIDUAL_WAVES else found
 
 
 def exact_rows(lens: Lens, source: Source, nodes: FrequencyRows, aim: str = "paraxial"):

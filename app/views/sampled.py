@@ -4,9 +4,10 @@ from dataclasses import replace
 
 from app.geometric import geometric_psf
 from app.quick import quick, quick_psf
-from app.rung import by_rays, too_blurred
+from app.rung import too_blurred
 from app.setting import setting
 from app.state import State
+from app.wavesums import asked, by_rays
 from p2sf.psf import Psf, seidel_psf
 
 OPTICS = (
@@ -45,4 +46,4 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     if six or set_up.altered:
         return seidel_psf(set_up.coefficients, *window, "preview")
     made = quick(set_up, state.clip)
-    return quick_psf(made, *window) if made else by_rays(state, set_up, "traced", window, "preview")
+    return quick_psf(made, *window) if made else by_rays(asked(state, set_up, "traced", window), "preview")

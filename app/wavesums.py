@@ -1,0 +1,93 @@
+"""Sums of waves over real rays: the work, which of it is too slow for a frame, what is done. No Qt in here."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from app.setting import Setting
+from app.state import State
+from p2sf.huygens import Filling, all_reach, huygens_psf
+from p2sf.lens import Lens
+from p2sf.psf import Psf, corner_reach
+from p2sf.quadrature import chords_for, nodes_for
+from p2sf.source import Source
+from p2sf.traced import in_rows, traced_psf
+
+# As many nodes as a slow machine sums in some 80 ms.
+MOST_NODES = {"fitted": 120_000, "traced": 60_000, "huygens": 20_000}
+KEPT = 8
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Everything a PSF over real rays depends on; ``window`` is (pixels, µm per pixel)."""
+
+    lens: Lens
+    source: Source
+    method: str
+    window: tuple[int, float]
+    tolerance: float
+    clip: bool
+
+
+class Done:
+    """The latest PSFs that were too slow for a frame, by what was asked; ``version`` rises with each."""
+
+    def __init__(self):
+        self._found: dict[Asked, Psf] = {}
+        self.version = 0
+
+    def get(self, asked: Asked) -> Psf | None:
+        """Return the PSF, None where it is not there."""
+        return self._found.get(asked)
+
+    def keep(self, asked: Asked, psf: Psf) -> None:
+        """Keep a PSF, and forget the oldest of too many."""
+        self._found[asked] = psf
+        self.version += 1
+        for oldest in list(self._found)[:-KEPT]:
+            del self._found[oldest]
+
+
+def asked(state: State, set_up: Setting, method: str, window: tuple[int, float]) -> Asked:
+    """Return what a state asks of one rung in a window."""
+    return Asked(set_up.lens, set_up.source, method, window, state.tolerance, state.clip)
+
+
+def by_rays(wanted: Asked, quality: str = "settled", cancelled: Callable[[], bool] | None = None) -> Psf:
+    """Return the PSF of a rung that traces rays; huygens in one pass, its converged sum is the accuracy worker's.
+
+    ``cancelled`` is asked between blocks of rays and ends the work with `Cancelled`. Raises P2SFError's kinds.
+    """
+    lens, source, window, filling = wanted.lens, wanted.source, wanted.window, Filling(clip=wanted.clip)
+    if wanted.method == "huygens":
+        return huygens_psf(lens, source, *window, None, cancelled=cancelled, filling=filling)
+    if wanted.method == "traced":
+        return traced_psf(lens, source, *window, quality, filling, cancelled)
+    from p2sf.ladder import render
+
+    return render(lens, source, wanted.method, *window, quality, wanted.tolerance, wanted.clip)
+
+
+def slow(wanted: Asked, waves: float, na: float) -> bool:
+    """Return whether a settled sum over rays that land so many ``waves`` of slope out would hold the window up.
+
+    Nobody knows beforehand what rims and lost rays cost: following an outline takes a thousand pencils.
+    """
+    if wanted.method == "fitted":
+        return row_nodes(wanted, waves, na) > MOST_NODES["fitted"]
+    if wanted.clip:
+        return True
+    if wanted.method == "huygens":
+        radii, directions = nodes_for(waves, _reach(wanted, na))
+        return radii * directions / 2 > MOST_NODES["huygens"] or not all_reach(wanted.lens, wanted.source)
+    return row_nodes(wanted, waves, na) > MOST_NODES["traced"] or not in_rows(wanted.lens, wanted.source)
+
+
+def row_nodes(wanted: Asked, waves: float, na: float) -> float:
+    """Return about how many nodes in rows carry a slope of so many waves over a window, mirror half not counted."""
+    rows, columns = chords_for(waves, waves, _reach(wanted, na))
+    return rows * columns / 2
+
+
+def _reach(wanted: Asked, na: float) -> float:
+    return corner_reach(na / wanted.source.wavelength_um, *wanted.window)
