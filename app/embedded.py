@@ -1,6 +1,7 @@
 """The state inside a snapshot: found again by what a file is, not by its name. No Qt in here."""
 
-import io
+import struct
+import zlib
 from pathlib import Path
 from zipfile import BadZipFile
 
@@ -8,6 +9,7 @@ from app.state import State, state_from_json
 from p2sf.export.psf_files import READERS
 
 KEYWORD = "p2sf-state"  # of the PNG text chunk
+PNG_HEADER = 33  # bytes: signature and the chunk of the size
 HEAD = 200
 DATABASE = "this is a database of PSFs, not a lens or a state; use it with p2sf psf, or open its lens"
 STATELESS = "there is no readable state in this picture or PSF; open a snapshot, written by the window with Ctrl+E"
@@ -64,14 +66,13 @@ def kind_of(path) -> str | None:
 
 
 def with_state(png: bytes, text: str) -> bytes:
-    """Return a PNG with the state in its text chunk, compressed (PNG 1.2, 11.3.4.5); the pixels stay as they are."""
-    from PIL import Image
-    from PIL.PngImagePlugin import PngInfo
+    """Return a PNG with the state in a compressed text chunk behind its header (PNG 1.2, 3.2 and 4.2.3.3).
 
-    about, made = PngInfo(), io.BytesIO()
-    about.add_itxt(KEYWORD, text, zip=True)
-    Image.open(io.BytesIO(png)).save(made, "PNG", pnginfo=about)
-    return made.getvalue()
+    Every other byte stays as it is: to encode the picture once more would take a third of a second.
+    """
+    data = b"iTXt" + KEYWORD.encode("latin-1") + b"\0\1\0\0\0" + zlib.compress(text.encode())
+    chunk = struct.pack(">I", len(data) - 4) + data + struct.pack(">I", zlib.crc32(data))
+    return png[:PNG_HEADER] + chunk + png[PNG_HEADER:]
 
 
 def _in_png(path) -> str | None:

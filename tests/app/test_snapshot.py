@@ -1,15 +1,17 @@
 """A snapshot reopened is the same state, and its data the PSF that was on screen."""
 
+import io
 import zipfile
 
 import numpy as np
 import pytest
+from PIL import Image
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QImage
 
 from app.__main__ import starting_state
 from app.display import display_problem
-from app.embedded import foreign, state_inside
+from app.embedded import PNG_HEADER, foreign, state_inside, with_state
 from app.opening import opened
 from app.snapshot import DATA_ENDINGS
 from app.state import State, read_state
@@ -140,3 +142,15 @@ def test_no_display_is_a_sentence_and_a_display_is_none():
     assert display_problem({"WAYLAND_DISPLAY": "wayland-0"}, "linux") is None
     assert display_problem({"QT_QPA_PLATFORM": "offscreen"}, "linux") is None
     assert display_problem({}, "darwin") is None
+
+
+def test_a_state_goes_into_a_picture_without_encoding_it_again(tmp_path, window):
+    """Encoding held the window up for a third of a second: all but one chunk stays byte for byte."""
+    image = window.grab().toImage()
+    assert image.save(str(tmp_path / "bare.png"))
+    bare = (tmp_path / "bare.png").read_bytes()
+    whole = with_state(bare, "{} ∞")
+    assert whole[:PNG_HEADER] + whole[PNG_HEADER + len(whole) - len(bare) :] == bare
+    with Image.open(io.BytesIO(whole)) as picture:
+        picture.verify()
+        assert picture.info["p2sf-state"] == "{} ∞"
