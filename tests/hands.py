@@ -1,4 +1,10 @@
-"""Random hands on the explorer: one thing after another, by mouse and keys, each event charged to the GUI thread."""
+"""Random hands on the explorer: one thing after another, by mouse and keys, each event charged to the GUI thread.
+
+An event is what Qt would hand to the window: a press, a move, a release, a key with its repeats one by one, a turn of
+the wheel, an entry taken, an edit. The window computes its answer to every one. Events come in bursts as a hand's do: a
+drag has tens of moves and a held key repeats, and some of them arrive while a frame is painted, so that one repaint
+answers them all (`FRAME`).
+"""
 
 import random
 from collections import Counter
@@ -15,6 +21,7 @@ from app.state import State
 from app.window import Window
 
 STALL_MS = 250.0
+FRAME = 4  # moves of a mouse, at some 250 a second, or repeats of a key in one frame
 LEFT, KEY = Qt.MouseButton.LeftButton, Qt.Key
 TYPED = "0 1 2 m;inf;∞;-5;500 mm;3 cm;far;1e3;1e300;nan;12°;550 nm;0.5 µm;f/4;2,5;;1e-9;89.9".split(";")
 EDITS = "0 1 -1 50 -50 1e6 inf 1.5 N-BK7 SF6 UNOBTAINIUM 0.001 nan x".split()
@@ -59,18 +66,21 @@ class Person:
                 return
             popup.close()
 
-    def event(self, name: str, action, *arguments, **words) -> None:
-        """Send an event, let the window answer, and charge what that cost the GUI thread."""
+    def event(self, name: str, action, *arguments, painted: bool = True, **words) -> None:
+        """Send an event, let the window answer and paint, and charge what that cost the GUI thread."""
         begun = thread_time()
         action(*arguments, **words)
-        QApplication.processEvents()
+        if painted:
+            QApplication.processEvents()
         self.ledger.note(name, 1e3 * (thread_time() - begun), self.window.store.state)
 
     def quiet(self) -> None:
         """Let the background finish, so that two looks at the memory see the same."""
-        self.window.measuring.worker.cancel()
+        workers = self.window.measuring.worker, self.window.settling.worker
+        for worker in workers:
+            worker.cancel()
         for _ in range(1000):
-            if not self.window.measuring.worker.busy:
+            if not any(worker.busy for worker in workers):
                 return
             QTest.qWait(20)
 
@@ -83,18 +93,26 @@ class Person:
         self.carry(slider, *places, "drag a slider")
 
     def carry(self, widget, first: QPoint, last: QPoint, name: str) -> None:
-        """Press, move in steps, let go; now and then let go twice."""
-        steps = self.chance.randrange(2, 20)
+        """Press, move in steps, let go."""
+        steps = self.chance.randrange(10, 90)
         self.event(name, QTest.mousePress, widget, LEFT, pos=first)
         for k in range(1, steps + 1):
-            self.event(name, QTest.mouseMove, widget, pos=first + (last - first) * (k / steps))
+            place = first + (last - first) * (k / steps)
+            self.event(name, QTest.mouseMove, widget, pos=place, painted=k % FRAME == 0)
         self.event(name, QTest.mouseRelease, widget, LEFT, pos=last)
 
     def press_keys(self) -> None:
+        """Tap a key a few times, or hold it: its repeats come without releases."""
         slider = self.slider()
         slider.setFocus()
-        for _ in range(self.chance.randrange(1, 6)):
-            self.event("keys on a slider", QTest.keyClick, slider, self.chance.choice(KEYS))
+        if self.chance.random() < 0.5:
+            for _ in range(self.chance.randrange(1, 6)):
+                self.event("keys on a slider", QTest.keyClick, slider, self.chance.choice(KEYS))
+            return
+        key = self.chance.choice(KEYS)
+        for k in range(1, self.chance.randrange(10, 40)):
+            self.event("hold a key on a slider", send_key, slider, key, k > 1, painted=k % FRAME == 0)
+        self.event("keys on a slider", QTest.keyRelease, slider, key)
 
     def type_a_value(self) -> None:
         edit = self.chance.choice(list(self.window.controls.rows.values())).edit
@@ -148,7 +166,8 @@ class Person:
         elif kind == 1:
             self.event("double-click a panel", QTest.mouseDClick, target, LEFT, pos=place)
         elif kind == 2:
-            self.event("wheel on a panel", turn_wheel, target, place, self.chance.choice((-120, 120, 1200)))
+            for _ in range(self.chance.randrange(1, 8)):
+                self.event("wheel on a panel", turn_wheel, target, place, self.chance.choice((-120, 120, 1200)))
         else:
             self.event("point at a panel", QTest.mouseMove, target, pos=place)
 
@@ -207,6 +226,12 @@ def type_text(edit, text: str) -> None:
     for letter in text:
         for kind in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
             QApplication.sendEvent(edit, QKeyEvent(kind, 0, Qt.KeyboardModifier.NoModifier, letter))
+
+
+def send_key(widget, key, repeated: bool) -> None:
+    """Send one press of a key, or one repeat of a held one."""
+    none = Qt.KeyboardModifier.NoModifier
+    QApplication.sendEvent(widget, QKeyEvent(QEvent.Type.KeyPress, key, none, "", repeated))
 
 
 def turn_wheel(widget, place: QPoint, angle: int) -> None:

@@ -1,8 +1,8 @@
 """The explorer under random hands: Qt events by the thousand, and what they cost in memory, time and errors.
 
 ``python -m tests.soak [minutes] [events] [seed]`` (60 minutes or 200 000 events unless told, whichever ends first)
-prints a line a minute and a verdict; exit code 1 when something broke, memory grew by 5 % or more, or one event held
-the window for 250 ms of CPU.
+prints a line a minute, a verdict and how many events there were of each kind (`tests.hands` says what an event is);
+exit code 1 when something broke, memory grew by 5 % or more, or one event held the window for 250 ms of CPU.
 """
 
 import os
@@ -136,6 +136,7 @@ def main(minutes: float = 60.0, events: int = 200_000, seed: int = 0) -> int:
     with threadpool_limits(limits=1):
         found = soak(60 * minutes, events, seed, lambda line: print(line, flush=True))
     print(found.words())
+    print(", ".join(f"{name} {count}" for name, count in found.ledger.done.most_common()))
     return int(bool(found.errors) or found.growth >= GROWTH or bool(found.ledger.slow))
 
 
