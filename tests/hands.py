@@ -21,7 +21,7 @@ from app.state import State
 from app.window import Window
 
 STALL_MS = 250.0
-FRAME = 4  # moves of a mouse, at some 250 a second, or repeats of a key in one frame
+FRAME = 8  # moves of a mouse that reports 500 times a second, or repeats of a key, in one frame
 LEFT, KEY = Qt.MouseButton.LeftButton, Qt.Key
 TYPED = "0 1 2 m;inf;∞;-5;500 mm;3 cm;far;1e3;1e300;nan;12°;550 nm;0.5 µm;f/4;2,5;;1e-9;89.9".split(";")
 EDITS = "0 1 -1 50 -50 1e6 inf 1.5 N-BK7 SF6 UNOBTAINIUM 0.001 nan x".split()
@@ -207,8 +207,8 @@ class Person:
 
 
 HABITS = {
-    **{"drag": 30, "press_keys": 12, "type_a_value": 6, "reset": 3, "press_a_button": 3, "choose_a_lens": 3},
-    **{"choose_a_method": 3, "open_a_tab": 6, "step_in_time": 4, "touch_a_panel": 10, "edit_the_lens": 2},
+    **{"drag": 24, "press_keys": 12, "type_a_value": 6, "reset": 3, "press_a_button": 5, "choose_a_lens": 3},
+    **{"choose_a_method": 5, "open_a_tab": 8, "step_in_time": 4, "touch_a_panel": 20, "edit_the_lens": 3},
     **{"take_an_entry": 1, "resize": 1},
 }
 
