@@ -3,11 +3,12 @@
 import re
 
 import pytest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QStyle, QStyleOptionComboBox
 
 from app import teaching
 from app.languages import speak, texts
 from app.lesson import FOLDER, found_lessons, lesson_files, read_lesson, with_words
+from app.lesson_panel import LessonPanel
 from app.teaching import Teaching
 from p2sf.errors import P2SFError
 
@@ -113,6 +114,26 @@ def test_the_page_speaks_german_and_says_once_where_it_cannot(teaching_german, w
     assert panel.title.text() == "A quarter of a wave" and panel.choice.count() == len(NAMES) + 1
     teaching_german.begin("03_defocus")
     assert (
-        panel.title.text() == "Eine viertel Welle"
-        and panel.choice.currentText() == "3  Defokus und die Grenze von zehn Wellen"
+        panel.title.text() == "Eine viertel Welle" and panel.choice.currentText() == "3  Defokus, und die Grenze 10 λ"
     )
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_every_title_fits_into_the_list_beside_a_window_of_1280(window, language):
+    """The box is closed and shows one title; cut off, it is the one thing that says which lesson this is."""
+    lessons = found_lessons((FOLDER,), language)[0]
+    panel = LessonPanel(tuple(lessons.values()), window)
+    panel.fit(1280)
+    panel.show_step(lessons["05_coma"], 0, False)
+    panel.show()
+    QApplication.processEvents()
+    option = QStyleOptionComboBox()
+    panel.choice.initStyleOption(option)
+    part = QStyle.SubControl.SC_ComboBoxEditField
+    room = panel.choice.style().subControlRect(QStyle.ComplexControl.CC_ComboBox, option, part, panel.choice).width()
+    wide = {
+        panel.choice.itemText(k): panel.choice.fontMetrics().horizontalAdvance(panel.choice.itemText(k))
+        for k in range(panel.choice.count())
+    }
+    panel.setParent(None)
+    assert room > 150 and not {title for title, width in wide.items() if width > room}
