@@ -26,6 +26,7 @@ def states() -> dict[str, State]:
     shown = {"first_light": State(theme="light"), "first_dark": State(theme="dark")}
     shown["close_up"] = State(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
     shown["eye"] = State(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")
+    shown["surface"] = State(phase="surface", theme="dark")
     by_hand = {"added_waves": (0.0, 1.5, 0.0, 0.0, -2.0, 0.0), "muted": ("w22",)}
     shown["what_if"] = State(theme="light", **by_hand)
     shown["free_pupil"] = State(theme="dark", added_waves=(0.0, 3.0, 0.0, 0.0, 0.0, 0.0), free_pupil=True, tab="mtf")

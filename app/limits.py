@@ -9,7 +9,7 @@ CHOICES = {
     "method": ("auto", "seidel", "fitted", "traced", "huygens"),
     "psf_scale": ("linear", "sqrt", "log"),
     "psf_units": ("sum", "peak", "strehl"),
-    "phase": ("waves", "contour", "wrapped"),
+    "phase": ("waves", "contour", "surface", "wrapped"),
     "theme": ("system", "light", "dark"),
     "shown": ("a", "b", "difference"),
     "photo_show": ("lens", "sharpened", "axis"),
@@ -33,6 +33,8 @@ RANGES = {
     "eye_turn_deg": (-360.0, 360.0, "turn of the 3D view", "°"),
     "eye_tilt_deg": (-89.0, 89.0, "tilt of the 3D view", "°"),
     "eye_near": (0.2, 50.0, "enlargement of the 3D view", ""),
+    "relief_turn_deg": (-360.0, 360.0, "turn of the wavefront's surface", "°"),
+    "relief_tilt_deg": (0.0, 90.0, "tilt of the wavefront's surface", "°"),
 }
 MOST_WAVES = 1000.0
 DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")

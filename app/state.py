@@ -28,7 +28,8 @@ class State:
     swept, over ``play_range`` (None: all of its travel) in ``play_seconds``.
     ``photo`` is a chart's name or a file, ``photo_pixel_um`` None shows the lens's whole field. ``lesson`` is the one
     under way, none for "", and ``lesson_told`` whether its step's answer is shown. ``language`` is a file of
-    `app.languages`, "en", or the system's; ``colours`` the heat maps'; ``eye_`` says where the 3D view is seen from.
+    `app.languages`, "en", or the system's; ``colours`` the heat maps'; ``eye_`` says where the 3D view is seen from,
+    ``relief_`` where the wavefront's surface is.
     """
 
     lens: str = "double_gauss_28"
@@ -74,6 +75,8 @@ class State:
     eye_turn_deg: float = 24.0
     eye_tilt_deg: float = 11.0
     eye_near: float = 1.0
+    relief_turn_deg: float = -30.0
+    relief_tilt_deg: float = 35.0
 
     def __post_init__(self):
         for name, (low, high, words, unit) in RANGES.items():

@@ -104,6 +104,7 @@
 <message><source>Distance to the next vertex, mm; the last one to the sensor.</source><translation>Abstand zum nächsten Scheitel, mm; der letzte zum Sensor.</translation></message>
 <message><source>Double Gauss, 28 degree field, f/3, 100 mm</source><translation>Doppel-Gauß, 28 Grad Feld, f/3, 100 mm</translation></message>
 <message><source>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</source><translation>Einen Regler ziehen: Objektiv, Pupille und PSF folgen. Über einem Namen steht seine Definition.</translation></message>
+<message><source>Drag or use the arrow keys to turn the surface; a double-click goes back</source><translation>Ziehen oder die Pfeiltasten drehen die Fläche; ein Doppelklick führt zurück</translation></message>
 <message><source>Drop every edit and take the lens as its file has it</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
 <message><source>Each PSF over its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF über ihrer eigenen Spitze, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
 <message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
@@ -383,6 +384,7 @@
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
 <message><source>The rim of surface {rim} is narrower for this object than the stop on surface {stop}; the stop is kept, choose stop auto to let the narrowest rim decide.</source><translation>Der Rand von Fläche {rim} ist für dieses Objekt enger als die Blende auf Fläche {stop}; die Blende bleibt, die Wahl „gefunden“ lässt den engsten Rand entscheiden.</translation></message>
 <message><source>The surface whose rim limits the light.</source><translation>Die Fläche, deren Rand das Licht begrenzt.</translation></message>
+<message><source>The wavefront as a surface; drag it or use the arrow keys to turn it</source><translation>Die Wellenfront als Fläche; durch Ziehen oder mit den Pfeiltasten zu drehen</translation></message>
 <message><source>The window began with this lesson, so there is nothing to put back: its lens stays</source><translation>Das Fenster begann mit dieser Lektion, also gibt es nichts zurückzuholen: ihr Objektiv bleibt</translation></message>
 <message><source>The {what} "{text}" has the unit "{unit}"; write the number alone</source><translation>"{text}" hat die Einheit "{unit}" bei: {what}; nur die Zahl schreiben</translation></message>
 <message><source>The {what} "{text}" has the unit "{unit}"; write {known} or no unit</source><translation>"{text}" hat die Einheit "{unit}" bei: {what}; {known} oder keine Einheit schreiben</translation></message>

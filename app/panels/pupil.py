@@ -1,23 +1,26 @@
-"""The wavefront over the pupil: W in waves, or the phase it leaves."""
+"""The wavefront over the pupil: W in waves as a picture, contours or a surface, or the phase it leaves."""
 
 import numpy as np
 
 from app.card import Card, chooser, select
 from app.compute import Live
 from app.contour import contours, interval
+from app.eye import Eye
 from app.plots import HeatMap
 from app.readout import Readout
+from app.reliefview import ReliefView
 from app.scales import nice, significant
 from app.store import Store
 from app.theme import Tokens
 
 WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-CBC1"
-MODES = (("waves", "W, waves"), ("contour", "contours"), ("wrapped", "wrapped"))
+MODES = (("waves", "W, waves"), ("contour", "contours"), ("surface", "surface"), ("wrapped", "wrapped"))
+SIGNED = ("waves", "contour", "surface")  # where a difference can be shown too
 TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
 
 
 class PupilPanel:
-    """A heat map of W with RMS and peak-to-valley; the chooser switches to wrapped phase."""
+    """A heat map or a surface of W with RMS and peak-to-valley; the chooser switches between them."""
 
     def __init__(self, store: Store):
         self.widget = Card("Pupil phase", TIP)
@@ -28,6 +31,11 @@ class PupilPanel:
         turn = np.linspace(0, 2 * np.pi, 121)
         self.map.chart.add_curve("muted").set_data(np.cos(turn), np.sin(turn))
         self.map.set_extent(1.0)
+        self.surface = ReliefView(self.map)
+        self.surface.turned.connect(lambda turn, tilt: store.update(relief_turn_deg=turn, relief_tilt_deg=tilt))
+        self.surface.taken.connect(store.begin)
+        self.surface.released.connect(store.end)
+        self.map.layout().insertWidget(0, self.surface, 1)
         self.numbers = Readout(self.widget, pill=True, colour="text")
         self.widget.set_body(self.map)
         self.widget.add_footer(self.numbers)
@@ -36,8 +44,10 @@ class PupilPanel:
     def show(self, live: Live) -> None:
         """Paint the wavefront."""
         pupil = live.difference.pupil if live.difference else live.pupil
-        mode = "waves" if live.difference else live.state.phase
+        mode = live.state.phase if live.state.phase in SIGNED or not live.difference else "waves"
         select(self.mode, mode)
+        self.surface.setVisible(mode == "surface")
+        self.map.chart.setVisible(mode != "surface")
         self._use_map(WRAPPED_MAP if mode == "wrapped" else WAVES_MAP)
         if mode == "wrapped":
             self._paint(np.mod(pupil.waves, 1.0), (0.0, 1.0), ((0.0, "0"), (0.5, "½"), (1.0, "1")))
@@ -49,6 +59,9 @@ class PupilPanel:
             shown = contours(pupil.waves, step) if mode == "contour" else pupil.waves
             self._paint(shown, (-limit, limit), labels)
             self.map.means(pupil.waves, "W, waves")
+            if mode == "surface":
+                eye = Eye(live.state.relief_turn_deg, live.state.relief_tilt_deg)
+                self.surface.show_waves(pupil.waves, limit, live.quality, eye)
         numbers = f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ"
         lines = f"line every {step:g} λ" if mode == "contour" else pupil.kind
         self.numbers.set_text(f"{numbers} · {lines}", short=numbers)
@@ -56,6 +69,7 @@ class PupilPanel:
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.map.restyle(theme)
+        self.surface.restyle(theme)
         self.numbers.restyle(theme)
 
     @staticmethod
