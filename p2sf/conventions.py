@@ -61,6 +61,11 @@ def anywhere(flags) -> bool:
     return bool(flags.any() if flags.ndim else flags)
 
 
+def is_number(value) -> bool:
+    """Return whether a value has no axes; np.ndim alone takes ten times as long for a plain number."""
+    return isinstance(value, float | int) or np.ndim(value) == 0
+
+
 def protected(values: np.ndarray) -> np.ndarray:
     """Return the array write-protected, as one that a cache hands out to everybody must be."""
     values.setflags(write=False)

@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import anywhere, protected, vergence
+from p2sf.conventions import anywhere, is_number, protected, vergence
 from p2sf.errors import GeometryError
 from p2sf.lens import Lens, indices
 
@@ -62,11 +62,10 @@ def basis_rays(lens: Lens, wavelength_um, beside=()) -> BasisRays:
     ``beside``: arrays the result will be combined with; the wavelength is given their number of axes
     (ones in front, as numpy broadcasts), so that the surface axis stays the first of all.
     """
-    axes = max((np.ndim(x) for x in beside), default=0)
-    if axes == 0 and np.ndim(wavelength_um) == 0:
+    if all([is_number(x) for x in (wavelength_um, *beside)]):
         return _basis_at(lens, float(wavelength_um))
     wavelength = np.asarray(wavelength_um, dtype=float)
-    missing = axes - wavelength.ndim
+    missing = max(map(np.ndim, beside), default=0) - wavelength.ndim
     return _basis(lens, wavelength.reshape((1,) * missing + wavelength.shape) if missing > 0 else wavelength)
 
 
@@ -139,7 +138,7 @@ def chief_ray(rays: BasisRays, stop_surface):
     behind the stop would be the difference of two large heights. The reduced angles at both ends are exactly
     zero where only rounding is left, that is where a pupil is at infinity.
     """
-    first, *others = (stop_surface,) if np.ndim(stop_surface) == 0 else np.unique(stop_surface)
+    first, *others = (stop_surface,) if is_number(stop_surface) else np.unique(stop_surface)
     y, nu = (_kept_from_stop if rays.index.ndim == 1 else _from_stop)(rays, int(first) - 1)
     for surface in others:
         here = np.asarray(stop_surface) == surface

@@ -6,6 +6,7 @@ work on (depth, wavelength) only and makes a zero field exactly zero.
 
 from dataclasses import dataclass
 from functools import lru_cache
+from operator import add
 from typing import Literal
 
 import numpy as np
@@ -73,40 +74,51 @@ def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope=1.0) -> SeidelSums:
 
 
 def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
-    c, asphere = (_per_surface(x, rays.y.ndim) for x in _shape_terms(lens))
-    inverse = 1 / rays.index
-    y, chief = rays.y, rays.chief_y
-    snell = _refraction(rays.nu, y, rays.index, c)
-    chief_snell = _refraction(rays.chief_nu, chief, rays.index, c)
-    square = inverse * inverse
-    bend = y * (rays.nu[1:] * square[1:] - rays.nu[:-1] * square[:-1])  # y Δ(u/n)
-    petzval = c * (inverse[1:] - inverse[:-1])
-    chief_square = chief_snell * chief_snell
-    distortion = chief_square * y * (square[1:] - square[:-1])
-    distortion = distortion - (rays.invariant + chief_snell * y) * chief * petzval
-    bend = -bend
+    c, figure = (_per_surface(x, rays.y.ndim) for x in _shape_terms(lens))
+    figure = figure if np.count_nonzero(figure) else 0.0
+    return SeidelSums(*surface_sums(c, figure, *_layers(rays), rays.invariant))
+
+
+def _unit_totals(lens: Lens, rays: ParaxialRays) -> tuple:
+    """Return the five sums over all surfaces; for one source in plain numbers, three times faster."""
+    if rays.y.ndim > 1:
+        return tuple(map(np.add.reduce, _unit_sums(lens, rays).columns()))
+    columns = (column.tolist() for column in (*_shape_terms(lens), *_layers(rays)))
+    invariant = float(rays.invariant)
+    return tuple(map(sum, zip(*[surface_sums(*row, invariant) for row in zip(*columns, strict=True)], strict=True)))
+
+
+def _layers(rays: ParaxialRays) -> tuple:
+    """Return what both rays are at every surface: n and n', nu and n'u', y, n·ū and ȳ."""
+    index, nu = rays.index, rays.nu
+    return index[:-1], index[1:], nu[:-1], nu[1:], rays.y, rays.chief_nu[:-1], rays.chief_y
+
+
+def surface_sums(c, figure, n, after, nu, nu_after, y, chief_nu, chief, invariant) -> tuple:
+    """Return the five sums of a surface of curvature ``c`` and fourth-order ``figure``; numbers or arrays alike."""
+    inverse, inverse_after = 1 / n, 1 / after
+    square, square_after = inverse * inverse, inverse_after * inverse_after
+    snell, chief_snell = nu + n * y * c, chief_nu + n * chief * c  # A and Ā
+    bend = y * (nu * square - nu_after * square_after)  # −y Δ(u/n)
+    petzval = c * (inverse_after - inverse)
+    coma, chief_square = snell * bend, chief_snell * chief_snell
+    distortion = (invariant + chief_snell * y) * chief * petzval - chief_square * y * (square_after - square)
     sums = (
-        snell * snell * bend,
-        snell * chief_snell * bend,
+        snell * coma,
+        chief_snell * coma,
         chief_square * bend,
-        -(rays.invariant * rays.invariant) * petzval,
-        -chief_snell * distortion,
+        -(invariant * invariant) * petzval,
+        chief_snell * distortion,
     )
-    if np.count_nonzero(asphere):
-        figure = asphere * (rays.index[1:] - rays.index[:-1])
-        sums = (total + part for total, part in zip(sums, _figuring(figure, y, chief), strict=True))
-    return SeidelSums(*sums)
+    if isinstance(figure, float) and not figure:
+        return sums
+    return tuple(map(add, sums, _figuring(figure * (after - n), y, chief)))
 
 
 def _figuring(figure, y, chief):
     """Return what an asphere (Kc³ + 8A₄)Δn adds to the five sums, without dividing by y (Welford 1986, ch. 8)."""
     square, cross = figure * y * y, chief * chief
     return square * y * y, square * y * chief, square * cross, 0.0, figure * y * chief * cross
-
-
-def _refraction(nu, y, index, c):
-    """Return the refraction invariant A = n(u + yc), before each surface."""
-    return nu[:-1] + index[:-1] * y * c
 
 
 @lru_cache(maxsize=64)
@@ -139,18 +151,18 @@ def coefficients(
     # [()] makes numbers of arrays without axes: numpy is five times faster on those.
     wavelength_um, field_slope = (np.asarray(x, dtype=float)[()] for x in (wavelength_um, field_slope))
     rays = paraxial_rays(lens, depth_mm, wavelength_um, stop, field)
-    total = _unit_sums(lens, rays).total()
+    spherical, coma, astigmatism, petzval, distortion = _unit_totals(lens, rays)
     waves = UM_PER_MM / wavelength_um
     index = rays.index[-1]
     square = field_slope * field_slope
     image = crossing(index, rays.y[-1], rays.nu[-1])
     chief = rays.chief_y[-1] + rays.chief_nu[-1] / index * lens.sensor_mm
     return Coefficients(
-        w40=total.spherical * waves / 8,
-        w31=total.coma * waves / 2 * field_slope,
-        w22=total.astigmatism * waves / 2 * square,
-        w20=(total.astigmatism + total.petzval) * waves / 4 * square,
-        w11=total.distortion * waves / 2 * (field_slope * square),
+        w40=spherical * waves / 8,
+        w31=coma * waves / 2 * field_slope,
+        w22=astigmatism * waves / 2 * square,
+        w20=(astigmatism + petzval) * waves / 4 * square,
+        w11=distortion * waves / 2 * (field_slope * square),
         wd=defocus(rays, lens.sensor_mm) * waves,
         reduced_slope=rays.nu[-1],
         image_index=index,
