@@ -16,6 +16,13 @@ FOLDER = Path(__file__).parent
 ENGLISH = "en"
 BRACES, WORD = re.compile(r"\{\w*\}"), re.compile(r"[^\W\d_]{2}")
 JOINTS = re.compile(r"(<[^>]*>|&nbsp;| · |   ⚠ |^⚠ |\n)")  # what stands between sentences on one line
+CLAUSES = re.compile(r"(; )")  # and between what is wrong and what to do
+ANYTHING = r"((?:(?! · |\n).)+?)"  # what may stand for a name in braces,
+WITHIN = r"((?:(?! · |\n|; ).)+?)"  # for one in a clause,
+FIGURE = r"([-−+]?[\d.∞][^\s;]*)"  # for {number} and {count}, and for {path}
+PATH = r"([^;\n]*?[./\\][^;\n]*?)"
+PLACE = re.compile(r"\{(\d+)\}")
+STANDS = {"{number}": FIGURE, "{count}": FIGURE, "{path}": PATH}
 NAMES = {ENGLISH: "English"}  # Qt would say of which country
 
 
@@ -40,9 +47,12 @@ class Spoken(QTranslator):
             return source.replace(bare, self.said(bare), 1) if bare else source
         found = self.texts.get(source)
         if found is None and WORD.search(source):
-            found = self._by_template(source)
+            small = source[0].lower() + source[1:]  # a sentence that is known from the middle of another
+            said = self.texts.get(small) or self._by_template(source) or self._by_template(small)
+            found = said and said[0].upper() + said[1:] if source != small else said
         if found is None:
-            pieces = JOINTS.split(source)  # every second one is a joint
+            joints = JOINTS if JOINTS.search(source) else CLAUSES
+            pieces = joints.split(source)  # every second one is a joint
             pieces[::2] = map(self.said, pieces[::2]) if len(pieces) > 1 else pieces
             found = "".join(pieces)
         return found
@@ -51,7 +61,7 @@ class Spoken(QTranslator):
         for form, said in self.templates:
             fit = form(source)
             if fit:
-                return said.format(*map(self.said, fit.groups()))
+                return filled(said, [self.said(value) for value in fit.groups()])
         return None
 
     def isEmpty(self) -> bool:
@@ -59,12 +69,17 @@ class Spoken(QTranslator):
         return not self.texts
 
 
+def filled(said: str, values: list[str]) -> str:
+    """Return a translation with values in its numbered braces; other braces are its own."""
+    return PLACE.sub(lambda place: values[int(place[1])], said)
+
+
 def template(source: str, said: str):
     """Return what tells whether a text fits a source with braces, and the translation, its braces numbered alike."""
     names = BRACES.findall(source)
-    form = "".join(
-        "((?:(?! · |\n).)+?)" if part in names else re.escape(part) for part in re.split(r"(\{\w*\})", source)
-    )
+    parts = re.split(r"(\{\w*\})", source)
+    anything = ANYTHING if "; " in source else WITHIN
+    form = "".join(STANDS.get(p, anything) if p in names else re.escape(p) for p in parts)
     for number, name in enumerate(names):
         said = said.replace(name, f"{{{number}}}", 1)
     return re.compile(form).fullmatch, said

@@ -324,6 +324,7 @@
 <message><source>Shortcuts</source><translation>Tastenkürzel</translation></message>
 <message><source>Shortcuts and terms (F1 or ?)</source><translation>Tastenkürzel und Begriffe (F1 oder ?)</translation></message>
 <message><source>Show A − B in PSF, pupil, profiles, MTF and coefficients; the rest shows A</source><translation>A − B in PSF, Pupille, Profilen, MTF und Koeffizienten zeigen; der Rest zeigt A</translation></message>
+<message><source>Show A − B; a panel in which a difference means nothing shows A and says why</source><translation>A − B zeigen; eine Ansicht, in der eine Differenz nichts bedeutet, zeigt A und sagt, warum</translation></message>
 <message><source>Show A, B, A − B in turn</source><translation>A, B, A − B der Reihe nach zeigen</translation></message>
 <message><source>Show A, which the controls move</source><translation>A zeigen, das die Regler bewegen</translation></message>
 <message><source>Show B, as it was pinned</source><translation>B zeigen, wie es gemerkt wurde</translation></message>
@@ -391,6 +392,20 @@
 <message><source>The {what} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {what}; eine wie 12.5 schreiben</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
+<message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
+<message><source>This is A: a spot is places of rays, not amounts; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
+<message><source>This is A: bodies in space have no difference that could be shown.</source><translation>Dies ist A: Körper im Raum haben keine Differenz, die sich zeigen ließe.</translation></message>
+<message><source>This is A: each lens is measured against its own rays.</source><translation>Dies ist A: jedes Objektiv wird an seinen eigenen Strahlen gemessen.</translation></message>
+<message><source>This is A: here it is compared with a perfect lens.</source><translation>Dies ist A: hier wird es mit einem perfekten Objektiv verglichen.</translation></message>
+<message><source>This is A: how far it is sharp is where it begins and ends, which B does not move.</source><translation>Dies ist A: wie weit es scharf ist, sagen Anfang und Ende, und B verschiebt sie nicht.</translation></message>
+<message><source>This is A: it has {a} surfaces and B has {b}, so that none stands for another.</source><translation>Dies ist A: es hat {a} Flächen und B hat {b}, sodass keine einer anderen entspricht.</translation></message>
+<message><source>This is A: it is the lens that is edited here; the strip above names what differs.</source><translation>Dies ist A: bearbeitet wird hier dieses Objektiv; die Leiste oben nennt, worin sie sich unterscheiden.</translation></message>
+<message><source>This is A: it is what was read from its file.</source><translation>Dies ist A: es ist, was aus seiner Datei gelesen wurde.</translation></message>
+<message><source>This is A: light that A has less of than B cannot be shown as a photograph.</source><translation>Dies ist A: Licht, von dem A weniger hat als B, lässt sich nicht als Foto zeigen.</translation></message>
+<message><source>This is A: one colour less another is no colour.</source><translation>Dies ist A: eine Farbe weniger eine andere ist keine Farbe.</translation></message>
+<message><source>This is A: over the field the pictures of A and of B have windows of their own; PSF shows A − B.</source><translation>Dies ist A: über das Feld haben die Bilder von A und von B eigene Fenster; A − B zeigt die PSF.</translation></message>
+<message><source>This is A: the diagram's points are surfaces, and those of B are others.</source><translation>Dies ist A: die Punkte des Diagramms sind Flächen, und die von B sind andere.</translation></message>
+<message><source>This is A: two lenses drawn to scale have no difference that could be drawn.</source><translation>Dies ist A: zwei maßstäblich gezeichnete Objektive haben keine Differenz, die sich zeichnen ließe.</translation></message>
 <message><source>This panel has no numbers</source><translation>Diese Ansicht hat keine Zahlen</translation></message>
 <message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Diese Ansicht steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
 <message><source>Through focus</source><translation>Durch den Fokus</translation></message>
@@ -709,5 +724,541 @@
 <message><source>fitted while the slider moves, {rung} when it rests</source><translation>fitted, solange der Regler sich bewegt, {rung}, wenn er ruht</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
 <message><source>reference from {count} rays, {seconds} s</source><translation>Referenz aus {count} Strahlen, {seconds} s</translation></message>
+<message><source>Surface {number} has a clear semi-diameter of {rim} mm, but its radius of {radius} mm ends it at {edge} mm; correct one of the two.</source><translation>Fläche {number} hat einen freien Halbmesser von {rim} mm, aber ihr Radius von {radius} mm lässt sie bei {edge} mm enden; eines von beiden berichtigen.</translation></message>
+<message><source>The stop on surface {number} has a semi-diameter of {rim} mm, but a radius of {radius} mm ends that surface at {edge} mm; stop the lens down or move the stop.</source><translation>Die Blende auf Fläche {number} hat einen Halbmesser von {rim} mm, aber ein Radius von {radius} mm lässt diese Fläche bei {edge} mm enden; abblenden oder die Blende versetzen.</translation></message>
+<message><source>Every medium of this lens has the index {index}, so no surface bends light; name its glasses.</source><translation>Jedes Medium dieses Objektivs hat den Brechungsindex {index}, also bricht keine Fläche das Licht; seine Gläser nennen.</translation></message>
+<message><source>This lens has {count} such oddities; p2sf info lists them all.</source><translation>Dieses Objektiv hat {count} solche Ungereimtheiten; p2sf info zählt sie alle auf.</translation></message>
+<message><source>There is no surface {number} in a lens of {count}; choose its row again</source><translation>Eine Fläche {number} gibt es in einem Objektiv von {count} nicht; die Zeile noch einmal wählen</translation></message>
+<message><source>{path}, line {number}: {sentence}</source><translation>{path}, Zeile {number}: {sentence}</translation></message>
+<message><source>{path}: {sentence}</source><translation>{path}: {sentence}</translation></message>
+<message><source>surface {number}: {sentence}</source><translation>Fläche {number}: {sentence}</translation></message>
+<message><source>correct it</source><translation>berichtigen</translation></message>
+<message><source>correct them</source><translation>berichtigen</translation></message>
+<message><source>correct one</source><translation>eines berichtigen</translation></message>
+<message><source>correct the line</source><translation>die Zeile berichtigen</translation></message>
+<message><source>complete it</source><translation>ergänzen</translation></message>
+<message><source>complete the line</source><translation>die Zeile ergänzen</translation></message>
+<message><source>complete the command</source><translation>den Befehl ergänzen</translation></message>
+<message><source>keep one</source><translation>eines behalten</translation></message>
+<message><source>keep exactly one</source><translation>genau eines behalten</translation></message>
+<message><source>add it</source><translation>hinzufügen</translation></message>
+<message><source>add them</source><translation>hinzufügen</translation></message>
+<message><source>give a positive number</source><translation>eine positive Zahl angeben</translation></message>
+<message><source>give a finite number</source><translation>eine endliche Zahl angeben</translation></message>
+<message><source>give a finite one</source><translation>eine endliche angeben</translation></message>
+<message><source>give a number</source><translation>eine Zahl angeben</translation></message>
+<message><source>give a number between {low} and {high}</source><translation>eine Zahl zwischen {low} und {high} angeben</translation></message>
+<message><source>give at least one</source><translation>mindestens eines angeben</translation></message>
+<message><source>give at least 1</source><translation>mindestens 1 angeben</translation></message>
+<message><source>give at least one positive number</source><translation>mindestens eine positive Zahl angeben</translation></message>
+<message><source>write a number</source><translation>eine Zahl schreiben</translation></message>
+<message><source>write at least one number</source><translation>mindestens eine Zahl schreiben</translation></message>
+<message><source>write a whole number</source><translation>eine ganze Zahl schreiben</translation></message>
+<message><source>write a text in quotation marks</source><translation>einen Text in Anführungszeichen schreiben</translation></message>
+<message><source>write a list of numbers as in [1.0, 2.0]</source><translation>eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
+<message><source>write the number {number} without quotation marks</source><translation>die Zahl {number} ohne Anführungszeichen schreiben</translation></message>
+<message><source>write {right} with a decimal point, not "{wrong}"</source><translation>{right} mit Dezimalpunkt schreiben, nicht "{wrong}"</translation></message>
+<message><source>write one of {names}</source><translation>eines von {names} schreiben</translation></message>
+<message><source>choose {something}</source><translation>{something} wählen</translation></message>
+<message><source>choose one</source><translation>eines wählen</translation></message>
+<message><source>choose one of {names}</source><translation>eines von {names} wählen</translation></message>
+<message><source>choose one with some</source><translation>eines mit Licht wählen</translation></message>
+<message><source>choose another place</source><translation>einen anderen Ort wählen</translation></message>
+<message><source>choose another disk</source><translation>einen anderen Datenträger wählen</translation></message>
+<message><source>choose a folder you may write to</source><translation>einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
+<message><source>choose a smaller field</source><translation>ein kleineres Feld wählen</translation></message>
+<message><source>choose a smaller field or leave clip off</source><translation>ein kleineres Feld wählen oder den Randbeschnitt auslassen</translation></message>
+<message><source>choose a longer sweep</source><translation>einen längeren Durchlauf wählen</translation></message>
+<message><source>did you mean {names}?</source><translation>ist {names} gemeint?</translation></message>
+<message><source>known are {names}</source><translation>bekannt sind {names}</translation></message>
+<message><source>known here are {names}</source><translation>hier bekannt sind {names}</translation></message>
+<message><source>shipped are {names}</source><translation>mitgeliefert sind {names}</translation></message>
+<message><source>known are {names}, A4, A6, …</source><translation>bekannt sind {names}, A4, A6, …</translation></message>
+<message><source>check the path</source><translation>den Pfad prüfen</translation></message>
+<message><source>check the name</source><translation>den Namen prüfen</translation></message>
+<message><source>check its path and permissions</source><translation>Pfad und Rechte prüfen</translation></message>
+<message><source>check its coefficients</source><translation>ihre Koeffizienten prüfen</translation></message>
+<message><source>check shelf/book/page</source><translation>shelf/book/page prüfen</translation></message>
+<message><source>save it again</source><translation>neu speichern</translation></message>
+<message><source>save the snapshot again</source><translation>den Schnappschuss neu speichern</translation></message>
+<message><source>save the picture again</source><translation>das Bild neu speichern</translation></message>
+<message><source>save it as UTF-8</source><translation>als UTF-8 speichern</translation></message>
+<message><source>save it uncompressed</source><translation>unkomprimiert speichern</translation></message>
+<message><source>save it without interlacing</source><translation>ohne Interlacing speichern</translation></message>
+<message><source>save it with 8 or 16 bits or as float</source><translation>mit 8 oder 16 Bit oder als Gleitkomma speichern</translation></message>
+<message><source>save as TOML</source><translation>als TOML speichern</translation></message>
+<message><source>save as TOML, or give nd and vd</source><translation>als TOML speichern oder nd und vd angeben</translation></message>
+<message><source>save it when it is on screen</source><translation>speichern, wenn es zu sehen ist</translation></message>
+<message><source>this is no lens file</source><translation>das ist keine Objektivdatei</translation></message>
+<message><source>a prescription is far smaller</source><translation>ein Objektiv ist viel kleiner</translation></message>
+<message><source>unpack it yourself</source><translation>von Hand auspacken</translation></message>
+<message><source>unpack the lens yourself</source><translation>das Objektiv von Hand auspacken</translation></message>
+<message><source>only centred lenses are read</source><translation>nur zentrierte Objektive werden gelesen</translation></message>
+<message><source>only centred refracting lenses are read</source><translation>nur zentrierte brechende Objektive werden gelesen</translation></message>
+<message><source>only refracting lenses are read</source><translation>nur brechende Objektive werden gelesen</translation></message>
+<message><source>only round lenses are read</source><translation>nur runde Objektive werden gelesen</translation></message>
+<message><source>only even ones are read</source><translation>nur gerade werden gelesen</translation></message>
+<message><source>only STANDARD and EVENASPH surfaces are read</source><translation>nur Flächen STANDARD und EVENASPH werden gelesen</translation></message>
+<message><source>only 1 to 13 exist, correct it</source><translation>es gibt nur 1 bis 13, berichtigen</translation></message>
+<message><source>put it on a surface between</source><translation>auf eine Fläche dazwischen legen</translation></message>
+<message><source>put it after one</source><translation>hinter eine Fläche stellen</translation></message>
+<message><source>put them in ascending order</source><translation>aufsteigend ordnen</translation></message>
+<message><source>sort them</source><translation>ordnen</translation></message>
+<message><source>move the object</source><translation>das Objekt verschieben</translation></message>
+<message><source>move the source</source><translation>die Quelle verschieben</translation></message>
+<message><source>move it</source><translation>verschieben</translation></message>
+<message><source>move the object or refocus</source><translation>das Objekt verschieben oder neu fokussieren</translation></message>
+<message><source>move the stop off that focus</source><translation>die Blende von diesem Brennpunkt wegrücken</translation></message>
+<message><source>replace them first</source><translation>diese zuerst ersetzen</translation></message>
+<message><source>take it out or change the glass</source><translation>herausnehmen oder das Glas wechseln</translation></message>
+<message><source>take a smaller sensor</source><translation>einen kleineren Sensor nehmen</translation></message>
+<message><source>leave {name} out to take the lens as its file has it</source><translation>{name} weglassen, um das Objektiv zu nehmen, wie es in der Datei steht</translation></message>
+<message><source>refit the surface</source><translation>die Fläche neu anpassen</translation></message>
+<message><source>refit the surface without r²</source><translation>die Fläche ohne r² neu anpassen</translation></message>
+<message><source>stop down</source><translation>abblenden</translation></message>
+<message><source>stop down, or move the source towards the axis or into focus</source><translation>abblenden oder die Quelle zur Achse oder in den Fokus bringen</translation></message>
+<message><source>stop the lens down or reduce the field</source><translation>abblenden oder das Feld verkleinern</translation></message>
+<message><source>add them or leave clip off</source><translation>diese hinzufügen oder den Randbeschnitt auslassen</translation></message>
+<message><source>leave clip off or reduce the field</source><translation>den Randbeschnitt auslassen oder das Feld verkleinern</translation></message>
+<message><source>bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
+<message><source>bring the depths nearer to focus, stop down, or ask for larger pixels</source><translation>die Abstände dem Fokus nähern, abblenden oder größere Pixel verlangen</translation></message>
+<message><source>state the stop's semi-diameter</source><translation>den Halbmesser der Blende angeben</translation></message>
+<message><source>state the stop's semi-diameter or the pupil's diameter</source><translation>den Halbmesser der Blende oder den Durchmesser der Pupille angeben</translation></message>
+<message><source>state the pupil's diameter or f-number</source><translation>Pupillendurchmesser oder Blendenzahl angeben</translation></message>
+<message><source>state one of them</source><translation>eines davon angeben</translation></message>
+<message><source>pip install '{name}'</source><translation>pip install '{name}'</translation></message>
+<message><source>this program reads version {version}</source><translation>dieses Programm liest Version {version}</translation></message>
+<message><source>copy it again from the explorer</source><translation>im Explorer neu kopieren</translation></message>
+<message><source>give a .json the explorer has written</source><translation>ein .json angeben, das der Explorer geschrieben hat</translation></message>
+<message><source>give a state file that exists</source><translation>eine Zustandsdatei angeben, die es gibt</translation></message>
+<message><source>give a lesson as UTF-8 text</source><translation>eine Lektion als UTF-8-Text angeben</translation></message>
+<message><source>the file is not text but binary</source><translation>die Datei ist kein Text, sondern binär</translation></message>
+<message><source>give the lens as a text file</source><translation>das Objektiv als Textdatei angeben</translation></message>
+<message><source>the file has over {count} lines</source><translation>die Datei hat über {count} Zeilen</translation></message>
+<message><source>the line has over {count} characters</source><translation>die Zeile hat über {count} Zeichen</translation></message>
+<message><source>the file is over {size} MB</source><translation>die Datei ist über {size} MB groß</translation></message>
+<message><source>the file is larger than {size} bytes</source><translation>die Datei ist größer als {size} Byte</translation></message>
+<message><source>the file is empty</source><translation>die Datei ist leer</translation></message>
+<message><source>write a lens into it</source><translation>ein Objektiv hineinschreiben</translation></message>
+<message><source>the file is not UTF-8 text</source><translation>die Datei ist kein UTF-8-Text</translation></message>
+<message><source>{what} "{word}" is not a number</source><translation>{what} "{word}" ist keine Zahl</translation></message>
+<message><source>{what} "{word}" is not a whole number</source><translation>{what} "{word}" ist keine ganze Zahl</translation></message>
+<message><source>there is no such file</source><translation>eine solche Datei gibt es nicht</translation></message>
+<message><source>this is a folder</source><translation>das ist ein Ordner</translation></message>
+<message><source>name a lens file in it</source><translation>eine Objektivdatei darin nennen</translation></message>
+<message><source>the file cannot be read ({reason})</source><translation>die Datei ist nicht lesbar ({reason})</translation></message>
+<message><source>the file cannot be written ({reason})</source><translation>die Datei ist nicht schreibbar ({reason})</translation></message>
+<message><source>the archive cannot be unpacked ({reason})</source><translation>das Archiv lässt sich nicht auspacken ({reason})</translation></message>
+<message><source>the archive holds no .zmx or .seq file</source><translation>das Archiv enthält keine .zmx- oder .seq-Datei</translation></message>
+<message><source>key "{key}" is unknown</source><translation>der Schlüssel "{key}" ist unbekannt</translation></message>
+<message><source>key "{key}" belongs to the top of the file</source><translation>der Schlüssel "{key}" gehört an den Anfang der Datei</translation></message>
+<message><source>move it before the first [ heading</source><translation>vor die erste Überschrift [ stellen</translation></message>
+<message><source>{key} is missing</source><translation>{key} fehlt</translation></message>
+<message><source>unit is "{unit}"</source><translation>die Einheit ist "{unit}"</translation></message>
+<message><source>surface is not a list of tables</source><translation>surface ist keine Liste von Tabellen</translation></message>
+<message><source>head every surface with [[surface]]</source><translation>jede Fläche mit [[surface]] überschreiben</translation></message>
+<message><source>the lens has no surfaces</source><translation>das Objektiv hat keine Flächen</translation></message>
+<message><source>write a [[surface]] for each</source><translation>für jede ein [[surface]] schreiben</translation></message>
+<message><source>[aperture] states {count} of {names}</source><translation>[aperture] gibt {count} von {names} an</translation></message>
+<message><source>write [aperture] and one of {names}</source><translation>[aperture] und eines von {names} schreiben</translation></message>
+<message><source>write a surface from 1 to {count}</source><translation>eine Fläche von 1 bis {count} schreiben</translation></message>
+<message><source>this is not TOML ({reason})</source><translation>das ist kein TOML ({reason})</translation></message>
+<message><source>a number is too long or lists are nested too deep</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt</translation></message>
+<message><source>lists are nested too deep or a number is too long</source><translation>Listen sind zu tief verschachtelt oder eine Zahl ist zu lang</translation></message>
+<message><source>{key} is an empty list</source><translation>{key} ist eine leere Liste</translation></message>
+<message><source>wavelength {wave} nm is outside the data of {glass}, {low} to {high} nm</source><translation>die Wellenlänge {wave} nm liegt außerhalb der Daten von {glass}, {low} bis {high} nm</translation></message>
+<message><source>medium {name} has no line in a Zemax file</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei</translation></message>
+<message><source>ending "{ending}" is none of {names}</source><translation>die Endung "{ending}" ist keine von {names}</translation></message>
+<message><source>surface {number} has aspheric terms above r^16, for which Zemax has no line</source><translation>Fläche {number} hat asphärische Glieder über r^16, für die Zemax keine Zeile hat</translation></message>
+<message><source>the object stands in a medium, which an ISET file cannot say</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann</translation></message>
+<message><source>an afocal lens has no f-number</source><translation>ein afokales Objektiv hat keine Blendenzahl</translation></message>
+<message><source>{glass} shares its name with another maker's glass of this lens</source><translation>{glass} heißt wie das Glas eines anderen Herstellers in diesem Objektiv</translation></message>
+<message><source>medium {name} cannot be written to a file</source><translation>das Medium {name} lässt sich nicht in eine Datei schreiben</translation></message>
+<message><source>give an index, a glass name or nd and vd</source><translation>einen Index, einen Glasnamen oder nd und vd angeben</translation></message>
+<message><source>the file holds no surface between object and image</source><translation>die Datei enthält keine Fläche zwischen Objekt und Bild</translation></message>
+<message><source>the file holds no surface (S) between object and image</source><translation>die Datei enthält keine Fläche (S) zwischen Objekt und Bild</translation></message>
+<message><source>the file holds no lens surface between object and image</source><translation>die Datei enthält keine Linsenfläche zwischen Objekt und Bild</translation></message>
+<message><source>the file holds {count} surfaces</source><translation>die Datei enthält {count} Flächen</translation></message>
+<message><source>at most {count} are read</source><translation>höchstens {count} werden gelesen</translation></message>
+<message><source>the stop is on the object or the image</source><translation>die Blende liegt auf dem Objekt oder dem Bild</translation></message>
+<message><source>mode {mode} is not sequential</source><translation>der Modus {mode} ist nicht sequentiell</translation></message>
+<message><source>export the sequential lens</source><translation>das sequentielle Objektiv exportieren</translation></message>
+<message><source>lens unit "{unit}" is none of {names}</source><translation>die Längeneinheit "{unit}" ist keine von {names}</translation></message>
+<message><source>unit "{unit}" is none of {names}</source><translation>die Einheit "{unit}" ist keine von {names}</translation></message>
+<message><source>field type {kind} is none of 0 to 3</source><translation>der Feldtyp {kind} ist keiner von 0 bis 3</translation></message>
+<message><source>choose angle or height</source><translation>Winkel oder Höhe wählen</translation></message>
+<message><source>wavelength {value} µm is not light</source><translation>die Wellenlänge {value} µm ist kein Licht</translation></message>
+<message><source>give micrometres</source><translation>Mikrometer angeben</translation></message>
+<message><source>a wavelength is not light</source><translation>eine Wellenlänge ist kein Licht</translation></message>
+<message><source>give nanometres</source><translation>Nanometer angeben</translation></message>
+<message><source>surface {number} stands where {due} is due</source><translation>Fläche {number} steht, wo {due} kommen müsste</translation></message>
+<message><source>{surface} has type {kind}, {why}</source><translation>{surface} hat den Typ {kind}, {why}</translation></message>
+<message><source>{surface} has an infinite thickness</source><translation>{surface} hat eine unendliche Dicke</translation></message>
+<message><source>has an infinite thickness</source><translation>hat eine unendliche Dicke</translation></message>
+<message><source>{surface} has a rim decentred by ({x}, {y})</source><translation>{surface} hat einen um ({x}, {y}) dezentrierten Rand</translation></message>
+<message><source>has a rim decentred by ({x}, {y})</source><translation>hat einen um ({x}, {y}) dezentrierten Rand</translation></message>
+<message><source>{surface} is a mirror</source><translation>{surface} ist ein Spiegel</translation></message>
+<message><source>is a mirror</source><translation>ist ein Spiegel</translation></message>
+<message><source>{surface} is a mirror (REFL)</source><translation>{surface} ist ein Spiegel (REFL)</translation></message>
+<message><source>which P2SF does not trace</source><translation>das P2SF nicht rechnet</translation></message>
+<message><source>the shipped lenses are missing</source><translation>die mitgelieferten Objektive fehlen</translation></message>
+<message><source>install p2sf again</source><translation>p2sf neu installieren</translation></message>
+<message><source>lens "{name}" is neither shipped nor a file</source><translation>das Objektiv "{name}" ist weder mitgeliefert noch eine Datei</translation></message>
+<message><source>{name} speaks of surface {place}, which is not there yet</source><translation>{name} spricht von Fläche {place}, die es noch nicht gibt</translation></message>
+<message><source>{name} stands before any surface</source><translation>{name} steht vor jeder Fläche</translation></message>
+<message><source>private glass {name} has no wavelengths (PWL) before it</source><translation>dem privaten Glas {name} gehen keine Wellenlängen (PWL) voraus</translation></message>
+<message><source>private glass {name} has not one index per wavelength</source><translation>das private Glas {name} hat nicht einen Index je Wellenlänge</translation></message>
+<message><source>private glass {name}: {why}</source><translation>privates Glas {name}: {why}</translation></message>
+<message><source>glass "{word}" is neither a name nor a six-digit code such as 517642 or 517.642</source><translation>das Glas "{word}" ist weder ein Name noch ein sechsstelliger Code wie 517642 oder 517.642</translation></message>
+<message><source>the file states no aperture, no stop and no semi-diameter</source><translation>die Datei nennt weder Öffnung noch Blende noch Halbmesser</translation></message>
+<message><source>add one of them</source><translation>eines davon hinzufügen</translation></message>
+<message><source>the aperture ({kind} {value}) fills the stop to {rim} mm</source><translation>die Öffnung ({kind} {value}) füllt die Blende bis {rim} mm</translation></message>
+<message><source>an object at infinity has no numerical aperture</source><translation>ein Objekt im Unendlichen hat keine numerische Apertur</translation></message>
+<message><source>the object lies in the first vertex, where an aperture angle fills no stop</source><translation>das Objekt liegt im ersten Scheitel, wo ein Öffnungswinkel keine Blende füllt</translation></message>
+<message><source>numerical aperture {na} is impossible in index {index}</source><translation>die numerische Apertur {na} ist im Index {index} unmöglich</translation></message>
+<message><source>field heights have no angle for this lens</source><translation>Feldhöhen haben bei diesem Objektiv keinen Winkel</translation></message>
+<message><source>field angle {angle}° is not below 90°</source><translation>der Feldwinkel {angle}° liegt nicht unter 90°</translation></message>
+<message><source>the row cannot be cut into cells ({why})</source><translation>die Zeile lässt sich nicht in Zellen teilen ({why})</translation></message>
+<message><source>surfaces {a} and {b} both are the stop</source><translation>die Flächen {a} und {b} sind beide die Blende</translation></message>
+<message><source>surfaces {a} and {b} both are stops</source><translation>die Flächen {a} und {b} sind beide Blenden</translation></message>
+<message><source>the file is none of the formats known here: {names}</source><translation>die Datei hat keines der hier bekannten Formate: {names}</translation></message>
+<message><source>this is a glass catalogue, not a lens</source><translation>das ist ein Glaskatalog, kein Objektiv</translation></message>
+<message><source>give it beside a lens file</source><translation>neben einer Objektivdatei angeben</translation></message>
+<message><source>the file holds no list of surfaces</source><translation>die Datei enthält keine Liste von Flächen</translation></message>
+<message><source>surface {number} is tilted or decentred (transform)</source><translation>Fläche {number} ist gekippt oder dezentriert (transform)</translation></message>
+<message><source>surface {number}: {key} differs between x and y</source><translation>Fläche {number}: {key} unterscheidet sich zwischen x und y</translation></message>
+<message><source>{key} differs between x and y</source><translation>{key} unterscheidet sich zwischen x und y</translation></message>
+<message><source>aspheric_coefficients is not a list of up to 20 numbers</source><translation>aspheric_coefficients ist keine Liste von bis zu 20 Zahlen</translation></message>
+<message><source>ior is neither a number nor [[nm …], [n …]]</source><translation>ior ist weder eine Zahl noch [[nm …], [n …]]</translation></message>
+<message><source>surface {number} is not an object with radius and thickness</source><translation>Fläche {number} ist kein Objekt mit radius und thickness</translation></message>
+<message><source>a row has {count} columns</source><translation>eine Zeile hat {count} Spalten</translation></message>
+<message><source>write radius, thickness, index, diameter</source><translation>Radius, Dicke, Index, Durchmesser schreiben</translation></message>
+<message><source>this is not JSON ({why})</source><translation>das ist kein JSON ({why})</translation></message>
+<message><source>ior is no table of wavelengths and indices ({why})</source><translation>ior ist keine Tabelle von Wellenlängen und Indizes ({why})</translation></message>
+<message><source>glass has the keys {names}</source><translation>glass hat die Schlüssel {names}</translation></message>
+<message><source>write a number from 1 to 13</source><translation>eine Zahl von 1 bis 13 schreiben</translation></message>
+<message><source>coefficients of {name} are not up to {count} numbers</source><translation>die Koeffizienten von {name} sind nicht bis zu {count} Zahlen</translation></message>
+<message><source>write the shortest and the longest wavelength</source><translation>die kürzeste und die längste Wellenlänge schreiben</translation></message>
+<message><source>the aspheres have odd powers (AsphericalOddCount)</source><translation>die Asphären haben ungerade Potenzen (AsphericalOddCount)</translation></message>
+<message><source>a row of lens data needs number, radius and distance</source><translation>eine Zeile der Linsendaten braucht Nummer, Radius und Abstand</translation></message>
+<message><source>distance "{word}" has no value in [variable distances]</source><translation>der Abstand "{word}" hat keinen Wert in [variable distances]</translation></message>
+<message><source>aspherical data of "{word}", which is no row of the lens data</source><translation>asphärische Daten von "{word}", was keine Zeile der Linsendaten ist</translation></message>
+<message><source>a row of aspherical data needs number, radius, conic</source><translation>eine Zeile asphärischer Daten braucht Nummer, Radius, Kegelschnitt</translation></message>
+<message><source>radius {value} differs from the lens data's</source><translation>der Radius {value} weicht von dem der Linsendaten ab</translation></message>
+<message><source>glass {name} of {path} has nd {nd} by its coefficients and {listed} by its name line</source><translation>das Glas {name} aus {path} hat nd {nd} nach seinen Koeffizienten und {listed} nach seiner Namenszeile</translation></message>
+<message><source>the catalogue is damaged, replace it</source><translation>der Katalog ist beschädigt, ersetzen</translation></message>
+<message><source>{glass} is in no catalogue</source><translation>{glass} steht in keinem Katalog</translation></message>
+<message><source>give its AGF catalogue, or its index as nd and vd</source><translation>seinen AGF-Katalog angeben oder seinen Index als nd und vd</translation></message>
+<message><source>{glass} is in no catalogue given</source><translation>{glass} steht in keinem angegebenen Katalog</translation></message>
+<message><source>accept a substitute ({names}) or give its AGF catalogue</source><translation>einen Ersatz annehmen ({names}) oder seinen AGF-Katalog angeben</translation></message>
+<message><source>no glass (NM and CD lines) is in this file</source><translation>in dieser Datei ist kein Glas (Zeilen NM und CD)</translation></message>
+<message><source>give an AGF catalogue</source><translation>einen AGF-Katalog angeben</translation></message>
+<message><source>a glass needs a name and a formula number (NM name formula …)</source><translation>ein Glas braucht Namen und Formelnummer (NM Name Formel …)</translation></message>
+<message><source>{name} uses dispersion formula {formula}</source><translation>{name} benutzt die Dispersionsformel {formula}</translation></message>
+<message><source>the glass has no coefficients (CD line)</source><translation>das Glas hat keine Koeffizienten (Zeile CD)</translation></message>
+<message><source>the glass has no wavelength range (LD line)</source><translation>das Glas hat keinen Wellenlängenbereich (Zeile LD)</translation></message>
+<message><source>the glass's range is {low} to {high} µm</source><translation>der Bereich des Glases ist {low} bis {high} µm</translation></message>
+<message><source>give the smaller first, both positive</source><translation>das kleinere zuerst angeben, beide positiv</translation></message>
+<message><source>formula {formula} of {name} gives no real index there</source><translation>Formel {formula} von {name} ergibt dort keinen reellen Index</translation></message>
+<message><source>surface {number}: the r² coefficient {value} beside a radius of curvature is not a conic with terms from r⁴ on</source><translation>Fläche {number}: der r²-Koeffizient {value} neben einem Krümmungsradius ist kein Kegelschnitt mit Gliedern ab r⁴</translation></message>
+<message><source>the r² coefficient {value} beside a radius of curvature is not a conic with terms from r⁴ on</source><translation>der r²-Koeffizient {value} neben einem Krümmungsradius ist kein Kegelschnitt mit Gliedern ab r⁴</translation></message>
+<message><source>aspheric term r^{power} is not even from r⁴ on</source><translation>das asphärische Glied r^{power} ist nicht gerade ab r⁴</translation></message>
+<message><source>a number is too large or too small for a lens</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv</translation></message>
+<message><source>the aperture is {value}</source><translation>die Öffnung ist {value}</translation></message>
+<message><source>glass "{name}" is in no catalogue</source><translation>das Glas "{name}" steht in keinem Katalog</translation></message>
+<message><source>glass "{name}" is not in the catalogue of {maker}</source><translation>das Glas "{name}" steht nicht im Katalog von {maker}</translation></message>
+<message><source>glass "{name}" is sold with different indices as {names}</source><translation>das Glas "{name}" wird mit verschiedenen Indizes verkauft als {names}</translation></message>
+<message><source>write the one you mean</source><translation>das gemeinte schreiben</translation></message>
+<message><source>glass "{name}" is listed with its absorption only</source><translation>das Glas "{name}" ist nur mit seiner Absorption verzeichnet</translation></message>
+<message><source>give its index or nd and vd</source><translation>seinen Index oder nd und vd angeben</translation></message>
+<message><source>glass "{name}": refractiveindex.info has no such page</source><translation>Glas "{name}": refractiveindex.info hat keine solche Seite</translation></message>
+<message><source>glass is {value}</source><translation>glass ist {value}</translation></message>
+<message><source>write a name such as "SCHOTT N-BK7", an index, or nd and vd</source><translation>einen Namen wie "SCHOTT N-BK7", einen Index oder nd und vd schreiben</translation></message>
+<message><source>write { nd = 1.5168, vd = 64.17 } or { wavelengths_um = […], n = […] }</source><translation>{ nd = 1.5168, vd = 64.17 } oder { wavelengths_um = […], n = […] } schreiben</translation></message>
+<message><source>give an index between 1 and 4</source><translation>einen Index zwischen 1 und 4 angeben</translation></message>
+<message><source>give an Abbe number between 10 and 120</source><translation>eine Abbe-Zahl zwischen 10 und 120 angeben</translation></message>
+<message><source>refractive index is {value}</source><translation>der Brechungsindex ist {value}</translation></message>
+<message><source>glass "{name}" is a mirror, which P2SF does not trace</source><translation>das Glas "{name}" ist ein Spiegel, den P2SF nicht rechnet</translation></message>
+<message><source>give a refracting lens</source><translation>ein brechendes Objektiv angeben</translation></message>
+<message><source>glass table needs two equally long lists of numbers</source><translation>die Glastabelle braucht zwei gleich lange Listen von Zahlen</translation></message>
+<message><source>give wavelengths_um and n</source><translation>wavelengths_um und n angeben</translation></message>
+<message><source>glass table's wavelengths are {values} µm</source><translation>die Wellenlängen der Glastabelle sind {values} µm</translation></message>
+<message><source>stop surface {number} does not exist</source><translation>die Blendenfläche {number} gibt es nicht</translation></message>
+<message><source>the lens has surfaces 1 to {count}</source><translation>das Objektiv hat die Flächen 1 bis {count}</translation></message>
+<message><source>aperture {kind} is {value}</source><translation>die Öffnung {kind} ist {value}</translation></message>
+<message><source>wavelengths are {values} nm</source><translation>die Wellenlängen sind {values} nm</translation></message>
+<message><source>surface {number}: radius {value} mm</source><translation>Fläche {number}: Radius {value} mm</translation></message>
+<message><source>radius {value} mm</source><translation>Radius {value} mm</translation></message>
+<message><source>write inf for a plane</source><translation>inf für eine Ebene schreiben</translation></message>
+<message><source>surface {number}: thickness {value} mm</source><translation>Fläche {number}: Dicke {value} mm</translation></message>
+<message><source>thickness {value} mm</source><translation>Dicke {value} mm</translation></message>
+<message><source>surface {number}: semi-diameter {value} mm</source><translation>Fläche {number}: Halbmesser {value} mm</translation></message>
+<message><source>semi-diameter {value} mm</source><translation>Halbmesser {value} mm</translation></message>
+<message><source>conic or aspheric coefficient is not finite</source><translation>der Kegelschnitt oder ein asphärischer Koeffizient ist nicht endlich</translation></message>
+<message><source>surface {number} has no rim to be the stop</source><translation>Fläche {number} hat keinen Rand, der Blende sein könnte</translation></message>
+<message><source>give it a semi-diameter first</source><translation>ihr zuerst einen Halbmesser geben</translation></message>
+<message><source>a lens needs at least one surface</source><translation>ein Objektiv braucht mindestens eine Fläche</translation></message>
+<message><source>insert another before deleting this one</source><translation>eine andere einfügen, bevor diese gelöscht wird</translation></message>
+<message><source>surface {number} is the stop</source><translation>Fläche {number} ist die Blende</translation></message>
+<message><source>put the stop on another surface before deleting it</source><translation>die Blende auf eine andere Fläche legen, bevor diese gelöscht wird</translation></message>
+<message><source>a film has no ending "{ending}"</source><translation>ein Film hat nicht die Endung "{ending}"</translation></message>
+<message><source>there is no frame to write</source><translation>es gibt kein Bild zu schreiben</translation></message>
+<message><source>{path} cannot be written, {reason}</source><translation>{path} ist nicht schreibbar, {reason}</translation></message>
+<message><source>the export was cancelled</source><translation>der Export wurde abgebrochen</translation></message>
+<message><source>nothing was written</source><translation>nichts wurde geschrieben</translation></message>
+<message><source>the image is at infinity, so no sensor position is in focus</source><translation>das Bild liegt im Unendlichen, also ist kein Sensorort scharf</translation></message>
+<message><source>"{word}" sets nothing</source><translation>"{word}" stellt nichts ein</translation></message>
+<message><source>write entries such as field_deg 10, tab mtf</source><translation>Einträge schreiben wie field_deg 10, tab mtf</translation></message>
+<message><source>"{text}" is no claim</source><translation>"{text}" ist keine Behauptung</translation></message>
+<message><source>write one such as {example}</source><translation>eine schreiben wie {example}</translation></message>
+<message><source>measure "{name}" is unknown</source><translation>das Maß "{name}" ist unbekannt</translation></message>
+<message><source>"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none</source><translation>"{text}": "is" braucht eine Toleranz wie ± 0.01, "above" und "below" haben keine</translation></message>
+<message><source>{there} of words, and the lesson has {count}</source><translation>{there} mit Worten, und die Lektion hat {count}</translation></message>
+<message><source>there is 1 step</source><translation>es gibt 1 Schritt</translation></message>
+<message><source>there are {count} steps</source><translation>es gibt {count} Schritte</translation></message>
+<message><source>say each in its place</source><translation>jeden an seiner Stelle sagen</translation></message>
+<message><source>there is no step</source><translation>es gibt keinen Schritt</translation></message>
+<message><source>begin one with a line such as ## A point becomes a patch</source><translation>einen mit einer Zeile beginnen wie ## Aus einem Punkt wird ein Fleck</translation></message>
+<message><source>a lesson begins with a line "{line}"</source><translation>eine Lektion beginnt mit einer Zeile "{line}"</translation></message>
+<message><source>put title, about and lens below it</source><translation>title, about und lens darunter schreiben</translation></message>
+<message><source>the header has no end</source><translation>der Kopf hat kein Ende</translation></message>
+<message><source>close it with a line "{line}"</source><translation>ihn mit einer Zeile "{line}" schließen</translation></message>
+<message><source>a question and its answer go together</source><translation>eine Frage und ihre Antwort gehören zusammen</translation></message>
+<message><source>give both ask: and tell:</source><translation>ask: und tell: angeben</translation></message>
+<message><source>{path} cannot be read ({reason})</source><translation>{path} ist nicht lesbar ({reason})</translation></message>
+<message><source>"{line}" is no entry of the header</source><translation>"{line}" ist kein Eintrag des Kopfes</translation></message>
+<message><source>the header lacks "{name}"</source><translation>dem Kopf fehlt "{name}"</translation></message>
+<message><source>add a line such as {line}</source><translation>eine Zeile hinzufügen wie {line}</translation></message>
+<message><source>"{name}:" is no entry of a step here</source><translation>"{name}:" ist hier kein Eintrag eines Schritts</translation></message>
+<message><source>"{name}" is no slider</source><translation>"{name}" ist kein Regler</translation></message>
+<message><source>move one of {names}</source><translation>einen von {names} bewegen</translation></message>
+<message><source>this stands before the first step</source><translation>das steht vor dem ersten Schritt</translation></message>
+<message><source>begin a step with a line ## and its title</source><translation>einen Schritt mit einer Zeile ## und seinem Titel beginnen</translation></message>
+<message><source>the link holds no state of the explorer</source><translation>der Link enthält keinen Zustand des Explorers</translation></message>
+<message><source>the link has version {version}</source><translation>der Link hat Version {version}</translation></message>
+<message><source>the link is cut off or changed</source><translation>der Link ist abgeschnitten oder verändert</translation></message>
+<message><source>copy all of it again, from p2sf: to its last letter</source><translation>noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
+<message><source>there is no picture yet</source><translation>es gibt noch kein Bild</translation></message>
+<message><source>the {words} "{text}" has the unit "{unit}"</source><translation>{words}: "{text}" hat die Einheit "{unit}"</translation></message>
+<message><source>the {words} "{text}" is not a number</source><translation>{words}: "{text}" ist keine Zahl</translation></message>
+<message><source>write one such as 12.5</source><translation>eine schreiben wie 12,5</translation></message>
+<message><source>write the number alone</source><translation>die Zahl allein schreiben</translation></message>
+<message><source>write {names} or no unit</source><translation>{names} oder keine Einheit schreiben</translation></message>
+<message><source>PSF data has no ending "{ending}"</source><translation>PSF-Daten haben nicht die Endung "{ending}"</translation></message>
+<message><source>a picture of the window ends in ".png", not "{ending}"</source><translation>ein Bild des Fensters endet auf ".png", nicht "{ending}"</translation></message>
+<message><source>change the ending</source><translation>die Endung ändern</translation></message>
+<message><source>{path} cannot be written, the draft beside it stayed empty</source><translation>{path} ist nicht schreibbar, der Entwurf daneben blieb leer</translation></message>
+<message><source>{name} has the ending "{ending}"</source><translation>{name} hat die Endung "{ending}"</translation></message>
+<message><source>give the scene a name in {names}</source><translation>der Szene einen Namen mit {names} geben</translation></message>
+<message><source>the added waves are {waves}</source><translation>die hinzugefügten Wellen sind {waves}</translation></message>
+<message><source>give {count} numbers, for {names}</source><translation>{count} Zahlen angeben, für {names}</translation></message>
+<message><source>give true or false</source><translation>true oder false angeben</translation></message>
+<message><source>list some of {names}, each once and in this order</source><translation>einige von {names} nennen, jedes einmal und in dieser Reihenfolge</translation></message>
+<message><source>shown is "{side}" and nothing is pinned as B</source><translation>gezeigt wird "{side}", und nichts ist als B gemerkt</translation></message>
+<message><source>pin a state first (Ctrl+B)</source><translation>zuerst einen Zustand merken (Strg+B)</translation></message>
+<message><source>play is "{name}"</source><translation>play ist "{name}"</translation></message>
+<message><source>name a slider: {names}</source><translation>einen Regler nennen: {names}</translation></message>
+<message><source>the range to play is {values}</source><translation>der Bereich zum Abspielen ist {values}</translation></message>
+<message><source>give where it begins and where it ends</source><translation>angeben, wo er beginnt und wo er endet</translation></message>
+<message><source>the state's windows must be a list of panels' names</source><translation>die Fenster des Zustands müssen eine Liste von Ansichten sein</translation></message>
+<message><source>correct it or leave it out</source><translation>berichtigen oder weglassen</translation></message>
+<message><source>the state has an unknown entry "{name}"</source><translation>der Zustand hat einen unbekannten Eintrag "{name}"</translation></message>
+<message><source>{path} is not a state of the explorer</source><translation>{path} ist kein Zustand des Explorers</translation></message>
+<message><source>{path} has version {version}</source><translation>{path} hat Version {version}</translation></message>
+<message><source>the state names no lens</source><translation>der Zustand nennt kein Objektiv</translation></message>
+<message><source>give the name of a shipped lens or a path</source><translation>den Namen eines mitgelieferten Objektivs oder einen Pfad angeben</translation></message>
+<message><source>the state's edited lens is not text</source><translation>das bearbeitete Objektiv des Zustands ist kein Text</translation></message>
+<message><source>the state's clip must be true or false, and its tab a panel's name</source><translation>clip muss im Zustand true oder false sein und tab der Name einer Ansicht</translation></message>
+<message><source>not JSON ({why})</source><translation>kein JSON ({why})</translation></message>
+<message><source>correct it or save it again</source><translation>berichtigen oder neu speichern</translation></message>
+<message><source>no PSF of this lens is sharp enough for the atlas</source><translation>keine PSF dieses Objektivs ist scharf genug für den Atlas</translation></message>
+<message><source>no chief ray of this lens's field reaches the sensor</source><translation>kein Hauptstrahl aus dem Feld dieses Objektivs erreicht den Sensor</translation></message>
+<message><source>choose a part of the field instead</source><translation>stattdessen einen Teil des Feldes wählen</translation></message>
+<message><source>points blur over {size} mm here, too much to wait for</source><translation>Punkte verschwimmen hier über {size} mm, zu viel, um darauf zu warten</translation></message>
+<message><source>{name} has changed on disk</source><translation>{name} hat sich auf dem Datenträger geändert</translation></message>
+<message><source>your edits are kept, Back to file takes the new one</source><translation>Ihre Änderungen bleiben, „Zurück zur Datei“ nimmt die neue</translation></message>
+<message><source>{name} has changed on disk and was read again</source><translation>{name} hat sich auf dem Datenträger geändert und wurde neu gelesen</translation></message>
+<message><source>{why}, so moving the sensor does not focus</source><translation>{why}, also stellt ein anderer Ort des Sensors nicht scharf</translation></message>
+<message><source>set Wd by its slider, or reset the what-if</source><translation>Wd am Regler einstellen oder das Was-wäre-wenn zurücksetzen</translation></message>
+<message><source>cannot compare {shapes}</source><translation>{shapes} sind nicht vergleichbar</translation></message>
+<message><source>render both on the same grid</source><translation>beide auf demselben Gitter rechnen</translation></message>
+<message><source>a phase slope of {slope} waves over a window of {reach} cycles needs {rows} × {columns} pupil samples</source><translation>eine Phasensteigung von {slope} Wellen über ein Fenster von {reach} Perioden braucht {rows} × {columns} Pupillenproben</translation></message>
+<message><source>chart "{name}" is unknown</source><translation>die Tafel "{name}" ist unbekannt</translation></message>
+<message><source>the spectrum {name} has no light that the eye sees</source><translation>das Spektrum {name} hat kein Licht, das das Auge sieht</translation></message>
+<message><source>the entrance pupil is at infinity, so a field angle says nothing</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts</translation></message>
+<message><source>move the stop off that focus, or in Python state the field as an object height, field="height"</source><translation>die Blende von diesem Brennpunkt wegrücken oder in Python das Feld als Objekthöhe angeben, field="height"</translation></message>
+<message><source>the object lies in the entrance pupil, so no cone of light is defined</source><translation>das Objekt liegt in der Eintrittspupille, also ist kein Lichtkegel festgelegt</translation></message>
+<message><source>depth is {value} mm</source><translation>der Objektabstand ist {value} mm</translation></message>
+<message><source>the object must stand a positive distance before the first vertex</source><translation>das Objekt muss in einem positiven Abstand vor dem ersten Scheitel stehen</translation></message>
+<message><source>no ray but the chief ray reaches the sensor</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor</translation></message>
+<message><source>this blur over {pixels} pixels of {pitch} µm needs {count} rays</source><translation>diese Unschärfe über {pixels} Pixel zu {pitch} µm braucht {count} Strahlen</translation></message>
+<message><source>this blur over {pixels} pixels of {pitch} µm needs {rows} × {columns} pupil samples</source><translation>diese Unschärfe über {pixels} Pixel zu {pitch} µm braucht {rows} × {columns} Pupillenproben</translation></message>
+<message><source>a blur of {pixels} pixels with {samples} samples each needs a {side}² transform</source><translation>eine Unschärfe von {pixels} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²</translation></message>
+<message><source>the image lies at infinity, so the sensor sees no blur of finite size</source><translation>das Bild liegt im Unendlichen, der Sensor sieht also keine Unschärfe endlicher Größe</translation></message>
+<message><source>no chief ray of an object at {depth} mm lands {height} mm from the axis, where the sensor's corner is</source><translation>kein Hauptstrahl eines Objekts bei {depth} mm landet {height} mm neben der Achse, wo die Ecke des Sensors ist</translation></message>
+<message><source>FITS files need astropy, which is not installed</source><translation>FITS-Dateien brauchen astropy, das nicht installiert ist</translation></message>
+<message><source>{path} is not a PSF that this program wrote as FITS</source><translation>{path} ist keine PSF, die dieses Programm als FITS geschrieben hat</translation></message>
+<message><source>{path} is not a PSF that this program wrote</source><translation>{path} ist keine PSF, die dieses Programm geschrieben hat</translation></message>
+<message><source>export it again with p2sf psf -o</source><translation>mit p2sf psf -o neu ausgeben</translation></message>
+<message><source>{path} cannot be read, {reason}</source><translation>{path} ist nicht lesbar, {reason}</translation></message>
+<message><source>give the path of a PNG or TIFF</source><translation>den Pfad eines PNG oder TIFF angeben</translation></message>
+<message><source>{path} holds values that are not finite</source><translation>{path} enthält Werte, die nicht endlich sind</translation></message>
+<message><source>a {ending} of depth {depth} cannot be written</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben</translation></message>
+<message><source>choose 8 or 16, or float in a .tif</source><translation>8 oder 16 wählen, oder Gleitkomma in einem .tif</translation></message>
+<message><source>{path} has the ending "{ending}", which is no picture here</source><translation>{path} hat die Endung "{ending}", was hier kein Bild ist</translation></message>
+<message><source>{path} holds {kind} samples</source><translation>{path} enthält Werte vom Typ {kind}</translation></message>
+<message><source>{path} has the shape {shape}</source><translation>{path} hat die Form {shape}</translation></message>
+<message><source>give one picture of 1 or 3 channels</source><translation>ein Bild mit 1 oder 3 Kanälen angeben</translation></message>
+<message><source>{path} is a TIFF that cannot be read ({why})</source><translation>{path} ist ein TIFF, das nicht lesbar ist ({why})</translation></message>
+<message><source>{path} is neither a PNG nor a TIFF that can be read</source><translation>{path} ist weder ein PNG noch ein lesbares TIFF</translation></message>
+<message><source>convert it to one</source><translation>in eines davon umwandeln</translation></message>
+<message><source>{path} is an interlaced or oversized 16-bit PNG</source><translation>{path} ist ein verschachteltes oder zu großes 16-Bit-PNG</translation></message>
+<message><source>{path} is a damaged PNG ({why})</source><translation>{path} ist ein beschädigtes PNG ({why})</translation></message>
+<message><source>an FFT of {count} × {count} pupil samples is too large</source><translation>eine FFT von {count} × {count} Pupillenproben ist zu groß</translation></message>
+<message><source>use mdft or change the pixel</source><translation>mdft nehmen oder das Pixel ändern</translation></message>
+<message><source>{what} is not finite, so there is no wavefront</source><translation>{what} ist nicht endlich, also gibt es keine Wellenfront</translation></message>
+<message><source>choose a depth, field or lens with one</source><translation>einen Abstand, ein Feld oder ein Objektiv mit einer wählen</translation></message>
+<message><source>the lens names no stop surface and no semi-diameters</source><translation>das Objektiv nennt weder Blendenfläche noch Halbmesser</translation></message>
+<message><source>the entrance pupil is at infinity, so it has no diameter</source><translation>die Eintrittspupille liegt im Unendlichen, hat also keinen Durchmesser</translation></message>
+<message><source>an object at infinity has no height</source><translation>ein Objekt im Unendlichen hat keine Höhe</translation></message>
+<message><source>give the field as an angle or an image height</source><translation>das Feld als Winkel oder Bildhöhe angeben</translation></message>
+<message><source>every chief ray meets the sensor on the axis</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse</translation></message>
+<message><source>give the field as an angle</source><translation>das Feld als Winkel angeben</translation></message>
+<message><source>{lost} of {all} rays do not reach the sensor</source><translation>{lost} von {all} Strahlen erreichen den Sensor nicht</translation></message>
+<message><source>the lens states no semi-diameters, so nothing can be clipped</source><translation>das Objektiv nennt keine Halbmesser, also lässt sich nichts beschneiden</translation></message>
+<message><source>the chief ray {what}</source><translation>der Hauptstrahl {what}</translation></message>
+<message><source>no ray reaches the sensor</source><translation>kein Strahl erreicht den Sensor</translation></message>
+<message><source>the clear part of the pupil has no clear centre</source><translation>der freie Teil der Pupille hat keine freie Mitte</translation></message>
+<message><source>{what} is {value}, which needs a chief ray at 90° to the axis</source><translation>{what} ist {value}, wofür der Hauptstrahl 90° zur Achse stehen müsste</translation></message>
+<message><source>give a smaller one</source><translation>ein kleineres angeben</translation></message>
+<message><source>Sensor shift is {shift} µm, which moves the sensor from {place} mm behind the lens into it</source><translation>der Sensorversatz ist {shift} µm, was den Sensor von {place} mm hinter dem Objektiv in dieses hinein schiebt</translation></message>
+<message><source>give a smaller shift</source><translation>einen kleineren Versatz angeben</translation></message>
+<message><source>{what} is {value} mm, but the image of that distance lies {where} and not on a sensor behind the lens</source><translation>{what} ist {value} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv</translation></message>
+<message><source>give a distance whose image is real, as a rule a longer one</source><translation>einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
+<message><source>Field is {value}°, and no ray at 90° or more from the axis enters a lens</source><translation>das Feld ist {value}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein</translation></message>
+<message><source>give an angle between −90 and 90°, both ends left out</source><translation>einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>
+<message><source>the field is stated {count} times, by {names}</source><translation>das Feld ist {count}-mal angegeben, durch {names}</translation></message>
+<message><source>rims clip {lost} of {all} rays, and {method} describes the whole pupil</source><translation>Ränder nehmen {lost} von {all} Strahlen weg, und {method} beschreibt die ganze Pupille</translation></message>
+<message><source>choose traced or huygens, or leave clip off</source><translation>traced oder huygens wählen oder den Randbeschnitt auslassen</translation></message>
+<message><source>method "{method}" is unknown</source><translation>die Methode "{method}" ist unbekannt</translation></message>
+<message><source>a tolerance of {value}</source><translation>eine Toleranz von {value}</translation></message>
+<message><source>give the R² to hold, below 1</source><translation>das einzuhaltende R² angeben, unter 1</translation></message>
+<message><source>the spectrum "{kind}" takes no number, not {number}</source><translation>das Spektrum "{kind}" hat keine Zahl, auch nicht {number}</translation></message>
+<message><source>the black body has {values} K</source><translation>der Schwarze Körper hat {values} K</translation></message>
+<message><source>give one temperature from {low} to {high} K, as in planck:5600</source><translation>eine Temperatur von {low} bis {high} K angeben, wie in planck:5600</translation></message>
+<message><source>the spectral lines are {values} nm</source><translation>die Spektrallinien sind {values} nm</translation></message>
+<message><source>give wavelengths from {low} to {high} nm, as in lines:486,588,656</source><translation>Wellenlängen von {low} bis {high} nm angeben, wie in lines:486,588,656</translation></message>
+<message><source>the spectrum "{kind}" is unknown</source><translation>das Spektrum "{kind}" ist unbekannt</translation></message>
+<message><source>the spectrum "{text}" holds "{rest}", which is no list of numbers</source><translation>das Spektrum "{text}" enthält "{rest}", was keine Liste von Zahlen ist</translation></message>
+<message><source>stop "{mode}" is unknown</source><translation>die Blende "{mode}" ist unbekannt</translation></message>
+<message><source>misses surface {number}</source><translation>verfehlt Fläche {number}</translation></message>
+<message><source>is totally reflected at surface {number}</source><translation>wird an Fläche {number} total reflektiert</translation></message>
+<message><source>{name} is cut short or damaged at its end</source><translation>{name} ist abgeschnitten oder am Ende beschädigt</translation></message>
+<message><source>copy or build it again</source><translation>neu kopieren oder bauen</translation></message>
+<message><source>{key} is {number}</source><translation>{key} ist {number}</translation></message>
+<message><source>{key} is "{word}"</source><translation>{key} ist "{word}"</translation></message>
+<message><source>{where}: {what} is missing</source><translation>{where}: {what} fehlt</translation></message>
+<message><source>give a lens</source><translation>ein Objektiv angeben</translation></message>
+<message><source>the image is at ∞, so no sensor position is in focus</source><translation>das Bild liegt im Unendlichen, also ist kein Sensorort scharf</translation></message>
+<message><source>an object at ∞ has no numerical aperture</source><translation>ein Objekt im Unendlichen hat keine numerische Apertur</translation></message>
+<message><source>the image lies at ∞, so the sensor sees no blur of finite size</source><translation>das Bild liegt im Unendlichen, der Sensor sieht also keine Unschärfe endlicher Größe</translation></message>
+<message><source>the entrance pupil is at ∞, so a field angle says nothing</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts</translation></message>
+<message><source>the entrance pupil is at ∞, so it has no diameter</source><translation>die Eintrittspupille liegt im Unendlichen, hat also keinen Durchmesser</translation></message>
+<message><source>an object at ∞ has no height</source><translation>ein Objekt im Unendlichen hat keine Höhe</translation></message>
+<message><source>the object height is {value} mm, but an object at ∞ has no height</source><translation>die Objekthöhe ist {value} mm, aber ein Objekt im Unendlichen hat keine Höhe</translation></message>
+<message><source>give Depth as well, or the field as an angle or an image height</source><translation>auch den Objektabstand angeben oder das Feld als Winkel oder Bildhöhe</translation></message>
+<message><source>write ∞ for a plane</source><translation>∞ für eine Ebene schreiben</translation></message>
+<message><source>write a number that is not 0, ∞ for a plane</source><translation>eine Zahl schreiben, die nicht 0 ist, ∞ für eine Ebene</translation></message>
+<message><source>write the distance to the next surface as a number</source><translation>den Abstand zur nächsten Fläche als Zahl schreiben</translation></message>
+<message><source>write a positive number</source><translation>eine positive Zahl schreiben</translation></message>
+<message><source>write a finite number</source><translation>eine endliche Zahl schreiben</translation></message>
+<message><source>write an angle in degrees below 90</source><translation>einen Winkel in Grad unter 90 schreiben</translation></message>
+<message><source>write a wavelength in nanometres, 50 to 50000</source><translation>eine Wellenlänge in Nanometern schreiben, 50 bis 50000</translation></message>
+<message><source>{name} is {found}; list some of {names}, each once and in this order</source><translation>{name} ist {found}; einige von {names} nennen, jedes einmal und in dieser Reihenfolge</translation></message>
+<message><source>{name} is {found}; give true or false</source><translation>{name} ist {found}; true oder false angeben</translation></message>
+<message><source>{name} is {found}; give a text</source><translation>{name} ist {found}; einen Text angeben</translation></message>
+<message><source>{name} is {found}; give a whole number</source><translation>{name} ist {found}; eine ganze Zahl angeben</translation></message>
+<message><source>{key} is {found}; write a text in quotation marks</source><translation>{key} ist {found}; einen Text in Anführungszeichen schreiben</translation></message>
+<message><source>{key} is {found}; write a list of numbers as in [1.0, 2.0]</source><translation>{key} ist {found}; eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
+<message><source>{key} is {found}; write a whole number</source><translation>{key} ist {found}; eine ganze Zahl schreiben</translation></message>
+<message><source>aperture is {found}; write [aperture] and one of {names}</source><translation>aperture ist {found}; [aperture] und eines von {names} schreiben</translation></message>
+<message><source>glass is {found}; write a name such as "SCHOTT N-BK7", an index, or nd and vd</source><translation>glass ist {found}; einen Namen wie "SCHOTT N-BK7", einen Index oder nd und vd schreiben</translation></message>
+<message><source>glass is {found}; write { nd = 1.5168, vd = 64.17 } or { wavelengths_um = […], n = […] }</source><translation>glass ist {found}; { nd = 1.5168, vd = 64.17 } oder { wavelengths_um = […], n = […] } schreiben</translation></message>
+<message><source>"{line}" is no entry of the header; give {names}</source><translation>"{line}" ist kein Eintrag des Kopfes; {names} angeben</translation></message>
+<message><source>"{name}:" is no entry of a step here; give {names}</source><translation>"{name}:" ist hier kein Eintrag eines Schritts; {names} angeben</translation></message>
+<message><source>the range to play is {values}; give where it begins and where it ends</source><translation>der Bereich zum Abspielen ist {values}; angeben, wo er beginnt und wo er endet</translation></message>
+<message><source>the blur is too large for a reference here</source><translation>die Unschärfe ist hier zu groß für eine Referenz</translation></message>
+<message><source>bring focus and source together to see waves</source><translation>Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
+<message><source>stop down or go nearer the axis to see waves</source><translation>abblenden oder näher an die Achse gehen, um Wellen zu sehen</translation></message>
+<message><source>glass "{name}": refractiveindex.info has no such page; check shelf/book/page</source><translation>Glas "{name}": refractiveindex.info hat keine solche Seite; shelf/book/page prüfen</translation></message>
+<message><source>this is the older surfaceArray form, convert it in ISET</source><translation>das ist die ältere Form surfaceArray, in ISET umwandeln</translation></message>
+<message><source>a lens lists its "surfaces"</source><translation>ein Objektiv listet seine "surfaces"</translation></message>
+<message><source>glass has the keys {names}; write {known}</source><translation>glass hat die Schlüssel {names}; {known} schreiben</translation></message>
+<message><source>range_um of {name} is {limits}; write the shortest and the longest wavelength</source><translation>range_um von {name} ist {limits}; die kürzeste und die längste Wellenlänge schreiben</translation></message>
+<message><source>every chief ray meets the sensor on the axis, so it holds no picture</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse, also enthält er kein Bild</translation></message>
+<message><source>move the stop</source><translation>die Blende verschieben</translation></message>
+<message><source>{count} wavelengths for a colour PSF</source><translation>{count} Wellenlängen für eine farbige PSF</translation></message>
+<message><source>give a whole number from 1 to {most}</source><translation>eine ganze Zahl von 1 bis {most} angeben</translation></message>
+<message><source>give a whole number from 1</source><translation>eine ganze Zahl ab 1 angeben</translation></message>
+<message><source>a PSF of {count} samples</source><translation>eine PSF aus {count} Proben</translation></message>
+<message><source>{count} PSF samples exceed {most}</source><translation>{count} PSF-Proben sind mehr als {most}</translation></message>
+<message><source>ask for fewer pixels or fewer PSFs</source><translation>weniger Pixel oder weniger PSFs verlangen</translation></message>
+<message><source>a pixel of {pitch} µm</source><translation>ein Pixel von {pitch} µm</translation></message>
+<message><source>a stack of no PSFs has no width of its own</source><translation>ein Stapel ohne PSFs hat keine eigene Breite</translation></message>
+<message><source>give the pixel in µm</source><translation>das Pixel in µm angeben</translation></message>
+<message><source>quality "{name}" is unknown</source><translation>die Güte "{name}" ist unbekannt</translation></message>
+<message><source>sampling "{name}" is unknown</source><translation>die Abtastung "{name}" ist unbekannt</translation></message>
+<message><source>{what} is {value}; give a positive number</source><translation>{what} ist {value}; eine positive Zahl angeben</translation></message>
+<message><source>{what} is {value}; give a positive number, or ∞</source><translation>{what} ist {value}; eine positive Zahl oder ∞ angeben</translation></message>
+<message><source>{what} is {value}; give a finite number</source><translation>{what} ist {value}; eine endliche Zahl angeben</translation></message>
+<message><source>the spectrum "{kind}" takes no number, not {number}; write {words}</source><translation>das Spektrum "{kind}" hat keine Zahl, auch nicht {number}; {words} schreiben</translation></message>
+<message><source>the spectrum "{text}" holds "{rest}", which is no list of numbers; write {words}</source><translation>das Spektrum "{text}" enthält "{rest}", was keine Liste von Zahlen ist; {words} schreiben</translation></message>
+<message><source>spectral lines have no power per wavelength</source><translation>Spektrallinien haben keine Leistung je Wellenlänge</translation></message>
+<message><source>take their wavelengths one by one</source><translation>ihre Wellenlängen einzeln nehmen</translation></message>
+<message><source>no fit has {count} numbers</source><translation>keine Anpassung hat {count} Zahlen</translation></message>
+<message><source>the ending "{ending}" is unknown</source><translation>die Endung "{ending}" ist unbekannt</translation></message>
+<message><source>no PSF can be read from the ending "{ending}"</source><translation>aus der Endung "{ending}" lässt sich keine PSF lesen</translation></message>
+<message><source>one file holds one PSF, this stack has shape {shape}</source><translation>eine Datei enthält eine PSF, dieser Stapel hat die Form {shape}</translation></message>
+<message><source>write them singly</source><translation>einzeln schreiben</translation></message>
+<message><source>a chart of {columns} × {rows} pixels</source><translation>eine Tafel von {columns} × {rows} Pixeln</translation></message>
+<message><source>give {low} to {high} each way</source><translation>{low} bis {high} je Richtung angeben</translation></message>
+<message><source>the noise is {value}</source><translation>das Rauschen ist {value}</translation></message>
+<message><source>give the standard deviation of the picture's noise, above 0</source><translation>die Standardabweichung des Bildrauschens angeben, über 0</translation></message>
+<message><source>{count} rounds of Richardson–Lucy</source><translation>{count} Runden Richardson–Lucy</translation></message>
+<message><source>picture encoding "{name}" is unknown</source><translation>die Bildkodierung "{name}" ist unbekannt</translation></message>
+<message><source>an energy fraction of {value}</source><translation>ein Energieanteil von {value}</translation></message>
+<message><source>a profile through "{place}" is unknown</source><translation>ein Profil durch "{place}" ist unbekannt</translation></message>
+<message><source>a toroid that is not round</source><translation>ein Toroid, das nicht rund ist</translation></message>
+<message><source>a surface that is not round</source><translation>eine Fläche, die nicht rund ist</translation></message>
+<message><source>a grating that diffracts</source><translation>ein beugendes Gitter</translation></message>
+<message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
+<message><source>an ideal lens without a prescription</source><translation>eine ideale Linse ohne Rezept</translation></message>
+<message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
+<message><source>a black box that hides its surfaces</source><translation>eine Black Box, die ihre Flächen verbirgt</translation></message>
+<message><source>an asphere with odd powers</source><translation>eine Asphäre mit ungeraden Potenzen</translation></message>
+<message><source>this is a database of PSFs, not a lens or a state</source><translation>das ist eine Datenbank von PSFs, kein Objektiv und kein Zustand</translation></message>
+<message><source>use it with p2sf psf, or open its lens</source><translation>mit p2sf psf benutzen oder ihr Objektiv öffnen</translation></message>
+<message><source>there is no readable state in this picture or PSF</source><translation>in diesem Bild oder dieser PSF ist kein lesbarer Zustand</translation></message>
+<message><source>open a snapshot, written by the window with Ctrl+E</source><translation>einen Schnappschuss öffnen, den das Fenster mit Strg+E schreibt</translation></message>
+<message><source>an asphere in Forbes's polynomials</source><translation>eine Asphäre in Forbes-Polynomen</translation></message>
+<message><source>an extended odd asphere</source><translation>eine erweiterte ungerade Asphäre</translation></message>
+<message><source>an extended asphere</source><translation>eine erweiterte Asphäre</translation></message>
+<message><source>a Fresnel surface</source><translation>eine Fresnel-Fläche</translation></message>
+<message><source>a gradient index</source><translation>ein Gradientenindex</translation></message>
+<message><source>the root of the sphere on its other side</source><translation>die Lösung auf der anderen Seite der Kugel</translation></message>
+<message><source>is stopped by the rim of surface {number}</source><translation>wird vom Rand der Fläche {number} aufgehalten</translation></message>
+<message><source>meets the asphere on surface {number} where no safe intersection was found</source><translation>trifft die Asphäre auf Fläche {number}, wo kein sicherer Schnittpunkt zu finden war</translation></message>
+<message><source>could not be aimed at its place in the stop, surface {number}</source><translation>ließ sich nicht auf seinen Ort in der Blende richten, Fläche {number}</translation></message>
+<message><source>{what} is {value}; give a positive number, ∞ allowed</source><translation>{what} ist {value}; eine positive Zahl angeben, ∞ erlaubt</translation></message>
+<message><source>{what} is {value}; give a positive finite number</source><translation>{what} ist {value}; eine positive endliche Zahl angeben</translation></message>
+<message><source>a colour PSF has no ending "{ending}"</source><translation>eine farbige PSF hat nicht die Endung "{ending}"</translation></message>
+<message><source>{key} is {found}; the number {number} without quotation marks</source><translation>{key} ist {found}; die Zahl {number} ohne Anführungszeichen</translation></message>
+<message><source>glass {name} of {file} has nd {nd} by its coefficients and {listed} by its name line</source><translation>das Glas {name} aus {file} hat nd {nd} nach seinen Koeffizienten und {listed} nach seiner Namenszeile</translation></message>
+<message><source>radius {number} differs from the lens data's</source><translation>der Radius {number} weicht von dem der Linsendaten ab</translation></message>
+<message><source>{surface}: radius {number} differs from the lens data's</source><translation>{surface}: der Radius {number} weicht von dem der Linsendaten ab</translation></message>
+<message><source>choose "settled" or "preview"</source><translation>"settled" oder "preview" wählen</translation></message>
+<message><source>choose "mdft" or "fft"</source><translation>"mdft" oder "fft" wählen</translation></message>
+<message><source>choose "file" or "auto"</source><translation>"file" oder "auto" wählen</translation></message>
+<message><source>choose file or auto</source><translation>file oder auto wählen</translation></message>
 </context>
 </TS>
