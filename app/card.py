@@ -26,7 +26,12 @@ class Card(QFrame):
         super().__init__(parent)
         self.setObjectName("card")
         self.setMinimumSize(180, 120)
-        self.title, self.readout = QLabel(tr(title), self), QLabel(self)
+        self._title = tr(title)
+        self.title, self.readout = QLabel(self._title, self), QLabel(self)
+        self.note = QLabel(self)
+        self.note.setObjectName("muted")
+        self.note.setWordWrap(True)
+        self.note.hide()
         self.title.setObjectName("title")
         self.title.setToolTip(tr(tip))
         self.readout.setObjectName("readout")
@@ -43,6 +48,7 @@ class Card(QFrame):
         self.column.setSpacing(5)
         self.column.addLayout(self.head)
         self.column.addLayout(self.under)
+        self.column.addWidget(self.note)
 
     def resizeEvent(self, event) -> None:
         """Put the tools on a line of their own where they do not fit beside the title, and back where they do."""
@@ -73,6 +79,14 @@ class Card(QFrame):
         """Put a small control at the right end of the title line."""
         self.tools.append(widget)
         self.head.addWidget(widget)
+
+    def show_side(self, side: str, why: str = "") -> None:
+        """Say behind the title which side of a comparison this is, and under it why a difference is not shown."""
+        words = " · ".join(filter(None, (self._title, tr(side))))
+        if (self.title.text(), self.note.text()) != (words, tr(why)):
+            self.title.setText(words)
+            self.note.setText(tr(why))
+            self.note.setVisible(bool(why))
 
     def set_body(self, widget: QWidget) -> None:
         """Put the picture under the title line."""

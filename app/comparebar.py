@@ -12,7 +12,7 @@ from app.words import tr
 SIDES = (
     ("a", "A", "Show A, which the controls move"),
     ("b", "B", "Show B, as it was pinned"),
-    ("difference", "A − B", "Show A − B in PSF, pupil, profiles, MTF and coefficients; the rest shows A"),
+    ("difference", "A − B", "Show A − B; a panel in which a difference means nothing shows A and says why"),
 )
 SWAP_TIP = "Exchange A and B: the controls then move the other one"
 LINK_TIP = "What moves A and B together"

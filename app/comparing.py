@@ -1,7 +1,7 @@
 """A and B side by side: both answers over one window, and what differs between them. No Qt in here."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from time import perf_counter
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from app import compute
 from app.compute import Live, View
+from app.differing import WHY, subtracted
 from app.pinning import side_b
 from app.pupil import TERMS, PupilMap, pupil_map
 from app.setting import prescription
@@ -16,16 +17,19 @@ from app.state import State
 from app.wavesums import Asked, Done
 
 DIFFERENCE = "A − B"
-CURVES = ("profiles", "mtf")  # views whose entries are curves over the first of them
 
 
 @dataclass(frozen=True)
 class Difference:
-    """A − B: the PSFs (each of unit sum) over the larger peak, the wavefronts, the six coefficients in waves."""
+    """A − B: the PSFs (each of unit sum) over the larger peak, the wavefronts, the six coefficients in waves.
+
+    ``why``: by panel, a sentence on why it shows A in place of a difference.
+    """
 
     psf: np.ndarray
     pupil: PupilMap
     coefficients: Mapping[str, float]
+    why: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -98,8 +102,10 @@ def seen(state: State, a: Live, b: Live, views: Mapping[str, View], begun: float
     chosen = compute.with_views(b if state.shown == "b" else a, views, begun)
     if state.shown != "difference":
         return replace(chosen, side=state.shown.upper())
-    others = {name: subtracted(chosen.views[name], views[name](b)) for name in CURVES if name in views}
-    return replace(chosen, views={**chosen.views, **others}, side=DIFFERENCE, difference=difference(a, b))
+    found = {name: subtracted(name, chosen.views[name], view(b)) for name, view in views.items()}
+    why = WHY | {name: sentence for name, (_, sentence) in found.items() if sentence}
+    made = replace(difference(a, b), why=why)
+    return replace(chosen, views={name: view for name, (view, _) in found.items()}, side=DIFFERENCE, difference=made)
 
 
 def difference(a: Live, b: Live) -> Difference:
@@ -128,11 +134,3 @@ def _between(known: int, wanted: int) -> np.ndarray:
     matrix, rows = np.zeros((wanted, known)), np.arange(wanted)
     matrix[rows, left], matrix[rows, left + 1] = left + 1 - place, place - left
     return matrix
-
-
-def subtracted(a, b):
-    """Return A − B of two views' curves at A's positions, their first entry; beyond B's last there is nothing."""
-    places, *curves = (field.name for field in fields(a))
-    at, known = getattr(a, places), getattr(b, places)
-    same = [n for n in curves if np.shape(getattr(a, n)) == at.shape and np.shape(getattr(b, n)) == known.shape]
-    return replace(a, **{n: getattr(a, n) - np.interp(at, known, getattr(b, n), 0.0, 0.0) for n in same})

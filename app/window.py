@@ -115,6 +115,8 @@ class Window(QMainWindow):
         self.controls.show_live(self._answers.a)
         for key in self._visible():
             self.panels[key].show(live)
+            why = live.difference.why.get(key, "") if live.difference else ""
+            self.panels[key].widget.show_side("A" if why else live.side, why)
         self.status.show_live(live, self.frame_ms)
         self.settling.watch(state, self._answers.owed)
         self.measuring.watch(live)

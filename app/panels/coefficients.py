@@ -91,7 +91,7 @@ class CoefficientsPanel:
         colour = f'<span style="color:{self._theme.warning}">{tr(note)}</span>'
         words = colour if altered else tr("waves at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
         words = "" if live.difference and not altered else words  # "A − B" needs the room, and λ stand at the numbers
-        self.widget.set_readout(" &nbsp; ".join(filter(None, (live.side and f"<b>{live.side}</b>", words))))
+        self.widget.set_readout(words)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -18,7 +18,7 @@ class CurvesPanel:
         self.curves = {name: self.chart.add_curve(token, width) for name, (token, width) in curves.items()}
         for name, curve in self.curves.items():
             curve.name = tr(name)
-        self._looks, self._side = curves, ""
+        self._looks = curves
         self.widget.set_body(self.chart)
 
     def show_curves(self, x: np.ndarray, curves: dict[str, np.ndarray]) -> None:
@@ -32,17 +32,10 @@ class CurvesPanel:
         self.chart.set_range(x, y)
         self.zero.set_data(x, (0.0, 0.0))
 
-    def show_side(self, side: str) -> None:
-        """Say before the legend whether this is A, B or A − B; nothing while nothing is compared."""
-        if side != self._side:
-            self._side = side
-            self.restyle(self.chart.theme)
-
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.chart.restyle(theme)
-        side = f"<b>{self._side}</b> &nbsp; " if self._side else ""
-        self.widget.set_readout(side + self.legend(theme))
+        self.widget.set_readout(self.legend(theme))
 
     def legend(self, theme: Tokens) -> str:
         """Return the curves' names in their colours."""

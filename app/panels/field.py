@@ -53,7 +53,7 @@ class FieldPanel:
             self.curves[name].set_data((-1e9, 1e9), (here, here))
         if view is not self._drawn:
             self._drawn = view
-            self._show_grid(view)
+            self._show_grid(view, bool(live.difference))
 
     def _show_focus(self, view: FieldView, at, top: float) -> None:
         shown = {"S": view.real.sagittal, "T": view.real.tangential}
@@ -71,12 +71,12 @@ class FieldPanel:
         self.zeros[1].set_data((0, 0), (0, top))
         self.distortion.update()
 
-    def _show_grid(self, view: FieldView) -> None:
+    def _show_grid(self, view: FieldView, difference: bool) -> None:
         for curve, points in ((self.straight, view.straight), (self.bent, view.bent)):
             curve.set_data(*points.T)
         self.grid.set_range((-0.8, 0.8), (-1.05, 0.8))
         words = "as it is" if view.exaggerated == 1 else f"drawn {view.exaggerated} times"
-        self.grid.show_notes(((0.0, -0.93, f"{edge(view)}, {words}", "muted", 0),))
+        self.grid.show_notes(((0.0, -0.93, f"{edge(view, difference)}, {words}", "muted", 0),))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -85,9 +85,9 @@ class FieldPanel:
         self.widget.set_readout(legend(LOOKS, theme))
 
 
-def edge(view: FieldView) -> str:
-    """Return the distortion at the edge of the field in words."""
+def edge(view: FieldView, difference: bool = False) -> str:
+    """Return the distortion at the edge of the field in words, or by how much it differs."""
     known = np.flatnonzero(np.isfinite(view.heights.distortion))[-1]
     share = 100 * float(view.heights.distortion[known])
-    kind = "barrel" if share < 0 else "pincushion"
+    kind = "A − B" if difference else "barrel" if share < 0 else "pincushion"
     return f"{kind} {signed(share, 3)} % at {view.field_deg[known]:.3g}°"

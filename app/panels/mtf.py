@@ -25,15 +25,15 @@ class MtfPanel(CurvesPanel):
         view = live.views["mtf"]
         curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
         self.show_curves(view.frequency_per_mm, curves)
-        self.set_range((0.0, float(view.frequency_per_mm[-1])), signed_range(live, curves, (0.0, 1.04)))
-        self._mark(live.state.pixel_um)
-        self.show_side(live.side)
+        low, high = signed_range(live, curves, (0.0, 1.04))
+        self.set_range((0.0, float(view.frequency_per_mm[-1])), (low, high))
+        self._mark(live.state.pixel_um, low + 0.91 * (high - low))
 
-    def _mark(self, pixel_um: float) -> None:
-        """Mark the sensor's Nyquist frequency."""
+    def _mark(self, pixel_um: float, height: float) -> None:
+        """Mark the sensor's Nyquist frequency, its name at a height of the contrast."""
         self.pixel.show_value(pixel_um)
         nyquist = nyquist_per_mm(pixel_um)
-        self.chart.show_notes(((nyquist, 0.95, f" Nyquist {nyquist:.3g}", "text", -1),), ((nyquist, "text"),))
+        self.chart.show_notes(((nyquist, height, f" Nyquist {nyquist:.3g}", "text", -1),), ((nyquist, "text"),))
 
 
 def nyquist_per_mm(pixel_um: float) -> float:

@@ -43,7 +43,6 @@ class ProfilesPanel(CurvesPanel):
         self.within.set_data(view.position_um[outward], view.energy[outward])
         self.energy.set_range((0.0, half), signed_range(live, {"energy": view.energy}, (0.0, 1.04)))
         self.energy.update()
-        self.show_side(live.side)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -7,8 +7,10 @@ from PySide6.QtGui import QColor, QPainter
 from app.brightness import stretched
 from app.card import Card
 from app.compute import Live
+from app.panels.differences import DIFFERENCE_MAP
 from app.panels.tiles import TilesChart, tile
 from app.panels.worked import Asking
+from app.plots import BRIGHTNESS
 from app.scales import signed
 from app.setting import prescription, ranges
 from app.store import Store
@@ -116,9 +118,11 @@ class ThroughFocusPanel:
         shifts = np.array(asked.shifts_um)
         step = shifts[1] - shifts[0]
         self.chart.set_range((float(shifts[0] - 0.6 * step), float(shifts[-1] + 0.6 * step)), (0.0, 1.0))
-        light = found.light / (np.nanmax(found.light) if np.isfinite(found.light).any() else 1.0)
-        shown = zip(stretched(light, self._scale), shifts, strict=True)
-        self.chart.show_tiles((tile(values, float(at), 0.46) for values, at in shown), step)
+        top = np.nanmax(np.abs(found.light)) if np.isfinite(found.light).any() else 1.0
+        light = np.sign(found.light) * stretched(np.abs(found.light) / (top or 1.0), self._scale)
+        low, self.chart.colours = (-1.0, DIFFERENCE_MAP) if asked.less else (0.0, BRIGHTNESS)
+        shown = zip(light, shifts, strict=True)
+        self.chart.show_tiles((tile(values, float(at), 0.46, low) for values, at in shown), step)
         foci = (("S", found.sagittal, "marginal"), ("T", found.tangential, "positive"), ("best", found.best, "text"))
         notes = [(x, 0.93, f"▾ {name}", token, 0) for name, x, token in foci if np.isfinite(x)]
         self.chart.show_notes(notes)

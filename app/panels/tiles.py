@@ -19,11 +19,11 @@ class Tile:
     y: float
 
 
-def tile(values: np.ndarray, x: float, y: float) -> Tile | None:
-    """Return brightness 0 to 1, rows +y, as a tile; None where there are no numbers."""
+def tile(values: np.ndarray, x: float, y: float, low: float = 0.0) -> Tile | None:
+    """Return brightness ``low`` to 1, rows +y, as a tile; None where there are no numbers."""
     if np.isnan(values).all():
         return None
-    return Tile(as_indices(values.astype(float), 0.0, 1.0)[::-1], x, y)
+    return Tile(as_indices(values.astype(float), low, 1.0)[::-1], x, y)
 
 
 class TilesChart(NotedChart):
@@ -33,6 +33,7 @@ class TilesChart(NotedChart):
         super().__init__(*arguments, **options)
         self.tiles: tuple[Tile, ...] = ()
         self.side, self.rows = 1.0, 1
+        self.colours = BRIGHTNESS
 
     def show_tiles(self, tiles, side: float, rows: int = 1) -> None:
         """Show tiles, None where there is no light; each has ``side`` of the width and 1/``rows`` of the height."""
@@ -57,7 +58,7 @@ class TilesChart(NotedChart):
         """Paint the pictures, then lines and words."""
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         painter.setPen(Qt.PenStyle.NoPen)
-        table = lookup(named(BRIGHTNESS, self.theme))
+        table = lookup(named(self.colours, self.theme))
         for each in self.tiles:
             pixels = np.ascontiguousarray(table[each.indices])
             image = QImage(pixels.data, *pixels.shape[::-1], 4 * pixels.shape[1], QImage.Format.Format_RGB32)

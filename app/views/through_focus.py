@@ -23,17 +23,21 @@ ROOM = 4.0  # Airy radii around the blur
 
 @dataclass(frozen=True)
 class Strip:
-    """What is asked: ``state`` with the sensor unshifted, the shifts in µm to show, and each picture's window."""
+    """What is asked: ``state`` with the sensor unshifted, the shifts in µm to show, and each picture's window.
+
+    ``less`` is what is to be taken from it, picture by picture.
+    """
 
     state: State
     shifts_um: tuple[float, ...]
     window: tuple[int, float]
     six: bool
+    less: "Strip | None" = None
 
 
 @dataclass(frozen=True)
 class Focused:
-    """What is shown: (count, pixels, pixels) light per sample over the brightest of all; foci as sensor shifts, µm.
+    """What is shown: (count, pixels, pixels) light per sample over the unaberrated peak; foci as sensor shifts, µm.
 
     ``light`` is NaN where there is no PSF. ``best``: of smallest RMS wavefront, NaN where there is none.
     """
@@ -81,15 +85,16 @@ def answer(asked: Strip, stopped, tell) -> Focused:
     for number in outwards(len(asked.shifts_um)):
         if stopped():
             break
-        found.light[number] = light(replace(asked.state, sensor_shift_um=asked.shifts_um[number]), asked)
+        shift = asked.shifts_um[number]
+        found.light[number] = light(shift, asked) - (light(shift, asked.less) if asked.less else 0.0)
         tell((number + 1) / len(asked.shifts_um), found)
     return found
 
 
-def light(state: State, asked: Strip) -> np.ndarray:
+def light(shift_um: float, asked: Strip) -> np.ndarray:
     """Return the light per sample of one position, in units of the unaberrated peak; NaN where there is no PSF."""
     try:
-        psf = in_window(state, asked.window, asked.six)
+        psf = in_window(replace(asked.state, sensor_shift_um=shift_um), asked.window, asked.six)
     except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip says as much
         return np.full((asked.window[0],) * 2, np.nan)
     peak = float(psf.values.max()) or 1.0
