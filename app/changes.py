@@ -45,7 +45,8 @@ def read_changes(text: str, number: int, where: str) -> Changes:
 
 
 def _value(name: str, word: str):
-    known = {field.name: getattr(State(), field.name) for field in fields(State)}
+    bare = State()  # made once: checking its entries takes longer than all the rest of a lesson
+    known = {field.name: getattr(bare, field.name) for field in fields(State)}
     known |= {ADDED + term: 0.0 for term in TERMS}
     if name not in known or not word:
         raise P2SFError(f'"{name} {word}" sets nothing; write entries such as field_deg 10, tab mtf')

@@ -14,6 +14,7 @@ from app.plots import HeatMap
 from app.readout import FactTable
 from app.words import tr
 
+QUICKLY = 85  # Qt's word for the fastest compression of a PNG there is: a tenth more bytes, two thirds of the time
 Rows = list[list]
 
 
@@ -41,7 +42,7 @@ def png_of(widget: QWidget) -> bytes:
     """Return a widget's picture as PNG."""
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    widget.grab().save(buffer, "PNG")
+    widget.grab().save(buffer, "PNG", QUICKLY)
     return bytes(buffer.data())
 
 

@@ -88,6 +88,12 @@ READERS: dict[str, Callable[[str], object]] = {
 }
 
 
+def check_surface(lens: Lens, number: int) -> None:
+    """Raise GeometryError for a surface that a lens lacks: a table keeps the last lens that had a picture."""
+    if not 1 <= number <= len(lens.surfaces):
+        raise GeometryError(f"there is no surface {number} in a lens of {len(lens.surfaces)}; choose its row again")
+
+
 def with_stop(lens: Lens, number: int) -> Lens:
     """Return the lens with its stop on surface ``number``, as fast as it was: the f-number stays, the rim follows.
 

@@ -33,7 +33,11 @@ class PanelStore:
     def _refused(self, changes: dict) -> bool:
         state = self._store.state
         moves = any(name in OPTICS and getattr(state, name) != value for name, value in changes.items())
-        if moves and state.shown == "b":
+        return moves and self.refused_for_b()
+
+    def refused_for_b(self) -> bool:
+        """Return whether B is on screen, and say that what a panel shows of it is not changed."""
+        if self._store.state.shown == "b":
             self._store.refused.emit(OTHER_SIDE)
             return True
         return False

@@ -1,7 +1,7 @@
 """Which rung of the ladder makes the picture, and the picture itself. No Qt in here."""
 
 from dataclasses import dataclass, replace
-from math import floor, log10
+from math import floor, log10, sqrt
 
 from app.geometric import geometric_psf, main_reach_um
 from app.pupil import PupilMap
@@ -20,6 +20,7 @@ from p2sf.wavefront import steepest_slope
 PIXELS = {"preview": 64, "settled": 128}
 WHOLE = 64  # samples over which the six coefficients are asked for a window that shows all of the PSF
 WINDOWS = (1, 1.5, 2, 3, 4, 5, 6, 8)
+STEEPEST_IN_ALL = 210.0  # waves of slope and of the plane wave to the window's corner: samples carry both together
 STEEPEST = 80.0  # waves of slope: beyond, a sample of the window is some four Airy radii wide
 BLURRED = "geometric: ray density, no diffraction"
 PARTLY = BLURRED + "; {:.0f} % of the pupil's light is in view"
@@ -63,7 +64,7 @@ def rendered(
         method, why = (held, "") if held else chosen(state, set_up)
     if quality == "preview" and method != "seidel":
         return moving(state, set_up, method, at_least_um, done)
-    if too_blurred(set_up):
+    if too_blurred(set_up, at_least_um):
         return blurred(state, set_up, method, quality, at_least_um)
     if method != "seidel":
         return resting(state, set_up, (method, why), at_least_um, done)
@@ -105,7 +106,7 @@ def moving(
     window = pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels
     wanted = asked(state, set_up, "traced", window)
     many = row_nodes(wanted, slope(set_up, landing), float(set_up.coefficients.na)) > QUICK_NODES
-    if too_blurred(set_up) or many:
+    if too_blurred(set_up, at_least_um) or many:
         return replace(blurred(state, set_up, method, quality, at_least_um), pupil=pupil)
     why = MOVING.format(method) if method != "fitted" else ""
     if made:
@@ -135,9 +136,13 @@ def blurred(state: State, set_up: Setting, method: str, quality: str, at_least_u
     return Made(psf, BLURRED if psf.energy > ALL_LIGHT else PARTLY.format(100 * psf.energy), exact, method)
 
 
-def too_blurred(set_up: Setting) -> bool:
-    """Return whether a wave sum would take too long for a picture that shows only the density of rays anyway."""
-    return float(steepest_slope(set_up.coefficients)) > STEEPEST
+def too_blurred(set_up: Setting, across_um: float = 0.0) -> bool:
+    """Return whether a wave sum would take too long for a picture that shows only the density of rays anyway.
+
+    Either the blur is large, or a window ``across_um`` wide, for another picture's sake, has coarse samples.
+    """
+    steep, corner = float(steepest_slope(set_up.coefficients)), sqrt(2) * slope(set_up, across_um / 2)
+    return steep > STEEPEST or steep + corner > STEEPEST_IN_ALL
 
 
 def slope(set_up: Setting, landing: float) -> float:

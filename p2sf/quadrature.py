@@ -5,7 +5,7 @@ edge at all, and converges faster than any power once it resolves the phase.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, wraps
 from math import ceil, pi
 
 import numpy as np
@@ -17,6 +17,7 @@ from p2sf.errors import SamplingError
 SETTLED_TOLERANCE = 1e-4
 NEWTON_STEPS = 8
 NEWTON_ENOUGH = 1e-6  # of a step, in units of the closest nodes' distance: the next error is its square
+MOST_KEPT = 2**18  # nodes: 3 MB each, of the half disc
 AT_ONCE = 2**22  # numbers of a table that only a sum is wanted of
 
 
@@ -33,7 +34,19 @@ class DiscNodes:
         return DiscNodes(*(x.astype(dtype) for x in (self.xi, self.eta, self.weight)))
 
 
-@lru_cache(maxsize=64)
+def kept(make):
+    """Return a function of two counts that keeps its latest results, but not those of more than MOST_KEPT nodes."""
+    known = lru_cache(maxsize=32)(make)
+
+    @wraps(make)
+    def function(*counts: int):
+        return (make if counts[0] * counts[1] > MOST_KEPT else known)(*counts)
+
+    function.cache_clear = known.cache_clear
+    return function
+
+
+@kept
 def disc_nodes(radial: int, angular: int) -> DiscNodes:
     """Return the half-disc nodes of Gauss–Legendre in ρ² times ``angular`` directions around the whole circle.
 
@@ -70,7 +83,7 @@ class RowNodes:
         return RowNodes(self.eta[some], xi, self.weight[some], self.name)
 
 
-@lru_cache(maxsize=32)
+@kept
 def chord_rows(rows: int, columns: int) -> RowNodes:
     """Return Gauss–Chebyshev rows (second kind) times Gauss–Legendre along each chord; both counts even.
 

@@ -1,5 +1,7 @@
 """The disc rules are exact where they say so, and their node counts keep the settled picture's promise."""
 
+from math import isqrt
+
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
@@ -9,6 +11,7 @@ from p2sf.conventions import centred_axis
 from p2sf.errors import SamplingError
 from p2sf.fastpath import intensities
 from p2sf.quadrature import (
+    MOST_KEPT,
     SETTLED_TOLERANCE,
     cell_areas,
     chord_rows,
@@ -134,3 +137,13 @@ def test_a_quarter_of_the_nodes_would_not_settle():
     radial, angular = nodes_for(slope, 8.0 * 2**0.5, twist)
     finer = polar(c, 8.0, 2 * radial, 2 * angular)
     assert relative_l2(polar(c, 8.0, radial // 2, angular // 4 * 2), finer) > SETTLED_TOLERANCE
+
+
+@pytest.mark.parametrize("rule", [disc_nodes, chord_rows])
+def test_a_rule_is_kept_unless_it_is_large(rule):
+    """Tens of large ones would hold a gigabyte."""
+    rule.cache_clear()
+    assert rule(10, 12) is rule(10, 12)
+    large = 2 * (isqrt(MOST_KEPT) // 2 + 1)
+    assert rule(large, large) is not rule(large, large)
+    assert MOST_KEPT * 24 / 2 * 32 < 1.1e8

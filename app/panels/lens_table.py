@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QPushButton, QTabl
 
 from app.card import Card
 from app.compute import Live
-from app.editing import deleted, edited_state, inserted, with_stop, with_value
+from app.editing import check_surface, deleted, edited_state, inserted, with_stop, with_value
 from app.saving import ask_save_lens
 from app.setting import prescription
 from app.store import Store
@@ -115,11 +115,15 @@ class LensTablePanel:
         if self._edit(edit, row + 1):
             self.view.setCurrentIndex(self.model.index(min(row + step, self.model.rowCount() - 1), column))
 
-    def _edit(self, edit, *arguments) -> bool:
-        """Try an edit of the lens; one that gives no lens, or a lens with no picture, is refused in a sentence."""
+    def _edit(self, edit, number: int, *arguments) -> bool:
+        """Try an edit of a surface; one that gives no lens, or a lens with no picture, is refused in a sentence."""
         state = self._store.state
+        if self._store.refused_for_b():
+            return False
         try:
-            self._store.replace(edited_state(state, edit(prescription(state), *arguments)))
+            lens = prescription(state)
+            check_surface(lens, number)
+            self._store.replace(edited_state(state, edit(lens, number, *arguments)))
         except P2SFError as error:
             self._store.refused.emit(str(error))
             return False

@@ -198,6 +198,14 @@ def changes(text: str):
     return read_changes(text, 1, "lesson.md")
 
 
+def test_reading_an_entry_does_not_check_a_state_for_every_name_there_is(monkeypatch):
+    """The fifty checks an entry cost held the window up for a third of a second when the lessons opened."""
+    made, check = [], State.__post_init__
+    monkeypatch.setattr(State, "__post_init__", lambda state: (made.append(state), check(state)))
+    assert changes("field_deg 10, tab mtf") == (("field_deg", 10.0), ("tab", "mtf"))
+    assert len(made) <= 8
+
+
 def test_every_measure_is_used_or_at_least_measures():
     used = {claim.measure for lesson in LESSONS for step in lesson.steps for claim in step.claims}
     state = parsed(GOOD).state(0)

@@ -16,6 +16,7 @@ from app.wavesums import KEPT, MOST_NODES, Asked, Done
 from p2sf.accuracy import r_squared
 from p2sf.huygens import Filling, huygens_psf
 from p2sf.library import shipped_lenses
+from tests.app.conftest import FIRST
 
 CORNER = replace(with_lens(State(theme="light"), "double_gauss_28"), method="traced", field_deg=14.0, clip=True)
 WIDE = replace(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_um=150.0)
@@ -131,3 +132,13 @@ def test_a_slow_rung_of_every_lens_has_something_that_stands_in():
         answer = live(state, done=Done())
         assert answer.owed or answer.psf.method == "geometric"
         assert np.isfinite(answer.psf.values).all() and answer.psf.values.sum() == pytest.approx(1.0)
+
+
+def test_a_window_for_a_wide_picture_shows_a_small_one_as_rays():
+    """Beside a B that is blurred over millimetres a sum of waves would be of thousands of rows."""
+    sharp = replace(FIRST, field_deg=0.0)
+    assert live(sharp, at_least_um=100.0).psf.method == "seidel"
+    for quality in ("preview", "settled"):
+        wide = live(sharp, quality, at_least_um=20_000.0).psf
+        assert wide.method == "geometric" and wide.values.sum() == pytest.approx(1.0)
+        assert wide.values.shape[-1] * wide.pixel_um == pytest.approx(20_000.0)

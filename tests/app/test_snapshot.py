@@ -10,6 +10,7 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QImage
 
 from app.__main__ import starting_state
+from app.copying import png_of
 from app.display import display_problem
 from app.embedded import PNG_HEADER, foreign, state_inside, with_state
 from app.opening import opened
@@ -154,3 +155,9 @@ def test_a_state_goes_into_a_picture_without_encoding_it_again(tmp_path, window)
     with Image.open(io.BytesIO(whole)) as picture:
         picture.verify()
         assert picture.info["p2sf-state"] == "{} ∞"
+
+
+def test_a_picture_of_the_window_is_packed_quickly(window):
+    """The first two bytes of what is packed tell the effort (RFC 1950, 2.2): the least there is."""
+    made = png_of(window.panels["psf"].widget)
+    assert made[made.index(b"IDAT") + 4 :][:2] == b"\x78\x01"
