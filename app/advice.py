@@ -1,5 +1,6 @@
 """What a person must know about the picture, in words. No Qt in here."""
 
+from functools import lru_cache
 from math import isinf
 
 import numpy as np
@@ -8,6 +9,8 @@ from app.pupil import strongest
 from app.scales import significant
 from app.setting import Setting
 from app.whatif import NOTE
+from p2sf.lens import Lens
+from p2sf.oddities import oddities
 
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
 GEOMETRIC = "the blur is so large that the picture is ray density, no diffraction; "
@@ -30,12 +33,20 @@ def warnings(setting: Setting, exact: bool, lost_rays: int = 0, geometric: bool 
         None if exact else _defocus(setting),
         None if exact else _paraxial(setting),
         setting.stop.warning,
+        *_odd(setting.lens),
     ]
     return tuple(_sentence(text) for text in found if text)
 
 
 def _sentence(text: str) -> str:
     return text[0].upper() + text[1:] + ("" if text.endswith(".") else ".")
+
+
+@lru_cache(maxsize=16)
+def _odd(lens: Lens) -> tuple[str, ...]:
+    """Return what no workshop could make: the first sentence, and how many there are."""
+    first, *others = oddities(lens) or (None,)
+    return (first, f"this lens has {1 + len(others)} such oddities; p2sf info lists them all") if others else (first,)
 
 
 def _by_hand(setting: Setting) -> str | None:

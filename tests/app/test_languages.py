@@ -18,6 +18,7 @@ from app.languages import FOLDER, JOINTS, Spoken, speak, spoken, template, texts
 from app.palette import named
 from app.panels import REGISTRY
 from app.panels.solid import SolidPanel
+from app.setting import with_lens
 from app.speaking import Speaking
 from app.speech import spoken as in_the_windows_words
 from app.state import State
@@ -211,3 +212,16 @@ def test_every_sentence_about_opengl_is_in_german():
     for code in (probe.NO_LIBRARY, probe.NO_CONTEXT):
         assert probe.sentence(code) in GERMAN
     assert probe.sentence(probe.WORKS) == ""
+
+
+def test_oddities_of_a_lens_are_said_in_german(only_window):
+    stop = "The stop on surface 3 has a semi-diameter of 9 mm, but a radius of 8 mm ends that surface at 8 mm; "
+    nothing = "Every medium of this lens has the index 1, so no surface bends light; name its glasses."
+    speak("de")
+    try:
+        for sentence in live(with_lens(State(), "relay")).warnings:
+            assert is_german(tr(sentence)) and tr(sentence) != sentence, sentence
+        assert "8 mm enden; abblenden" in tr(stop + "stop the lens down or move the stop.")
+        assert "den Brechungsindex 1, also" in tr(nothing)
+    finally:
+        speak("en")

@@ -7,7 +7,8 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 
-from app.setting import load, ranges
+from app.setting import load, ranges, with_lens
+from tests.app.conftest import FIRST
 
 KEYS = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
 
@@ -204,3 +205,13 @@ def test_a_lens_file_dropped_on_the_window_opens(window, tmp_path):
     event = QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, buttons, keys)
     window.dropEvent(event)
     assert window.live.state.lens == str(path)
+
+
+def test_what_no_workshop_could_make_is_told_with_the_warnings(window):
+    """The relay's published rims reach beyond its spheres; the first is named, and how many there are."""
+    assert not any("semi-diameter" in sentence for sentence in window.live.warnings)
+    window.store.replace(with_lens(FIRST, "relay"))
+    *_, first, others = window.live.warnings
+    assert first.startswith("Surface 1 has a clear semi-diameter of 69.5146 mm, but its radius of 61.8 mm ends it")
+    assert others == "This lens has 4 such oddities; p2sf info lists them all."
+    assert first in window.status.warning.toolTip()
