@@ -57,6 +57,7 @@ class Verdict:
             f"{self.memory[1]:.0f} MB ({100 * self.growth:+.1f} %); GUI-thread CPU per event: median "
             f"{np.median(cost):.1f}, 99 % {np.percentile(cost, 99):.1f}, worst {worst:.0f} ms ({name}), "
             f"{len(self.ledger.slow)} over {STALL_MS:.0f} ms {self.ledger.slow}; "
+            f"first opening of 3D {self.ledger.first_3d:.0f} ms, not counted; "
             f"one and the same drag: {self.probe[0]:.2f} → {self.probe[1]:.2f} ms"
         )
 
