@@ -82,8 +82,13 @@ def template(source: str, said: str):
     form = "".join(STANDS.get(p, anything) if p in names else re.escape(p) for p in parts)
     for number, name in enumerate(names):
         said = said.replace(name, f"{{{number}}}", 1)
-    fits, fixed = re.compile(form).fullmatch, max((p for p in parts if p not in names), key=len)
-    return lambda text: fits(text) if fixed in text else None, said  # most texts lack the words: no need to match
+    fits, fixed, dots = (
+        re.compile(form).fullmatch,
+        max((p for p in parts if p not in names), key=len),
+        source.count(" · "),
+    )
+    # Most texts lack the words, or have other parts: no need to match them, which takes long.
+    return lambda text: fits(text) if fixed in text and text.count(" · ") == dots else None, said
 
 
 def texts(code: str) -> dict[str, str]:
