@@ -28,6 +28,7 @@ from p2sf.pupils import pupils
 from p2sf.request import Request, set_up
 from p2sf.seidel import coefficients
 
+LAST = "last-input"  # the file with what a fuzzing process tried last, beside its folder of inputs
 ENDINGS = (".toml", ".zmx", ".seq", ".csv", ".json", ".txt", ".dat")
 OPTIONS = (
     "--depth-mm",
