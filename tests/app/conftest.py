@@ -39,6 +39,8 @@ def window(only_window, qtbot):
     """Return the one window, back in the first state: to make a new one each time takes a second."""
     only_window.store.replace(FIRST)
     only_window.refresh(FIRST)
+    if focused := QApplication.focusWidget():
+        focused.clearFocus()  # a shortcut is about the panel that has the focus
     only_window.activateWindow()  # shortcuts and editors answer in the active window only
     QApplication.processEvents()
     return only_window
