@@ -13,7 +13,7 @@ from p2sf.errors import GeometryError
 from p2sf.fitted import psf_of_fit
 from p2sf.psf import Psf
 from p2sf.raydata import RayData, ray_data
-from p2sf.rayfit import LEVELS, FittedPencil, fit_rays, level_rays
+from p2sf.rayfit import LEVELS, FittedPencil, fit, fit_rays, level_rays
 from p2sf.raytrace import Pencil, opd_on_sphere, pencil
 from p2sf.rendering import Made, psf_from_intensity
 from p2sf.rows import rows_for
@@ -21,6 +21,7 @@ from p2sf.vignetting import CLIPPED
 from p2sf.zernike import basis
 
 LEVEL = LEVELS[0]  # 26 numbers
+CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS waves a fit may miss: by the least numbers, by all of the same rays, at all
 SAMPLES = 64  # of the pupil map, across
 EDGE = 9  # rays along the rim and as many at 0.7 of it, for how far light reaches on the sensor
 
@@ -63,14 +64,28 @@ def landing_um(rays: Pencil) -> float:
 
 
 def quick_psf(made: Quick, pixels: int, pixel_um: float) -> Psf:
-    """Return the PSF of the fit, float32."""
-    return psf_of_fit(_fit(made), made.set_up.source.wavelength_um, (pixels, pixel_um), "preview", made.begun)
+    """Return the PSF of the fit, float32; of exact rays where every fit misses more than `FAR`."""
+    found, set_up = best_fit(made), made.set_up
+    if found.error_waves > FAR:
+        from p2sf.ladder import render
+
+        return render(set_up.lens, set_up.source, "traced", pixels, pixel_um, "preview")
+    return psf_of_fit(found, set_up.source.wavelength_um, (pixels, pixel_um), "preview", made.begun)
 
 
-def _fit(made: Quick) -> FittedPencil:
+def best_fit(made: Quick) -> FittedPencil:
+    """Return the fit of fewest numbers that misses little; more rays are traced only where the first do not do."""
     data, count = ray_data(made.rays), level_rays(LEVEL)[0].size
     own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
-    return fit_rays(own, LEVEL, count)
+    found = fit_rays(own, LEVEL, count)
+    if found.error_waves > CLOSE:
+        found = fit_rays(own, LEVELS[1], count, found.steepness)
+    if found.error_waves <= NEAR:
+        return found
+    try:
+        return fit(made.set_up.lens, made.set_up.source, residual_waves=NEAR)
+    except GeometryError:  # one of the rays more is lost
+        return found
 
 
 def clipped_psf(made: Quick, pixels: int, pixel_um: float) -> Psf | None:
@@ -78,7 +93,7 @@ def clipped_psf(made: Quick, pixels: int, pixel_um: float) -> Psf | None:
 
     A yes or no at each node makes a ragged edge, good for a picture that moves. Raises GeometryError where none passes.
     """
-    found, set_up = _fit(made), made.set_up
+    found, set_up = best_fit(made), made.set_up
     nodes = rows_for(found, pixels, pixel_um, "preview")
     if nodes is None:
         return None
