@@ -50,7 +50,7 @@ def test_where_no_fit_comes_near_exact_rays_make_the_picture(monkeypatch):
 
 
 def test_a_fit_of_more_rays_is_left_where_one_of_them_is_lost(monkeypatch):
-    made = quick.quick(setting(replace(default_state("telephoto"), f_number=3.6, field_deg=0.0)))
+    made = quick.quick(setting(replace(default_state("telephoto"), f_number=4.5, field_deg=0.0)))
     assert best_fit(made).numbers == 72
 
     def lost(*_, **__):
