@@ -32,7 +32,7 @@ def test_a_plan_explains_itself(scene, capsys):
     assert main(["plan", "double_gauss_28", str(scene), "--check", "1", "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert facts["meets"] and facts["measured"]["kept"] and facts["predicted_error"] <= 0.1
-    assert len(facts["decisions"]) == 4 + 4 + 3
+    assert len(facts["decisions"]) == 4 + 5 + 3
 
 
 def test_a_picture_goes_through_the_lens(scene, tmp_path, capsys):

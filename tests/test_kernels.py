@@ -6,8 +6,10 @@ import pytest
 from p2sf.errors import GeometryError
 from p2sf.huygens import huygens_psf
 from p2sf.kernels import Colour, Kernels, Recipe, distortion_at, view
+from p2sf.kernels.channel import own_pupil
 from p2sf.kernels.pixels import Window, half_width, pixel_kernel
 from p2sf.kernels.pupilmap import dropped_terms, pupil_map, without
+from p2sf.kernels.pupiltable import chebyshev, few_nodes, lagrange, pupil_table
 from p2sf.library import find_lens
 from p2sf.scene.reference import exact_pixels
 from p2sf.scene.scene import Channel
@@ -119,3 +121,26 @@ def test_kernels_of_a_channel_have_unit_sum_and_carry_lateral_colour():
         return line @ axis**2 - (line @ axis) ** 2
 
     assert spread(kernel) > spread(single)
+
+
+def test_pupils_between_a_few_are_the_ones_that_rays_give():
+    """Four heights and three depths: phase RMS 2e-4 waves, 4πσ = 2.5e-3 of a kernel; at the nodes, the fit itself."""
+    lens, recipe = find_lens("double_gauss_28"), Recipe("fitted", 46)
+    depths = 1 / chebyshev(1e-5, 2e-4, 3)
+    seen = {1 / d: view(lens, d, WAVE, 16.0) for d in (*depths, 9000.0)}
+    table = pupil_table(lambda h, v: own_pupil(seen[v], h, 0.55, recipe), chebyshev(2.0, 15.0, 4), list(seen)[:3])
+    for height in (3.1, 11.7):
+        made, own = table.at(height, 1 / 9000.0), own_pupil(seen[1 / 9000.0], height, 0.55, recipe)
+        assert np.linalg.norm(made[0].phase[1:] - own[0].phase[1:]) < 1e-3
+        assert np.abs(made[0].eta - own[0].eta).max() < 1e-4 and made[1] == pytest.approx(own[1], abs=2e-5)
+        assert made[0].reach_um == pytest.approx(own[0].reach_um, rel=0.02)
+        assert made[0].light == pytest.approx(own[0].light, rel=1e-4)
+    node = own_pupil(seen[1 / depths[1]], 15.0, 0.55, recipe)[0]
+    assert np.allclose(table.at(15.0, 1 / depths[1])[0].phase, node.phase, atol=1e-9)
+    assert table.at(15.1, 1e-4) is None and table.at(5.0, 1e-3) is None  # it never extrapolates
+
+
+def test_interpolation_is_exact_for_polynomials_and_few_values_are_their_own_nodes():
+    nodes = tuple(chebyshev(-1.0, 3.0, 4).tolist())
+    assert lagrange(nodes, 0.7) @ np.power(nodes, 3) == pytest.approx(0.7**3)
+    assert few_nodes((1.0, 2.0, 7.0), 3).tolist() == [1, 2, 7] and few_nodes((1.0, 2.0, 7.0), 2).tolist() == [1, 7]

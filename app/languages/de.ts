@@ -247,6 +247,7 @@
 <message><source>Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch).</source><translation>Pixelabstand des Sensors; seine Nyquist-Frequenz ist 1/(2 Abstand).</translation></message>
 <message><source>Pixels at the field point, or the field</source><translation>Pixel am Feldpunkt, oder das Feld</translation></message>
 <message><source>Places</source><translation>Orte</translation></message>
+<message><source>Pupils</source><translation>Pupillen</translation></message>
 <message><source>Plano-convex singlet, 25.4 mm, N-SF11 (stock lens)</source><translation>Plankonvexe Einzellinse, 25,4 mm, N-SF11 (Lagerware)</translation></message>
 <message><source>Play or pause (Space on a slider)</source><translation>Abspielen oder anhalten (Leertaste auf einem Regler)</translation></message>
 <message><source>Play or pause the last slider</source><translation>Letzten Regler abspielen oder anhalten</translation></message>
@@ -464,6 +465,9 @@
 <message><source>1 node</source><translation>1 Knoten</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
 <message><source>{rows} × {columns} nodes</source><translation>{rows} × {columns} Knoten</translation></message>
+<message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
+<message><source>fewer of the dearest rung with the others in between would cost no less</source><translation>weniger davon auf der teuersten Stufe mit den übrigen dazwischen kosteten nicht weniger</translation></message>
+<message><source>{heights} heights × {depths} depths in each wavelength; the others of {count} lie on polynomials through them</source><translation>{heights} Höhen × {depths} Abstände je Wellenlänge; die übrigen von {count} liegen auf Polynomen durch diese</translation></message>
 <message><source>kernels in the middle of a cell are then the mean of its corners</source><translation>Kerne mitten in einer Zelle sind dann das Mittel ihrer Ecken</translation></message>
 <message><source>defocus grows with 1/distance, so nodes stand at equal steps of it</source><translation>die Defokussierung wächst mit 1/Abstand, daher stehen die Knoten in gleichen Schritten davon</translation></message>
 <message><source>at the corner {count} phase terms stay below {waves} waves RMS together, the strongest (n={n}, m={m}) has {most} waves</source><translation>in der Ecke bleiben {count} Phasenterme zusammen unter {waves} Wellen RMS, der stärkste (n={n}, m={m}) hat {most} Wellen</translation></message>
@@ -1260,5 +1264,14 @@
 <message><source>choose "mdft" or "fft"</source><translation>"mdft" oder "fft" wählen</translation></message>
 <message><source>choose "file" or "auto"</source><translation>"file" oder "auto" wählen</translation></message>
 <message><source>choose file or auto</source><translation>file oder auto wählen</translation></message>
+<message><source>sensor shift {shift} µm: share of the perfect peak</source><translation>Sensorversatz {shift} µm: Anteil der perfekten Spitze</translation></message>
+<message><source>at ({x}, {y}) of the corner: share of the peak</source><translation>bei ({x}, {y}) der Ecke: Anteil der Spitze</translation></message>
+<message><source>sagittal S, third order</source><translation>sagittal S, dritte Ordnung</translation></message>
+<message><source>tangential T, third order</source><translation>tangential T, dritte Ordnung</translation></message>
+<message><source>distortion, third order</source><translation>Verzeichnung, dritte Ordnung</translation></message>
+<message><source>1/depth, 1/mm</source><translation>1/Abstand, 1/mm</translation></message>
+<message><source>surfaces in the order of the light</source><translation>Flächen in der Reihenfolge des Lichts</translation></message>
+<message><source>z, mm</source><translation>z, mm</translation></message>
+<message><source>y, mm</source><translation>y, mm</translation></message>
 </context>
 </TS>

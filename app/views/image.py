@@ -193,6 +193,7 @@ PLAIN = {  # in the order they are told
     "terms": "Phase",
     "sampling": "Sampling",
     "depth": "Depths",
+    "pupils": "Pupils",
 }
 
 

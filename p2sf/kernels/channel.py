@@ -1,15 +1,16 @@
 """The kernel of one spectral channel anywhere on the sensor: fits on the radial line, turned and added in colour."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import atan2, hypot
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import UM_PER_MM, vergence
 from p2sf.errors import P2SFError
 from p2sf.kernels.pixels import Window, half_width, pixel_kernel, samples_across
 from p2sf.kernels.pupilmap import PupilMap, pupil_map, without
+from p2sf.kernels.pupiltable import PupilTable
 from p2sf.kernels.views import View
 
 
@@ -40,7 +41,8 @@ class Colour:
 class Kernels:
     """Kernels of one view, channel and pixel pitch; pupils are kept per height, since a ring shares them.
 
-    ``recipe_at(height_mm) -> Recipe`` lets the rung fall where a cheaper one holds.
+    ``recipe_at(height_mm) -> Recipe`` lets the rung fall where a cheaper one holds; ``tables`` by wavelength, where
+    there are any, spare a fit for every height.
     """
 
     seen: View
@@ -48,6 +50,7 @@ class Kernels:
     pixel_um: float
     recipe_at: Callable[[float], Recipe]
     half: int | None = None
+    tables: Mapping[float, PupilTable] = field(default_factory=dict)
     kept: dict = field(default_factory=dict)
 
     def at(self, x_mm: float, y_mm: float, half: int | None = None) -> np.ndarray:
@@ -79,13 +82,10 @@ class Kernels:
         return self.kept[key]
 
     def _pupil(self, height_mm, wavelength_um, recipe: Recipe) -> tuple[PupilMap, float]:
-        source = self.seen.source(height_mm, wavelength_um)
-        try:
-            pupil = pupil_map(self.seen.lens, source, recipe.method, recipe.numbers)
-        except P2SFError as error:
-            raise type(error)(f"{height_mm:.4g} mm from the axis of the sensor: {error}") from error
-        pupil = without(pupil, recipe.drop_waves) if recipe.drop_waves else pupil
-        return pupil, self.seen.shift_mm(height_mm, wavelength_um)
+        table = self.tables.get(wavelength_um)
+        found = table and table.at(height_mm, float(vergence(self.seen.depth_mm)))
+        pupil, shift = found or own_pupil(self.seen, height_mm, wavelength_um, recipe)
+        return (without(pupil, recipe.drop_waves) if recipe.drop_waves else pupil), shift
 
     def half_width(self, height_mm: float) -> int:
         """Return how many pixels on either side hold the whole kernel at this height."""
@@ -93,5 +93,17 @@ class Kernels:
 
     def light(self, height_mm: float) -> float:
         """Return the pupil's projected solid angle at this height, weighted over the channel."""
-        pairs = zip(self.colour.weights, self.pupils(height_mm), strict=True)
-        return float(sum(weight * pupil.light for weight, (pupil, _) in pairs) / sum(self.colour.weights))
+        recipe = self.recipe_at(height_mm)
+        own = (own_pupil(self.seen, height_mm, wave, recipe)[0].light for wave in self.colour.wavelengths_um)
+        return float(
+            sum(w * light for w, light in zip(self.colour.weights, own, strict=True)) / sum(self.colour.weights)
+        )
+
+
+def own_pupil(seen: View, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[PupilMap, float]:
+    """Return the pupil of one height by its own rays, and its lateral colour in mm; P2SFError says where it failed."""
+    try:
+        pupil = pupil_map(seen.lens, seen.source(height_mm, wavelength_um), recipe.method, recipe.numbers)
+    except P2SFError as error:
+        raise type(error)(f"{height_mm:.4g} mm from the axis of the sensor: {error}") from error
+    return pupil, seen.shift_mm(height_mm, wavelength_um)

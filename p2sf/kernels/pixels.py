@@ -11,6 +11,7 @@ from p2sf.kernels.pupilmap import PupilMap, Turned, turned
 
 TAIL = 8.0  # of λ/NA: what of diffraction's wings is kept beyond where rays land
 LARGEST_WINDOW = 4096
+BLOCK = 32768  # samples of the pupil that are worked on at once
 
 
 @dataclass(frozen=True)
@@ -60,40 +61,60 @@ def pixel_kernel(pupil: PupilMap, angle: float, window: Window, shift_um=(0.0, 0
     field = _field(turned(pupil, angle), side, 1 / (side * pitch), tuple(origin))
     plane = scipy.fft.ifft2(field, overwrite_x=True)[:count, :count]
     light = plane.real**2 + plane.imag**2
-    binned = light.reshape(window.size, window.samples, window.size, window.samples).sum((1, 3))
+    binned = _binned(light, window.size, window.samples)
     return np.ascontiguousarray(binned[::-1]) / binned.sum(dtype=float).astype(np.float32)
 
 
+def _binned(light: np.ndarray, size: int, samples: int) -> np.ndarray:
+    """Return sums over blocks of ``samples``² as two products, (size, size)."""
+    ones = np.ones(samples, light.dtype)
+    lines = light.reshape(size, samples, -1).sum(1)
+    return lines.reshape(size, size, samples) @ ones
+
+
 def _field(pupil: Turned, side: int, step: float, origin) -> np.ndarray:
-    """Return the pupil's complex amplitude on ``side``² frequencies, complex64, as an inverse FFT wants them."""
+    """Return the pupil's complex amplitude on ``side``² frequencies, complex64, as an inverse FFT wants them.
+
+    A few rows at a time: what one step leaves is still in the processor's cache for the next.
+    """
     half = int(pupil.radius / step) + 1
     phase = pupil.phase.copy()
     phase[1, 0] += pupil.radius * origin[0]
     phase[0, 1] += pupil.radius * origin[1]
-    axis = np.arange(-half, half + 1) * (step / pupil.radius)
     cell = step / pupil.radius
-    turns = _on_grid(phase, axis)
-    turns -= np.rint(turns)
-    turns = (2 * np.pi * turns).astype(np.float32)
-    amplitude = _amplitude(pupil, axis, cell)
-    field = np.empty(turns.shape, np.complex64)
-    np.multiply(amplitude, np.cos(turns), out=field.real)
-    np.multiply(amplitude, np.sin(turns), out=field.imag)
+    axis = np.arange(-half, half + 1) * cell
+    table = np.vander(axis, len(phase), increasing=True)
+    across, maps = phase.T @ table.T, _maps_across(pupil, table)
+    field = np.empty((axis.size, axis.size), np.complex64)
+    rows_at_once = max(8, BLOCK // axis.size)
+    for start in range(0, axis.size, rows_at_once):
+        rows = slice(start, start + rows_at_once)
+        turns = table[rows] @ across
+        turns -= np.rint(turns)
+        turns = (2 * np.pi * turns).astype(np.float32)
+        amplitude = _amplitude(table[rows].astype(np.float32) @ maps, axis, rows, cell)
+        np.multiply(amplitude, np.cos(turns), out=field[rows].real)
+        np.multiply(amplitude, np.sin(turns), out=field[rows].imag)
     return _wrapped(field, half, side)
 
 
-def _amplitude(pupil: Turned, axis, cell: float) -> np.ndarray:
-    """Return |∂(ξ, η)/∂u| times each cell's share inside the pupil, float32.
+def _maps_across(pupil: Turned, table: np.ndarray) -> np.ndarray:
+    """Return ξ, η and their four slopes summed over the powers of u, (6, powers of v, columns) float32."""
+    forms = np.stack([c for form in (pupil.xi, pupil.eta) for c in (form, *_derivatives(form))])
+    return (np.swapaxes(forms, 1, 2) @ table.T).astype(np.float32)
+
+
+def _amplitude(maps: np.ndarray, axis, rows: slice, cell: float) -> np.ndarray:
+    """Return |∂(ξ, η)/∂u| times each cell's share inside the pupil, float32, for some rows.
 
     Across the rim the share falls linearly over one cell, whose width in the pupil is the root of its area there.
     """
-    xi, eta = (_on_grid(c, axis, np.float32) for c in (pupil.xi, pupil.eta))
-    slopes = (_on_grid(d, axis, np.float32) for c in (pupil.xi, pupil.eta) for d in _derivatives(c))
-    xi_u, xi_v, eta_u, eta_v = slopes
+    xi, xi_u, xi_v, eta, eta_u, eta_v = maps
     area = np.abs(xi_u * eta_v - xi_v * eta_u)
     inside = (1 - np.sqrt(xi * xi + eta * eta)) / (np.sqrt(area) * np.float32(cell) + np.float32(1e-30)) + 0.5
-    inside *= axis[:, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials mean nothing
-    return area * np.clip(inside, 0, 1)
+    inside *= axis[rows, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials mean nothing
+    np.clip(inside, 0, 1, out=inside)
+    return np.multiply(area, inside, out=area)
 
 
 def _derivatives(c: np.ndarray):
@@ -103,12 +124,6 @@ def _derivatives(c: np.ndarray):
     by_u[:-1] = c[1:] * n[1:, None]
     by_v[:, :-1] = c[:, 1:] * n[1:]
     return by_u, by_v
-
-
-def _on_grid(c: np.ndarray, axis: np.ndarray, dtype=np.float64) -> np.ndarray:
-    """Return Σ c[i, j]·uⁱvʲ, rows v and columns u: two small matrix products, since a grid separates."""
-    table = np.vander(axis, len(c), increasing=True)
-    return (table @ c.T).astype(dtype) @ table.T.astype(dtype)
 
 
 def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:

@@ -67,7 +67,7 @@ def _from_seidel(lens: Lens, source: Source) -> PupilMap:
     phase = wavefront(six, nodes.xi, nodes.eta)
     columns = phase, nodes.eta, nodes.xi
     found = _coefficients(4, sign * nodes.xi, sign * nodes.eta, columns)
-    reach = _reach(4, found[0], abs(scale))
+    reach = reach_of(4, found[0], abs(scale))
     light = np.pi * (abs(scale) * source.wavelength_um) ** 2
     return PupilMap(4, abs(scale), *found, reach, float(light), 0.0, "seidel", 6)
 
@@ -89,7 +89,7 @@ def _from_fit(found: FittedPencil, source: Source) -> PupilMap:
     area = (found.fx @ slopes_odd[0]) * (found.fy @ slopes[1]) - (found.fx @ slopes_odd[1]) * (found.fy @ slopes[0])
     light = float(nodes.weight @ np.abs(area)) * np.pi * source.wavelength_um**2
     left = float(np.hypot(residual, found.residual_waves))
-    reach = _reach(order, columns[0], radius)
+    reach = reach_of(order, columns[0], radius)
     return PupilMap(order, radius, *columns, reach, light, left, "fitted", found.numbers)
 
 
@@ -118,7 +118,7 @@ def _solve(rows: np.ndarray, values) -> np.ndarray:
     return np.linalg.solve(normal, rows @ values)
 
 
-def _reach(order: int, phase: np.ndarray, radius: float) -> float:
+def reach_of(order: int, phase: np.ndarray, radius: float) -> float:
     """Return the radius in µm that holds all light but a stray part: rays land at −∂w/∂f (Hamilton)."""
     across, along = _slopes(order)
     distance = np.hypot(phase @ across, phase @ along) / radius

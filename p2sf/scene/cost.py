@@ -5,7 +5,8 @@ from math import ceil, log2
 
 PUPIL_SECONDS = {"seidel": 2.5e-3, "fitted": 5e-3}  # rays, fit and its change of variables, per wavelength and height
 TERM_SECONDS = 3e-5  # and this for each of the fit's numbers beyond the first 26
-SAMPLE_SECONDS = 2.2e-9  # per sample of a transform and binary digit of its side
+KERNEL_SECONDS = 6e-4  # turning a pupil and adding up samples, whatever the window
+SAMPLE_SECONDS = 5e-9  # per sample of a transform and binary digit of its side
 PIXEL_SECONDS = 3.2e-9  # the same for the convolutions, there and back
 BYTES = 4
 
@@ -14,13 +15,12 @@ BYTES = 4
 class Work:
     """How much is computed: ``kernels`` of single wavelengths, each by a ``side``² transform; patches and pixels.
 
-    ``method`` and ``numbers`` describe the dearest rung in use. ``half``: pixels beside the middle of a kernel.
+    ``pupil_seconds``: of all fits of pupils together. ``half``: pixels beside the middle of a kernel.
     """
 
     kernels: float
     side: float
-    method: str
-    numbers: int
+    pupil_seconds: float
     half: int
     rows: int
     columns: int
@@ -43,17 +43,21 @@ class Cost:
         return self.kernel_seconds + self.picture_seconds
 
 
+def pupil_seconds(method: str, numbers: int) -> float:
+    """Return the seconds of one pupil by its own rays."""
+    return PUPIL_SECONDS[method] + TERM_SECONDS * max(0, numbers - 26)
+
+
 def predicted_cost(work: Work) -> Cost:
     """Return the cost of this much work."""
-    pupil = PUPIL_SECONDS[work.method] + TERM_SECONDS * max(0, work.numbers - 26)
-    kernel = pupil + SAMPLE_SECONDS * work.side**2 * log2(max(work.side, 2))
+    kernel = KERNEL_SECONDS + SAMPLE_SECONDS * work.side**2 * log2(max(work.side, 2))
     patch = [_support(n, count) + 2 * work.half for n, count in zip((work.rows, work.columns), work.nodes, strict=True)]
     area = patch[0] * patch[1]
     patches = work.nodes[0] * work.nodes[1] * work.channels * work.layers
     picture = patches * area * log2(max(area, 2)) * PIXEL_SECONDS
     held = work.rows * work.columns * work.channels * (3 + 2 * (work.layers > 1)) + 8 * area * work.channels
     kernels = work.nodes[0] * work.nodes[1] * work.channels * work.layers * (2 * work.half + 1) ** 2
-    return Cost(work.kernels * kernel, picture, BYTES * (held + kernels) + 8 * 3 * work.side**2)
+    return Cost(work.pupil_seconds + work.kernels * kernel, picture, BYTES * (held + kernels) + 8 * 3 * work.side**2)
 
 
 def _support(pixels: int, count: int) -> int:

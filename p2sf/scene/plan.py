@@ -4,22 +4,25 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from math import ceil, hypot
+from math import hypot
 
 import numpy as np
 
 from p2sf.kernels import Colour, Kernels, Recipe, View, view
-from p2sf.kernels.pixels import samples_across
+from p2sf.kernels.channel import own_pupil
 from p2sf.kernels.pupilmap import dropped_terms, pupil_map
+from p2sf.kernels.pupiltable import PupilTable, few_nodes, pupil_table
 from p2sf.lens import Lens
-from p2sf.scene.cost import Cost, Work, predicted_cost
+from p2sf.scene.cost import Cost, predicted_cost
 from p2sf.scene.nodes import depth_error, field_counts, field_error
+from p2sf.scene.pricing import dearest_rung, naive_work, plan_work, rung_seconds, single_seconds
 from p2sf.scene.scene import Scene, depth_of
+from p2sf.scene.sharing import few_depths, few_heights, node_heights
 from p2sf.scene.spectrum import reduced
 from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, RUNGS, SAMPLINGS, Study, from_phase
 
 # What part of the tolerance each decision may use. The errors have nothing in common, so their squares add.
-SHARES = {"rung": 0.5, "terms": 0.1, "sampling": 0.25, "field": 0.5, "depth": 0.55, "colour": 0.35}
+SHARES = {"rung": 0.5, "terms": 0.1, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.1}
 SAFETY = 1.3  # between the places where an error was measured
 
 
@@ -39,7 +42,9 @@ class Plan:
 
     ``rings``: (outer rim in mm, recipe) from the axis outwards; ``colours`` one per channel; ``counts`` kernel nodes
     along rows and columns; ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error`` is the root of
-    the sum of the decisions' squared errors. ``naive`` is what the full grid would cost.
+    the sum of the decisions' squared errors. ``naive`` is what the full grid would cost (`pricing.naive_work`).
+    ``pupil_nodes``: heights in mm and vergences of the pupils that all others are interpolated from; None where
+    each is fitted.
     """
 
     lens: Lens
@@ -53,6 +58,7 @@ class Plan:
     predicted_error: float
     cost: Cost
     naive: Cost
+    pupil_nodes: tuple[tuple[float, ...], tuple[float, ...]] | None = None
 
     @property
     def meets(self) -> bool:
@@ -65,12 +71,25 @@ class Plan:
 
     def kernels(self, channel: int, vergence: float) -> Kernels:
         """Return the kernels of one channel at one depth."""
-        seen = self.view(vergence)
-        return Kernels(seen, self.colours[channel], self.scene.sensor.pixel_um, self.recipe_at)
+        seen, colour, tables = self.view(vergence), self.colours[channel], {}
+        if self.pupil_nodes:
+            tables = {wave: pupils_between(self, wave) for wave in colour.wavelengths_um}
+        return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe_at, tables=tables)
 
     def view(self, vergence: float) -> View:
         """Return where the points of one depth land."""
         return _view(self.lens, depth_of(vergence), self.reference_um, self.scene.sensor.corners_mm()[1])
+
+
+@lru_cache(maxsize=32)
+def pupils_between(planned: Plan, wavelength_um: float) -> PupilTable:
+    """Return the plan's pupils of one wavelength, made once."""
+    heights, vergences = planned.pupil_nodes
+
+    def own(height: float, vergence: float):
+        return own_pupil(planned.view(vergence), height, wavelength_um, planned.recipe_at(height))
+
+    return pupil_table(own, heights, vergences)
 
 
 @lru_cache(maxsize=32)
@@ -94,14 +113,15 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     counts, field = _field(study, budget)
     vergences, depth = _depths(study, budget)
     terms, drop = _terms(study, budget)
-    rings = tuple((rim, Recipe(*RUNGS[n], *SAMPLINGS[sampling], drop)) for rim, n in rings)
-    decisions = (*rung, terms, sampled, field, depth, *colour)
+    waves = sum(len(one.wavelengths_um) for one in colours)
+    nodes, seconds, pupils = _pupils(study, budget, (rings, counts, vergences, waves))
+    rings = tuple((rim, Recipe(*RUNGS[n], *SAMPLINGS[sampling], drop)) for rim, n in _shared(rings, nodes))
+    decisions = (*rung, terms, sampled, field, depth, *colour, pupils)
     error = hypot(*(max((d.error for d in decisions if d.what.startswith(what)), default=0.0) for what in SHARES))
-    work, full = _work(study, rings, colours, counts, len(vergences))
-    return Plan(
-        *(camera, scene, study.reference_um, rings, colours, counts, vergences, decisions, error),
-        *map(predicted_cost, (work, full)),
-    )
+    work = plan_work(study, rings, colours, counts, len(vergences), seconds)
+    costs = map(predicted_cost, (work, naive_work(study, rings, counts, len(vergences))))
+    parts = scene, study.reference_um, rings, colours, counts, vergences, decisions, error
+    return Plan(camera, *parts, *costs, nodes)
 
 
 def _first(errors, allowed: float) -> tuple[int, float]:
@@ -190,33 +210,25 @@ def _depths(study: Study, budget: float):
     return tuple(nodes.tolist()), Decision("depth", f"{len(nodes)} node{plural}", why, error)
 
 
-def _work(study: Study, rings, colours, counts, layers: int) -> tuple[Work, Work]:
-    """Return the plan's work, and the full grid's: every node, wavelength and fringe, the dearest rung all over."""
-    sensor = study.scene.sensor
-    dearest = max((recipe for _, recipe in rings), key=lambda r: r.numbers or 0)
-    nodes = counts[0] * counts[1]
-    once = ceil(counts[0] / 2) * ceil(counts[1] / 2) if sensor.centred else nodes
-    halves, sides = _widths(study, rings)
-    mean, largest = (float(np.sqrt(np.mean(np.square(sides[0])))), float(sides[1].max()))
-    numbers = float(np.mean([recipe.numbers or 6 for _, recipe in rings]))
-    seidel = all(recipe.method == "seidel" for _, recipe in rings)
-    shared = (int(halves.max()), sensor.rows, sensor.columns, len(colours), counts, layers)
-    kernels = once * layers * sum(len(c.wavelengths_um) for c in colours)
-    every = nodes * layers * sum(len(c.wavelengths_nm) for c in study.scene.channels)
-    return (
-        Work(kernels, mean, "seidel" if seidel else "fitted", int(numbers), *shared),
-        Work(every, largest, dearest.method, dearest.numbers or 6, *shared),
+def _pupils(study: Study, budget: float, asked):
+    """Return the pupils that are fitted, None for all of them; their seconds; and the decision."""
+    rings, counts, vergences, waves = asked
+    alone = single_seconds(study, rings, counts, len(vergences), waves)
+    heights, allowed = node_heights(study.scene.sensor, counts), SHARES["pupils"] * budget / SAFETY
+    (high, across), (deep, along) = (
+        few_heights(study, len(heights), allowed / 2),
+        few_depths(study, len(vergences), allowed / 2),
     )
+    shared, every = high * deep * waves, len(heights) * len(vergences) * waves
+    seconds = shared * rung_seconds(dearest_rung(rings))
+    if seconds >= alone:
+        why = "fewer of the dearest rung with the others in between would cost no less"
+        return None, alone, Decision("pupils", f"{every} fits", why, 0.0)
+    nodes = tuple(few_nodes(heights, high).tolist()), tuple(few_nodes(vergences, deep).tolist())
+    why = f"{high} heights × {deep} depths in each wavelength; the others of {every} lie on polynomials through them"
+    return nodes, seconds, Decision("pupils", f"{shared} fits", why, SAFETY * (across + along))
 
 
-def _widths(study: Study, rings):
-    """Return half widths at the rings' rims over all depths, and transform sides: of the plan, and of every fringe."""
-    pixel, halves, own, full = study.scene.sensor.pixel_um, [], [], []
-    for vergence in study.depths(study.reference_um):
-        for rim, recipe in rings:
-            kernels = study.kernels(recipe, study.single, vergence)
-            half, (pupil, _) = kernels.half_width(rim), kernels.pupils(rim)[0]
-            halves.append(half)
-            own.append((2 * half * (1 + recipe.margin) + 1) * samples_across(pupil, pixel, recipe.fineness))
-            full.append((2 * half * 1.5 + 1) * samples_across(pupil, pixel, 2.0))
-    return np.array(halves), (np.array(own), np.array(full))
+def _shared(rings, nodes):
+    """Return (rim, rung) of every ring: one rung for all where their pupils are interpolated together."""
+    return [(rim, dearest_rung(rings)) for rim, _ in rings] if nodes else rings

@@ -106,7 +106,7 @@ class Study:
     def distance(self, tried: Recipe, good: Recipe, height_mm: float, vergence: float, wave: float) -> float:
         """Return the relative L2 distance of two recipes' kernels at one place."""
         single = Colour((wave,), (1.0,))
-        one, two = (self.kernels(r, single, vergence).at(*_oblique(height_mm)) for r in (tried, good))
+        one, two = (self.kernels(r, single, vergence).at(*oblique(height_mm)) for r in (tried, good))
         return distance(one, two)
 
     def sampling_error(self, number: int, height_mm: float, vergence: float, wave: float) -> float:
@@ -118,7 +118,7 @@ class Study:
         """Return the error of fewer wavelengths against all of a channel's."""
         recipe = self.recipe(height_mm, vergence, self.reference_um, SAMPLINGS[3])  # a coarser one hides the change
         few, every = (reduced(channel, n) for n in (count, len(channel.wavelengths_nm)))
-        return distance(*(self.kernels(recipe, c, vergence).at(*_oblique(height_mm)) for c in (few, every)))
+        return distance(*(self.kernels(recipe, c, vergence).at(*oblique(height_mm)) for c in (few, every)))
 
     def plain(self, vergence: float, x_mm: float, y_mm: float, wave: float) -> np.ndarray:
         """Return the kernel in one wavelength by one converged recipe for the whole field."""
@@ -129,7 +129,7 @@ class Study:
         return self.made[key]
 
 
-def _oblique(height_mm: float) -> tuple[float, float]:
+def oblique(height_mm: float) -> tuple[float, float]:
     """Return a point at this height in a direction that no pixel grid shares."""
     return 0.6 * height_mm, 0.8 * height_mm
 

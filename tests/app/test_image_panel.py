@@ -51,7 +51,7 @@ def test_the_words_count_the_psfs_and_explain_every_kind_of_decision(found):
     waves = sum(len(colour.wavelengths_um) for colour in found.plan.colours)
     assert found.headline.startswith(f"{rows * columns * waves} PSFs")  # off the axis there are no mirror images
     names = {what.split(" ")[0] for what, _ in found.words}
-    assert names == {"Error", "Places", "Colour", "Method", "Phase", "Sampling", "Depths"}
+    assert names == {"Error", "Places", "Colour", "Method", "Phase", "Sampling", "Depths", "Pupils"}
     assert "keeps 0.1" in dict(found.words)["Error"]
 
 
