@@ -55,6 +55,9 @@ class Curve:
 class Chart(QWidget):
     """Labelled axes over a fixed range, an optional image, and curves; ``aspect`` keeps circles round."""
 
+    grids: tuple = ()  # (head, x, y, (y, x) values) to copy in place of the curves
+    columns: tuple[str, str] | None = None  # what x and y are called where they are copied, if not as on the axes
+
     def __init__(self, bottom: str = "", left: str = "", aspect: bool = False, framed: bool = True, parent=None):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)

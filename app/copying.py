@@ -78,6 +78,8 @@ def table(widget: QWidget) -> Rows:
     """Return the rows of one widget, its heads first; a widget of another kind gives its own by ``rows_of_data``."""
     if hasattr(widget, "rows_of_data"):
         return widget.rows_of_data()
+    if getattr(widget, "grids", ()):
+        return [row for number, one in enumerate(widget.grids) for row in ([[]] if number else []) + grid(*one)]
     if isinstance(widget, HeatMap):
         return _of_heat_map(widget)
     if isinstance(widget, Chart) and not isinstance(widget.parentWidget(), HeatMap):
@@ -113,14 +115,19 @@ def _of_heat_map(heat: HeatMap) -> Rows:
     y = bottom + (np.arange(rows) + 0.5) * height / rows
     bottom_label, left_label = heat.chart.labels
     quantity = f"{tr(heat.quantity)}: " if heat.quantity else ""
-    head = [f"{quantity}{left_label} \\ {bottom_label}", *map(_number, x)]
-    return [head, *([_number(at), *map(_number, row)] for at, row in zip(y, heat.values, strict=True))]
+    return grid(f"{quantity}{left_label} \\ {bottom_label}", x, y, heat.values)
+
+
+def grid(head: str, x, y, values) -> Rows:
+    """Return (y, x) values with their places: x along the first row behind the head, y down the first column."""
+    return [[head, *map(_number, x)], *([_number(at), *map(_number, row)] for at, row in zip(y, values, strict=True))]
 
 
 def _of_chart(chart: Chart) -> Rows:
-    """Return every curve that has points as two columns, its name in the head."""
+    """Return every curve that has points as two columns, its name in the head; where some have names, those alone."""
     shown = [curve for curve in chart.curves if curve.x.size and curve.token != "line"]
-    bottom, left = chart.labels
+    shown = [curve for curve in shown if curve.name] or shown
+    bottom, left = map(tr, chart.columns) if chart.columns else chart.labels
     names = [curve.name or f"{number}" for number, curve in enumerate(shown, 1)]
     head = [f"{name}: {label}" for name in names for label in (bottom, left)]
     columns = [values for curve in shown for values in (curve.x, curve.y)]

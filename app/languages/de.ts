@@ -154,6 +154,7 @@
 <message><source>Import</source><translation>Import</translation></message>
 <message><source>Import report</source><translation>Importbericht</translation></message>
 <message><source>Import report: everything the reader of the lens file took, replaced, passed over or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
+<message><source>In its own window, or back</source><translation>In einem eigenen Fenster, oder zurück</translation></message>
 <message><source>Inferno</source><translation>Inferno</translation></message>
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
@@ -206,6 +207,7 @@
 <message><source>OPD, waves</source><translation>OPD, Wellen</translation></message>
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
 <message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
+<message><source>Open in its own window (double-click the tab or drag it out, or Ctrl+D)</source><translation>In einem eigenen Fenster öffnen (Doppelklick auf den Reiter oder ihn herausziehen, oder Strg+D)</translation></message>
 <message><source>Open</source><translation>Öffnen</translation></message>
 <message><source>Open a file…</source><translation>Datei öffnen …</translation></message>
 <message><source>Open a lens file or a saved state (Ctrl+O), or one of the latest</source><translation>Objektivdatei oder gespeicherten Zustand öffnen (Strg+O), oder eine der letzten</translation></message>

@@ -9,6 +9,7 @@ from app.scales import signed
 from app.store import Store
 from app.theme import Tokens
 from app.views.chromatic import Chromatic
+from app.words import tr
 
 TIP = (
     "Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and "
@@ -26,6 +27,8 @@ class ChromaticPanel:
         self.chart: Chart = NotedChart("wavelength, nm", "focus, µm")
         self.band = [self.chart.add_curve("line") for _ in range(2)]
         self.curves = {name: self.chart.add_curve(token, 1 if token == "text" else 2) for name, token in LOOKS.items()}
+        for name, curve in self.curves.items():
+            curve.name = tr(name)
         self.widget.set_body(self.chart)
         self._theme: Tokens | None = None
 

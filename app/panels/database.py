@@ -110,6 +110,7 @@ class DatabasePanel:
         limit = nice(max(1e-6, float(np.nanmax(np.abs(values)))))
         scaled = np.sign(values) * np.sqrt(np.abs(values) / limit)
         self.map.show_map(as_indices(scaled, -1.0, 1.0), VALUE_MAP, *places(found))
+        self.map.grids = (grid_of(found, f"{name(term)}, λ", values),)
         parts = (-1, -0.5, 0.5, 1)
         labels = tuple(((1 + p) / 2, short(p * abs(p) * limit, "+")) for p in parts)
         self.bars[0].show_scale(VALUE_MAP, "λ", (*labels, (0.5, "0")))
@@ -120,6 +121,7 @@ class DatabasePanel:
         top = np.log10(nice(max(1e-9, float(np.nanmax(values)))))
         scaled = (np.log10(np.maximum(values, 1e-30)) - top) / DECADES + 1
         self.error.show_map(as_indices(scaled, 0.0, 1.0), ERROR_MAP, *places(found))
+        self.error.grids = (grid_of(found, tr(f"error of {RULES[rule]}") + f", {name(term)}, λ", values),)
         labels = tuple((part, short(10 ** (top + DECADES * (part - 1)))) for part in (0, 0.5, 1))
         self.bars[1].show_scale(ERROR_MAP, "λ", labels)
 
@@ -157,6 +159,16 @@ def short(value: float, sign: str = "-") -> str:
 def name(term: str) -> str:
     """Return a coefficient's symbol."""
     return "Wd" if term == "wd" else f"W{term[1:]}"
+
+
+def grid_of(found: Answer, head: str, values: np.ndarray):
+    """Return a map as the clipboard takes it: its head, 1/depth in 1/m, fields in degrees, and values."""
+    return (
+        f"{head}: {tr('field, °')} \\ {tr('1/depth, 1/m (0 is ∞)')}",
+        PER_METRE * found.near,
+        found.fields_deg,
+        values,
+    )
 
 
 def places(found: Answer):

@@ -53,6 +53,9 @@ class DepthOfFieldPanel:
         self.chart = DepthChart()
         self.tolerated = self.chart.add_curve("muted")
         self.curves = {name: self.chart.add_curve(token, 2) for name, token in LOOKS.items()}
+        for name, curve in self.curves.items():
+            curve.name = tr(name)
+        self.chart.columns = "1/depth, 1/mm", "blur, µm"
         self.widget.set_body(self.chart)
         self._theme: Tokens | None = None
 

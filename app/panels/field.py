@@ -9,11 +9,20 @@ from app.scales import signed
 from app.store import Store
 from app.theme import Tokens
 from app.views.field import FieldView
+from app.words import tr
 
 TIP = (
     "Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image "
     "height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11)."
 )
+NAMES = {
+    "S": "sagittal S",
+    "T": "tangential T",
+    "third S": "sagittal S, third order",
+    "third T": "tangential T, third order",
+    "real": "distortion",
+    "third": "distortion, third order",
+}
 LOOKS = {"sagittal S": "marginal", "tangential T": "chief", "present field": "muted"}
 
 
@@ -37,6 +46,8 @@ class FieldPanel:
                 ("real", self.distortion, "positive", 2),
             )
         }
+        for name, words in NAMES.items():
+            self.curves[name].name = tr(words)
         self.zeros = [chart.add_curve("line") for chart in (self.focus, self.distortion)]
         self.straight, self.bent = self.grid.add_curve("line"), self.grid.add_curve("positive")
         self.widget = ChartsCard("Field", TIP, (self.focus, self.distortion, self.grid), (4, 4, 3))

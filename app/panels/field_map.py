@@ -11,6 +11,7 @@ from app.panels.worked import Asking
 from app.store import Store
 from app.theme import Tokens
 from app.views.field_map import SHAPE, FieldMap, answer, places
+from app.words import tr
 from p2sf.conventions import degrees_from_slope
 
 TIP = (
@@ -66,6 +67,11 @@ class FieldMapPanel:
         self.chart.fields_deg = degrees_from_slope(np.array(slopes))
         shown = (tile(stretched(found[place], self._scale), *map(float, where[place])) for place in kept)
         self.chart.show_tiles(shown, spacing, SHAPE[0])
+        heads = (
+            tr("at ({x}, {y}) of the corner: share of the peak", x=f"{x:.3g}", y=f"{y:.3g}")
+            for x, y in where[tuple(zip(*kept, strict=True))]
+        )
+        self.chart.means(zip(heads, (found[place] for place in kept), strict=True), asked.window[1])
         corner, wide = float(degrees_from_slope(asked.corner_slope)), asked.window[0] * asked.window[1]
         return f"corner {corner:.3g}° · pictures {wide:.3g} µm wide, each over its own peak"
 

@@ -18,11 +18,13 @@ from app.panels.surfacelight import SurfaceLight
 from app.scales import nice
 from app.store import Store
 from app.theme import Tokens
+from app.words import tr
 
 TIP = "The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP."
 WIDTHS = (1, 1.1, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.3, 7.1, 8, 9)  # mm, tenfold
 STEP = 0.02  # of the width
 KINDS = {"marginal": ("marginal", 2), "rim": ("chief", 1), "chief": ("chief", 2)}
+WORDS = {"marginal": "marginal rays, axial point", "chief": "chief ray", "rim": "rim rays of the field point"}
 
 
 class LayoutPanel:
@@ -55,6 +57,9 @@ class LayoutChart(Chart):
     def __init__(self, store: Store):
         super().__init__(aspect=True, framed=False)
         self.rays = {kind: self.add_curve(*look) for kind, look in KINDS.items()}
+        self.columns = "z, mm", "y, mm"
+        for kind, curve in self.rays.items():
+            curve.name = tr(WORDS[kind])
         self.handle = SourceHandle(store)
         self.light = SurfaceLight(store, self)
         self.live: Live | None = None
@@ -183,9 +188,9 @@ def _joined(parts: list[np.ndarray]) -> np.ndarray:
 def legend(theme: Tokens) -> str:
     """Return the lines' names in their colours."""
     names = (
-        (theme.marginal, "━", "marginal rays, axial point"),
-        (theme.chief, "━", "chief ray"),
-        (theme.chief, "─", "rim rays of the field point"),
+        (theme.marginal, "━", WORDS["marginal"]),
+        (theme.chief, "━", WORDS["chief"]),
+        (theme.chief, "─", WORDS["rim"]),
         (theme.text, "▮", "stop, sensor"),
     )
     return " &nbsp; ".join(f'<span style="color:{colour}">{sign}</span> {name}' for colour, sign, name in names)

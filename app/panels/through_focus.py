@@ -123,6 +123,8 @@ class ThroughFocusPanel:
         low, self.chart.colours = (-1.0, DIFFERENCE_MAP) if asked.less else (0.0, BRIGHTNESS)
         shown = zip(light, shifts, strict=True)
         self.chart.show_tiles((tile(values, float(at), 0.46, low) for values, at in shown), step)
+        heads = (tr("sensor shift {shift} µm: share of the perfect peak", shift=signed(float(at), 1)) for at in shifts)
+        self.chart.means(zip(heads, found.light, strict=True), asked.window[1])
         foci = (("S", found.sagittal, "marginal"), ("T", found.tangential, "positive"), ("best", found.best, "text"))
         notes = [(x, 0.93, f"▾ {name}", token, 0) for name, x, token in foci if np.isfinite(x)]
         self.chart.show_notes(notes)

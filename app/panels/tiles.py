@@ -8,6 +8,7 @@ from PySide6.QtGui import QImage, QPainter
 
 from app.panels.pair import NotedChart
 from app.plots import BRIGHTNESS, as_indices, lookup, named
+from p2sf.conventions import centred_axis
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,12 @@ class TilesChart(NotedChart):
         """Show tiles, None where there is no light; each has ``side`` of the width and 1/``rows`` of the height."""
         self.tiles, self.side, self.rows = tuple(each for each in tiles if each), side, rows
         self.update()
+
+    def means(self, pictures, pixel_um: float) -> None:
+        """Say what the pictures are, for the clipboard: (head, (y, x) values) each, and the width of a pixel, µm."""
+        lit = ((head, values) for head, values in pictures if np.isfinite(values).any())
+        axes = ((head, centred_axis(len(values), pixel_um), values) for head, values in lit)
+        self.grids = tuple((f"{head}: y, µm \\ x, µm", at, at, values) for head, at, values in axes)
 
     def side_px(self) -> float:
         """Return the side of a picture in pixels."""

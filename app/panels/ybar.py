@@ -9,6 +9,7 @@ from app.scales import nice, signed
 from app.store import Store
 from app.theme import Tokens
 from app.views.ybar import YBar, field_free
+from app.words import tr
 
 TIP = (
     "y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses "
@@ -25,6 +26,7 @@ class YBarPanel:
         self.chart = NotedChart("chief ray ȳ, mm", "marginal ray y, mm")
         self.axes = [self.chart.add_curve("line") for _ in range(2)]
         self.path = self.chart.add_curve("marginal", 2)
+        self.path.name = tr("surfaces in the order of the light")
         self.points = self.chart.add_curve("chief", 2)
         self.widget.set_body(self.chart)
 

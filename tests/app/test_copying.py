@@ -75,6 +75,52 @@ def test_other_panels_have_their_numbers_too(window, key):
     assert sum(bool(re.search(r"\d", cell)) for row in csv.reader(io.StringIO(text)) for cell in row) >= 10
 
 
+@pytest.mark.parametrize("key", ["through_focus", "field_map"])
+def test_small_pictures_are_copied_as_one_grid_each(window, qtbot, key):
+    window.open_panel(key)
+    panel = window.panels[key]
+    qtbot.waitUntil(lambda: not panel.asking.worker.busy and bool(panel.chart.grids), timeout=10000)
+    asked, found = panel.found
+    pictures = (found.light if key == "through_focus" else found).reshape(-1, *(asked.window[0],) * 2)
+    kept = [picture for picture in pictures if np.isfinite(picture).any()]
+    rows = list(csv.reader(io.StringIO(data_of(panel.widget))))
+    heads = [k for k, row in enumerate(rows) if row and "\\" in row[0]]
+    assert len(heads) == len(kept) > 5
+    for at, picture in zip(heads, kept, strict=True):
+        grid = np.array([[float(cell or "nan") for cell in row] for row in rows[at + 1 : at + 1 + asked.window[0]]])
+        assert grid[:, 1:] == pytest.approx(picture, rel=1e-6, abs=1e-9, nan_ok=True)
+        assert grid[:, 0] == pytest.approx([float(cell) for cell in rows[at][1:]])
+        assert grid[1, 0] - grid[0, 0] == pytest.approx(asked.window[1])
+
+
+@pytest.mark.parametrize(
+    ("key", "heads"),
+    [
+        ("layout", ["marginal rays, axial point: z, mm", "chief ray: y, mm"]),
+        ("field", ["sagittal S: focus behind the sensor, mm", "distortion, third order: distortion, %"]),
+        ("chromatic", ["0.7 of the pupil: focus, µm", "rim: wavelength, nm"]),
+        ("depth_of_field", ["exact rays, this field: blur, µm"]),
+    ],
+)
+def test_every_column_says_what_it_is(window, key, heads):
+    window.open_panel(key)
+    rows = list(csv.reader(io.StringIO(data_of(window.panels[key].widget))))
+    found = [cell for row in rows for cell in row]
+    assert set(heads) <= set(found) and not any(re.match(r"\d+: |^$|: $", cell) for cell in rows[0])
+
+
+def test_a_panel_without_numbers_says_so(window, qtbot):
+    window.open_panel("import")
+    menu = copy_menu(window.panels["import"].widget)
+    assert not menu.actions()[1].isEnabled()
+    menu.deleteLater()
+    told = []
+    window.store.said.connect(told.append)
+    qtbot.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    window.store.said.disconnect(told.append)
+    assert told == ["This panel has no numbers"]
+
+
 def test_the_picture_on_the_clipboard_is_the_panel(window, qtbot):
     window.panels["psf"].map.chart.setFocus()
     widget = window.panels["psf"].widget
