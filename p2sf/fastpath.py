@@ -22,12 +22,12 @@ import numpy as np
 
 from p2sf.quadrature import RowNodes
 from p2sf.seidel import Coefficients
-from p2sf.turns import TURN, cosine_sine
-from p2sf.wavefront import bound_of, shape_coefficients, spread
+from p2sf.turns import TURN, cosine_sine, cosine_sine_of_radians
+from p2sf.wavefront import shape_coefficients, spread
 
 BATCH = 10  # PSFs at a time: their 128² pupils of float32 just fit a second-level cache
 KERNEL_BYTES = 2**22  # most that one kernel may take; more rows than that are summed block by block
-SINGLE_SLOPE = 128.0  # waves: W reaches half of it at most, where float32 rounds by 4e-6 of a wave
+SINGLE_COLUMNS = 128  # that half a chord may have for phases of float32: they reach 60 waves, rounded by 4e-6 of one
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,10 @@ class Kernels:
 
 @dataclass(frozen=True)
 class Monomials:
-    """What multiplies W40, W31, W22 and W20 + Wd at η, then at −η, (4, 2·nodes); half the weights, (rows, columns)."""
+    """What multiplies W40, W31, W22 and W20 + Wd at η, then at −η, (4, 2·nodes); half the weights, (rows, columns).
+
+    The phases come in waves as float64, or where there are few of them, and in float32 all is done, in radians.
+    """
 
     phases: np.ndarray
     weight: np.ndarray
@@ -114,11 +117,10 @@ def half_pupils(shape: np.ndarray, rows: RowNodes, dtype) -> np.ndarray:
 
     ``shape``: (batch, 4) of W40, W31, W22, W20 + Wd in waves.
     """
-    single = dtype == np.float32 and bound_of(shape).max() < SINGLE_SLOPE
-    phases = np.float32 if single else np.float64
-    monomials = _monomials(rows, phases, dtype)
-    waves = (shape.astype(phases) @ monomials.phases).reshape(len(shape), 2, *monomials.weight.shape)
-    pupils = cosine_sine(waves, dtype)
+    monomials = _monomials(rows, dtype)
+    phases = shape.astype(monomials.phases.dtype) @ monomials.phases
+    pupils = cosine_sine(phases, dtype) if phases.dtype == np.float64 else cosine_sine_of_radians(phases)
+    pupils = pupils.reshape(2, len(shape), 2, *monomials.weight.shape)
     pupils *= monomials.weight
     return pupils
 
@@ -185,12 +187,13 @@ def _multiples(angle: np.ndarray, count: int, dtype) -> np.ndarray:
 
 
 @lru_cache(maxsize=32)
-def _monomials(rows: RowNodes, phases, dtype) -> Monomials:
+def _monomials(rows: RowNodes, dtype) -> Monomials:
     eta = rows.eta[:, None]
     square = rows.xi**2 + eta**2
     upper = np.stack([square**2, square * eta, np.broadcast_to(eta**2, square.shape), square]).reshape(4, -1)
     both = np.concatenate([upper, upper * [[1], [-1], [1], [1]]], axis=1)
-    return Monomials(both.astype(phases), (rows.weight / 2).astype(dtype))
+    single = dtype == np.float32 and rows.weight.shape[1] <= SINGLE_COLUMNS
+    return Monomials((both * TURN).astype(dtype) if single else both, (rows.weight / 2).astype(dtype))
 
 
 @lru_cache(maxsize=16)

@@ -15,13 +15,17 @@ TURN = 2 * pi
 def cosine_sine(waves: np.ndarray, dtype) -> np.ndarray:
     """Return cos 2πw and sin 2πw stacked, (2, …), in ``dtype``, float32 or float64; the waves w are used up."""
     waves -= np.rint(waves)
-    both = np.empty((2, *waves.shape), dtype)
     if dtype == np.float64:
-        return _by_half_angle(waves, both)
+        return _by_half_angle(waves, np.empty((2, *waves.shape)))
     waves *= TURN
-    radians = waves.astype(dtype, copy=False)
-    np.cos(radians, out=both[0])
-    np.sin(radians, out=both[1])
+    return cosine_sine_of_radians(waves.astype(dtype, copy=False))
+
+
+def cosine_sine_of_radians(phases: np.ndarray) -> np.ndarray:
+    """Return cos φ and sin φ stacked, (2, …), of phases whose rounding may be seen: whole turns are left on."""
+    both = np.empty((2, *phases.shape), phases.dtype)
+    np.cos(phases, out=both[0])
+    np.sin(phases, out=both[1])
     return both
 
 
