@@ -51,6 +51,7 @@ class Actions(QObject):
         listed = ("Find a command…", "Report: one page as PDF…", "Shortcuts")
         fill(window.top.more.menu(), window, tuple(c for c in self.commands if c.title in listed))
         self.store.said.connect(window.status.say)
+        window.tabs.tabBar().setAccessibleName(tr("Panels"))
 
     def _first(self) -> tuple[Command, ...]:
         """Return what can be done from the start; other parts of the window `add` theirs."""

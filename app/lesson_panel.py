@@ -59,6 +59,7 @@ class LessonPanel(QFrame):
             inner.addWidget(part)
         inner.addStretch(1)
         self.scroll = QScrollArea()
+        self.scroll.setAccessibleName(tr("Text of the lesson"))
         self.scroll.setWidgetResizable(True)
         self.scroll.setFrameShape(QScrollArea.Shape.NoFrame)
         self.scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

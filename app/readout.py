@@ -147,6 +147,7 @@ def scrolled(table: FactTable) -> QScrollArea:
     area.setWidgetResizable(True)
     area.setFrameShape(QScrollArea.Shape.NoFrame)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setAccessibleName(tr("Figures"))
     area.setMinimumHeight(3 * round(FactTable.ROW))
     area.setWidget(body)
     for part in (area, area.viewport(), body):

@@ -467,6 +467,7 @@
 <message><source>1 node</source><translation>1 Knoten</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
 <message><source>{rows} × {columns} nodes</source><translation>{rows} × {columns} Knoten</translation></message>
+<message><source>Points {depth} away blur over {wide}, which takes {side}² samples of {most}² at most; bring the depths nearer to the focus or stop down</source><translation>Punkte in {depth} verschwimmen über {wide}, das braucht {side}² Abtastwerte von höchstens {most}²; die Abstände näher an den Fokus bringen oder abblenden</translation></message>
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
 <message><source>fewer of the dearest rung with the others in between would cost no less</source><translation>weniger davon auf der teuersten Stufe mit den übrigen dazwischen kosteten nicht weniger</translation></message>
 <message><source>{heights} heights × {depths} depths in each wavelength; the others of {count} lie on polynomials through them</source><translation>{heights} Höhen × {depths} Abstände je Wellenlänge; die übrigen von {count} liegen auf Polynomen durch diese</translation></message>
@@ -1275,5 +1276,23 @@
 <message><source>surfaces in the order of the light</source><translation>Flächen in der Reihenfolge des Lichts</translation></message>
 <message><source>z, mm</source><translation>z, mm</translation></message>
 <message><source>y, mm</source><translation>y, mm</translation></message>
+<message><source>Paraxial image of this depth, from the last vertex; from the principal points 1/s′ = 1/f′ − 1/s.</source><translation>Paraxiales Bild dieses Abstands, vom letzten Scheitel; von den Hauptpunkten aus 1/s′ = 1/f′ − 1/s.</translation></message>
+<message><source>Where the sensor stands, from the last vertex: in the image of the focus distance, shifted by Δz.</source><translation>Wo der Sensor steht, vom letzten Scheitel: im Bild des eingestellten Abstands, um Δz verschoben.</translation></message>
+<message><source>The surface whose rim limits the light: the least |rim/y| on the way of the marginal ray, or the file's choice.</source><translation>Die Fläche, deren Rand das Licht begrenzt: das kleinste |Rand/y| auf dem Weg des Randstrahls, oder wie es die Datei sagt.</translation></message>
+<message><source>The stop seen from the object: its diameter D = f′/N for a far object, its place from the first vertex.</source><translation>Die Blende vom Objekt aus gesehen: ihr Durchmesser D = f′/N für ein fernes Objekt, ihr Ort vom ersten Scheitel.</translation></message>
+<message><source>The stop seen from the sensor: its diameter, and its place from the last vertex.</source><translation>Die Blende vom Sensor aus gesehen: ihr Durchmesser und ihr Ort vom letzten Scheitel.</translation></message>
+<message><source>Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.</source><translation>Spitze der PSF über der derselben Pupille mit W = 0; nahe 1 etwa exp(−(2πσ)²), σ der RMS von W.</translation></message>
+<message><source>Rear focal point, where light from a far axial point meets, from the last vertex: f′·A.</source><translation>Bildseitiger Brennpunkt, wo sich das Licht eines fernen Achspunkts trifft, vom letzten Scheitel: f′·A.</translation></message>
+<message><source>Front focal point, whose light leaves as a parallel beam, from the first vertex: D/C.</source><translation>Objektseitiger Brennpunkt, dessen Licht als paralleles Bündel austritt, vom ersten Scheitel: D/C.</translation></message>
+<message><source>Front principal plane, imaged onto H′ at magnification 1; from the first vertex.</source><translation>Objektseitige Hauptebene, mit Maßstab 1 auf H′ abgebildet; vom ersten Scheitel.</translation></message>
+<message><source>Rear principal plane, from which f′ is measured to F′; from the last vertex.</source><translation>Bildseitige Hauptebene, von der f′ bis F′ zählt; vom letzten Scheitel.</translation></message>
+<message><source>A ray aimed at N leaves from N′ in its old direction; from the first vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom ersten Scheitel.</translation></message>
+<message><source>A ray aimed at N leaves from N′ in its old direction; from the last vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom letzten Scheitel.</translation></message>
+<message><source>Length of the lens with its air: from the first vertex to the sensor.</source><translation>Länge des Objektivs mit seiner Luft: vom ersten Scheitel bis zum Sensor.</translation></message>
+<message><source>Figures</source><translation>Zahlen</translation></message>
+<message><source>Text of the lesson</source><translation>Text der Lektion</translation></message>
+<message><source>Why this many PSFs</source><translation>Warum so viele PSFs</translation></message>
+<message><source>Drag the line or click, or use the left and right arrow keys: the sensor follows.</source><translation>Die Linie ziehen, klicken oder die Pfeiltasten links und rechts: der Sensor folgt.</translation></message>
+<message><source>Panels</source><translation>Ansichten</translation></message>
 </context>
 </TS>

@@ -7,6 +7,7 @@ from app.compute import Live
 from app.readout import FactTable
 from app.store import Store
 from app.theme import Tokens
+from app.words import tr
 
 TIP = "First-order data: everything that follows from paraxial rays alone; hover over a row for its definition."
 GAP = 28
@@ -28,6 +29,7 @@ class FirstOrderPanel:
             column.addStretch(1)
             row.addLayout(column, 1)
         area = QScrollArea(self.widget)
+        area.setAccessibleName(tr("First-order data"))
         area.setWidgetResizable(True)
         area.setFrameShape(QScrollArea.Shape.NoFrame)
         area.setWidget(body)

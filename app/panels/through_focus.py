@@ -2,7 +2,7 @@
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor, QPainter
+from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.brightness import stretched
 from app.card import Card
@@ -22,6 +22,7 @@ TIP = (
     "Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or "
     "click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront."
 )
+STRIP_TIP = "Drag the line or click, or use the left and right arrow keys: the sensor follows."
 NEAR_PX = 9.0
 
 
@@ -37,6 +38,7 @@ class StripChart(TilesChart):
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Sensor position"))
+        self.setToolTip(tr(STRIP_TIP))
 
     def show_sensor(self, shift_um: float) -> None:
         """Show where the sensor stands."""
@@ -52,6 +54,10 @@ class StripChart(TilesChart):
         painter.drawLine(QPointF(x, self.area.top()), QPointF(x, bottom))
         painter.setBrush(colour)
         painter.drawEllipse(QPointF(x, bottom - 6), 5, 5)
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(self.theme.accent), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawEllipse(QPointF(x, bottom - 6), 8, 8)
 
     def mousePressEvent(self, event) -> None:
         """Take hold of the sensor, or bring it under the pointer."""

@@ -4,7 +4,7 @@ from math import isfinite
 
 import numpy as np
 
-from app.facts import length, pupil
+from app.facts import ENTRANCE_TIP, EXIT_TIP, STOP_TIP, length, pupil
 from app.scales import signed, significant, written_distance
 from p2sf.gaussian import magnification
 from p2sf.pupils import f_number
@@ -22,14 +22,38 @@ def lens_rows(live) -> tuple[Row, ...]:
     s, p = live.setting, live.setting.cardinal
     return (
         ("Focal length f′", length(s.focal_length_mm), "f′ = −1/C of the system matrix."),
-        ("Back focus F′", length(float(p.back_focal_distance)), "Rear focal point from the last vertex."),
-        ("Front focus F", length(float(p.front_focal_distance)), "Front focal point from the first vertex."),
-        ("Principal point H", length(float(p.front_principal_from_first)), "From the first vertex."),
-        ("Principal point H′", length(float(p.rear_principal_from_last)), "From the last vertex."),
-        ("Nodal point N", length(float(p.front_nodal_from_first)), "From the first vertex."),
-        ("Nodal point N′", length(float(p.rear_nodal_from_last)), "From the last vertex."),
+        (
+            "Back focus F′",
+            length(float(p.back_focal_distance)),
+            "Rear focal point, where light from a far axial point meets, from the last vertex: f′·A.",
+        ),
+        (
+            "Front focus F",
+            length(float(p.front_focal_distance)),
+            "Front focal point, whose light leaves as a parallel beam, from the first vertex: D/C.",
+        ),
+        (
+            "Principal point H",
+            length(float(p.front_principal_from_first)),
+            "Front principal plane, imaged onto H′ at magnification 1; from the first vertex.",
+        ),
+        (
+            "Principal point H′",
+            length(float(p.rear_principal_from_last)),
+            "Rear principal plane, from which f′ is measured to F′; from the last vertex.",
+        ),
+        (
+            "Nodal point N",
+            length(float(p.front_nodal_from_first)),
+            "A ray aimed at N leaves from N′ in its old direction; from the first vertex.",
+        ),
+        (
+            "Nodal point N′",
+            length(float(p.rear_nodal_from_last)),
+            "A ray aimed at N leaves from N′ in its old direction; from the last vertex.",
+        ),
         ("Petzval radius", length(petzval_radius(s)), "1/(n′ΣcΔ(1/n)): the image's curvature without astigmatism."),
-        ("Track", length(track(s)), "First vertex to sensor."),
+        ("Track", length(track(s)), "Length of the lens with its air: from the first vertex to the sensor."),
     )
 
 
@@ -40,10 +64,10 @@ def pupil_rows(live) -> tuple[Row, ...]:
     number = float(f_number(s.lens, s.source.wavelength_um, s.stop))
     invariant = float(s.rays.invariant) * s.source.field_slope
     return (
-        ("Stop", f"surface {int(s.stop.surface)} ({s.stop.chosen_by})", "The surface whose rim limits the light."),
+        ("Stop", f"surface {int(s.stop.surface)} ({s.stop.chosen_by})", STOP_TIP),
         ("Stop radius", length(float(s.stop.semi_diameter)), "Half the free diameter of the stop."),
-        ("Entrance pupil", pupil(p.entrance_from_first, p.entrance_diameter), "The stop seen from the object."),
-        ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), "The stop seen from the sensor."),
+        ("Entrance pupil", pupil(p.entrance_from_first, p.entrance_diameter), ENTRANCE_TIP),
+        ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), EXIT_TIP),
         ("f-number", f"f/{significant(number, 3)}" if isfinite(number) else "∞", "f′ over the entrance pupil."),
         ("Working f-number", f"f/{significant(0.5 / na, 3)}" if na else "∞", "1/(2 NA) at this depth."),
         ("Numerical aperture", f"{na:.4f}", "NA = n′|u′| of the marginal ray."),

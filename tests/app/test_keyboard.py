@@ -1,0 +1,73 @@
+"""The keyboard reaches everything: Tab walks through the window, panel by panel, and comes round again."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QLineEdit, QWidget
+
+from app.panels import REGISTRY
+
+TABS = [entry.key for entry in REGISTRY if entry.place != "main" and entry.key != "solid"]
+MOST = 200
+
+
+def wanted(window) -> set[QWidget]:
+    """Return every widget on show that takes the focus by Tab."""
+    able = (part for part in window.findChildren(QWidget) if part.isVisible() and part.isEnabled())
+    return {part for part in able if part.focusPolicy() & Qt.FocusPolicy.TabFocus and not part.focusProxy()}
+
+
+def walked(window, key: Qt.Key) -> set[QWidget]:
+    """Return what has had the focus after as many presses of a key as it takes to come round."""
+    window.top.lens.setFocus()
+    met: list[QWidget] = []
+    for _ in range(MOST):
+        part = QApplication.focusWidget()
+        if part in met[:1]:
+            return set(met)
+        met.append(part)
+        QTest.keyClick(part, key)
+    raise AssertionError(f"the focus stays with {QApplication.focusWidget()}")
+
+
+def named(parts) -> str:
+    return "\n".join(f"{type(part).__name__} {part.accessibleName() or part.objectName()}" for part in parts)
+
+
+@pytest.mark.parametrize("key", TABS)
+def test_tab_reaches_everything_of_a_panel_and_comes_round(window, key):
+    window.open_panel(key)
+    window.store.update(play="field_deg")
+    QApplication.processEvents()
+    met, hoped = walked(window, Qt.Key.Key_Tab), wanted(window)
+    assert len(hoped) > 40
+    assert met >= hoped, named(hoped - met)
+    assert not (unnamed := [part for part in hoped if not said(part)]), named(unnamed)
+
+
+def said(part: QWidget) -> str:
+    """Return what a screen reader would say of a widget."""
+    text = getattr(part, "text", None)
+    return part.accessibleName() or (text() if text and not isinstance(part, QLineEdit) else "")
+
+
+def test_shift_tab_goes_the_same_way_back(window):
+    window.open_panel("profiles")
+    assert walked(window, Qt.Key.Key_Backtab) == walked(window, Qt.Key.Key_Tab)
+
+
+def test_the_focus_can_be_seen(window):
+    """Whatever has the focus is painted otherwise than without it."""
+    window.open_panel("through_focus")
+    blind = []
+    for part in wanted(window):
+        if isinstance(part, QAbstractScrollArea) or not part.width():
+            continue
+        window.top.lens.setFocus() if part is not window.top.lens else window.top.open.setFocus()
+        QApplication.processEvents()
+        before = part.grab().toImage()
+        part.setFocus(Qt.FocusReason.TabFocusReason)
+        QApplication.processEvents()
+        if part.grab().toImage() == before:
+            blind.append(part)
+    assert not blind, named(blind)
