@@ -1,6 +1,6 @@
 """The frame every panel sits in: a title, tools, a readout, and the picture."""
 
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import QPainter, QPalette, QPen, QPolygonF
 from PySide6.QtWidgets import (
     QComboBox,
@@ -20,7 +20,12 @@ LIST_AIR = 24  # beside the longest line of an open list
 
 
 class Card(QFrame):
-    """A titled frame; ``readout`` is a line of numbers at the right of the title."""
+    """A titled frame; ``readout`` is a line of numbers at the right of the title.
+
+    ``apart_asked``: the panel is wanted in a window of its own, or back.
+    """
+
+    apart_asked = Signal()
 
     def __init__(self, title: str, tip: str = "", parent=None):
         super().__init__(parent)
@@ -64,8 +69,16 @@ class Card(QFrame):
                 after.addWidget(tool)
 
     def contextMenuEvent(self, event) -> None:
-        """Offer the panel's picture and its data."""
-        copy_menu(self).popup(event.globalPos())
+        """Offer the panel's picture, its data, and a window of its own."""
+        menu = copy_menu(self)
+        menu.addSeparator()
+        menu.addAction(tr("In its own window, or back") + "\tCtrl+D", self.apart_asked.emit)
+        menu.popup(event.globalPos())
+
+    def mouseDoubleClickEvent(self, event) -> None:
+        """Ask for a window of its own, or back, on the title line."""
+        if event.position().y() < self.head.geometry().bottom():
+            self.apart_asked.emit()
 
     def add_footer(self, *widgets: QWidget) -> None:
         """Put a line of small widgets under the picture, from the left."""

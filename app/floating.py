@@ -1,21 +1,24 @@
 """Panels in windows of their own: they follow the state's ``windows``, and closing one takes it out of there."""
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QByteArray, QObject
 from PySide6.QtWidgets import QLabel, QWidget
 
 from app.store import Store
-from app.tabs import OwnWindow, Tabs
+from app.tabs import OwnWindow
 
 
 class Floating(QObject):
-    """Moves panels between their tab's page and a window of their own."""
+    """Moves panels between their page, at ``homes`` by their key, and a window of their own.
 
-    def __init__(self, window: QWidget, store: Store, tabs: Tabs, titles: dict[str, str]):
+    ``places``: where each own window stood last, as Qt keeps it.
+    """
+
+    def __init__(self, window: QWidget, store: Store, homes: dict[str, QWidget], titles: dict[str, str]):
         super().__init__(window)
-        self._window, self._store, self._tabs, self._titles = window, store, tabs, titles
+        self._window, self._store, self._homes, self._titles = window, store, homes, titles
         self.open: dict[str, OwnWindow] = {}
+        self.places: dict[str, QByteArray] = {}
         self._closing = False
-        tabs.detach_asked.connect(self.toggle)
 
     def toggle(self, key: str) -> None:
         """Put a panel into a window of its own, or back."""
@@ -24,14 +27,15 @@ class Floating(QObject):
 
     def place(self, key: str, widget: QWidget) -> None:
         """Put a panel where it belongs: into its window if it has one, else onto its page."""
-        home = self.open.get(key) or self._tabs.pages()[key]
+        home = self.open.get(key) or self._homes[key]
         home.layout().addWidget(widget)
         widget.show()
-        self._tabs.pages()[key].findChild(QLabel, "muted").setVisible(key in self.open)
+        self._homes[key].findChild(QLabel, "muted").setVisible(key in self.open)
 
     def follow(self, wanted: tuple[str, ...], panels: dict) -> None:
         """Open and close windows until they are those wanted."""
         for key in [key for key in self.open if key not in wanted]:
+            self.places |= self.present_places()
             closed = self.open.pop(key)
             self.place(key, panels[key].widget)
             closed.blockSignals(True)
@@ -42,7 +46,12 @@ class Floating(QObject):
             made.closed.connect(self._on_closed)
             self.open[key] = made
             self.place(key, panels[key].widget)
+            made.restoreGeometry(self.places.get(key, QByteArray()))
             made.show()
+
+    def present_places(self) -> dict[str, QByteArray]:
+        """Return where the open windows stand."""
+        return {key: own.saveGeometry() for key, own in self.open.items()}
 
     def stop(self) -> None:
         """Close every window with the main one; the state keeps them for the next start."""

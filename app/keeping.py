@@ -4,6 +4,7 @@ from PySide6.QtCore import QByteArray, QEvent, QObject, QTimer
 
 from app.session import keep_session
 
+OWN = "own "  # before a panel's key: the window it stands in
 LATER_MS = 1500  # after the last change, so that a crash costs no more than that
 
 
@@ -15,6 +16,8 @@ class Keeping(QObject):
         self._window = window
         window.restoreGeometry(unpacked(geometry.get("window", "")))
         window.stack.restoreState(unpacked(geometry.get("stack", "")))
+        for key, own in window.floating.open.items():
+            own.restoreGeometry(unpacked(geometry.get(OWN + key, "")))
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self.keep)
@@ -31,6 +34,7 @@ class Keeping(QObject):
         """Write the session now."""
         self._timer.stop()
         places = {"window": self._window.saveGeometry(), "stack": self._window.stack.saveState()}
+        places |= {OWN + key: place for key, place in self._window.floating.present_places().items()}
         keep_session(self._window.store.state, {name: packed(place) for name, place in places.items()})
 
 

@@ -1,6 +1,7 @@
 """The tabs: five groups, the panels of one of them at a time, and panels that stand in windows of their own."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QShortcut
 from PySide6.QtWidgets import (
     QButtonGroup,
     QHBoxLayout,
@@ -17,7 +18,8 @@ from app.panels import GROUPS, Entry
 from app.theme import SPACE
 from app.words import tr
 
-OWN_WINDOW = "Open in its own window (double-click the tab, or Ctrl+D)"
+OWN_WINDOW = "Open in its own window (double-click the tab or drag it out, or Ctrl+D)"
+OUT_PX = 40  # so far off the bar a dragged tab is out
 ALL = "Every panel by its group (Alt+0)"
 SIZE = 720, 480
 
@@ -32,6 +34,7 @@ class Tabs(QTabWidget):
         super().__init__(parent)
         self._groups = {entry.key: entry.group for entry in entries}
         self._last: dict[str, str] = {}
+        self._out = False
         self._pages = {entry.key: page(entry.key) for entry in entries}
         for entry in entries:
             self.addTab(self._pages[entry.key], tr(entry.title))
@@ -44,7 +47,19 @@ class Tabs(QTabWidget):
         self.tabBar().setElideMode(Qt.TextElideMode.ElideNone)
         self.tabBarDoubleClicked.connect(lambda at: self.detach_asked.emit(self.widget(at).objectName()))
         self.currentChanged.connect(self._show_group)
+        self.tabBar().installEventFilter(self)
         self._show_group()
+
+    def eventFilter(self, watched, event) -> bool:
+        """Let a tab that is dragged off the bar have its own window."""
+        if event.type() == QEvent.Type.MouseMove and event.buttons() & Qt.MouseButton.LeftButton:
+            bar, place = self.tabBar(), event.position().toPoint()
+            if not bar.rect().adjusted(-OUT_PX, -OUT_PX, OUT_PX, OUT_PX).contains(place) and not self._out:
+                self._out = True
+                self.detach()
+        elif event.type() == QEvent.Type.MouseButtonRelease:
+            self._out = False
+        return False
 
     def pages(self) -> dict[str, QWidget]:
         """Return the page of every panel."""
@@ -148,6 +163,8 @@ class OwnWindow(QWidget):
         self.key = key
         QVBoxLayout(self).setContentsMargins(SPACE, SPACE, SPACE, SPACE)
         self.resize(*SIZE)
+        for keys in ("Ctrl+D", "Ctrl+W"):
+            QShortcut(keys, self, self.close)
 
     def closeEvent(self, event) -> None:
         """Give the panel back to its tab."""
@@ -164,6 +181,7 @@ def page(key: str) -> QWidget:
     note = QLabel(tr("This panel stands in its own window; close that window to have it back here."), made)
     note.setObjectName("muted")
     note.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    note.setWordWrap(True)  # a narrow place in the grid stays as narrow
     note.hide()
     column.addWidget(note)
     return made

@@ -24,7 +24,7 @@ from app.settling import Settling
 from app.sharing import Sharing
 from app.state import State
 from app.store import Store
-from app.tabs import Tabs
+from app.tabs import Tabs, page
 from app.teaching import Teaching
 from app.theme import SPACE, palette, stylesheet, tokens
 from p2sf.errors import P2SFError
@@ -48,8 +48,12 @@ class Window(QMainWindow):
         self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
         self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(TABS, self)
         self.compare, self.play = CompareBar(self, self.store), PlayBar(self)
-        self.floating = Floating(self, self.store, self.tabs, {entry.key: entry.title for entry in TABS})
-        self.panels: dict[str, Panel] = {key: build(ENTRIES[key], self.store) for key in MAIN}
+        self.homes = {key: page(key) for key in MAIN} | self.tabs.pages()
+        self.floating = Floating(self, self.store, self.homes, {entry.key: entry.title for entry in REGISTRY})
+        self.tabs.detach_asked.connect(self.floating.toggle)
+        self.panels: dict[str, Panel] = {}
+        for key in MAIN:
+            self._build(key)
         self.live: Live | None = None
         self._answers: Answers | None = None
         self.frame_ms: float | None = None
@@ -73,8 +77,8 @@ class Window(QMainWindow):
         self.refresh(self.store.state)
 
     def _lay_out(self) -> None:
-        row = splitter(Qt.Orientation.Horizontal, [self.panels[key].widget for key in MAIN[1:]], (19, 19, 17))
-        self.stack = splitter(Qt.Orientation.Vertical, [self.panels[MAIN[0]].widget, row, self.tabs], (27, 41, 32))
+        row = splitter(Qt.Orientation.Horizontal, [self.homes[key] for key in MAIN[1:]], (19, 19, 17))
+        self.stack = splitter(Qt.Orientation.Vertical, [self.homes[MAIN[0]], row, self.tabs], (27, 41, 32))
         self.middle = middle = QHBoxLayout()
         middle.setSpacing(SPACE)
         middle.addWidget(self.controls)
@@ -152,13 +156,17 @@ class Window(QMainWindow):
         """Bring the state's tab to the front and its panels into their own windows, building each the first time."""
         pages = self.tabs.pages()
         key = state.tab if state.tab in pages else next(iter(pages))
-        apart = tuple(name for name in state.windows if name in pages)
+        apart = tuple(name for name in state.windows if name in self.homes)
         for name in {key, *apart} - set(self.panels):
-            self.panels[name] = build(ENTRIES[name], self.store)
+            self._build(name)
             self.panels[name].restyle(self._theme)
-            self.floating.place(name, self.panels[name].widget)
         self.floating.follow(apart, self.panels)
         self.tabs.bring_up(key)
+
+    def _build(self, key: str) -> None:
+        self.panels[key] = made = build(ENTRIES[key], self.store)
+        made.widget.apart_asked.connect(lambda: self.floating.toggle(key))
+        self.floating.place(key, made.widget)
 
     def _on_tab(self) -> None:
         self.store.update(tab=self.tabs.current())

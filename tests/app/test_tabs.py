@@ -1,10 +1,14 @@
 """Groups of tabs, and panels in windows of their own, by mouse and keyboard."""
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, QSize, Qt
+from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLabel
 
+from app.keeping import Keeping
 from app.panels import GROUPS, REGISTRY
+from app.session import last_session
 from app.state import State, state_from_json, state_to_json
 from p2sf.errors import P2SFError
 
@@ -91,3 +95,60 @@ def test_windows_go_into_the_state_file_and_back():
     assert state_from_json(state_to_json(state)) == state
     with pytest.raises(P2SFError, match="windows must be a list"):
         State(windows=(3,))
+
+
+@pytest.mark.parametrize("key", ["layout", "pupil", "psf", "coefficients"])
+def test_a_panel_of_the_grid_leaves_its_place_and_comes_back_to_it(window, qtbot, key):
+    card = window.panels[key].widget
+    grid = [home.geometry() for home in window.homes.values()][:4]
+    QTest.mouseDClick(card, Qt.MouseButton.LeftButton, pos=QPoint(30, 12))
+    assert window.store.state.windows == (key,) and card.window() is window.floating.open[key]
+    assert window.homes[key].findChild(QLabel, "muted").isVisible()
+    window.store.update(field_deg=4.0)
+    assert window.live.state.field_deg == 4.0
+    own = window.floating.open[key]
+    own.activateWindow()
+    qtbot.waitUntil(own.isActiveWindow)
+    qtbot.keyClick(own, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(lambda: window.store.state.windows == ())
+    assert card.window() is window and card.isVisible()
+    assert [home.geometry() for home in window.homes.values()][:4] == grid
+
+
+def test_a_tab_dragged_off_the_bar_has_its_own_window(window):
+    bar = window.tabs.tabBar()
+    place = next(k for k in range(window.tabs.count()) if window.tabs.widget(k).objectName() == "mtf")
+    start = bar.tabRect(place).center()
+    QTest.mousePress(bar, Qt.MouseButton.LeftButton, pos=start)
+    assert window.store.state.tab == "mtf"
+    for down in (20, 60, 90):  # the first is still on the bar, the last one drag
+        move = QMouseEvent(
+            QEvent.Type.MouseMove,
+            QPointF(start) + QPointF(0, down),
+            bar.mapToGlobal(QPointF(start)),
+            Qt.MouseButton.NoButton,
+            Qt.MouseButton.LeftButton,
+            Qt.KeyboardModifier.NoModifier,
+        )
+        QApplication.sendEvent(bar, move)
+        assert window.store.state.windows == (() if down == 20 else ("mtf",))
+    QTest.mouseRelease(bar, Qt.MouseButton.LeftButton, pos=start)
+    window.floating.open["mtf"].close()
+
+
+def test_own_windows_stand_where_they_stood_when_opened_again_and_at_the_next_start(window, monkeypatch, tmp_path):
+    monkeypatch.setattr("app.recent.recent_path", lambda: tmp_path / "recent.json")
+    window.store.update(windows=("mtf",))
+    window.floating.open["mtf"].resize(433, 377)
+    window.store.update(windows=())
+    window.store.update(windows=("mtf",))
+    assert window.floating.open["mtf"].size() == QSize(433, 377)
+    keeping = Keeping(window, {})
+    keeping.keep()
+    window.floating.open["mtf"].resize(800, 600)
+    state, geometry = last_session()
+    assert state.windows == ("mtf",)
+    again = Keeping(window, geometry)
+    assert window.floating.open["mtf"].size() == QSize(433, 377)
+    for filtering in (keeping, again):
+        window.removeEventFilter(filtering)
