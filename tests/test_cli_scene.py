@@ -35,6 +35,15 @@ def test_a_plan_explains_itself(scene, capsys):
     assert len(facts["decisions"]) == 4 + 5 + 3
 
 
+def test_a_plan_tells_its_progress_on_a_terminal(scene, capsys, monkeypatch):
+    monkeypatch.setattr("p2sf.cli.scenes.TELL_EVERY_S", 0.0)
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    scene.write_text(SCENE.replace("rows = 40", "rows = 4").replace("columns = 60", "columns = 6"))
+    assert main(["plan", "tessar", str(scene)]) == 0
+    lines = capsys.readouterr().err.split("\r")
+    assert "planning: 1 measurements" in lines[1] and len(lines) > 20 and not lines[-1].strip()
+
+
 def test_a_picture_goes_through_the_lens(scene, tmp_path, capsys):
     out = tmp_path / "out.tif"
     assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(out), "--json"]) == 0

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from p2sf.errors import GeometryError, RequestError
+from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
+from p2sf.scene.study import Study
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 SCENE = """
@@ -98,6 +99,15 @@ def test_a_wrong_scene_is_one_sentence_with_its_file(tmp_path, old, new, words):
 def test_a_sensor_beyond_the_lens_is_one_sentence():
     with pytest.raises(GeometryError, match="sensor's corner"):
         plan(find_lens("double_gauss_28"), Scene(Sensor(1000, 1000, 200.0), GREEN))
+
+
+def test_a_blur_that_no_transform_holds_is_refused_before_anything_is_measured(monkeypatch):
+    """20 µm pixels from 1 m to infinity at f/4: some 9000² samples, which used to be found out after half a minute."""
+    measured = []
+    monkeypatch.setattr(Study, "distance", lambda *_: measured.append(1))
+    with pytest.raises(SamplingError, match=r"1000 mm away blur over .* mm, which takes \d+² samples of 4096² at most"):
+        plan(find_lens("double_gauss_28"), Scene(Sensor(600, 900, 20.0), GREEN, 1000.0, f_number=4.0))
+    assert not measured
 
 
 def test_corners_are_the_nearest_and_farthest_pixels():

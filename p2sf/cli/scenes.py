@@ -1,8 +1,10 @@
 """`p2sf plan` and `p2sf image`: what a scene requires, and its picture through the lens."""
 
+import sys
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
+from time import perf_counter
 from typing import Annotated, Literal
 
 import numpy as np
@@ -18,6 +20,7 @@ from p2sf.scene import Plan, Scene, plan, read_scene, verify
 from p2sf.scene.table import plan_facts, plan_rows, plan_sentences
 
 CHART = "chart:"
+TELL_EVERY_S = 1.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
 SCENE_HELP = (
     "A scene as TOML: tolerance = 0.05, f_number, focus_mm; [sensor] rows, columns, pixel_um, centre_mm; "
@@ -38,7 +41,7 @@ def plan_command(
     if not 0 <= check <= 1000:
         raise RequestError(f"--check is {check}; give a whole number from 0 to 1000")
     glass = find_lens(lens)
-    planned = plan(glass, read_scene(scene))
+    planned = _planned(glass, read_scene(scene))
     verdict = verify(planned, check) if check else None
     measured = None if verdict is None else {"points": check, "worst": verdict.worst, "kept": verdict.kept}
     if as_json:
@@ -52,6 +55,26 @@ def plan_command(
         sentences.append(f"At {check} random points exact rays find {verdict.worst:.3g} at most, {held} the tolerance.")
     print("\n".join(sentences))
     return None
+
+
+def _planned(glass, scene: Scene) -> Plan:
+    """Return the plan, with a line of progress on a terminal; Ctrl+C stops it."""
+    if not sys.stderr.isatty():
+        return plan(glass, scene)
+    begun, told = perf_counter(), [0, 0.0]
+
+    def tell() -> None:
+        told[0], passed = told[0] + 1, perf_counter() - begun
+        if passed - told[1] > TELL_EVERY_S:
+            told[1] = passed
+            line = f"\rplanning: {told[0]} measurements in {passed:.0f} s, Ctrl+C stops "
+            print(line, end="", file=sys.stderr, flush=True)
+
+    try:
+        return plan(glass, scene, tell)
+    finally:
+        if told[1]:
+            print("\r" + " " * 60 + "\r", end="", file=sys.stderr)
 
 
 @dataclass(frozen=True)
@@ -146,7 +169,7 @@ def _formed(glass, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.n
 
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
-    planned, depth = plan(glass, scene), depth_map(scene)
+    planned, depth = _planned(glass, scene), depth_map(scene)
     warn(None if planned.meets else "the plan cannot keep the tolerance; loosen it or reduce the scene")
     formed = form_image(planned, values, depth, Forming(shown.method, shown.surround))
     if shown.noise:

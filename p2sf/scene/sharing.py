@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from p2sf.kernels import Colour, Kernels, Recipe
+from p2sf.kernels import Kernels, Recipe
 from p2sf.kernels.nodes import nodes_along
 from p2sf.kernels.pupiltable import chebyshev, pupil_table
 from p2sf.scene.sensor import Sensor
@@ -53,7 +53,7 @@ def _error_along(study: Study, count: int, height: float, wave: float) -> float:
 
 
 def _error(study: Study, nodes, places, wave: float) -> float:
-    recipe, single, pixel = _recipe(study, wave), Colour((wave,), (1.0,)), study.scene.sensor.pixel_um
+    recipe, single, pixel = _recipe(study, wave), study.colour_of(wave), study.scene.sensor.pixel_um
 
     def own(height: float, vergence: float):
         return study.kernels(recipe, single, vergence).pupils(height)[0]

@@ -37,7 +37,7 @@ class Study:
         middle = self.scene.channels[len(self.scene.channels) // 2]
         self.reference_um = float(middle.wavelengths_um @ middle.shares)
         self.nearest_mm, self.farthest_mm = self.scene.sensor.corners_mm()
-        self.single = Colour((self.reference_um,), (1.0,))
+        self.single = self.colour_of(self.reference_um)
         middles = [float(channel.wavelengths_um @ channel.shares) for channel in self.scene.channels]
         self.waves = tuple(sorted({min(middles), self.reference_um, max(middles)}))
         self.levels: dict = {}
@@ -73,6 +73,11 @@ class Study:
             self.made[key] = Kernels(self.seen(vergence), colour, self.scene.sensor.pixel_um, lambda height: recipe)
         return self.made[key]
 
+    @staticmethod
+    def colour_of(wave: float) -> Colour:
+        """Return one wavelength as a colour."""
+        return Colour((wave,), (1.0,))
+
     def best(self, height_mm: float, vergence: float, wave: float) -> int:
         """Return the first rung whose residual is converged here, or the last."""
         self.check()
@@ -105,7 +110,7 @@ class Study:
 
     def distance(self, tried: Recipe, good: Recipe, height_mm: float, vergence: float, wave: float) -> float:
         """Return the relative L2 distance of two recipes' kernels at one place."""
-        single = Colour((wave,), (1.0,))
+        single = self.colour_of(wave)
         one, two = (self.kernels(r, single, vergence).at(*oblique(height_mm)) for r in (tried, good))
         return distance(one, two)
 
@@ -125,7 +130,7 @@ class Study:
         recipe = self.recipe(self.farthest_mm, vergence, wave)
         key = ("kernel", round(vergence, 15), round(x_mm, 9), round(y_mm, 9), wave)
         if key not in self.made:
-            self.made[key] = self.kernels(recipe, Colour((wave,), (1.0,)), vergence).at(x_mm, y_mm)
+            self.made[key] = self.kernels(recipe, self.colour_of(wave), vergence).at(x_mm, y_mm)
         return self.made[key]
 
 

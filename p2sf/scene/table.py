@@ -18,8 +18,9 @@ def plan_sentences(planned: Plan) -> list[str]:
         f"The predicted relative error of {planned.predicted_error:.3g} {verdict} the tolerance of {tolerance:.3g}.",
         f"Kernels take {cost.kernel_seconds:.2g} s of one core, a picture {cost.picture_seconds:.2g} s more, and "
         f"{cost.memory_bytes / MEBIBYTE:.0f} MiB.",
-        "The full grid for the same error (one method everywhere, every wavelength and fringe, each PSF by its own rays "
-        f"in the widest blur's window, nothing from symmetry) takes {naive.kernel_seconds:.2g} s for its kernels, {naive.kernel_seconds / cost.kernel_seconds:.1f} times "
+        "The full grid for the same error (one method everywhere, every wavelength and fringe, own rays for each PSF "
+        f"in the window of the widest blur, nothing from symmetry) takes {naive.kernel_seconds:.2g} s for its kernels, "
+        f"{naive.kernel_seconds / cost.kernel_seconds:.1f} times "
         "as long.",
     ]
 
