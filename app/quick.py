@@ -63,9 +63,9 @@ def landing_um(rays: Pencil) -> float:
     return UM_PER_MM * float(np.nanmax(reach)) if np.isfinite(reach).any() else 0.0
 
 
-def quick_psf(made: Quick, pixels: int, pixel_um: float) -> Psf:
-    """Return the PSF of the fit, float32; of exact rays where every fit misses more than `FAR`."""
-    found, set_up = best_fit(made), made.set_up
+def quick_psf(made: Quick, pixels: int, pixel_um: float, found: FittedPencil | None = None) -> Psf:
+    """Return the PSF of the fit, ``found`` if it is at hand, float32; of exact rays where it misses more than `FAR`."""
+    found, set_up = found or best_fit(made), made.set_up
     if found.error_waves > FAR:
         from p2sf.ladder import render
 

@@ -5,7 +5,7 @@ from math import floor, log10, sqrt
 
 from app.geometric import geometric_psf, main_reach_um
 from app.pupil import PupilMap
-from app.quick import clipped_psf, edge_points, landing_um, quick, quick_psf, quick_pupil
+from app.quick import FAR, best_fit, clipped_psf, edge_points, landing_um, quick, quick_psf, quick_pupil
 from app.scales import nice
 from app.setting import Setting
 from app.state import State
@@ -14,7 +14,9 @@ from app.whatif import NOTE
 from p2sf.errors import GeometryError
 from p2sf.measures import airy_radius_um
 from p2sf.psf import Psf, check_image, seidel_psf, suitable_pixel_um
+from p2sf.rayfit import FittedPencil
 from p2sf.raytrace import pencil
+from p2sf.traced import in_rows
 from p2sf.wavefront import steepest_slope
 
 PIXELS = {"preview": 64, "settled": 128}
@@ -28,7 +30,7 @@ ALL_LIGHT = 0.995
 MOVING = "fitted while the slider moves, {0} when it rests"
 SOON = "{0} follows: its sum of waves takes a moment"
 FARTHEST = 160.0  # waves of slope of a ray: beyond, too, a sample is several Airy radii wide
-QUICK_NODES = 150_000  # of a picture that moves: some 60 ms on a slow machine
+QUICK_NODES = 60_000  # of a picture that moves: some 20 ms, and on a busy machine a few times that
 ROOM = 5  # Airy radii around what rays say, for what diffraction adds
 
 
@@ -74,13 +76,13 @@ def rendered(
 
 def resting(state: State, set_up: Setting, choice: tuple[str, str], at_least_um: float, done: Done | None) -> Made:
     """Return the settled picture of a rung that traces rays; what stands in for it while it is owed."""
-    (method, why), landing = choice, landing_um(edge_pencil(set_up))
+    (method, why), made = choice, quick(set_up) if done else None
+    landing = landing_um(made.rays if made else edge_pencil(set_up))
     if slope(set_up, landing) > FARTHEST:
         return blurred(state, set_up, method, "settled", at_least_um)
     pixels = PIXELS["settled"]
-    window = pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels
-    wanted = asked(state, set_up, method, window)
-    if done is None or not slow(wanted, slope(set_up, landing), float(set_up.coefficients.na)):
+    wanted = asked(state, set_up, method, (pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels))
+    if done is None or not slow(wanted, best_fit(made) if made else None):
         return Made(by_rays(wanted), why, True, method)
     if found := done.get(wanted):
         return Made(found, why, True, method)
@@ -104,23 +106,31 @@ def moving(
     pupil = quick_pupil(made) if made and quality == "preview" else None
     landing = landing_um(made.rays if made else edge_pencil(set_up))
     window = pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels
-    wanted = asked(state, set_up, "traced", window)
-    many = row_nodes(wanted, slope(set_up, landing), float(set_up.coefficients.na)) > QUICK_NODES
-    if too_blurred(set_up, at_least_um) or many:
+    found = best_fit(made) if made else None
+    if too_blurred(set_up, at_least_um) or (found and not quickly(set_up, found, window)):
         return replace(blurred(state, set_up, method, quality, at_least_um), pupil=pupil)
     why = MOVING.format(method) if method != "fitted" else ""
     if made:
-        return Made(quick_psf(made, *window), why, True, method, pupil)
+        return Made(quick_psf(made, *window, found), why, True, method, pupil)
     if done is None:
-        return Made(by_rays(wanted, "preview"), "", True, method)
+        return Made(by_rays(asked(state, set_up, "traced", window), "preview"), "", True, method)
     return replace(rimmed(state, set_up, method, window, quality), why=why)
+
+
+def quickly(set_up: Setting, found: FittedPencil, window: tuple[int, float]) -> bool:
+    """Return whether the sum of a fit, or of exact rays where it misses much, is done within a frame or two."""
+    nodes = row_nodes(found, window, "preview")
+    if found.error_waves > FAR:
+        return nodes < QUICK_NODES / 3 and in_rows(set_up.lens, set_up.source)
+    return nodes < QUICK_NODES
 
 
 def rimmed(state: State, set_up: Setting, method: str, window: tuple[int, float], quality: str) -> Made:
     """Return what moves where rims clip: the fit to all rays, summed over those that pass, else their density."""
     made = quick(set_up)
     try:
-        found = made and clipped_psf(made, *window)
+        few = made is not None and quickly(set_up, best_fit(made), window)
+        found = clipped_psf(made, *window) if few else None
     except GeometryError:  # every ray is clipped, or the fit is no map: the density says which
         found = None
     if found is None:

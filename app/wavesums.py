@@ -7,13 +7,15 @@ from app.setting import Setting
 from app.state import State
 from p2sf.huygens import Filling, all_reach, huygens_psf
 from p2sf.lens import Lens
-from p2sf.psf import Psf, corner_reach
-from p2sf.quadrature import chords_for, nodes_for
+from p2sf.psf import Psf
+from p2sf.rayfit import FittedPencil
+from p2sf.rendering import counts_for
+from p2sf.rows import row_counts
 from p2sf.source import Source
 from p2sf.traced import in_rows, traced_psf
 
-# As many nodes as a slow machine sums in some 80 ms.
-MOST_NODES = {"fitted": 120_000, "traced": 60_000, "huygens": 20_000}
+# As many nodes as are summed in some 40 ms, and on a busy machine in a few times that.
+MOST_NODES = {"fitted": 60_000, "traced": 30_000, "huygens": 12_000}
 KEPT = 8
 
 
@@ -68,26 +70,23 @@ def by_rays(wanted: Asked, quality: str = "settled", cancelled: Callable[[], boo
     return render(lens, source, wanted.method, *window, quality, wanted.tolerance, wanted.clip)
 
 
-def slow(wanted: Asked, waves: float, na: float) -> bool:
-    """Return whether a settled sum over rays that land so many ``waves`` of slope out would hold the window up.
+def slow(wanted: Asked, found: FittedPencil | None) -> bool:
+    """Return whether a settled sum would hold the window up, by a coarse fit to its rays; None where rays are lost.
 
     Nobody knows beforehand what rims and lost rays cost: following an outline takes a thousand pencils.
     """
+    most = MOST_NODES[wanted.method]
     if wanted.method == "fitted":
-        return row_nodes(wanted, waves, na) > MOST_NODES["fitted"]
-    if wanted.clip:
+        return found is not None and row_nodes(found, wanted.window) > most
+    if wanted.clip or found is None:
         return True
     if wanted.method == "huygens":
-        radii, directions = nodes_for(waves, _reach(wanted, na))
-        return radii * directions / 2 > MOST_NODES["huygens"] or not all_reach(wanted.lens, wanted.source)
-    return row_nodes(wanted, waves, na) > MOST_NODES["traced"] or not in_rows(wanted.lens, wanted.source)
+        radii, directions = counts_for(found.steepness, *wanted.window)
+        return radii * directions / 2 > most or not all_reach(wanted.lens, wanted.source)
+    return row_nodes(found, wanted.window) > most or not in_rows(wanted.lens, wanted.source)
 
 
-def row_nodes(wanted: Asked, waves: float, na: float) -> float:
-    """Return about how many nodes in rows carry a slope of so many waves over a window, mirror half not counted."""
-    rows, columns = chords_for(waves, waves, _reach(wanted, na))
+def row_nodes(found: FittedPencil, window: tuple[int, float], quality: str = "settled") -> float:
+    """Return how many nodes in rows carry the phase of a fit over a window, mirror half not counted."""
+    rows, columns = row_counts(found, *window, quality)
     return rows * columns / 2
-
-
-def _reach(wanted: Asked, na: float) -> float:
-    return corner_reach(na / wanted.source.wavelength_um, *wanted.window)

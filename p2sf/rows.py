@@ -56,16 +56,21 @@ def rows_for(found: FittedPencil, pixels: int, pixel_um: float, quality: str) ->
 
     None where the map is too curved for rows. Raises SamplingError where too many nodes would be needed.
     """
-    steep = found.steepness
-    reach = steep.spread * pixel_um * (pixels // 2)
-    share = 1.0 if quality == "settled" else PREVIEW
-    rows, columns = (even_count(share * count) for count in chords_for(steep.along, steep.across, reach))
+    rows, columns = row_counts(found, pixels, pixel_um, quality)
     if rows * columns > MOST_NODES:
         raise SamplingError(
             f"this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; "
             "bring the sensor nearer to the image, stop down, or show a smaller window"
         )
     return frequency_rows(found, rows, columns)
+
+
+def row_counts(found: FittedPencil, pixels: int, pixel_um: float, quality: str) -> tuple[int, int]:
+    """Return how many rows and columns carry the phase of a fit over a window."""
+    steep = found.steepness
+    reach = steep.spread * pixel_um * (pixels // 2)
+    share = 1.0 if quality == "settled" else PREVIEW
+    return tuple(even_count(share * count) for count in chords_for(steep.along, steep.across, reach))
 
 
 def frequency_rows(found: FittedPencil, rows: int, columns: int) -> FrequencyRows | None:

@@ -19,7 +19,7 @@ from p2sf.library import shipped_lenses
 from tests.app.conftest import FIRST
 
 CORNER = replace(with_lens(State(theme="light"), "double_gauss_28"), method="traced", field_deg=14.0, clip=True)
-WIDE = replace(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_um=150.0)
+WIDE = replace(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_um=60.0)
 
 
 @pytest.fixture
