@@ -13,13 +13,13 @@ from dataclasses import dataclass, field
 from statistics import median
 from time import thread_time
 
-from PySide6.QtCore import QEvent, QPoint, QPointF, QSize, Qt
-from PySide6.QtGui import QKeyEvent, QWheelEvent
+from PySide6.QtCore import QPoint, QSize, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication
 
 from app.state import State
 from app.window import Window
+from tests.fingers import send_key, turn_wheel, type_text
 
 STALL_MS = 250.0
 SPACE = "app.stage"  # what is loaded at the first opening of the lens in space, which may take its time
@@ -32,7 +32,7 @@ KEYS = (KEY.Key_Left, KEY.Key_Right, KEY.Key_PageUp, KEY.Key_PageDown, KEY.Key_H
 
 @dataclass
 class Ledger:
-    """What was seen: CPU ms of the GUI thread per event, by the kind of event; of the first opening of 3D apart."""
+    """CPU ms of the GUI thread per event, by the kind of event; of the first opening of 3D apart."""
 
     cost: list[float] = field(default_factory=list)
     slow: list[str] = field(default_factory=list)
@@ -53,7 +53,7 @@ class Person:
     """Does one random thing after another to the window, by mouse and keys."""
 
     def __init__(self, window: Window, chance: random.Random):
-        self.window, self.chance, self.ledger = window, chance, Ledger()
+        self.window, self.chance, self.ledger, self.drawn = window, chance, Ledger(), False
 
     def act(self) -> None:
         """Do one thing, weighted as a person would."""
@@ -75,10 +75,17 @@ class Person:
         action(*arguments, **words)
         if painted:
             QApplication.processEvents()
-        if SPACE in sys.modules and not loaded:
-            self.ledger.first_3d = 1e3 * (thread_time() - begun)
+        if self.first_in_space(loaded):
+            self.ledger.first_3d += 1e3 * (thread_time() - begun)
             return
         self.ledger.note(name, 1e3 * (thread_time() - begun), self.window.store.state)
+
+    def first_in_space(self, loaded: bool) -> bool:
+        """Return whether the event loaded what draws the lens in space, or asked it for its first picture."""
+        solid = self.window.panels.get("solid")
+        first = not self.drawn and solid is not None and solid.stage is not None and solid.widget.isVisible()
+        self.drawn = self.drawn or first
+        return first or (SPACE in sys.modules and not loaded)
 
     def quiet(self) -> None:
         """Let the background finish, so that two looks at the memory see the same."""
@@ -225,24 +232,3 @@ def has_menu(button) -> bool:
 
 def size_of(widget) -> tuple[int, int]:
     return widget.width(), widget.height()
-
-
-def type_text(edit, text: str) -> None:
-    """Type any characters; QTest's own typing ends the process at the first that is not ASCII."""
-    for letter in text:
-        for kind in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
-            QApplication.sendEvent(edit, QKeyEvent(kind, 0, Qt.KeyboardModifier.NoModifier, letter))
-
-
-def send_key(widget, key, repeated: bool) -> None:
-    """Send one press of a key, or one repeat of a held one."""
-    none = Qt.KeyboardModifier.NoModifier
-    QApplication.sendEvent(widget, QKeyEvent(QEvent.Type.KeyPress, key, none, "", repeated))
-
-
-def turn_wheel(widget, place: QPoint, angle: int) -> None:
-    at, none = QPointF(place), Qt.KeyboardModifier.NoModifier
-    phase = Qt.ScrollPhase.NoScrollPhase
-    screen, turned = QPointF(widget.mapToGlobal(place)), QPoint(0, angle)
-    turn = QWheelEvent(at, screen, QPoint(), turned, Qt.MouseButton.NoButton, none, phase, False)
-    QApplication.sendEvent(widget, turn)
