@@ -24,6 +24,7 @@ METHOD_WORDS = {
     "traced": "traced: exact wavefront",
     "huygens": "huygens: the reference sum",
 }
+NARROW = 1100  # pixels: below, as on a small screen at twice the size, some words are left out
 TOLERANCES = (0.9, 0.95, 0.99, 0.999, 0.9999)
 METHOD_TIP = "Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough."
 TOLERANCE_TIP = "Tolerance: the R² against the Huygens reference that auto must promise."
@@ -55,6 +56,7 @@ class TopBar(QFrame):
         for box in (self.method, self.tolerance):
             box.setObjectName("")
             box.setMinimumWidth(96)  # a narrow window cuts their words rather than grow
+        self.named = QLabel(tr("Method"), self)
         self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
         self.tolerance.activated.connect(lambda: store.update(tolerance=float(self.tolerance.currentData())))
         self.undo = self._tool("Undo", "Take back one step (Ctrl+Z)", store.undo)
@@ -70,16 +72,29 @@ class TopBar(QFrame):
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.help = self._tool("?", "Shortcuts and terms (F1 or ?)", self.help_asked.emit)
         self._lay_out()
+        self._write(False)
+
+    def resizeEvent(self, event) -> None:
+        """Write less in a narrow window."""
+        super().resizeEvent(event)
+        self._write(event.size().width() < NARROW)
+
+    def _write(self, narrow: bool) -> None:
+        """Write Undo and Redo, in a narrow window as arrows and without the word before the methods."""
+        self.named.setVisible(not narrow)
+        for button, arrow, words in ((self.undo, "↶", "Undo"), (self.redo, "↷", "Redo")):
+            button.setText(arrow if narrow else tr(words))
+            button.setAccessibleName(tr(words))
 
     def _lay_out(self) -> None:
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 6, 10, 6)
-        row.setSpacing(8)
+        row.setSpacing(6)
         row.addWidget(self.lens)
         row.addWidget(self.open)
         row.addWidget(self.edited)
-        row.addSpacing(12)
-        row.addWidget(QLabel(tr("Method")))
+        row.addSpacing(6)
+        row.addWidget(self.named)
         row.addWidget(self.method)
         row.addWidget(self.tolerance)
         row.addStretch(1)

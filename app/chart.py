@@ -10,7 +10,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPixmap, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.ink import pen, polylines, width_of, write
+from app.ink import fitting, pen, polylines, width_of, write
 from app.scales import ticks
 from app.theme import LIGHT, Tokens
 from app.words import tr
@@ -210,7 +210,7 @@ def paint_axes(painter: QPainter, chart: Chart, labels: tuple[str, str]) -> None
         _tick(painter, theme, QPointF(x, area.bottom()), QPointF(x, area.bottom() - 4))
         middle = min(x, chart.width() - width_of(text) / 2)  # the last one stays whole
         write(painter, QRectF(middle - 40, area.bottom() + 3, 80, 15), text)
-    write(painter, QRectF(area.left(), area.bottom() + 18, area.width(), 16), labels[0])
+    write(painter, QRectF(area.left(), area.bottom() + 18, area.width(), 16), fitting(labels[0], area.width() + 18))
     if chart.left_axis:
         _paint_left(painter, chart, labels[1])
 
@@ -240,7 +240,7 @@ def _paint_left(painter: QPainter, chart: Chart, label: str) -> None:
         return
     painter.setPen(QColor(theme.muted))
     painter.rotate(-90)
-    write(painter, QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), label)
+    write(painter, QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), fitting(label, area.height() + 10))
     painter.rotate(90)
 
 

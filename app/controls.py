@@ -4,9 +4,8 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
-    QLineEdit,
     QPushButton,
-    QToolButton,
+    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -21,6 +20,7 @@ from app.slider import STEPS, Slider
 from app.stopping import StopRow
 from app.store import Store
 from app.theme import SPACE, Tokens
+from app.valueedit import PlayButton, ValueEdit
 from app.words import tr
 from p2sf.errors import P2SFError
 
@@ -136,56 +136,6 @@ class Row(QWidget):
                 self.edit.set_text(self.edit.last)  # refused: the number shown stays the picture's
 
 
-class PlayButton(QToolButton):
-    """A small ▶ beside a slider."""
-
-    def __init__(self, parent=None):
-        super().__init__(parent)
-        self.setObjectName("flat")
-        self.setText("▶")
-        self.setToolTip(tr("Play this slider (Space)"))
-        self.setFixedSize(22, 22)
-
-
-class ValueEdit(QLineEdit):
-    """A number with its unit; Return commits, Escape goes back, double-click asks for the reset."""
-
-    committed = Signal(str)
-    reset = Signal()
-
-    def __init__(self, parent=None):
-        super().__init__(parent)
-        self.setObjectName("value")
-        self.setFixedWidth(96)
-        self.setAlignment(Qt.AlignmentFlag.AlignRight)
-        self.last = ""
-        self.editingFinished.connect(self._commit)
-
-    def set_text(self, text: str) -> None:
-        """Show a value, unless a person is in the middle of typing another."""
-        self.last = text
-        if not (self.hasFocus() and self.isModified()) and self.text() != text:
-            self.setText(text)
-
-    def _commit(self) -> None:
-        if self.isModified() and self.text() != self.last:
-            self.setModified(False)
-            self.committed.emit(self.text())
-
-    def keyPressEvent(self, event) -> None:
-        """Let Escape take the typing back."""
-        if event.key() == Qt.Key.Key_Escape:
-            self.setModified(False)
-            self.setText(self.last)
-            return
-        super().keyPressEvent(event)
-
-    def mouseDoubleClickEvent(self, event) -> None:
-        """Ask for the reset."""
-        self.setModified(False)
-        self.reset.emit()
-
-
 class Controls(QWidget):
     """All rows, the autofocus button, and the sentence that names the dominant term."""
 
@@ -213,9 +163,7 @@ class Controls(QWidget):
         self.detail.setObjectName("muted")
         for label in (self.sentence, self.detail):
             label.setWordWrap(True)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(12, 10, 12, 12)
-        column.setSpacing(SPACE - 1)
+        column = self._column()
         for row in self.rows.values():
             column.addWidget(row)
         column.addWidget(self.stopping)
@@ -224,6 +172,23 @@ class Controls(QWidget):
         column.addWidget(self.sentence)
         column.addWidget(self.detail)
         column.addWidget(scrolled(self.facts), 1)
+
+    def _column(self) -> QVBoxLayout:
+        """Return the column of everything, which scrolls where a screen is too low for it."""
+        page, area, whole = QWidget(), QScrollArea(self), QVBoxLayout(self)
+        column = QVBoxLayout(page)
+        column.setContentsMargins(12, 10, 12, 12)
+        column.setSpacing(SPACE - 1)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.addWidget(area)
+        area.setWidgetResizable(True)
+        area.setFrameShape(QScrollArea.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        area.setWidget(page)
+        for part in (area, area.viewport(), page):
+            part.setAutoFillBackground(False)
+        return column
 
     def show_state(self, state) -> None:
         """Follow a state."""

@@ -58,6 +58,14 @@ def letter_width(letter: str, size: int) -> float:
     return metrics(size).horizontalAdvance(letter)
 
 
+def fitting(words: str, room: float, size: int = 11) -> str:
+    """Return a text as far as it fits: without what stands in brackets, else cut off."""
+    for text in (words, words.partition(" (")[0]):
+        if width_of(text, size) <= room:
+            return text
+    return metrics(size).elidedText(text, Qt.TextElideMode.ElideRight, room)
+
+
 def write(painter: QPainter, room: QRectF, words: str, side: int = 0, size: int = 11) -> None:
     """Paint words in the middle of a room's height, at its left (side −1), middle (0) or right end (1).
 

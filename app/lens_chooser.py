@@ -22,7 +22,7 @@ from app.thumbnail import paint_lens
 from app.words import tr
 
 NAME = Qt.ItemDataRole.UserRole
-WIDE, NARROW = 560, 170
+WIDE, NARROW = 560, 110
 CELL, PICTURE = QSize(254, 172), 74
 SIZE = QSize(4 * 254 + 30, 4 * 172 + 48)
 ALIGN = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop

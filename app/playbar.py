@@ -6,11 +6,11 @@ from PySide6.QtWidgets import QFileDialog, QFrame, QHBoxLayout, QLabel, QProgres
 
 from app.card import chooser, select
 from app.commands import Command
-from app.controls import ValueEdit
 from app.filming import Filming
 from app.player import Player
 from app.scales import read_number
 from app.sweep import TITLES, sweep
+from app.valueedit import ValueEdit
 from app.words import tr
 from p2sf.errors import P2SFError
 

@@ -17,6 +17,7 @@ from p2sf.errors import P2SFError
 TIP = "Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves."
 FREE_TIP = "Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients."
 PRESETS_TIP = "Textbook wavefronts, in a free pupil"
+LEAST = 250, 186  # pixels: names, numbers and buttons, some forty for the bars, and three buttons below
 RESET_TIP = "Back to the lens's own coefficients: nothing added, muted or solo"
 
 
@@ -27,6 +28,7 @@ class CoefficientsPanel:
         self._store, self._theme = store, LIGHT
         self.widget = Card("Coefficients", TIP)
         self.bars = Mixer(self.widget)
+        self.widget.setMinimumSize(*LEAST)
         self.widget.set_body(self.bars)
         self.free = self._button("Free pupil", FREE_TIP)
         self.free.setCheckable(True)
@@ -89,7 +91,7 @@ class CoefficientsPanel:
         self.reset.setEnabled(altered)
         note = "what-if" if live.side else SHORT_NOTE  # beside a side's name there is less room
         colour = f'<span style="color:{self._theme.warning}">{tr(note)}</span>'
-        words = colour if altered else tr("waves at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
+        words = colour if altered else tr("at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
         words = "" if live.difference and not altered else words  # "A − B" needs the room, and λ stand at the numbers
         self.widget.set_readout(words)
 

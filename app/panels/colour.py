@@ -7,12 +7,12 @@ from PySide6.QtGui import QColor, QPainter
 from app.card import chooser, select
 from app.chart import Chart
 from app.compute import Live
-from app.controls import ValueEdit
 from app.panels.pair import ChartsCard
 from app.panels.worked import Asking
 from app.scales import signed
 from app.store import Store
 from app.theme import Tokens
+from app.valueedit import ValueEdit
 from app.views.colour import CHOICES, ColourQuestion, Colours, answer, pixels
 from app.words import tr
 from p2sf.conventions import NM_PER_UM

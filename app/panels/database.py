@@ -103,6 +103,7 @@ class DatabasePanel:
         depths, fields, colours = NODES
         text = f"largest error in {name(term)}: {losses}, on {depths} depths × {fields} fields × {colours} wavelengths"
         self.note.setText(tr(" · ".join(part for part in (text, found.why_no_atlas) if part)))
+        self.note.setToolTip(self.note.text())
 
     def _paint_map(self, found: Answer, term: str) -> None:
         """Paint signed square roots: near and far differ by a thousand waves."""

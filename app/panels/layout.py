@@ -32,7 +32,9 @@ class LayoutPanel:
 
     def __init__(self, store: Store):
         self.widget = Card("Layout", TIP)
+        self.widget.setMinimumHeight(92)
         self.chart = LayoutChart(store)
+        self.chart.setMinimumHeight(56)
         self.widget.set_body(self.chart)
         self.rays = self.chart.rays
 

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
-from app.controls import ValueEdit
 from app.scales import read_number, significant
 from app.store import Store
+from app.valueedit import ValueEdit
 from app.words import tr
 from p2sf.errors import P2SFError
 

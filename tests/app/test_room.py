@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.card import Card, chooser
 from app.compute import live
 from app.glass import clear_rims, glass_of, still
+from app.ink import fitting, width_of
 from app.plots import HeatMap
 from app.readout import Readout
 from app.setting import default_state, load, setting, shipped
@@ -134,3 +136,29 @@ def test_tools_that_do_not_fit_beside_the_title_stand_under_it(qtbot):
         card.show()
         qtbot.waitUntil(lambda below=below: (card.tools[0].y() > card.title.geometry().bottom()) is below)
         qtbot.waitUntil(lambda: card.title.width() >= card.title.sizeHint().width())
+
+
+def test_a_label_that_is_too_long_leaves_out_what_stands_in_brackets(qapp):
+    label = "y, µm (towards the field)"
+    assert fitting(label, 500) == label
+    assert fitting(label, width_of(label) - 1) == "y, µm"
+    assert fitting(label, 12).endswith("…") and width_of(fitting(label, 30)) <= 30
+
+
+def test_the_window_fits_a_screen_of_1920_by_1080_at_twice_the_size(window):
+    """That is 960 by 540 to a program: the column of controls scrolls, and no main panel is cut."""
+    window.resize(960, 540)
+    QApplication.processEvents()
+    try:
+        assert (window.width(), window.height()) == (960, 540)
+        assert window.top.undo.text() == "↶" and window.top.undo.accessibleName() == "Undo"
+        row = [window.panels[key].widget for key in ("pupil", "psf", "coefficients")]
+        for card in row:
+            assert card.height() >= card.layout().minimumSize().height() and card.width() >= card.minimumWidth()
+        button = window.controls.focus_button
+        button.setFocus(Qt.FocusReason.TabFocusReason)
+        assert not button.visibleRegion().isEmpty(), "what has the focus is scrolled to"
+    finally:
+        window.resize(1440, 900)
+        QApplication.processEvents()
+    assert window.top.undo.text() == "Undo" and window.top.named.isVisible()
