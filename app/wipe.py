@@ -1,4 +1,4 @@
-"""Two pictures of one scene with a split between them, and a loupe for what is under the pointer."""
+"""Two pictures of one scene with a split between them; beside them details and the PSF of the place looked at."""
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
@@ -6,19 +6,28 @@ from PySide6.QtGui import QColor, QImage, QPainter, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.ink import set_text, write
+from app.roominess import PAD, Rooms, close_up, rooms
 from app.theme import LIGHT, Tokens
 from app.words import tr
 
-STEP = 0.05  # of the width, for an arrow key
+STEP = 0.05  # of the width, for an arrow key with Shift
+LOOK_STEP = 8.0  # pixels of the picture, for an arrow key alone
+LOOKS = {
+    Qt.Key.Key_Up: (-LOOK_STEP, 0.0),
+    Qt.Key.Key_Down: (LOOK_STEP, 0.0),
+    Qt.Key.Key_Left: (0.0, -LOOK_STEP),
+    Qt.Key.Key_Right: (0.0, LOOK_STEP),
+}
 HANDLE_PX = 7.0
-LOUPE_SHARE, LOUPE_MOST = 0.42, 150.0  # of the picture's height, and pixels at most
-PAD = 6.0
-SHAPE = 2, 3  # rows to columns of every picture
+TIP = (
+    "Hover or press the arrow keys to look at a place: its PSF and its detail follow. "
+    "Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it."
+)
 BLACK = np.full((1, 1), 0xFF000000, np.uint32)
 
 
 class Wipe(QWidget):
-    """``before`` at the left of the split, ``after`` at its right; drag the split, hover for the loupe.
+    """``before`` at the left of the split, ``after`` at its right; drag the split, hover or press arrows to look.
 
     ``moved`` tells where the split is wanted, 0 to 1; ``looked`` the row and column under the pointer.
     """
@@ -35,7 +44,10 @@ class Wipe(QWidget):
         self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(160, 100)
-        self.setAccessibleName(tr("Picture before and after the lens; left and right arrows move the split"))
+        self.setAccessibleName(
+            tr("Picture before and after the lens; arrows move the place looked at, Shift the split")
+        )
+        self.setToolTip(tr(TIP))
         self.before, self.after, self.loupe = BLACK, BLACK, BLACK
         self.names, self.split, self.place = ("", ""), 0.5, (0.0, 0.0)
         self._theme: Tokens = LIGHT
@@ -65,28 +77,17 @@ class Wipe(QWidget):
         self._theme = theme
         self.update()
 
+    def rooms(self) -> Rooms:
+        """Return where everything is."""
+        return rooms(self.width(), self.height(), *self.after.shape)
+
     def area(self) -> QRectF:
         """Return where the picture is: at the left, as large as fits."""
-        rows, columns = self.after.shape
-        scale = min(self.width() / columns, self.height() / rows)
-        wide, tall = scale * columns, scale * rows
-        return QRectF(0, (self.height() - tall) / 2, wide, tall)
+        return self.rooms().picture
 
     def split_x(self) -> float:
         """Return where the split is, in pixels."""
         return self.area().left() + self.split * self.area().width()
-
-    def loupe_rect(self) -> QRectF:
-        """Return where the loupe is: at the top right of the picture."""
-        area = self.area()
-        side = min(LOUPE_MOST, LOUPE_SHARE * area.height())
-        return QRectF(area.right() - side - PAD, area.top() + PAD, side, side)
-
-    def resizeEvent(self, event) -> None:
-        """Take no more width than the picture needs at this height."""
-        rows, columns = SHAPE
-        self.setMaximumWidth(max(self.minimumWidth(), round(event.size().height() * columns / rows)))
-        super().resizeEvent(event)
 
     def paintEvent(self, event) -> None:
         """Paint both parts, the split, the names and the loupe."""
@@ -104,7 +105,7 @@ class Wipe(QWidget):
         self._paint_split(painter, area, x)
         self._paint_names(painter, area, x)
         if self.loupe is not BLACK:
-            self._paint_loupe(painter, area)
+            self._paint_looked_at(painter, self.rooms())
 
     def _paint_split(self, painter: QPainter, area: QRectF, x: float) -> None:
         for colour, width in (("#000000", 3.0), (self._theme.accent if self.hasFocus() else "#ffffff", 1.4)):
@@ -120,23 +121,35 @@ class Wipe(QWidget):
             left = x - PAD - wide if side < 0 else x + PAD
             if not name or left < area.left() or left + wide > area.right():
                 continue
-            room = QRectF(left, area.bottom() - 24, wide, 18)
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(0, 0, 0, 170))
-            painter.drawRoundedRect(room, 4, 4)
-            painter.setPen(QColor("#ffffff"))
-            write(painter, room, name)
+            _label(painter, QRectF(left, area.bottom() - 24, wide, 18), name)
 
-    def _paint_loupe(self, painter: QPainter, area: QRectF) -> None:
-        scale, frame = area.width() / self.after.shape[1], self.loupe_rect()
+    def _paint_looked_at(self, painter: QPainter, places: Rooms) -> None:
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)  # a sensor's pixels are squares
-        painter.drawImage(frame, image_of(self.loupe))
+        part = close_up(self.place, self.after.shape, (places.details or (places.loupe,))[0])
+        shown = ((self.before, self.names[0]), (self.after, self.names[1]))[2 - len(places.details) :]
+        for room, (pixels, name) in zip(places.details, shown, strict=False):
+            painter.drawImage(room, image_of(pixels), part)
+            self._frame(painter, room, name)
+        painter.drawImage(places.loupe, image_of(self.loupe))
+        self._frame(painter, places.loupe, "PSF, √")
+        area = places.picture
+        scale = area.width() / self.after.shape[1]
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(QPen(QColor("#ffffff"), 1.4))
-        painter.drawRect(frame)
-        write(painter, QRectF(frame.left(), frame.bottom() - 17, frame.width(), 15), "PSF, √")
-        centre = QPointF(area.left() + (self.place[1] + 0.5) * scale, area.top() + (self.place[0] + 0.5) * scale)
-        painter.drawEllipse(centre, 5.0, 5.0)
+        for colour, width in (("#000000", 3.0), ("#ffffff", 1.4)):  # seen on bright and on dark
+            painter.setPen(QPen(QColor(colour), width))
+            if places.details:
+                box = QRectF(*(scale * v for v in (part.x(), part.y(), part.width(), part.height())))
+                painter.drawRect(box.translated(area.topLeft()))
+            row, column = self.place
+            painter.drawEllipse(area.topLeft() + QPointF(column + 0.5, row + 0.5) * scale, 5.0, 5.0)
+
+    def _frame(self, painter: QPainter, room: QRectF, name: str) -> None:
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(QColor(self._theme.line), 1.0))
+        painter.drawRect(room)
+        wide = set_text(name).size().width() + 2 * PAD
+        if name and wide < room.width():
+            _label(painter, QRectF(room.left() + PAD, room.bottom() - 24, wide, 18), name)
 
     def mousePressEvent(self, event) -> None:
         """Take hold of the split."""
@@ -159,16 +172,28 @@ class Wipe(QWidget):
         self.released.emit()
 
     def keyPressEvent(self, event) -> None:
-        """Move the split with the arrows."""
-        step = {Qt.Key.Key_Left: -STEP, Qt.Key.Key_Right: STEP}.get(event.key())
+        """Move the place looked at with the arrows, with Shift the split."""
+        step = LOOKS.get(event.key())
         if step is None:
             super().keyPressEvent(event)
+        elif event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            self.moved.emit(min(1.0, max(0.0, self.split + STEP * (step[1] > 0) - STEP * (step[1] < 0))))
         else:
-            self.moved.emit(min(1.0, max(0.0, self.split + step)))
+            ends = zip(self.place, step, self.after.shape, strict=True)
+            self.looked.emit(*(min(count - 1.0, max(0.0, at + by)) for at, by, count in ends))
 
     def _move(self, place: QPointF) -> None:
         area = self.area()
         self.moved.emit(min(1.0, max(0.0, (place.x() - area.left()) / area.width())))
+
+
+def _label(painter: QPainter, room: QRectF, name: str) -> None:
+    """Write white words on a dark ground, seen on every picture."""
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(0, 0, 0, 170))
+    painter.drawRoundedRect(room, 4, 4)
+    painter.setPen(QColor("#ffffff"))
+    write(painter, room, name)
 
 
 def image_of(pixels: np.ndarray) -> QImage:

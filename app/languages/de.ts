@@ -239,7 +239,11 @@
 <message><source>Phase</source><translation>Phase</translation></message>
 <message><source>Photo…</source><translation>Foto …</translation></message>
 <message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
-<message><source>Picture before and after the lens; left and right arrows move the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile links und rechts verschieben die Teilung</translation></message>
+<message><source>Picture before and after the lens; arrows move the place looked at, Shift the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile verschieben den betrachteten Ort, mit Umschalt die Teilung</translation></message>
+<message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it.</source><translation>Mit dem Zeiger oder den Pfeiltasten einen Ort betrachten: seine PSF und sein Ausschnitt folgen. Die Teilung ziehen oder mit Umschalt und Pfeil links oder rechts verschieben. Ein PNG oder TIFF fallen lassen, um es zu fotografieren.</translation></message>
+<message><source>Why…</source><translation>Warum…</translation></message>
+<message><source>Why the picture is computed in this way: the plan's decisions, each with its error</source><translation>Warum das Bild so berechnet wird: die Entscheidungen des Plans, jede mit ihrem Fehler</translation></message>
+<message><source>{file} is no PNG or TIFF; save the photo as one of these and drop that</source><translation>{file} ist weder PNG noch TIFF; das Foto in einem dieser Formate sichern und dieses fallen lassen</translation></message>
 <message><source>Picture of one panel</source><translation>Bild einer Ansicht</translation></message>
 <message><source>Pin B</source><translation>B merken</translation></message>
 <message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>

@@ -1,14 +1,15 @@
-"""A photo or chart through the present lens: coarse at once, planned when the sliders rest, and why."""
+"""A photo or chart through the present lens: coarse at once, planned when the sliders rest; why, when asked."""
 
 from html import escape
 from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QScrollArea, QToolButton, QWidget
+from PySide6.QtWidgets import QFileDialog, QLabel, QMenu, QSizePolicy, QToolButton, QWidgetAction
 
 from app.card import Card, chooser, select
 from app.compute import Live
+from app.dropping import PhotoDrop
 from app.scenery import CHART_WORDS
 from app.snapshot import side_car, write_state
 from app.store import Store
@@ -30,11 +31,12 @@ SHOWS = {
     "axis": ("by the axis's PSF", ("image", "sharpened wrongly")),
 }
 PHOTOS = "Pictures (*.png *.tif *.tiff)"
+WORDS_PX = 480
 WORKING = " · earlier picture, working"
 
 
 class ImagePanel:
-    """The picture with its split and loupe at the left, the plan in words at the right."""
+    """The picture with its split, details and loupe; one line under it, and the plan in words behind "Why…"."""
 
     def __init__(self, store: Store):
         self._store = store
@@ -43,6 +45,9 @@ class ImagePanel:
         self.pixel = chooser(tuple(PIXELS.items()), "Pixels at the field point, or the field", self.widget)
         self.show_box = chooser(tuple((k, v[0]) for k, v in SHOWS.items()), "Which picture is made", self.widget)
         self.open = small_button("Photo…", "Choose a PNG or TIFF to photograph", self._ask_photo)
+        self.why = small_button(
+            "Why…", "Why the picture is computed in this way: the plan's decisions, each with its error"
+        )
         self.save = small_button("Save…", "Save the picture as PNG or TIFF, the state beside it", self._ask_save)
         self.wipe, self.headline, self.words = Wipe(), QLabel(), QLabel()
         self._lay_out()
@@ -56,30 +61,22 @@ class ImagePanel:
             worker.failed.connect(self._on_failure)
 
     def _lay_out(self) -> None:
-        for tool in (self.photo, self.open, self.pixel, self.show_box, self.save):
+        for tool in (self.photo, self.open, self.pixel, self.show_box, self.why, self.save):
             self.widget.add_tool(tool)
         self.headline.setObjectName("muted")
+        self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.words.setObjectName("fact")
         self.words.setTextFormat(Qt.TextFormat.RichText)
         self.words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        for label in (self.headline, self.words):
-            label.setWordWrap(True)
-        self.words.setAlignment(Qt.AlignmentFlag.AlignTop)
-        scroll = QScrollArea()
-        scroll.setAccessibleName(tr("Why this many PSFs"))
-        scroll.setWidgetResizable(True)
-        scroll.setFrameShape(QScrollArea.Shape.NoFrame)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(self.words)
-        scroll.viewport().setAutoFillBackground(False)
-        self.words.setAutoFillBackground(False)
-        body = QWidget()
-        row = QHBoxLayout(body)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(12)
-        row.addWidget(self.wipe, 3)
-        row.addWidget(scroll, 2)
-        self.widget.set_body(body)
+        self.words.setWordWrap(True)
+        self.words.setFixedWidth(WORDS_PX)
+        self.words.setMargin(10)
+        fold, shown = QMenu(self.why), QWidgetAction(self.why)
+        shown.setDefaultWidget(self.words)
+        fold.addAction(shown)
+        self.why.setMenu(fold)
+        self.why.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.widget.set_body(self.wipe)
         self.widget.add_footer(self.headline)
 
     def _connect(self) -> None:
@@ -91,6 +88,9 @@ class ImagePanel:
         self.wipe.released.connect(store.end)
         self.wipe.moved.connect(lambda part: store.update(photo_split=part))
         self.wipe.looked.connect(self._look)
+        drop = PhotoDrop(self.widget)
+        drop.photo.connect(lambda path: store.update(photo=path))
+        drop.refused.connect(store.refused)
 
     def show(self, live: Live) -> None:
         """Follow the state; ask the worker for a picture when anything it depends on has changed."""
@@ -142,18 +142,24 @@ class ImagePanel:
 
     def _on_failure(self, key: Question, sentence: str) -> None:
         if key == self._asked and "cancelled" not in sentence:
-            self.headline.setText(tr(sentence[0].upper() + sentence[1:]))
+            self._say(sentence[0].upper() + sentence[1:])
             self.widget.set_readout("no picture")
+
+    def _say(self, words: str) -> None:
+        """Show one line under the picture; the whole of it as a tooltip, should it not fit."""
+        self.headline.setText(tr(words))
+        self.headline.setToolTip(tr(words))
 
     def _paint(self) -> None:
         found = self._answer
         self.wipe.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
-        self.headline.setText(tr(f"{found.headline} · {found.seconds:.2g} s"))
+        self._say(f"{found.headline} · {found.seconds:.2g} s")
         lines = (
             f"<p><b>{escape(what, quote=False)}</b> {escape(sentence, quote=False)}</p>"
             for what, sentence in found.words
         )
         self.words.setText(tr("".join(lines)))
+        self.words.adjustSize()
         rows, columns = found.after.shape[:2]
         self._look(self._place[0] * (rows - 1), self._place[1] * (columns - 1))
 
@@ -201,12 +207,13 @@ class ImagePanel:
             worker.stop()
 
 
-def small_button(text: str, tip: str, action) -> QToolButton:
-    """Return a small button."""
+def small_button(text: str, tip: str, action=None) -> QToolButton:
+    """Return a small button; without an action it opens a menu."""
     made = QToolButton()
     made.setObjectName("small")
     made.setText(tr(text))
     made.setToolTip(tr(tip))
     made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-    made.clicked.connect(action)
+    if action:
+        made.clicked.connect(action)
     return made

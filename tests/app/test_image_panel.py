@@ -182,7 +182,7 @@ def test_dragging_the_split_is_one_undo_and_hovering_moves_the_loupe(window, pan
     assert window.store.state == first and wipe.split == first.photo_split
     panel._look(0.0, 0.0)
     assert wipe.place == (0.0, 0.0)
-    qtbot.keyClick(wipe, Qt.Key.Key_Right)
+    qtbot.keyClick(wipe, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
     assert window.store.state.photo_split == pytest.approx(first.photo_split + 0.05)
 
 

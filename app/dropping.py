@@ -1,0 +1,50 @@
+"""Photos dropped on a panel: those it reads are handed on, other pictures refused, all else let through."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QObject, Signal
+from PySide6.QtWidgets import QWidget
+
+from p2sf.photos import READABLE
+
+OTHER_PICTURES = (".jpg", ".jpeg", ".gif", ".bmp", ".webp", ".heic", ".avif", ".raw", ".dng", ".cr2", ".nef", ".arw")
+
+
+class PhotoDrop(QObject):
+    """Watches a widget for dropped files: ``photo`` tells a path to open, ``refused`` why a picture is not opened.
+
+    Files that are no pictures go on to the window, which opens lenses and states.
+    """
+
+    photo = Signal(str)
+    refused = Signal(str)
+
+    def __init__(self, widget: QWidget):
+        super().__init__(widget)
+        widget.setAcceptDrops(True)
+        widget.installEventFilter(self)
+
+    def eventFilter(self, _widget, event) -> bool:
+        """Take pictures."""
+        if event.type() not in (QEvent.Type.DragEnter, QEvent.Type.Drop):
+            return False
+        path = dropped_picture(event.mimeData())
+        if path is None:
+            event.ignore()
+            return True
+        event.acceptProposedAction()
+        if event.type() == QEvent.Type.Drop:
+            self._take(Path(path))
+        return True
+
+    def _take(self, path: Path) -> None:
+        if path.suffix.lower() in READABLE:
+            self.photo.emit(str(path))
+        else:
+            self.refused.emit(f"{path.name} is no PNG or TIFF; save the photo as one of these and drop that")
+
+
+def dropped_picture(data) -> str | None:
+    """Return the path of the first dropped file, should its name end as a picture's does; None for anything else."""
+    paths = (url.toLocalFile() for url in data.urls())
+    return next((path for path in paths if Path(path).suffix.lower() in (*READABLE, *OTHER_PICTURES)), None)
