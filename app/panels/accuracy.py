@@ -154,4 +154,5 @@ def anchors(words: list[str], dots: list[tuple[float, float]], size: tuple[float
     return found
 
 
-SIDES = tuple((over, down) for down in (0.5, 0.0, 1.0) for over in (0.0, 1.0))  # right or left; level, under, over
+LEVELS = (0.5, 0.0, 1.0, -0.6, 1.6)  # level, under, over, and clear of a neighbour that hangs level
+SIDES = tuple((over, down) for down in LEVELS for over in (0.0, 1.0))  # right or left
