@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from p2sf.conventions import vergence
-from p2sf.database.parts import FIELD_POWER, KINDS, PARTS, Parts, assemble, traced_parts
+from p2sf.database.parts import KINDS, PARTS, Parts, assemble, traced_parts
 from p2sf.database.space import ROUNDING, Space
-from p2sf.database.stencil import Axis, along, crossed, weighted
+from p2sf.database.stencil import Axis, crossed, placed, weighted
 from p2sf.errors import DatabaseError
 from p2sf.lens import Lens
 from p2sf.pupils import Stop
@@ -39,16 +39,21 @@ class Rule(NamedTuple):
 
 
 SCALES = ("nu", "y")  # what scales the PSF is a marginal ray, linear in 1/depth but for the pupil's place
+PER_WAVELENGTH = ("chief", "image_index")  # what changes with wavelength alone
 RULES = {
     "table1": Rule(
-        (Depth(True, 2, ("w40", "wd", *SCALES)), Depth(False, 2, ("w31",)), Depth(False, 3, ("w22", "w20", "w11"))),
+        (
+            Depth(True, 2, ("w40", "wd", *SCALES, *PER_WAVELENGTH)),
+            Depth(False, 2, ("w31",)),
+            Depth(False, 3, ("w22", "w20", "w11")),
+        ),
         {"w40": 1, "w31": 2, "w22": 3, "w20": 3, "w11": 4, "wd": 1},
         True,
     ),
-    "linear": Rule((Depth(True, 2, (*KINDS, *SCALES)),), dict.fromkeys(KINDS, 2), False),
+    "linear": Rule((Depth(True, 2, (*KINDS, *SCALES, *PER_WAVELENGTH)),), dict.fromkeys(KINDS, 2), False),
 }
 STORED = (*KINDS, *SCALES)
-PER_WAVELENGTH = tuple(name for name in PARTS if name not in STORED)
+KEPT = (*STORED, *PER_WAVELENGTH)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,23 +103,47 @@ class GridDatabase:
         self.space.check(*point)
         return self._interpolate(*(np.asarray(x, dtype=float) for x in point), self._many)
 
-    def _interpolate(self, depth, slope, wavelength, table) -> Coefficients:
+    def _interpolate(self, depth, slope, wavelength, tables) -> Coefficients:
         """Weigh the nodes around: over (depth, wavelength), then each coefficient's own power of the field."""
-        colour = self._axes["wavelength"].stencil(wavelength, 2)
-        parts = {name: along(table[name], colour) for name in PER_WAVELENGTH}
-        for group in self.rule.depth:
-            pairs = crossed(self._depth_stencil(group, depth), colour, len(self.space.wavelengths_um))
-            parts.update({name: weighted(table[name], pairs) for name in group.parts})
-        stencils = {count: self._axes["field"].stencil(slope, count) for count in set(self.rule.field.values())}
-        for kind, count in self.rule.field.items():
-            parts[kind] = parts[kind] * along(table["powers"][FIELD_POWER[kind]], stencils[count])
-        parts["chief"] = parts["chief"] * slope
-        return assemble(Parts(**parts), (1.0, 1.0, 1.0), wavelength)
+        colour, width = placed(self._axes["wavelength"].stencil(wavelength, 2)), len(self.space.wavelengths_um)
+        rule, values = self.rule, []
+        if rule.finite_only:
+            self._check_gap(depth)
+        for group, table in zip(rule.depth, tables[1:], strict=True):
+            values += weighted(table, crossed(self._depth_stencil(group, depth), colour, width))
+        parts = Parts(*[values[place] for place in self._places])
+        return assemble(parts, self._powers(slope, tables[0]), wavelength)
+
+    def _powers(self, slope, table) -> list:
+        """Return what interpolation makes of the field slope, its square and its cube; ``table``: at the nodes.
+
+        The polynomial through more nodes than its degree is the power itself.
+        """
+        powers = [slope, slope * slope, slope * slope * slope]
+        for count, which in self._short.items():
+            found = weighted(table, placed(self._axes["field"].stencil(slope, count)))
+            for k in which:
+                powers[k] = found[k]
+        return powers
+
+    @cached_property
+    def _short(self) -> dict[int, list[int]]:
+        """Return which powers of the field, from 0, have too few nodes to be exact, by how many they have."""
+        counts = [min(self.rule.field[kind], len(self.space.field_slopes)) for kind in ("w31", "w22", "w11")]
+        return {
+            n: [k for k, count in enumerate(counts) if count == n <= k + 1]
+            for n in {counts[k] for k in range(3) if counts[k] <= k + 1}
+        }
+
+    @cached_property
+    def _places(self) -> list[int]:
+        """Return where each part stands among what the tables give one after the other."""
+        given = [name for group in self.rule.depth for name in group.parts]
+        return [given.index(name) for name in PARTS]
 
     def _depth_stencil(self, group: Depth, depth):
         if not self.rule.finite_only:
             return self._axes["inverse"].stencil(-1.0 / depth, group.nodes)
-        self._check_gap(depth)
         near = min(depth, self.last_depth_mm) if isinstance(depth, float) else np.minimum(depth, self.last_depth_mm)
         axis, at = (self._axes["inverse"], -1.0 / near) if group.inverse else (self._axes["depth"], near)
         first, weights = axis.stencil(at, group.nodes)
@@ -126,6 +155,8 @@ class GridDatabase:
         if isinstance(depth, float):
             return (last, [1.0]) if depth == np.inf else (first, weights)
         alone = np.isinf(depth)
+        if not alone.any():
+            return first, weights
         return np.where(alone, last, first), [np.where(alone, k == 0, w) for k, w in enumerate(weights)]
 
     def _check_gap(self, depth) -> None:
@@ -151,18 +182,19 @@ class GridDatabase:
         }
 
     @cached_property
-    def _many(self) -> dict:
-        """Return every part as a flat array, and the powers of the field nodes."""
-        table = {name: np.ascontiguousarray(self.grid.depth[..., k]).ravel() for k, name in enumerate(STORED)}
-        for k, name in enumerate(PER_WAVELENGTH):
-            table[name] = np.ascontiguousarray(self.grid.wavelength[:, k])
-        return {**table, "powers": [self.space.field_slopes**power for power in range(4)]}
+    def _many(self) -> list[np.ndarray]:
+        """Return tables (parts, nodes): the field's powers, then the parts of every depth group."""
+        depth, colour = self.grid.depth, self.grid.wavelength
+        both = np.concatenate([depth, np.broadcast_to(colour, (*depth.shape[:-1], colour.shape[-1]))], axis=-1)
+        columns = [[KEPT.index(name) for name in group.parts] for group in self.rule.depth]
+        tables = [both[..., some].reshape(-1, len(some)).T for some in columns]
+        powers = [self.space.field_slopes**power for power in (1, 2, 3)]
+        return [np.ascontiguousarray(table) for table in (powers, *tables)]
 
     @cached_property
-    def _one(self) -> dict:
-        """Return the same as plain lists, which one lookup is read from ten times faster."""
-        table = {name: values.tolist() for name, values in self._many.items() if name != "powers"}
-        return {**table, "powers": [values.tolist() for values in self._many["powers"]]}
+    def _one(self) -> list[list]:
+        """Return the same as plain rows, one per node, which one lookup is read from ten times faster."""
+        return [table.T.tolist() for table in self._many]
 
 
 def traced_grid(lens: Lens, space: Space, stop: Stop) -> Grid:

@@ -15,8 +15,6 @@ from p2sf.pupils import ParaxialRays, Stop, paraxial_rays
 from p2sf.seidel import Coefficients, defocus, seidel_sums
 
 KINDS = ("w40", "w31", "w22", "w20", "w11", "wd")
-# Power of the field slope that each coefficient carries.
-FIELD_POWER = {"w40": 0, "w31": 1, "w22": 2, "w20": 2, "w11": 3, "wd": 0}
 
 
 class Parts(NamedTuple):
