@@ -7,7 +7,7 @@ from PySide6.QtCore import QRectF
 GAP = 8.0
 LOUPE_SHARE, LOUPE_MOST = 0.42, 150.0  # of the picture's height, and pixels at most, where the PSF lies on it
 PAD = 6.0
-CLOSE_ROWS = 48  # of the picture in an enlarged detail
+CLOSE_ROWS = 64  # of the picture in an enlarged detail
 
 
 @dataclass(frozen=True)

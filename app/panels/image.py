@@ -32,7 +32,7 @@ SHOWS = {
 }
 PHOTOS = "Pictures (*.png *.tif *.tiff)"
 WORDS_PX = 480
-WORKING = " · earlier picture, working"
+WORKING = "earlier picture, working"
 
 
 class ImagePanel:
@@ -127,10 +127,8 @@ class ImagePanel:
         if self._answer is None:
             self.widget.set_readout("working")
             return
-        scene = self._answer.plan.scene.sensor
-        wide = f"{scene.columns} × {scene.rows} pixels of {scene.pixel_um:.3g} µm"
         doing = " · planning" if self.fine.busy else ""
-        self.widget.set_readout(wide + (WORKING if self._stale() else f" · {self._answer.quality}{doing}"))
+        self.widget.set_readout(WORKING if self._stale() else f"{self._answer.quality}{doing}")
 
     def _on_answer(self, key: Question, found: Answer) -> None:
         if key == self._asked or self._stale():  # a plan of before, late to stop, must not cover the present picture
@@ -153,7 +151,9 @@ class ImagePanel:
     def _paint(self) -> None:
         found = self._answer
         self.wipe.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
-        self._say(f"{found.headline} · {found.seconds:.2g} s")
+        sensor = found.plan.scene.sensor
+        wide = f"{sensor.columns} × {sensor.rows} pixels of {sensor.pixel_um:.3g} µm"
+        self._say(f"{found.headline} · {found.seconds:.2g} s · {wide}")
         lines = (
             f"<p><b>{escape(what, quote=False)}</b> {escape(sentence, quote=False)}</p>"
             for what, sentence in found.words
