@@ -3,10 +3,10 @@
 import struct
 import zlib
 from pathlib import Path
-from zipfile import BadZipFile
 
 from app.state import State, state_from_json
 from p2sf.export.psf_files import READERS
+from p2sf.wholefile import DAMAGED
 
 KEYWORD = "p2sf-state"  # of the PNG text chunk
 PNG_HEADER = 33  # bytes: signature and the chunk of the size
@@ -37,7 +37,7 @@ def text_inside(path) -> str | None:
         return None
     try:
         found = PICTURES[kind](path) if kind in PICTURES else READERS[kind](path)[1].get("state")
-    except (OSError, BadZipFile, EOFError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+    except (OSError, ValueError, *DAMAGED):
         return None  # whoever reads it as something else says what is wrong with it
     return found if isinstance(found, str) else None
 
@@ -78,9 +78,12 @@ def with_state(png: bytes, text: str) -> bytes:
 def _in_png(path) -> str | None:
     from PIL import Image
 
-    with Image.open(path) as picture:
-        picture.load()
-        return picture.info.get(KEYWORD)
+    try:
+        with Image.open(path) as picture:
+            picture.load()
+            return picture.info.get(KEYWORD)
+    except Image.DecompressionBombError as error:
+        raise ValueError(str(error)) from error
 
 
 def _in_fits(path) -> str | None:

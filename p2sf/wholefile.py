@@ -1,11 +1,30 @@
-"""Files that are there whole or not at all, whatever ends the writing: an error, a full disk, a kill."""
+"""Files that are there whole or not at all, whatever ends the writing: an error, a full disk, a kill; and archives."""
 
 import os
 import secrets
+import struct
+import zlib
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from tokenize import TokenError
 from typing import BinaryIO
+from zipfile import BadZipFile
+
+import numpy as np
+
+# A header of numpy's is Python, whose parser has errors of its own, and so have zip and its packers.
+DAMAGED = (BadZipFile, zlib.error, struct.error, TokenError, SyntaxError, LookupError, EOFError, TypeError)
+DAMAGED += (AttributeError, ArithmeticError, RuntimeError, MemoryError)
+
+
+def read_arrays(file) -> dict[str, np.ndarray]:
+    """Return the arrays of an .npz file or stream; ValueError for one that is damaged or none, OSError as `open`."""
+    try:
+        with np.load(file, allow_pickle=False) as archive:
+            return dict(archive)
+    except DAMAGED as error:
+        raise ValueError(f"no archive of arrays: {error}") from error
 
 
 def write_whole(path, write: Callable[[BinaryIO], object]) -> None:

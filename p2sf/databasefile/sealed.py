@@ -7,19 +7,16 @@ could otherwise pass.
 import hashlib
 import io
 import re
-import zlib
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
 from p2sf.errors import DatabaseError
 from p2sf.export import write_beside
+from p2sf.wholefile import read_arrays
 
 SEAL = b"p2sf sha256 "
 DIGITS = 64
-# A seal is no signature: whoever recomputes it may have put anything before it.
-UNREADABLE = (ValueError, TypeError, KeyError, EOFError, OSError, RuntimeError, MemoryError, BadZipFile, zlib.error)
 SEALED = re.compile(re.escape(SEAL) + b"[0-9a-f]{%d}" % DIGITS)
 
 
@@ -52,9 +49,9 @@ def opened(raw: bytes, mark: str, name) -> dict[str, np.ndarray]:
     if _digest(raw[:-DIGITS]) != raw[-DIGITS:]:
         raise DatabaseError(f"{name} is damaged, its contents do not match its seal; copy or build it again")
     try:
-        return dict(np.load(io.BytesIO(raw), allow_pickle=False))
-    except UNREADABLE as error:
-        raise DatabaseError(f"{name} is sealed but no archive of arrays ({error}); build it again") from error
+        return read_arrays(io.BytesIO(raw))
+    except (ValueError, OSError) as error:  # a seal is no signature: whoever recomputes it may have put anything before
+        raise DatabaseError(f"{name} is sealed but {error}; build it again") from error
 
 
 def _why_unsealed(raw: bytes, mark: str) -> str:

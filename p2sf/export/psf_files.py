@@ -2,7 +2,6 @@
 
 import json
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from p2sf.errors import ExportError
 from p2sf.export.beside import plain, write_beside
 from p2sf.export.record import CONVENTIONS, caption, facts
 from p2sf.psf import Psf
+from p2sf.wholefile import DAMAGED, read_arrays
 
 UM_PER_CM = 1e4
 ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom
@@ -45,7 +45,7 @@ def read_psf(path) -> tuple[Psf, dict]:
         return Psf(values, **meta["psf"]), meta
     except OSError as error:
         raise ExportError(f"{path} cannot be read, {(error.strerror or str(error)).lower()}; check the name") from error
-    except (BadZipFile, EOFError, ValueError, KeyError, TypeError) as error:
+    except (ValueError, *DAMAGED) as error:
         raise ExportError(f"{path} is not a PSF that this program wrote; export it again with p2sf psf -o") from error
 
 
@@ -91,8 +91,8 @@ def _write_png(handle, psf: Psf, meta: dict) -> None:
 
 
 def _read_npz(path) -> tuple[np.ndarray, dict]:
-    with np.load(path, allow_pickle=False) as file:
-        return file["psf"], json.loads(str(file["meta"]))
+    found = read_arrays(path)
+    return found["psf"], json.loads(str(found["meta"]))
 
 
 def _read_tiff(path) -> tuple[np.ndarray, dict]:

@@ -18,7 +18,14 @@ from tests.fuzz.targets import LAST, SECONDS, TARGETS
 
 CORPUS, BROKEN = Path(__file__).parent / "corpus", Path(__file__).parent / "broken"
 REASON = re.compile(r"^.*(?:ERROR: libFuzzer|Uncaught Python exception|MemoryError|Killed).*$", re.MULTILINE)
-LONGEST = {"command_line": 200, "toml": 6000, "lens_file": 6000, "glass_catalogue": 4000, "database": 60_000}
+LONGEST = {
+    "command_line": 200,
+    "toml": 6000,
+    "lens_file": 6000,
+    "glass_catalogue": 4000,
+    "database": 60_000,
+    "psf_file": 8000,
+}
 MEGABYTES = 1024
 
 

@@ -1,13 +1,23 @@
 """What the fuzzing starts from: every sample file of the tests, a database, and ordinary command lines."""
 
-import numpy as np
+from functools import cache
+from io import BytesIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
+import numpy as np
+from PIL import Image
+
+from app.embedded import with_state
 from p2sf.database import Space, build_database
 from p2sf.databasefile.npz import MARK, database_bytes
 from p2sf.databasefile.sealed import sealed
+from p2sf.export import write_psf
 from p2sf.library import find_lens, lenses_folder
-from tests.fuzz.targets import ENDINGS, good_database
+from p2sf.psf import seidel_psf
+from tests.fuzz.targets import ENDINGS, PSF_ENDINGS, good_database
 from tests.imports import FILES, FOLDER
+from tests.waves import waves
 
 LINES = (
     b"\x00\x00",
@@ -35,4 +45,16 @@ def seeds(target: str) -> list[bytes]:
         plain = sealed({MARK: np.array("{}"), "series": np.zeros((2, 3))})
         head = str(good_database()[MARK]).encode()
         return [b"\x00" + raw, b"\x01" + raw, b"\x01" + plain, b"\x02" + head]
-    return list(LINES)
+    return psf_files() if target == "psf_file" else list(LINES)
+
+
+@cache
+def psf_files() -> list[bytes]:
+    """Return one PSF in every ending that is read, and a picture with a state in it."""
+    psf, found, picture = seidel_psf(waves(w40=0.5), 8, 1.0), [], BytesIO()
+    with TemporaryDirectory() as folder:
+        for number, ending in enumerate(PSF_ENDINGS):
+            path = write_psf(psf, Path(folder) / f"psf{ending}", {"state": "{}"})
+            found.append(bytes([number]) + path.read_bytes())
+    Image.new("L", (8, 8)).save(picture, "PNG")
+    return [*found, b"\x00" + with_state(picture.getvalue(), "{}")]

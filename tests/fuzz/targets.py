@@ -6,17 +6,20 @@ A target returns "accepted" or "refused"; any other exception is a finding.
 import contextlib
 import hashlib
 import io
+import tempfile
 import warnings
 from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 
+from app.embedded import text_inside
 from p2sf.cli import main
 from p2sf.database import Space, build_database
 from p2sf.databasefile.npz import MARK, database_bytes, database_from_bytes
 from p2sf.databasefile.sealed import DIGITS, SEAL, opened, sealed
 from p2sf.errors import P2SFError
+from p2sf.export import read_psf
 from p2sf.gaussian import cardinal_points
 from p2sf.lensfile.agf import read_agf_text
 from p2sf.lensfile.importing import import_text
@@ -46,6 +49,7 @@ OPTIONS = (
     "--sampling",
 )
 LENSES = ("double_gauss_28", "eye_navarro", "relay", "plano_convex")
+PSF_ENDINGS = (".npz", ".tiff", ".csv")
 COMMANDS = ("info", "coefficients", "psf")
 
 
@@ -110,6 +114,14 @@ def good_database() -> dict:
     )
 
 
+def psf_file(data: bytes) -> str:
+    """Read the bytes as a PSF that was exported, the first byte picks the ending, and as a snapshot with a state."""
+    with tempfile.NamedTemporaryFile(suffix=PSF_ENDINGS[data[0] % len(PSF_ENDINGS)] if data else ".npz") as file:
+        file.write(data[1:])
+        file.flush()
+        return refused_or(lambda: (text_inside(file.name), read_psf(file.name)))
+
+
 def command_line(data: bytes) -> str:
     """Run a command with options made of the bytes; exit code 0 or 2 with one sentence, nothing else."""
     output, error = Stream(), Stream()
@@ -147,6 +159,7 @@ TARGETS = {
     "toml": toml,
     "glass_catalogue": glass_catalogue,
     "database": database,
+    "psf_file": psf_file,
     "command_line": command_line,
 }
 
