@@ -1,5 +1,7 @@
 """The picture at the extremes: sampling, energy, precision, pitch, size and symmetry."""
 
+from time import perf_counter
+
 import numpy as np
 import pytest
 
@@ -7,7 +9,7 @@ from p2sf.conventions import centred_axis
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.fastpath import intensities, wave_number
 from p2sf.lens import with_f_number
-from p2sf.psf import fft_intensity, fft_samples, plain_intensity, seidel_psf, suitable_pixel_um
+from p2sf.psf import energy_fraction, fft_intensity, fft_samples, plain_intensity, seidel_psf, suitable_pixel_um
 from p2sf.quadrature import chord_rows, even_count, grid_rows
 from p2sf.seidel import coefficients
 from p2sf.transform import padded_fft
@@ -205,3 +207,43 @@ def test_a_stack_of_no_psfs_is_empty_and_needs_a_pixel():
         assert found.sampling == words
     with pytest.raises(SamplingError, match="give the pixel in µm"):
         seidel_psf(nothing, 16)
+
+
+@pytest.mark.parametrize("pixels", [1, 40, 64])
+def test_the_window_is_twice_the_blur_and_five_airy_radii_wide(pixels):
+    """Half of it: |∇W| λ/NA for the farthest ray, 4 waves of slope for W40 = 1, and 5 of 0.60983 λ/NA for the rest."""
+    width = 2 * (4.0 + 5 * 0.60983494563325) * LAMBDA_NA
+    assert pixels * float(suitable_pixel_um(waves(w40=1.0), pixels)) == pytest.approx(width, rel=1e-6)
+    assert seidel_psf(waves(w40=1.0), pixels).pixel_um == pytest.approx(width / pixels, rel=1e-6)
+
+
+def test_a_psf_has_64_samples_unless_told_and_tells_its_time():
+    begun = perf_counter()
+    found = seidel_psf(waves(w40=0.5))
+    assert found.values.shape == (64, 64)
+    assert 0 < found.seconds <= perf_counter() - begun
+    assert type(found.energy) is float and type(seidel_psf(waves(w40=np.zeros(2)), 8).energy) is not float
+
+
+def test_an_fft_too_large_by_its_samples_or_by_its_pupil_is_refused():
+    """Either alone is enough: a blur asks for many samples, a wide pixel for a wide pupil."""
+    for six, pixel in (({"w40": 120.0}, 1.0), ({}, 400.0)):
+        with pytest.raises(SamplingError, match="too large"):
+            fft_samples(waves(**six), 16, pixel)
+
+
+def test_half_a_cycle_a_sample_is_still_an_integral():
+    """At λ/(2 NA) a sample the intensity is just resolved (Shannon): energy is told there, and not beyond."""
+    for share, told in ((0.5, True), (0.5 + 1e-9, False)):
+        assert (energy_fraction(waves(), np.ones(()), share * LAMBDA_NA) is not None) == told
+
+
+@pytest.mark.parametrize("name", ["w40", "w31", "w22", "w20", "wd"])
+def test_the_coefficient_that_is_no_number_is_named(name):
+    with pytest.raises(GeometryError, match=f"^{name} is not finite, so there is no wavefront"):
+        seidel_psf(waves(**{name: np.nan}), 8, 1.0)
+
+
+def test_coefficients_too_large_to_add_are_told_together():
+    with np.errstate(over="ignore"), pytest.raises(GeometryError, match=r"^their sum is not finite"):
+        seidel_psf(waves(w40=1.7e308, w31=1.7e308), 8, 1.0)
