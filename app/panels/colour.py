@@ -55,6 +55,9 @@ class SpectrumChart(Chart):
             painter.fillRect(box, QColor.fromRgbF(*map(float, hue)))
 
 
+EMPTY_NM = (400.0, 700.0)  # what the spectrum's axis shows before there is one
+
+
 class ColourPanel:
     """The picture and its spectrum; filled in the background."""
 
@@ -63,6 +66,7 @@ class ColourPanel:
         self.picture = Chart("x, µm", "y, µm", aspect=True)
         self.spectrum = SpectrumChart()
         self.airy = self.picture.add_curve("#ffffff", 1, 150)
+        self.spectrum.set_range(EMPTY_NM, (-1.0, 1.0))
         self.widget = ChartsCard("Colour PSF", TIP, (self.picture, self.spectrum), (3, 4))
         self.choice = chooser((*CHOICES, ("", "typed")), SPECTRUM_TIP, self.widget)
         self.typed = ValueEdit(self.widget)
@@ -89,6 +93,9 @@ class ColourPanel:
         if isinstance(asked, str):
             self.asking.refuse(asked)
             return
+        if self.found is None:
+            half = asked.window[0] * asked.window[1] / 2
+            self.picture.set_range((-half, half), (-half, half))
         self.asking.ask(asked)
         if changed:
             self.asking.again()

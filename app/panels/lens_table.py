@@ -69,6 +69,7 @@ class LensTablePanel:
         rows, columns = self.view.verticalHeader(), self.view.horizontalHeader()
         rows.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         rows.setDefaultSectionSize(ROW)
+        rows.setFixedWidth(self.view.fontMetrics().horizontalAdvance("000") + 20)  # a lens may have a hundred surfaces
         rows.setDefaultAlignment(Qt.AlignmentFlag.AlignCenter)
         columns.setHighlightSections(False)
         columns.setStretchLastSection(True)

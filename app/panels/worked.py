@@ -6,7 +6,7 @@ from PySide6.QtCore import QObject
 
 from app.worker import LatestWins
 
-EARLIER = " · earlier picture"
+EARLIER, WORKING = " · earlier picture", "working"
 
 
 class Asking(QObject):
@@ -54,8 +54,7 @@ class Asking(QObject):
 
     def _tell(self) -> None:
         earlier = EARLIER if self._shown and self._shown[0] != self.asked else ""
-        if self._refusal or self._words:
-            self._say(self._refusal or self._words + earlier)
+        self._say(self._refusal or (self._words or WORKING) + earlier)
 
     def _work(self, question, cancelled, progress):
         def tell(share: float, found) -> None:
