@@ -8,7 +8,9 @@ import pytest
 from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
-from p2sf.scene.study import Study
+from p2sf.scene.reference import reference_kernel
+from p2sf.scene.spectrum import reduced
+from p2sf.scene.study import Study, distance
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 SCENE = """
@@ -108,6 +110,18 @@ def test_a_blur_that_no_transform_holds_is_refused_before_anything_is_measured(m
     with pytest.raises(SamplingError, match=r"1000 mm away blur over .* mm, which takes \d+² samples of 4096² at most"):
         plan(find_lens("double_gauss_28"), Scene(Sensor(600, 900, 20.0), GREEN, 1000.0, f_number=4.0))
     assert not measured
+
+
+def test_a_colours_error_is_the_one_that_exact_rays_find_even_on_large_pixels():
+    """Samples as coarse as energy allows found a sixth of it here, and a plan missed its tolerance by a tenth."""
+    channel = Channel("orange", (571.0, 591.0, 611.0), (0.75, 1.0, 0.62))
+    scene = Scene(Sensor(280, 280, 10.3), (channel,), f_number=5.84)
+    study = Study(scene.camera(find_lens("wide_angle_35")), scene)
+    one = Channel("one", tuple(1000 * w for w in reduced(channel, 1).wavelengths_um), (1.0,))
+    few, every = (reference_kernel(study.seen(0.0), c, 0.0, 0.0, 6, 10.3) for c in (one, channel))
+    exact = distance(few, every)
+    assert exact > 0.01
+    assert study.colour_error(channel, 1, 0.0, 0.0) == pytest.approx(exact, rel=0.1)
 
 
 def test_corners_are_the_nearest_and_farthest_pixels():
