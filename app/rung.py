@@ -205,6 +205,6 @@ def reason(choice, tolerance: float) -> str:
 
 
 def at_least(r_squared: float) -> str:
-    """Return R² rounded down, with two digits of what it lacks to one."""
-    places = 1 - floor(log10(max(1 - r_squared, 1e-9)))
+    """Return R² rounded down, with two digits of what it lacks to one, and four places at most."""
+    places = min(4, 1 - floor(log10(max(1 - r_squared, 1e-9))))
     return f"{floor(r_squared * 10**places) / 10**places:.{places}f}".rstrip("0")

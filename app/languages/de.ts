@@ -507,7 +507,6 @@
 <message><source>at {wavelength} nm</source><translation>bei {wavelength} nm</translation></message>
 <message><source>auto</source><translation>auto</translation></message>
 <message><source>back to the lens's own value</source><translation>zurück zum Wert des Objektivs</translation></message>
-<message><source>barrel {part} at {field}, drawn {times} times</source><translation>Tonne {part} bei {field}, {times}fach gezeichnet</translation></message>
 <message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
 <message><source>black body 5600 K</source><translation>Schwarzer Körper 5600 K</translation></message>
 <message><source>blur, µm</source><translation>Unschärfe, µm</translation></message>
@@ -604,7 +603,6 @@
 <message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
 <message><source>pictures {wide} µm wide</source><translation>Bilder {wide} µm breit</translation></message>
 <message><source>pictures {wide} µm wide, each over its own peak</source><translation>Bilder {wide} µm breit, jedes über seiner Spitze</translation></message>
-<message><source>pincushion {part} at {field}, drawn {times} times</source><translation>Kissen {part} bei {field}, {times}fach gezeichnet</translation></message>
 <message><source>place in the entrance pupil, pupil radii</source><translation>Ort in der Eintrittspupille, Pupillenradien</translation></message>
 <message><source>planned</source><translation>geplant</translation></message>
 <message><source>planning</source><translation>plant</translation></message>
@@ -685,7 +683,7 @@
 <message><source>waves at {wavelength} nm</source><translation>Wellen bei {wavelength} nm</translation></message>
 <message><source>what no single term shows</source><translation>was kein einzelnes Glied zeigt</translation></message>
 <message><source>what-if</source><translation>Was wäre wenn</translation></message>
-<message><source>what-if: altered by hand</source><translation>Was wäre wenn: von Hand geändert</translation></message>
+<message><source>what-if: altered by hand</source><translation>von Hand geändert</translation></message>
 <message><source>what-if: coefficients altered by hand</source><translation>Was wäre wenn: Koeffizienten von Hand geändert</translation></message>
 <message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
@@ -718,7 +716,7 @@
 <message><source>{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes, float64</source><translation>{rows} × {columns} Gauß–Tschebyschow- × Gauß–Legendre-Knoten, float64</translation></message>
 <message><source>{step}: pixels of {pitch} µm average finer fringes; the window has a margin of {margin} (error {error})</source><translation>{step}: Pixel zu {pitch} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin} (Fehler {error})</translation></message>
 <message><source>{what} is {value}; give a number from {low} to {high}</source><translation>{what} ist {value}; eine Zahl von {low} bis {high} angeben</translation></message>
-<message><source>±{half} µm depth of focus</source><translation>±{half} µm Schärfentiefe im Bild</translation></message>
+<message><source>±{half} µm depth of focus</source><translation>±{half} µm Schärfentiefe</translation></message>
 <message><source>η, towards the field</source><translation>η, zum Feld hin</translation></message>
 <message><source>λ</source><translation>λ</translation></message>
 <message><source>ξ, pupil radii</source><translation>ξ, Pupillenradien</translation></message>
@@ -1298,5 +1296,15 @@
 <message><source>Why this many PSFs</source><translation>Warum so viele PSFs</translation></message>
 <message><source>Drag the line or click, or use the left and right arrow keys: the sensor follows.</source><translation>Die Linie ziehen, klicken oder die Pfeiltasten links und rechts: der Sensor folgt.</translation></message>
 <message><source>Panels</source><translation>Ansichten</translation></message>
+<message><source>seidel: six coefficients are enough, predicted R² ≥ {r}</source><translation>seidel: sechs Koeffizienten genügen, vorhergesagt R² ≥ {r}</translation></message>
+<message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
+<message><source>Front-stop landscape singlet</source><translation>Landschaftslinse mit vorderer Blende</translation></message>
+<message><source>sharpened</source><translation>geschärft</translation></message>
+<message><source>sharpened wrongly</source><translation>falsch geschärft</translation></message>
+<message><source>barrel {part} at {field}</source><translation>Tonne {part} bei {field}</translation></message>
+<message><source>pincushion {part} at {field}</source><translation>Kissen {part} bei {field}</translation></message>
+<message><source>A − B {part} at {field}</source><translation>A − B {part} bei {field}</translation></message>
+<message><source>drawn {times} times</source><translation>{times}fach gezeichnet</translation></message>
+<message><source>as it is</source><translation>wie es ist</translation></message>
 </context>
 </TS>

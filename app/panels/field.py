@@ -85,9 +85,10 @@ class FieldPanel:
     def _show_grid(self, view: FieldView, difference: bool) -> None:
         for curve, points in ((self.straight, view.straight), (self.bent, view.bent)):
             curve.set_data(*points.T)
-        self.grid.set_range((-0.8, 0.8), (-1.05, 0.8))
+        self.grid.set_range((-0.8, 0.8), (-1.3, 0.8))
         words = "as it is" if view.exaggerated == 1 else f"drawn {view.exaggerated} times"
-        self.grid.show_notes(((0.0, -0.93, f"{edge(view, difference)}, {words}", "muted", 0),))
+        lines = tr(edge(view, difference)), tr(words)  # under one another: a narrow window has no room for both
+        self.grid.show_notes([(0.0, y, line, "muted", 0) for y, line in zip((-0.92, -1.2), lines, strict=True)])
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -101,4 +102,4 @@ def edge(view: FieldView, difference: bool = False) -> str:
     known = np.flatnonzero(np.isfinite(view.heights.distortion))[-1]
     share = 100 * float(view.heights.distortion[known])
     kind = "A − B" if difference else "barrel" if share < 0 else "pincushion"
-    return f"{kind} {signed(share, 3)} % at {view.field_deg[known]:.3g}°"
+    return f"{kind} {signed(share, 2)} % at {view.field_deg[known]:.3g}°"
