@@ -94,7 +94,7 @@ def clipped_psf(made: Quick, pixels: int, pixel_um: float) -> Psf | None:
     A yes or no at each node makes a ragged edge, good for a picture that moves. Raises GeometryError where none passes.
     """
     found, set_up = best_fit(made), made.set_up
-    nodes = rows_for(found, pixels, pixel_um, "preview")
+    nodes = rows_for(found, pixels, pixel_um, "preview", every=True)
     if nodes is None:
         return None
     rays = pencil(set_up.lens, set_up.source, nodes.xi.ravel(), nodes.eta.ravel(), clip=True)

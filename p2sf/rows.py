@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.polynomial.legendre import legvander
 
 from p2sf.conventions import centred_axis, protected
 from p2sf.errors import SamplingError
@@ -26,6 +27,7 @@ from p2sf.zernike import evaluate, evaluate_in_eta, in_square
 MOST_NODES = 2**22
 PREVIEW = 0.85  # 1 − R² of the settled sum below 1e-5 on every stored row
 NEWTON_STEPS = 8
+MORE_NODES = 10  # than the order of a fit's phase: polynomials of twice as high an order along each row
 STRIDE = 4  # of the cosines that are computed, the others follow from them
 NODES_AT_ONCE = 4096  # so that their cosines stay in the cache
 SETTLED = 1e-5  # a last step this small leaves its square, 1e-10 of the pupil: 1e-8 waves at a slope of 100
@@ -33,27 +35,46 @@ SETTLED = 1e-5  # a last step this small leaves its square, 1e-10 of the pupil: 
 
 @dataclass(frozen=True)
 class FrequencyRows:
-    """Nodes on ξ > 0 whose mirror images the weights count too: ``fy`` (rows,), the rest (rows, columns)."""
+    """Nodes on ξ > 0 whose mirror images the weights count too: ``fy`` (rows,), the rest (rows, nodes).
+
+    The sum takes ``columns`` on either side together. What a row carries is smooth and even in ξ, so where its own
+    nodes are fewer the polynomial through them gives the others.
+    """
 
     fy: np.ndarray
     xi: np.ndarray
     eta: np.ndarray
     weight: np.ndarray
+    columns: int
 
     @property
     def words(self) -> str:
         """Return what rule this is, the mirror half counted."""
-        return f"{self.xi.shape[0]} rows × {2 * self.xi.shape[1]} columns of equal frequency"
+        return f"{self.xi.shape[0]} rows × {self.columns} columns of equal frequency"
 
     def intensity(self, phase, fx, pixels: int, pixel_um: float, dtype=np.float64) -> np.ndarray:
-        """Return the intensity (y, x) of phases in waves and fx in cycles/µm, (rows, columns), on a centred grid."""
-        field = sum_rows(pupil_amplitude(self.weight, phase, dtype), fx, self.fy, pixels, pixel_um)
+        """Return the intensity (y, x) of phases in waves and fx in cycles/µm, (rows, nodes), on a centred grid."""
+        weight, phase, fx = self.on_columns(phase, fx)
+        field = sum_rows(pupil_amplitude(weight, phase, dtype), fx, self.fy, pixels, pixel_um)
         return field.real**2 + field.imag**2
 
+    def on_columns(self, phase, fx):
+        """Return weights, phases and fx at all columns, (rows, columns/2), of those at the nodes."""
+        few = self.xi.shape[1]
+        if 2 * few == self.columns:
+            return self.weight, phase, fx
+        (place, share), (wanted, wanted_share) = _half_legendre(2 * few), _half_legendre(self.columns)
+        refine = _refining(few, self.columns)
+        weight = (self.weight / share) @ refine
+        return weight * wanted_share, phase @ refine, (fx / place) @ refine * wanted
 
-def rows_for(found: FittedPencil, pixels: int, pixel_um: float, quality: str) -> FrequencyRows | None:
+
+def rows_for(
+    found: FittedPencil, pixels: int, pixel_um: float, quality: str, every: bool = False
+) -> FrequencyRows | None:
     """Return rows that carry the phase of a fit over a window; a preview makes do with PREVIEW of the counts.
 
+    ``every``: with a node at each column, for weights that are not smooth along a row.
     None where the map is too curved for rows. Raises SamplingError where too many nodes would be needed.
     """
     rows, columns = row_counts(found, pixels, pixel_um, quality)
@@ -62,7 +83,8 @@ def rows_for(found: FittedPencil, pixels: int, pixel_um: float, quality: str) ->
             f"this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; "
             "bring the sensor nearer to the image, stop down, or show a smaller window"
         )
-    return frequency_rows(found, rows, columns)
+    enough = found.level.wave_order + MORE_NODES
+    return frequency_rows(found, rows, columns, None if every or 2 * enough >= columns else enough)
 
 
 def row_counts(found: FittedPencil, pixels: int, pixel_um: float, quality: str) -> tuple[int, int]:
@@ -73,9 +95,12 @@ def row_counts(found: FittedPencil, pixels: int, pixel_um: float, quality: str) 
     return tuple(even_count(share * count) for count in chords_for(steep.along, steep.across, reach))
 
 
-def frequency_rows(found: FittedPencil, rows: int, columns: int) -> FrequencyRows | None:
-    """Return the nodes of a fit, or None where fy does not rise steadily along the rim and across the disc."""
-    sine, cosine, xi, share = _rim(rows, columns)
+def frequency_rows(found: FittedPencil, rows: int, columns: int, nodes: int | None = None) -> FrequencyRows | None:
+    """Return the nodes of a fit, or None where fy does not rise steadily along the rim and across the disc.
+
+    ``nodes``: how many of a row are solved for, from which the columns follow; a node at each if not given.
+    """
+    sine, cosine, xi, share = _rim(rows, 2 * nodes if nodes else columns)
     form = power_columns(found.fy, found.level.map_order)
     fy, rise = _along_rim(form, sine[:, 0], cosine[:, 0])
     parts = [in_square(column, xi * xi) for column in form]
@@ -95,7 +120,7 @@ def frequency_rows(found: FittedPencil, rows: int, columns: int) -> FrequencyRow
         return None
     share = share * np.abs(rise)[:, None]
     share /= np.abs(slope)
-    return FrequencyRows(fy, xi, eta, share)
+    return FrequencyRows(fy, xi, eta, share, columns)
 
 
 def _along_rim(form, sine, cosine):
@@ -111,9 +136,25 @@ def _along_rim(form, sine, cosine):
 def _rim(rows: int, columns: int):
     """Return sin φ and cos φ (rows, 1), ξ and the constant part of the weights (rows, columns/2)."""
     angle = (np.arange(1, rows + 1) * (np.pi / (rows + 1)))[:, None]
-    fraction, weight = (x[columns // 2 :] for x in gauss_legendre(columns))
+    fraction, weight = _half_legendre(columns)
     sine = np.sin(angle)
     return sine, np.cos(angle), sine * fraction, 2 / (rows + 1) * sine * weight
+
+
+def _half_legendre(columns: int):
+    """Return Gauss–Legendre nodes on (0, 1) and their weights, (columns/2,)."""
+    return tuple(x[columns // 2 :] for x in gauss_legendre(columns))
+
+
+@lru_cache(maxsize=32)
+def _refining(few: int, columns: int) -> np.ndarray:
+    """Return the matrix (few, columns/2) that takes an even function from a rule's nodes to those of a finer one.
+
+    f = Σ (2n + 1)/2·⟨f, Pₙ⟩·Pₙ over even n, which the rule of 2·few nodes integrates exactly (A&S 22.2.10).
+    """
+    (place, share), (wanted, _) = _half_legendre(2 * few), _half_legendre(columns)
+    here, there = (legvander(x, 2 * few - 2)[:, ::2] for x in (place, wanted))
+    return protected((here * share[:, None] * np.arange(1, 4 * few, 4)) @ there.T)
 
 
 def sum_rows(amplitude, fx, fy, pixels: int, pixel_um: float) -> np.ndarray:
