@@ -11,7 +11,8 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygon
 from app.words import tr
 
 FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
-number_in = re.compile(r"\d").search
+SHORT, LONG = 5, 24  # letters
+DIGIT = re.compile(r"\d")
 
 
 @lru_cache(maxsize=8)
@@ -45,11 +46,26 @@ def set_text(words: str, size: int = 11) -> QStaticText:
     return text
 
 
+@lru_cache(maxsize=1024)
+def is_passing(words: str) -> bool:
+    """Return whether words are likely others on the next frame: a number, unless as short as an axis's."""
+    return len(words) > SHORT and DIGIT.search(words) is not None
+
+
 def width_of(words: str, size: int = 11) -> float:
-    """Return how wide words are, in pixels; with a number among them, letter by letter."""
-    if number_in(words):
-        return sum(letter_width(letter, size) for letter in tr(words))
-    return set_text(words, size).size().width()
+    """Return how wide words are, in pixels."""
+    return number_width(tr(words), size) if is_passing(words) else set_text(words, size).size().width()
+
+
+@lru_cache(maxsize=1024)
+def number_width(said: str, size: int) -> float:
+    """Return how wide a text with a number is, which is another on the next frame: letter by letter while it is short.
+
+    From `LONG` on Qt measures faster.
+    """
+    if len(said) > LONG:
+        return metrics(size).horizontalAdvance(said)
+    return sum([letter_width(letter, size) for letter in said])
 
 
 @lru_cache(maxsize=512)
@@ -71,9 +87,9 @@ def write(painter: QPainter, room: QRectF, words: str, side: int = 0, size: int 
 
     A number is another on the next frame: laying it out to be kept costs twice what painting it does.
     """
-    left = room.left() + (side + 1) / 2 * (room.width() - width_of(words, size))
+    left = room.left() + (side + 1) / 2 * (room.width() - width_of(words, size)) if side >= 0 else room.left()
     painter.setFont(small_font(size))
-    if number_in(words):
+    if is_passing(words):
         measures = metrics(size)
         base = room.center().y() - measures.height() / 2 + measures.ascent()
         painter.drawText(QPointF(left, base), tr(words))
