@@ -15,7 +15,7 @@ from app.theme import LIGHT, Tokens
 from app.words import tr
 
 BRIGHTNESS = "brightness"  # the name of whichever colours the theme has for it
-NARROW_PX = 210  # below it a heat map is nothing but its picture
+NARROW_PX = 245  # below it, as beside a lesson, a heat map is nothing but its picture
 EMPTY = 255  # the one index of a colour table that is kept for "no value"
 
 
