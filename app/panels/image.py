@@ -54,6 +54,7 @@ class ImagePanel:
         self._connect()
         self._asked: Question | None = None
         self._answer: Answer | None = None
+        self._unplanned: Question | None = None  # what no plan could be made for, so that none is tried again
         self._settled, self._place = True, (0.5, 0.5)
         self.quick, self.fine = LatestWins(self.widget), LatestWins(self.widget)
         for worker in (self.quick, self.fine):
@@ -120,7 +121,9 @@ class ImagePanel:
 
     def _refine(self) -> None:
         """Have the planned picture made, once, where the coarse one is there and a plan is affordable."""
-        if not self._stale() and self._answer.quality == "coarse" and not self.fine.busy and fine_enough(self._answer):
+        if self._stale() or self._asked == self._unplanned or self.fine.busy:
+            return
+        if self._answer.quality == "coarse" and fine_enough(self._answer):
             self.fine.submit(self._asked, work(planned, self._asked))
 
     def _show_readout(self) -> None:
@@ -141,7 +144,11 @@ class ImagePanel:
     def _on_failure(self, key: Question, sentence: str) -> None:
         if key == self._asked and "cancelled" not in sentence:
             self._say(sentence[0].upper() + sentence[1:])
-            self.widget.set_readout("no picture")
+            if self._stale():
+                self.widget.set_readout("no picture")
+            else:  # the coarse picture is there, and stays
+                self._unplanned = key
+                self._show_readout()
 
     def _say(self, words: str) -> None:
         """Show one line under the picture; the whole of it as a tooltip, should it not fit."""

@@ -1,5 +1,6 @@
 """Looking closer in the image panel: keys, details, dropped photos, and the plan told behind a button."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -91,3 +92,16 @@ def test_the_plan_is_told_behind_a_button_and_one_line_stands_under_the_picture(
     assert panel.words.isVisible() and len(panel.words.text()) > 40
     panel.why.menu().close()
     assert "PSFs" in panel.headline.text() and panel.headline.toolTip() == panel.headline.text()
+
+
+def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_line_says_why(window, panel, qtbot, monkeypatch):
+    asked = []
+    monkeypatch.setattr(panel.fine, "submit", lambda *job: asked.append(job))
+    panel.fine.cancel()
+    qtbot.waitUntil(lambda: not panel.fine.busy, timeout=30000)
+    panel._answer, asked[:] = replace(panel._answer, quality="coarse"), []
+    panel._on_failure(panel._asked, "points 500 mm away blur over 2.4 mm; stop down")
+    assert panel.headline.text().startswith("Points 500 mm away") and panel.widget.readout.text() == "coarse"
+    panel._refine()
+    assert not asked  # a second try would end the same
+    panel._unplanned = None
