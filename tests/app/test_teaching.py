@@ -146,6 +146,7 @@ def test_a_bad_lesson_is_one_sentence_in_the_banner_and_the_others_stay(window, 
     made = Teaching(window)
     assert len(made.lessons()) == len(shipped_lessons())
     qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text(), timeout=2000)
+    window.store.changed.disconnect(made.follow)
     window.banner.hide()
 
 
@@ -158,5 +159,6 @@ def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, 
     again = Teaching(window)
     again.offer_once()
     assert again.offer is None
+    window.store.changed.disconnect(again.follow)
     offer.deleteLater()
     teaching.offer = None
