@@ -151,7 +151,9 @@ class Actions(QObject):
 
     def help(self) -> None:
         """Show shortcuts and what they do."""
-        HelpPage(help_text(tuple(self.commands)), self.window).show()
+        page = self.window.findChild(HelpPage) or HelpPage(help_text(tuple(self.commands)), self.window)
+        page.show()
+        page.raise_()
 
     def find(self) -> None:
         """Open the command palette."""

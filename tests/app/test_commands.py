@@ -86,6 +86,8 @@ def test_the_question_mark_lists_every_key(window, qtbot):
     for command in window.actions.commands:
         assert not command.keys or (command.title in lines and all(key in lines for key in command.keys))
     assert page.height() <= page.screen().availableGeometry().height()
+    window.actions.help()
+    assert window.findChildren(HelpPage) == [page], "asked again, the one page comes to the front"
     qtbot.keyClick(page, Qt.Key.Key_Escape)
     assert not page.isVisible()
 
