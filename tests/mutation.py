@@ -3,6 +3,15 @@
 ``python -m tests.mutation [module …]`` (needs ``pip install mutmut``; by default gaussian, pupils, seidel, wavefront,
 psf and fitted) prints for each module how many mutants its tests kill, and every survivor as a difference. The
 working tree is not touched. ``psf:7`` tries the tenth of its mutants whose number ends in 7.
+
+Last complete runs: fitted 170 of 176 (96.6 %), psf 414 of 445 (93.0 %); of what survived there 5 and 13 were killed
+since, one by one. What is left, and why:
+
+- fitted: None in place of False for a table's odd half, which is the same.
+- psf: more nodes or a wider empty rim than needed, in the two plain formulas that others are compared with: the same
+  picture to rounding; ``strict`` of a zip over columns that were broadcast to one length; signs within a sum of which
+  only its being finite counts; a limit met exactly, 2²⁸ samples; letters in the middle of a sentence of an error whose
+  telling words a test does find.
 """
 
 import shutil

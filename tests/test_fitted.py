@@ -10,6 +10,7 @@ from p2sf.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.raydata import ray_data
 from p2sf.rayfit import LEVELS
 from p2sf.raytrace import pencil
+from p2sf.rows import row_counts
 from p2sf.zernike import basis, gradient, terms
 from tests.reference import LENSES, huygens_rows
 from tests.test_huygens import r_squared
@@ -137,3 +138,13 @@ def test_where_no_rows_can_be_the_nodes_are_summed_one_by_one_to_the_same_pictur
     assert one_by_one.dtype.name == dtype
     radii, directions = (int(word) for word in words.replace(",", "").split() if word.isdigit())
     assert words == f"{radii} radii × {directions} directions, {dtype}" and directions > radii > 10
+
+
+def test_a_fitted_psf_is_settled_unless_told():
+    """In float64, on as many rows as the settled promise asks for; a preview makes do with fewer."""
+    lens, source, pixel, _ = next(cases("double_gauss_28"))
+    found = fit(lens, source)
+    rows, columns = row_counts(found, 16, pixel, "settled")
+    assert (rows, columns) != row_counts(found, 16, pixel, "preview")
+    words = f"{rows} rows × {columns} columns of equal frequency, float64"
+    assert fitted_psf(lens, source, 16, pixel).sampling == summed(found, 16, pixel)[1] == words
