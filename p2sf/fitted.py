@@ -18,6 +18,8 @@ from p2sf.zernike import basis
 
 __all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "psf_of_fit", "summed"]
 
+MOST_KEPT = 2**14  # radii × directions: 8 MB at most, of a hundred polynomials
+
 
 def fitted_psf(
     lens: Lens,
@@ -71,7 +73,13 @@ def fitted_intensity(found: FittedPencil, counts, pixels: int, pixel_um: float, 
     return field.real**2 + field.imag**2
 
 
-@lru_cache(maxsize=8)
 def _node_basis(order: int, radial: int, angular: int, odd: bool) -> np.ndarray:
+    """Return the basis at the nodes; a large one is up to 200 MB and its sum far slower, so it is not kept."""
+    make = _kept_basis if radial * angular <= MOST_KEPT else _kept_basis.__wrapped__
+    return make(order, radial, angular, odd)
+
+
+@lru_cache(maxsize=8)
+def _kept_basis(order: int, radial: int, angular: int, odd: bool) -> np.ndarray:
     nodes = disc_nodes(radial, angular)
     return basis(order, nodes.xi, nodes.eta, odd)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from p2sf import fitted
 from p2sf.errors import GeometryError
 from p2sf.fitted import fit, fitted_psf, summed
 from p2sf.huygens import Filling, huygens_psf
@@ -20,6 +21,15 @@ from tests.test_raytrace import case
 def cases(name):
     for row, stored, _ in huygens_rows(name):
         yield *case(name, row), row["pixel_um"], stored
+
+
+def test_a_basis_is_kept_unless_it_is_large():
+    """Eight of them stay: 8 × 240 000 nodes × 100 polynomials would be 1.5 GB."""
+    fitted._kept_basis.cache_clear()
+    for counts, kept in (((64, 256), 1), ((64, 258), 1), ((32, 256), 2)):
+        values = fitted._node_basis(4, *counts, False)
+        assert values.shape[1] == counts[0] * counts[1] / 2
+        assert fitted._kept_basis.cache_info().currsize == kept
 
 
 @pytest.mark.parametrize("odd", [False, True])
