@@ -75,7 +75,7 @@ def rendered(
 
 
 def resting(state: State, set_up: Setting, choice: tuple[str, str], at_least_um: float, done: Done | None) -> Made:
-    """Return the settled picture of a rung that traces rays; what stands in for it while it is owed."""
+    """Return the settled picture of a rung that traces rays; what stands in for it while it is owed, or failed."""
     (method, why), made = choice, quick(set_up) if done else None
     landing = landing_um(made.rays if made else edge_pencil(set_up))
     if slope(set_up, landing) > FARTHEST:
@@ -84,10 +84,11 @@ def resting(state: State, set_up: Setting, choice: tuple[str, str], at_least_um:
     wanted = asked(state, set_up, method, (pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels))
     if done is None or not slow(wanted, best_fit(made) if made else None):
         return Made(by_rays(wanted), why, True, method)
-    if found := done.get(wanted):
+    found = done.get(wanted)
+    if isinstance(found, Psf):
         return Made(found, why, True, method)
     stand_in = moving(state, set_up, method, at_least_um, done, "settled")
-    return replace(stand_in, why=SOON.format(method), owed=wanted)
+    return replace(stand_in, why=found or SOON.format(method), owed=None if found else wanted)
 
 
 def moving(

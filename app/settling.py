@@ -2,6 +2,7 @@
 
 from PySide6.QtCore import QObject
 
+from app.speech import spoken
 from app.state import State
 from app.wavesums import Asked, Done, by_rays
 from app.worker import LatestWins
@@ -37,8 +38,11 @@ class Settling(QObject):
             self._window.refresh(self._state)
 
     def _on_failed(self, asked: Asked, sentence: str) -> None:
-        """Say why there is no picture; of work that was given up there is nothing to say."""
+        """Say why there is no picture, and remember it: the same sum would fail again."""
+        self.done.keep(asked, spoken(sentence))
         if asked == self._wanted:
+            self._wanted = None
+            self._window.refresh(self._state)
             self._window.refuse(sentence)
 
     def stop(self) -> None:

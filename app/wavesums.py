@@ -32,19 +32,22 @@ class Asked:
 
 
 class Done:
-    """The latest PSFs that were too slow for a frame, by what was asked; ``version`` rises with each."""
+    """The latest PSFs that were too slow for a frame, by what was asked; ``version`` rises with each.
+
+    Of a sum that failed the sentence that says why is kept, so that nobody waits for it.
+    """
 
     def __init__(self):
-        self._found: dict[Asked, Psf] = {}
+        self._found: dict[Asked, Psf | str] = {}
         self.version = 0
 
-    def get(self, asked: Asked) -> Psf | None:
-        """Return the PSF, None where it is not there."""
+    def get(self, asked: Asked) -> Psf | str | None:
+        """Return the PSF, or why there is none; None where it is not there."""
         return self._found.get(asked)
 
-    def keep(self, asked: Asked, psf: Psf) -> None:
-        """Keep a PSF, and forget the oldest of too many."""
-        self._found[asked] = psf
+    def keep(self, asked: Asked, found: Psf | str) -> None:
+        """Keep a PSF or why there is none, and forget the oldest of too many."""
+        self._found[asked] = found
         self.version += 1
         for oldest in list(self._found)[:-KEPT]:
             del self._found[oldest]

@@ -5,7 +5,7 @@ from threading import Event
 
 from PySide6.QtCore import QObject, QThread, Signal, Slot
 
-from p2sf.errors import P2SFError
+from p2sf.errors import Cancelled, P2SFError
 
 Job = Callable[[Event, Callable[[float], None]], object]
 """What a worker runs: given a cancel flag to look at and a progress function (0 to 1), it returns a result."""
@@ -14,12 +14,15 @@ Job = Callable[[Event, Callable[[float], None]], object]
 class _Runner(QObject):
     finished = Signal(object, object)
     failed = Signal(object, str)
+    given_up = Signal()
     progressed = Signal(object, float)
 
     @Slot(object, object, object)
     def run(self, key, job: Job, cancelled: Event) -> None:
         try:
             result = job(cancelled, lambda part: self.progressed.emit(key, part))
+        except Cancelled:
+            self.given_up.emit()
         except P2SFError as error:
             self.failed.emit(key, str(error))
         else:
@@ -30,7 +33,8 @@ class LatestWins(QObject):
     """One background thread. ``submit`` replaces the job that waits, never the one that runs.
 
     ``finished(key, result)`` comes for every job that ends, stale or not: during a drag old answers are
-    better than none, and the receiver compares ``key`` with what it shows. ``failed(key, sentence)`` likewise.
+    better than none, and the receiver compares ``key`` with what it shows. ``failed(key, sentence)`` likewise. A job
+    that ends with `Cancelled` is no failure, and nothing is said of it: its key may have been asked for again.
     """
 
     finished = Signal(object, object)
@@ -46,6 +50,7 @@ class LatestWins(QObject):
         self._start.connect(self._runner.run)
         self._runner.finished.connect(self._on_finished)
         self._runner.failed.connect(self._on_failed)
+        self._runner.given_up.connect(self._on_given_up)
         self._runner.progressed.connect(self.progressed)
         self._waiting: tuple[object, Job] | None = None
         self._cancelled: Event | None = None
@@ -96,4 +101,9 @@ class LatestWins(QObject):
     def _on_failed(self, key, sentence: str) -> None:
         self._cancelled = None
         self.failed.emit(key, sentence)
+        self._next()
+
+    @Slot()
+    def _on_given_up(self) -> None:
+        self._cancelled = None
         self._next()

@@ -8,12 +8,15 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
+import app.settling as settling
 import app.wavesums as wavesums
 from app.compute import live
+from app.pinning import optics
 from app.setting import with_lens
 from app.state import State
 from app.wavesums import KEPT, MOST_NODES, Asked, Done
 from p2sf.accuracy import r_squared
+from p2sf.errors import Cancelled, GeometryError
 from p2sf.huygens import Filling, huygens_psf
 from p2sf.library import shipped_lenses
 from tests.app.conftest import FIRST
@@ -87,14 +90,65 @@ def test_a_sum_nobody_waits_for_any_more_is_not_shown(window, qtbot, monkeypatch
         assert window.live.owed is None and not threads, "what is done is not summed again"
 
 
-def test_a_sum_that_fails_says_so_in_the_banner(window, qtbot):
-    """At 60° of field and closed rims there is a density of rays, or a sentence, but no picture of waves."""
-    window.settling._wanted = "this"
-    window.settling.worker.failed.emit("another", "nothing to say.")
-    assert not window.banner.isVisible()
-    window.settling.worker.failed.emit("this", "no ray passes; stop down.")
+def test_a_sum_that_fails_says_so_and_nobody_waits_for_it(window, qtbot, monkeypatch):
+    """The banner goes with the next answer; the column beside the picture says from then on why it stands in."""
+
+    def fail(owed, cancelled):
+        raise GeometryError("no ray passes; stop down.")
+
+    monkeypatch.setattr(settling, "by_rays", fail)
+    window.store.replace(WIDE)
+    with qtbot.waitSignal(window.settling.worker.failed):
+        assert window.live.owed
     assert window.banner.isVisible() and "stop down" in window.banner.text.text()
-    window.settling.watch(window.store.state, None)
+    monkeypatch.undo()
+    window.store.update(psf_scale="log")
+    assert window.live.owed is None and not window.settling.worker.busy, "it would fail again"
+    assert window.live.psf.method != "huygens" and window.live.why == "No ray passes; stop down."
+
+
+def test_a_failure_nobody_waits_for_is_not_told(window):
+    window.settling.worker.failed.emit(live(CORNER, done=Done()).owed, "nothing to say.")
+    assert not window.banner.isVisible()
+
+
+def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch):
+    """There and back at once: the first sum is stopped while its like waits behind it."""
+    gate, ready, sums = Event(), live(State(method="seidel")).psf, []
+
+    def stoppable(owed, cancelled):
+        gate.wait(20)
+        sums.append(cancelled())
+        if cancelled():
+            raise Cancelled("stopped")
+        return replace(ready, method="huygens", pixel_um=owed.window[1])
+
+    said = []
+    monkeypatch.setattr(settling, "by_rays", stoppable)
+    monkeypatch.setattr(window, "refuse", said.append)
+    window.store.replace(WIDE)
+    window.store.update(field_deg=13.0)
+    window.store.undo()
+    gate.set()
+    qtbot.waitUntil(lambda: window.live.owed is None, timeout=20_000)
+    assert sums == [True, False] and said == []
+
+
+def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
+    """B's answer is kept while A moves, yet not the one that stood in for it."""
+    ready, sums = live(State(method="seidel")).psf, []
+
+    def counted(owed, cancelled):
+        sums.append(owed)
+        assert len(sums) < 4, "round and round"
+        values = np.full((owed.window[0],) * 2, owed.window[0] ** -2.0, np.float32)
+        return replace(ready, method="huygens", values=values, pixel_um=owed.window[1])
+
+    monkeypatch.setattr(settling, "by_rays", counted)
+    window.store.replace(replace(FIRST, pinned=State(**optics(WIDE))))
+    assert window._answers.owed == window._answers.b.owed is not None
+    qtbot.waitUntil(lambda: not (window.settling.worker.busy or window._answers.owed), timeout=20_000)
+    assert window._answers.b.psf.method == "huygens" and len(sums) == 1
 
 
 @pytest.mark.parametrize("method", MOST_NODES)

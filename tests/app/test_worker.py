@@ -5,7 +5,7 @@ from threading import Event
 import pytest
 
 from app.worker import LatestWins
-from p2sf.errors import GeometryError
+from p2sf.errors import Cancelled, GeometryError
 
 
 @pytest.fixture
@@ -42,6 +42,23 @@ def test_cancel_reaches_the_running_job(qtbot, worker):
         worker.submit("key", lambda cancelled, progress: cancelled.wait(5))
         worker.cancel()
     assert told.args[1] is True
+
+
+def test_work_that_was_given_up_is_no_failure(qtbot, worker):
+    """A receiver that has asked the same again could not tell it from the failure of what it waits for."""
+    gate, told = Event(), []
+
+    def give_up(cancelled, progress):
+        gate.wait(5)
+        raise Cancelled("stopped")
+
+    worker.failed.connect(lambda key, sentence: told.append(sentence))
+    worker.submit("key", give_up)
+    worker.cancel()
+    with qtbot.waitSignal(worker.finished):
+        worker.submit("key", lambda cancelled, progress: 1)
+        gate.set()
+    assert told == []
 
 
 def test_progress_is_told(qtbot, worker):
