@@ -5,7 +5,7 @@ import pytest
 
 from p2sf.accuracy import r_squared, relative_l2
 from p2sf.conventions import centred_axis
-from p2sf.errors import SamplingError
+from p2sf.errors import Cancelled, SamplingError
 from p2sf.fitted import fit, fitted_intensity, fitted_psf
 from p2sf.huygens import Filling, huygens_psf
 from p2sf.quadrature import disc_nodes
@@ -114,6 +114,13 @@ def test_clipped_rays_take_the_references_nodes():
         huygens_psf(lens, source, 32, pixel, filling=filling),
     )
     assert r_squared(traced.values, reference.values) > 0.9999
+
+
+@pytest.mark.parametrize("quality", ["settled", "preview"])
+def test_rays_one_by_one_can_be_stopped(quality):
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    with pytest.raises(Cancelled):
+        traced_psf(lens, source, 32, pixel, quality, Filling(clip=True), cancelled=lambda: True)
 
 
 def test_a_blur_beyond_all_nodes_is_refused_in_words():
