@@ -5,6 +5,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
+from app.answerless import UNKNOWN
 from app.card import chooser, described, select
 from app.compute import Live
 from app.lens_cards import shown_title
@@ -168,6 +169,13 @@ class StatusLine(QWidget):
             self.warning.set_text(text)
             self.warning.setToolTip(tr("\n".join(live.warnings)))
         self.facts.set_text(facts(live, frame_ms))
+
+    def show_none(self, sentence: str) -> None:
+        """Keep the sentence on why there is no answer, which outlasts the banner; no figures."""
+        words = tr(spoken(sentence))
+        self.warning.set_text(f"⚠ {words}")
+        self.warning.setToolTip(words)
+        self.facts.set_text(UNKNOWN)
 
     def say(self, text: str) -> None:
         """Show a passing message until the next answer."""

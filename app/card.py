@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.copying import copy_menu
+from app.veil import Veil
 from app.words import tr
 
 LIST_AIR = 24  # beside the longest line of an open list
@@ -54,6 +55,7 @@ class Card(QFrame):
         self.column.addLayout(self.head)
         self.column.addLayout(self.under)
         self.column.addWidget(self.note)
+        self.veil = Veil(self)
 
     def resizeEvent(self, event) -> None:
         """Put the tools on a line of their own where they do not fit beside the title, and back where they do."""
@@ -100,6 +102,11 @@ class Card(QFrame):
             self.title.setText(words)
             self.note.setText(tr(why))
             self.note.setVisible(bool(why))
+
+    def show_veil(self, sentence: str) -> None:
+        """Cover everything but the title with a sentence on why there is nothing to show; uncover it for ""."""
+        if tr(sentence) != self.veil.text:
+            self.veil.say(sentence, self.head.geometry().bottom() + 1)
 
     def set_body(self, widget: QWidget) -> None:
         """Put the picture under the title line."""

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.answerless import UNKNOWN
 from app.compute import Live
 from app.facts import OF_A, rows
 from app.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
@@ -207,6 +208,13 @@ class Controls(QWidget):
         self.sentence.setText(f"A: {tr(live.dominant)}" if apart else tr(live.dominant))
         self.detail.setText(tr(live.why))
         self.facts.show_rows((OF_A, *rows(live)) if apart else rows(live))
+
+    def show_none(self) -> None:
+        """Show that nothing follows from the state: no figure, no dominant term."""
+        self.rows["field_deg"].show_note(UNKNOWN)
+        self.sentence.clear()
+        self.detail.clear()
+        self.facts.show_rows(tuple((name, UNKNOWN, tip) for name, _, tip in self.facts.rows))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -9,6 +9,7 @@ from time import perf_counter
 
 import numpy as np
 
+from app.reach import focused_distance
 from app.setting import Setting
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
@@ -16,6 +17,7 @@ from p2sf.psf import Psf
 from p2sf.raytrace import pencil
 
 GRIDS = {"preview": (64, 180), "settled": (128, 360)}  # radii, directions of the half disc
+TOO_FAR = 2.0  # times the distance a lens is focused at
 MOST_LIGHT, AROUND = 0.9, 1.25  # an even disc has nine tenths of its light within 1/1.18 of its half width
 TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated to the above
 
@@ -32,12 +34,19 @@ def geometric_psf(
     values = density(x, y, weight, pixels, pixel_um)
     energy = float(values.sum())
     if not energy:
-        raise GeometryError("no ray reaches the sensor; choose a smaller field, stop down, or leave clipping off")
+        raise GeometryError(f"no ray reaches the sensor; {way_back(set_up, clip)}")
     strehl = float(values.max()) / unaberrated(set_up, pixel_um)
     words = "density of {} × {} rays; diffraction is too fine to see here".format(*GRIDS[quality])
     seconds, wavelength = perf_counter() - begun, set_up.source.wavelength_um
     rays = TRACED[quality][0] * TRACED[quality][1] if exact else 2
     return Psf(values / energy, pixel_um, wavelength, "geometric", strehl, energy, 0, rays, words, seconds)
+
+
+def way_back(set_up: Setting, clip: bool) -> str:
+    """Return what lets light through again: for a source far beyond what a lens is made for, coming nearer."""
+    if set_up.source.depth_mm > TOO_FAR * focused_distance(set_up.lens):
+        return "this lens is for near objects, so choose a nearer depth"
+    return "choose a smaller field, stop down, or leave clipping off" if clip else "choose a smaller field or stop down"
 
 
 def main_reach_um(set_up: Setting, exact: bool, clip: bool = False) -> float:

@@ -50,7 +50,7 @@ class Measuring(QObject):
 
     def _tell(self, accuracy: Accuracy) -> None:
         live = self._window.live
-        if live.setting.altered:
+        if live is None or live.setting.altered:
             return
         stale = not fits(accuracy, live, False) or live.quality != "settled" or live.owed is not None
         self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
@@ -64,7 +64,7 @@ class Measuring(QObject):
 
     def _each(self, method: str, *arguments) -> None:
         panel = self._window.panels.get("accuracy")
-        if panel and self._window.live.state.tab == "accuracy":
+        if panel and self._window.live and self._window.live.state.tab == "accuracy":
             getattr(panel, method)(*arguments)
 
     def stop(self) -> None:

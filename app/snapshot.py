@@ -24,11 +24,13 @@ def write_state(state: State, path, **extra) -> Path:
     return write_beside(path, lambda handle: handle.write(text.encode()))
 
 
-def write_data(live: Live, path, state: State | None = None) -> tuple[Path, Path]:
+def write_data(live: Live | None, path, state: State | None = None) -> tuple[Path, Path]:
     """Write the PSF on screen as .npz, .tiff, .fits or .csv and its state beside; return both paths. ExportError.
 
     ``state`` is the window's where that is more than the picture's own: B may be pinned beside it.
     """
+    if live is None:
+        raise ExportError(f"{path}: this set-up has no PSF; change it until there is a picture")
     state = state or live.state
     if Path(path).suffix.lower() not in DATA_ENDINGS:
         ending = Path(path).suffix

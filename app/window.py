@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter,
 
 from app import compute
 from app.actions import Actions
+from app.answerless import WHY, drawn
 from app.bars import Banner, StatusLine, TopBar
 from app.comparebar import CompareBar
 from app.comparing import Answers, answers
@@ -101,7 +102,7 @@ class Window(QMainWindow):
         self.resize(1440, 900)
 
     def refresh(self, state: State) -> None:
-        """Compute an answer and paint it; a refusal keeps the last good picture."""
+        """Compute an answer and paint it; where there is none, say so over what is of another set-up."""
         begun = perf_counter()
         self._restyle(state)
         self._bring_up(state)
@@ -111,7 +112,7 @@ class Window(QMainWindow):
             self.play.show_state(state)
             self._answers = self._answer(state)
         except P2SFError as error:
-            self.refuse(str(error))
+            self._show_none(state, str(error))
             return
         self.live = live = self._answers.seen
         self.banner.hide()
@@ -119,12 +120,26 @@ class Window(QMainWindow):
         self.controls.show_live(self._answers.a)
         for key in self._visible():
             self.panels[key].show(live)
+            self.panels[key].widget.show_veil("")
             why = live.difference.why.get(key, "") if live.difference else ""
             self.panels[key].widget.show_side("A" if why else live.side, why)
         self.status.show_live(live, self.frame_ms)
         self.settling.watch(state, self._answers.owed)
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._painted(begun))
+
+    def _show_none(self, state: State, sentence: str) -> None:
+        """Say why there is no answer; nothing on screen may pass for one but the lens, where it can be drawn."""
+        self.live = None
+        self.refuse(sentence)
+        self.settling.watch(state, None)
+        self.controls.show_none()
+        self.status.show_none(sentence)
+        for panel in self.panels.values():
+            panel.widget.show_veil(WHY)
+        if lens := drawn(state):
+            self.panels["layout"].show(lens)
+            self.panels["layout"].widget.show_veil("")
 
     def _answer(self, state: State) -> Answers:
         """Return the settled answers, or while a slider moves previews by the rungs that ``auto`` had chosen."""

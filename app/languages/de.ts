@@ -197,6 +197,8 @@
 <message><source>Next step of the lesson</source><translation>Nächster Schritt der Lektion</translation></message>
 <message><source>No aberration</source><translation>Keine Aberration</translation></message>
 <message><source>No ray reaches the sensor; choose a smaller field, stop down, or leave clipping off</source><translation>Kein Strahl erreicht den Sensor; ein kleineres Feld wählen, abblenden oder den Randbeschnitt auslassen</translation></message>
+<message><source>No ray reaches the sensor; choose a smaller field or stop down</source><translation>Kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder abblenden</translation></message>
+<message><source>No ray reaches the sensor; this lens is for near objects, so choose a nearer depth</source><translation>Kein Strahl erreicht den Sensor; dieses Objektiv ist für nahe Objekte, also eine nähere Tiefe wählen</translation></message>
 <message><source>Nodal point N</source><translation>Knotenpunkt N</translation></message>
 <message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
 <message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
@@ -399,6 +401,7 @@
 <message><source>The {what} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {what}; eine wie 12.5 schreiben</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
+<message><source>This set-up cannot be computed; what was here belongs to the one before.</source><translation>Diese Einstellung lässt sich nicht berechnen; was hier war, gehört zur vorigen.</translation></message>
 <message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
 <message><source>This is A: a spot is places of rays, not amounts; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
 <message><source>This is A: bodies in space have no difference that could be shown.</source><translation>Dies ist A: Körper im Raum haben keine Differenz, die sich zeigen ließe.</translation></message>
@@ -1057,6 +1060,8 @@
 <message><source>a picture of the window ends in ".png", not "{ending}"</source><translation>ein Bild des Fensters endet auf ".png", nicht "{ending}"</translation></message>
 <message><source>change the ending</source><translation>die Endung ändern</translation></message>
 <message><source>{path} cannot be written, the draft beside it stayed empty</source><translation>{path} ist nicht schreibbar, der Entwurf daneben blieb leer</translation></message>
+<message><source>this set-up has no PSF</source><translation>diese Einstellung hat keine PSF</translation></message>
+<message><source>change it until there is a picture</source><translation>sie ändern, bis es ein Bild gibt</translation></message>
 <message><source>{name} has the ending "{ending}"</source><translation>{name} hat die Endung "{ending}"</translation></message>
 <message><source>give the scene a name in {names}</source><translation>der Szene einen Namen mit {names} geben</translation></message>
 <message><source>the added waves are {waves}</source><translation>die hinzugefügten Wellen sind {waves}</translation></message>

@@ -25,7 +25,7 @@ class CoefficientsPanel:
     """Six rows of bars and sliders; below, free pupil, presets and reset."""
 
     def __init__(self, store: Store):
-        self._store, self._theme = store, LIGHT
+        self._store, self._theme, self._note = store, LIGHT, ""
         self.widget = Card("Coefficients", TIP)
         self.bars = Mixer(self.widget)
         self.widget.setMinimumSize(*LEAST)
@@ -90,15 +90,19 @@ class CoefficientsPanel:
         self.free.setChecked(state.free_pupil)
         self.reset.setEnabled(altered)
         note = "what-if" if live.side else SHORT_NOTE  # beside a side's name there is less room
-        colour = f'<span style="color:{self._theme.warning}">{tr(note)}</span>'
-        words = colour if altered else tr("at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
-        words = "" if live.difference and not altered else words  # "A − B" needs the room, and λ stand at the numbers
-        self.widget.set_readout(words)
+        words = "" if live.difference else tr("at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
+        self._note = tr(note) if altered else ""  # "A − B" needs the room, and λ stand at the numbers
+        self.widget.set_readout(self._coloured() or words)
+
+    def _coloured(self) -> str:
+        return self._note and f'<span style="color:{self._theme.warning}">{self._note}</span>'
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme = theme
         self.bars.restyle(theme)
+        if self._note:
+            self.widget.set_readout(self._coloured())
 
 
 def as_numbers(coefficients) -> dict[str, float]:

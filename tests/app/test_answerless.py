@@ -1,0 +1,59 @@
+"""A set-up without an answer: nothing of the one before may pass for it."""
+
+from dataclasses import replace
+from math import inf
+
+import pytest
+
+from app.answerless import UNKNOWN, WHY
+from app.setting import setting, with_lens
+from app.state import State
+
+TOO_FAR = replace(with_lens(State(theme="light"), "relay"), depth_mm=inf, field_deg=1.0)
+
+
+@pytest.fixture
+def without(window):
+    window.store.replace(replace(with_lens(window.store.state, "double_gauss_28"), free_pupil=True))
+    assert window.live.setting.focal_length_mm == pytest.approx(100, rel=0.02)
+    window.store.replace(TOO_FAR)
+    return window
+
+
+def test_no_picture_and_no_figure_of_the_lens_before_is_left(without):
+    for key in ("pupil", "psf", "coefficients", without.tabs.current()):
+        veil = without.panels[key].widget.veil
+        assert veil.isVisible() and veil.text == WHY
+        assert veil.geometry().contains(without.panels[key].widget.rect().center())
+    assert {value for _, value, _ in without.controls.facts.rows} == {UNKNOWN}
+    assert not without.controls.sentence.text() and without.controls.rows["field_deg"].note.text() == UNKNOWN
+    assert without.status.facts.text() == UNKNOWN
+
+
+def test_the_new_lens_is_drawn_with_its_own_source(without):
+    layout = without.panels["layout"]
+    assert not layout.widget.veil.isVisible()
+    assert layout.chart.live.setting.lens == setting(TOO_FAR).lens and layout.chart.live.layout.source is None
+
+
+def test_the_reason_names_what_helps_and_outlasts_the_banner(without):
+    assert "choose a nearer depth" in without.banner.text.text() and "clip" not in without.banner.text.text()
+    without.banner.hide()
+    assert "choose a nearer depth" in without.status.warning.text()
+
+
+def test_a_theme_is_taken_up_without_an_answer(without):
+    without.store.update(theme="dark")
+    assert without._theme.dark and without._theme.warning in without.panels["coefficients"].widget.readout.text()
+
+
+def test_the_psf_before_is_not_saved_under_the_new_name(without, tmp_path):
+    assert not without.actions.save(str(tmp_path / "psf.npz"))
+    assert "no PSF" in without.banner.text.text() and not list(tmp_path.iterdir())
+
+
+def test_the_next_answer_lifts_every_veil(without):
+    without.store.update(depth_mm=94.412)
+    assert not without.banner.isVisible()
+    assert not any(without.panels[key].widget.veil.isVisible() for key in without._visible())
+    assert UNKNOWN not in {value for _, value, _ in without.controls.facts.rows}
