@@ -106,6 +106,7 @@ class Card(QFrame):
     def show_veil(self, sentence: str) -> None:
         """Cover everything but the title with a sentence on why there is nothing to show; uncover it for ""."""
         if tr(sentence) != self.veil.text:
+            self.readout.setVisible(not sentence)
             self.veil.say(sentence, self.head.geometry().bottom() + 1)
 
     def set_body(self, widget: QWidget) -> None:

@@ -1,4 +1,4 @@
-"""What lies over a panel while there is no answer: the picture before shines through faintly, and a sentence says so."""
+"""What lies over a panel while there is no answer: the picture before shines through faintly, a sentence says so."""
 
 from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import QPainter, QPalette
