@@ -6,7 +6,6 @@ import numpy as np
 
 from p2sf.measures import diffraction_mtf, mtf
 
-
 INTERVALS = 512  # eight between two frequencies that a window of 128 samples tells apart: lobes are no zigzag
 
 
