@@ -166,7 +166,8 @@ class StatusLine(QWidget):
         """Show the sentences and figures of an answer."""
         text = "   ".join(f"⚠ {sentence}" for sentence in live.warnings)
         if self.warning.text() != text:
-            self.warning.set_text(text)
+            short = (tr(sentence).partition("; ")[0].rstrip(".") for sentence in live.warnings)
+            self.warning.set_text(text, short="   ".join(f"⚠ {words} …" for words in short))
             self.warning.setToolTip(tr("\n".join(live.warnings)))
         self.facts.set_text(facts(live, frame_ms))
 

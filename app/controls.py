@@ -102,7 +102,7 @@ class Row(QWidget):
         self.slider.blockSignals(True)
         self.slider.setValue(round(STEPS * scale.travel(value)))
         self.slider.blockSignals(False)
-        self.edit.set_text(self.quantity.write(value))
+        self.edit.set_text(tr(self.quantity.write(value)) if value < 0 else self.quantity.write(value))
 
     def _set_marks(self, scale) -> None:
         inside = [(v, name) for v, name in self.quantity.ticks if scale.low <= v <= scale.high]

@@ -20,6 +20,7 @@ from app.setting import Ranges
 from app.state import State
 
 Scale = Linear | Logarithmic | Vergence
+BEYOND = "beyond ∞"  # where a file's sensor stands that no object is sharp on
 F_NM, D_NM, C_NM = 486.1327, 587.5618, 656.2725  # Fraunhofer lines
 
 
@@ -88,9 +89,10 @@ WAVELENGTH = Quantity(
 FOCUS = Quantity(
     key="focus_mm",
     title="Focus distance",
-    tip="Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s.",
+    tip="Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. "
+    f"{BEYOND}: nearer to the lens than the image of infinity.",
     scale=lambda ranges: Vergence(ranges.closest_mm),
-    write=written_distance,
+    write=lambda value: BEYOND if value < 0 else written_distance(value),
     read=read_distance,
     shown=lambda state, ranges: ranges.focused_mm if state.focus_mm is None else state.focus_mm,
     buttons=(("∞", inf, "Focus at infinity"), ("file", None, "Put the sensor where the lens file has it")),

@@ -36,15 +36,26 @@ def closest_distance(lens: Lens) -> float:
 
 
 def focused_distance(lens: Lens) -> float:
-    """Return the object distance in mm whose paraxial image lies on the file's sensor; inf when at or beyond infinity.
+    """Return the object distance in mm whose paraxial image lies on the file's sensor; inf at or beyond infinity."""
+    vergence = focused_vergence(lens)
+    return 1 / vergence if vergence > 1 / AS_GOOD_AS_INFINITE_MM else inf
+
+
+def file_focus(lens: Lens) -> float:
+    """Return `focused_distance`, but negative for a sensor nearer to the lens than the image of infinity is, mm."""
+    vergence = focused_vergence(lens)
+    return 1 / vergence if abs(vergence) > 1 / AS_GOOD_AS_INFINITE_MM else inf
+
+
+def focused_vergence(lens: Lens) -> float:
+    """Return the vergence in 1/mm of the object whose paraxial image lies on the file's sensor; 0 at infinity.
 
     Solves the height of the axial ray on the sensor, linear in the vergence, for zero.
     """
     rays = basis_rays(lens, lens.reference_wavelength_um)
     reach = lens.sensor_mm / rays.image_index
     parallel, divergent = rays.a[-1] + reach * rays.c[-1], rays.b[-1] + reach * rays.d[-1]
-    vergence = -float(parallel / (divergent * rays.object_index)) if divergent else 0.0
-    return 1 / vergence if vergence > 1 / AS_GOOD_AS_INFINITE_MM else inf
+    return -float(parallel / (divergent * rays.object_index)) if divergent else 0.0
 
 
 @lru_cache(maxsize=32)

@@ -3,13 +3,14 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import ceil, exp, floor, inf, isfinite, isinf, isnan, log, log10
+from math import ceil, exp, floor, inf, isfinite, isinf, log, log10
 
 from p2sf.errors import P2SFError
 
 INFINITE = ("∞", "inf", "infinity")
 MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
 NO_UNIT = {"": 1.0}
+NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)")  # and what stands behind it
 APERTURE = re.compile(r"^\s*([fF]\s*/?|1\s*:)\s*(?=[\d.,])")  # f/5.6, F5.6, f 5.6, 1:5.6
 
 
@@ -148,13 +149,9 @@ def read_number(text: str, words: str, units: Mapping[str, float] = NO_UNIT) -> 
     ``units`` says what may stand behind the number and what it multiplies by. P2SFError for anything else.
     """
     plain = text.strip().replace("−", "-").replace(",", ".").lower()
-    number = plain.rstrip("abcdfghijklmnopqrstuvwxyzµ°λ/ ")
-    unit = plain[len(number) :].strip()
-    try:
-        value = float(number)
-    except ValueError:
-        value = inf
-    if isnan(value) or isinf(value):
+    found = NUMBER.fullmatch(plain)
+    value, unit = (float(found[1]), found[2]) if found else (inf, "")
+    if isinf(value):
         raise P2SFError(f'the {words} "{text.strip()}" is not a number; write one such as 12.5')
     if unit not in units:
         known = ", ".join(name for name in units if name)

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from app.reach import closest_distance, focused_distance, telling_field, wavelength_range
+from app.reach import closest_distance, file_focus, focused_distance, telling_field, wavelength_range
 from app.scales import nice
 from app.state import State
 from app.whatif import altered
@@ -175,7 +175,7 @@ def ranges(lens: Lens) -> Ranges:
         wavelength_nm=wavelength_range(lens),
         f_number=(f_stop / 1.4, max(32.0, 4 * f_stop)) if finite else (1.0, 32.0),
         file_f_number=f_stop if finite else inf,
-        focused_mm=focused_distance(lens),
+        focused_mm=file_focus(lens),
         shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,
     )
 

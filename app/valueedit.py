@@ -41,6 +41,7 @@ class ValueEdit(QLineEdit):
         if self.isModified() and self.text() != self.last:
             self.setModified(False)
             self.committed.emit(self.text())
+            self.setText(self.last)  # as written by now, also where the number typed is the one there was
 
     def keyPressEvent(self, event) -> None:
         """Let Escape take the typing back."""

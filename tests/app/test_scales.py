@@ -46,6 +46,9 @@ def test_what_is_written_can_be_read(mm):
         ("field_deg", "−10°", -10),
         ("wavelength_nm", "0.55 µm", 550),
         ("field_deg", "1e1", 10),
+        ("field_deg", "12 deg", 12),
+        ("field_deg", "12deg", 12),
+        ("field_deg", "1.2e1 deg", 12),
     ],
 )
 def test_numbers_with_units(key, text, value):

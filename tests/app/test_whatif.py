@@ -223,3 +223,10 @@ def test_presets_and_reset(window, qtbot):
 def test_a_large_coefficient_is_no_longer_than_its_column(qapp, value, words):
     assert waves(value) == words
     assert set_text(words, 13).size().width() <= NUMBER
+
+
+def test_where_the_warning_has_no_room_it_ends_with_a_clause_and_not_within_a_word(window):
+    window.store.update(added_waves=(0.5, 0.0, 0.0, 0.0, 0.0, 0.0))
+    line = window.status.warning
+    line.resize(500, line.height())
+    assert line._cut() == "⚠ What-if: coefficients altered by hand …" and "depth of field" in line.toolTip()
