@@ -9,6 +9,7 @@ from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
 from p2sf.scene.reference import reference_kernel
+from p2sf.scene.sharing import few_heights
 from p2sf.scene.spectrum import reduced
 from p2sf.scene.study import Study, distance
 
@@ -54,6 +55,30 @@ def test_every_decision_has_a_reason_and_an_error(planned):
     assert kinds == {"rung", "terms", "sampling", "field", "depth", "colour", "pupils"}
     assert all(len(d.why) > 20 and 0 <= d.error < 0.1 for d in planned.decisions)
     assert planned.naive.kernel_seconds > planned.cost.kernel_seconds
+
+
+def test_pupils_between_the_fitted_ones_cost_no_more_than_the_plan_says():
+    """Sharp where no depth node is midway: there the kernels of a fit at every depth differ the most."""
+    green = Channel("green", (550.0,), (1.0,))
+    scene = Scene(Sensor(12, 16, 31.7), (green,), 1095.0, 4094.0, 0.42, f_number=8.0, focus_mm=2007.0)
+    shared = plan(find_lens("fast_gauss_f14"), scene)
+    each = replace(shared, pupil_nodes=None)
+    heights, depths = shared.pupil_nodes
+    assert len(depths) < len(shared.vergences)
+    worst = 0.0
+    for vergence in shared.vergences:
+        one, other = (found.kernels(0, vergence) for found in (shared, each))
+        worst = max(worst, *(distance(one.at(0.6 * h, 0.8 * h), other.at(0.6 * h, 0.8 * h)) for h in heights))
+    said = next(decision.error for decision in shared.decisions if decision.what == "pupils")
+    assert 0 < worst <= said <= 0.1 * scene.tolerance
+
+
+def test_as_many_heights_are_fitted_as_the_error_between_them_asks():
+    scene = Scene(Sensor(3000, 4000, 4.0), (Channel("green", (550.0,), (1.0,)),), f_number=8.0)
+    study = Study(scene.camera(find_lens("double_gauss_28")), scene)
+    (few, error), (more, less) = (few_heights(study, 20, allowed) for allowed in (1.0, 1e-3))
+    assert few == 2 < more < 20
+    assert error > 1e-3 >= less > 0
 
 
 @pytest.mark.parametrize("lens", ["double_gauss_28", "tessar"])

@@ -22,9 +22,8 @@ def node_heights(sensor: Sensor, counts) -> tuple[float, ...]:
 
 def few_heights(study: Study, needed: int, allowed: float) -> tuple[int, float]:
     """Return how many heights are fitted, all ``needed`` ones at most, and the error of interpolating between them."""
-    ends = study.scene.vergences(2)
     tried = (
-        (n, max(_error_across(study, n, float(v), wave) for v in ends for wave in study.waves))
+        (n, max(_error_across(study, n, v, wave) for wave in study.waves for v in study.depths(wave)))
         for n in FITS
         if n < needed
     )
@@ -47,9 +46,14 @@ def _error_across(study: Study, count: int, vergence: float, wave: float) -> flo
 
 
 def _error_along(study: Study, count: int, height: float, wave: float) -> float:
-    """Return the worst error midway between the depths that are fitted, at one height."""
-    vergences = chebyshev(*map(float, study.scene.vergences(2)), count)
-    return _error(study, ([height], vergences), [(height, (a + b) / 2) for a, b in pairwise(vergences)], wave)
+    """Return the worst error between the depths that are fitted, at one height.
+
+    The same error of a wavefront shows the more the sharper its kernel is: tried are the depths of every other
+    decision, the sharpest among them, and midway between these and the fitted ones.
+    """
+    vergences, depths = chebyshev(*map(float, study.scene.vergences(2)), count), study.depths(wave)[1:-1]
+    places = *depths, *((a + b) / 2 for a, b in pairwise(sorted({*vergences.tolist(), *depths})))
+    return _error(study, ([height], vergences), [(height, v) for v in places], wave)
 
 
 def _error(study: Study, nodes, places, wave: float) -> float:
