@@ -5,6 +5,7 @@ from pathlib import Path
 from PySide6.QtCore import QEvent, QObject, Signal
 from PySide6.QtWidgets import QWidget
 
+from app.embedded import text_inside
 from p2sf.photos import READABLE
 
 OTHER_PICTURES = (".jpg", ".jpeg", ".gif", ".bmp", ".webp", ".heic", ".avif", ".raw", ".dng", ".cr2", ".nef", ".arw")
@@ -34,14 +35,20 @@ class PhotoDrop(QObject):
             return True
         event.acceptProposedAction()
         if event.type() == QEvent.Type.Drop:
-            self._take(Path(path))
+            self.take(Path(path))
         return True
 
-    def _take(self, path: Path) -> None:
+    def take(self, path: Path) -> None:
+        """Tell of a picture as if it had been dropped here."""
         if path.suffix.lower() in READABLE:
             self.photo.emit(str(path))
         else:
             self.refused.emit(f"{path.name} is no PNG or TIFF; save the photo as one of these and drop that")
+
+
+def is_photo(path: str) -> bool:
+    """Return whether a file's name ends as a picture's does and no state lies in it, as in a snapshot."""
+    return Path(path).suffix.lower() in (*READABLE, *OTHER_PICTURES) and text_inside(path) is None
 
 
 def dropped_picture(data) -> str | None:

@@ -12,7 +12,10 @@ KEYWORD = "p2sf-state"  # of the PNG text chunk
 PNG_HEADER = 33  # bytes: signature and the chunk of the size
 HEAD = 200
 DATABASE = "this is a database of PSFs, not a lens or a state; use it with p2sf psf, or open its lens"
-STATELESS = "there is no readable state in this picture or PSF; open a snapshot, written by the window with Ctrl+E"
+STATELESS = (
+    "there is no readable state in this picture or PSF; open a snapshot, written by the window with Ctrl+E, or with "
+    "the Image panel open drop a photo"
+)
 CSV_HEAD = b"# point spread function"
 BEGINNINGS = (
     (b"\x89PNG", "png"),

@@ -1,5 +1,6 @@
 """The window: from slider to picture in three hops, store → live → panels."""
 
+from pathlib import Path
 from time import perf_counter
 
 from PySide6.QtCore import Qt, QTimer
@@ -14,6 +15,7 @@ from app.comparebar import CompareBar
 from app.comparing import Answers, answers
 from app.compute import Live
 from app.controls import Controls
+from app.dropping import is_photo
 from app.floating import Floating
 from app.limits import ADDED
 from app.link import is_link
@@ -219,6 +221,9 @@ class Window(QMainWindow):
         """Open what was dropped."""
         event.acceptProposedAction()
         found = dropped(event)
+        if found and "image" in self._visible() and is_photo(found):
+            self.panels["image"].drop.take(Path(found))
+            return
         (self.sharing.open if is_link(found) else self.actions.open_path)(found)
 
 

@@ -1254,7 +1254,7 @@
 <message><source>this is a database of PSFs, not a lens or a state</source><translation>das ist eine Datenbank von PSFs, kein Objektiv und kein Zustand</translation></message>
 <message><source>use it with p2sf psf, or open its lens</source><translation>mit p2sf psf benutzen oder ihr Objektiv öffnen</translation></message>
 <message><source>there is no readable state in this picture or PSF</source><translation>in diesem Bild oder dieser PSF ist kein lesbarer Zustand</translation></message>
-<message><source>open a snapshot, written by the window with Ctrl+E</source><translation>einen Schnappschuss öffnen, den das Fenster mit Strg+E schreibt</translation></message>
+<message><source>open a snapshot, written by the window with Ctrl+E, or with the Image panel open drop a photo</source><translation>einen Schnappschuss öffnen, den das Fenster mit Strg+E schreibt, oder bei offenem Feld Bild ein Foto ablegen</translation></message>
 <message><source>an asphere in Forbes's polynomials</source><translation>eine Asphäre in Forbes-Polynomen</translation></message>
 <message><source>an extended odd asphere</source><translation>eine erweiterte ungerade Asphäre</translation></message>
 <message><source>an extended asphere</source><translation>eine erweiterte Asphäre</translation></message>

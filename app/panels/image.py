@@ -89,9 +89,9 @@ class ImagePanel:
         self.wipe.released.connect(store.end)
         self.wipe.moved.connect(lambda part: store.update(photo_split=part))
         self.wipe.looked.connect(self._look)
-        drop = PhotoDrop(self.widget)
-        drop.photo.connect(lambda path: store.update(photo=path))
-        drop.refused.connect(store.refused)
+        self.drop = PhotoDrop(self.widget)
+        self.drop.photo.connect(lambda path: store.update(photo=path))
+        self.drop.refused.connect(store.refused)
 
     def show(self, live: Live) -> None:
         """Follow the state; ask the worker for a picture when anything it depends on has changed."""

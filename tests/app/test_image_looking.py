@@ -9,7 +9,9 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
+from app.copying import png_of
 from app.roominess import close_up, rooms
+from app.snapshot import write_picture
 from app.views.image import COLUMNS, ROWS, local_psf, pixels
 from p2sf.photos import write_photo
 
@@ -84,6 +86,18 @@ def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_th
     assert said == ["holiday.jpg is no PNG or TIFF; save the photo as one of these and drop that"]
     assert not drop(panel.widget, tmp_path / "lens.zmx").isAccepted()
     window.store.update(photo="text")
+
+
+def test_a_photo_dropped_beside_the_open_panel_is_photographed_and_a_snapshot_still_opens(window, panel, tmp_path):
+    before = window.store.state
+    write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
+    assert drop(window, tmp_path / "grey.png").isAccepted()
+    assert window.store.state == replace(before, photo=str(tmp_path / "grey.png"))
+    assert not window.banner.isVisible()
+    window.store.update(photo="text")
+    write_picture(replace(before, field_deg=7.0), png_of(window), tmp_path / "snapshot.png")
+    drop(window, tmp_path / "snapshot.png")
+    assert window.store.state.field_deg == 7.0 and window.store.state.photo == "text"
 
 
 def test_the_plan_is_told_behind_a_button_and_one_line_stands_under_the_picture(window, panel):

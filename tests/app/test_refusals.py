@@ -86,9 +86,9 @@ def test_every_refusal_has_german(where):
         ),
         (
             "/a/psf.tiff: there is no readable state in this picture or PSF; open a snapshot, written by the window "
-            "with Ctrl+E",
+            "with Ctrl+E, or with the Image panel open drop a photo",
             "/a/psf.tiff: in diesem Bild oder dieser PSF ist kein lesbarer Zustand; einen Schnappschuss öffnen, den "
-            "das Fenster mit Strg+E schreibt",
+            "das Fenster mit Strg+E schreibt, oder bei offenem Feld Bild ein Foto ablegen",
         ),
         (
             "the link is cut off or changed; copy all of it again, from p2sf: to its last letter",
