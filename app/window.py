@@ -132,8 +132,10 @@ class Window(QMainWindow):
 
     def _show_none(self, state: State, sentence: str) -> None:
         """Say why there is no answer; nothing on screen may pass for one but the lens, where it can be drawn."""
-        self.live = None
         self.refuse(sentence)
+        if self.live and self._answers.a.state == state:
+            return  # only its file has changed, and is half written perhaps: the picture stays
+        self.live = None
         self.settling.watch(state, None)
         self.controls.show_none()
         self.status.show_none(sentence)

@@ -19,7 +19,7 @@ def test_the_report_is_printed_and_the_lens_written(capsys, tmp_path):
     out = tmp_path / "lens.toml"
     code, text, errors = run(capsys, FOLDER / "doublet.zmx", "-o", out)
     assert (code, errors) == (0, "")
-    assert "3 surfaces, stop on surface 1, entrance pupil diameter 20" in text and f"written: {out}" in text
+    assert "3 surfaces, stop on surface 1, entrance pupil diameter 20 mm" in text and f"written: {out}" in text
     written, read = load_lens(out), load_lens(FOLDER / "doublet.zmx")
     assert written == read
 

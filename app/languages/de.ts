@@ -3,7 +3,7 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
-<message><source>0.7 of the pupil</source><translation>0,7 der Pupille</translation></message>
+<message><source>0.7 of the pupil</source><translation>0.7 der Pupille</translation></message>
 <message><source>1/depth, 1/m (0 is ∞)</source><translation>1/Abstand, 1/m (0 ist ∞)</translation></message>
 <message><source>16 µm pixels</source><translation>16-µm-Pixel</translation></message>
 <message><source>32 µm pixels</source><translation>32-µm-Pixel</translation></message>
@@ -602,7 +602,7 @@
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
 <message><source>per pixel</source><translation>je Pixel</translation></message>
-<message><source>perfect lens</source><translation>perfektes Objektiv</translation></message>
+<message><source>perfect lens</source><translation>ideale Linse</translation></message>
 <message><source>perfect lens, µm</source><translation>ideale Linse, µm</translation></message>
 <message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
 <message><source>pictures {wide} µm wide</source><translation>Bilder {wide} µm breit</translation></message>
@@ -720,7 +720,7 @@
 <message><source>{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes, float64</source><translation>{rows} × {columns} Gauß–Tschebyschow- × Gauß–Legendre-Knoten, float64</translation></message>
 <message><source>{step}: pixels of {pitch} µm average finer fringes; the window has a margin of {margin} (error {error})</source><translation>{step}: Pixel zu {pitch} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin} (Fehler {error})</translation></message>
 <message><source>{what} is {value}; give a number from {low} to {high}</source><translation>{what} ist {value}; eine Zahl von {low} bis {high} angeben</translation></message>
-<message><source>±{half} µm depth of focus</source><translation>±{half} µm Schärfentiefe</translation></message>
+<message><source>±{half} µm depth of focus</source><translation>±{half} µm Fokustiefe</translation></message>
 <message><source>η, towards the field</source><translation>η, zum Feld hin</translation></message>
 <message><source>λ</source><translation>λ</translation></message>
 <message><source>ξ, pupil radii</source><translation>ξ, Pupillenradien</translation></message>

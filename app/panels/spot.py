@@ -97,5 +97,5 @@ def figures(spot, kept: np.ndarray, traced: int, airy_um: float) -> tuple[tuple[
         ("Farthest ray", f"{farthest} µm", "Largest distance of a ray from the centroid."),
         ("Centroid y", f"{signed(float(spot.centroid_y_um), 2)} µm", "Of the centroid, from the chief ray."),
         ("Airy radius, the circle", f"{significant(airy_um, 3)} µm", "First dark ring of a perfect lens, 0.61 λ/NA."),
-        ("Rays", f"{len(kept)} of {traced}", "That arrive, of those traced."),
+        ("Rays", f"{len(kept)} / {traced}", "That arrive, of those traced."),
     )

@@ -205,7 +205,8 @@ def _focused(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
 
 
 def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
-    aperture = f"{lens.aperture.kind.replace('_', ' ')} {lens.aperture.value:.6g}"
+    unit = "" if lens.aperture.kind == "f_number" else " mm"
+    aperture = f"{lens.aperture.kind.replace('_', ' ')} {lens.aperture.value:.6g}{unit}"
     stop = f"stop on surface {lens.stop_surface}" if lens.stop_surface else "no stop named"
     waves = ", ".join(f"{w:g}" for w in lens.wavelengths_nm)
     angles = ", ".join(f"{f:.4g}" for f in lens.fields_deg)
