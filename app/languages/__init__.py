@@ -22,7 +22,7 @@ WITHIN = r"((?:(?! · |\n|; ).)+?)"  # for one in a clause,
 FIGURE = r"([-−+]?[\d.∞][^\s;]*)"  # for {number} and {count}, and for {path}
 PATH = r"([^;\n]*?[./\\][^;\n]*?)"
 PLACE = re.compile(r"\{(\d+)\}")
-STANDS = {"{number}": FIGURE, "{count}": FIGURE, "{path}": PATH}
+STANDS = {"{number}": FIGURE, "{count}": FIGURE, "{path}": PATH, "{why}": ANYTHING}  # a reason has clauses of its own
 NAMES = {ENGLISH: "English"}  # Qt would say of which country
 
 

@@ -227,7 +227,7 @@ def _pupils(study: Study, budget: float, asked):
         why = "fewer of the dearest rung with the others in between would cost no less"
         return None, alone, Decision("pupils", f"{every} fits", why, 0.0)
     nodes = tuple(few_nodes(heights, high).tolist()), tuple(few_nodes(vergences, deep).tolist())
-    why = f"{high} heights × {deep} depths in each wavelength; the others of {every} lie on polynomials through them"
+    why = f"heights × depths in each wavelength: {high} × {deep}; the others of {every} lie on polynomials through them"
     return nodes, seconds, Decision("pupils", f"{shared} fits", why, SAFETY * (across + along))
 
 

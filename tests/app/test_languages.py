@@ -214,6 +214,11 @@ def test_every_sentence_about_opengl_is_in_german():
     assert probe.sentence(probe.WORKS) == ""
 
 
+def test_a_reason_of_two_clauses_is_said_in_german_within_its_row():
+    row = "26 numbers: 26 fitted numbers are the fewest that keep it; the next cheaper rung does not (error 0.004)"
+    assert "angepasste Zahlen" in Spoken("de").said(row) and "(Fehler 0.004)" in Spoken("de").said(row)
+
+
 def test_oddities_of_a_lens_are_said_in_german(only_window):
     stop = "The stop on surface 3 has a semi-diameter of 9 mm, but a radius of 8 mm ends that surface at 8 mm; "
     nothing = "Every medium of this lens has the index 1, so no surface bends light; name its glasses."
