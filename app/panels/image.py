@@ -142,7 +142,7 @@ class ImagePanel:
         self._show_readout()
 
     def _on_failure(self, key: Question, sentence: str) -> None:
-        if key == self._asked and "cancelled" not in sentence:
+        if key == self._asked:
             self._say(sentence[0].upper() + sentence[1:])
             if self._stale():
                 self.widget.set_readout("no picture")
