@@ -1,4 +1,4 @@
-"""Photos dropped on a panel: those it reads are handed on, other pictures refused, all else let through."""
+"""What is dropped: links and files on the window, and photos on a panel, which takes those it reads."""
 
 from pathlib import Path
 
@@ -6,6 +6,8 @@ from PySide6.QtCore import QEvent, QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from app.embedded import text_inside
+from app.link import is_link
+from app.opening import is_file
 from p2sf.photos import READABLE
 
 OTHER_PICTURES = (".jpg", ".jpeg", ".gif", ".bmp", ".webp", ".heic", ".avif", ".raw", ".dng", ".cr2", ".nef", ".arw")
@@ -55,3 +57,10 @@ def dropped_picture(data) -> str | None:
     """Return the path of the first dropped file, should its name end as a picture's does; None for anything else."""
     paths = (url.toLocalFile() for url in data.urls())
     return next((path for path in paths if Path(path).suffix.lower() in (*READABLE, *OTHER_PICTURES)), None)
+
+
+def dropped(data) -> str | None:
+    """Return a dropped link, or the path of a file, told by its content when opened; None for anything else."""
+    if is_link(data.text()):
+        return data.text()
+    return next((path for path in (url.toLocalFile() for url in data.urls()) if is_file(path)), None)

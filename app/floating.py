@@ -3,6 +3,7 @@
 from PySide6.QtCore import QByteArray, QObject
 from PySide6.QtWidgets import QLabel, QWidget
 
+from app.panels import Entry
 from app.store import Store
 from app.tabs import OwnWindow
 
@@ -10,15 +11,20 @@ from app.tabs import OwnWindow
 class Floating(QObject):
     """Moves panels between their page, at ``homes`` by their key, and a window of their own.
 
-    ``places``: where each own window stood last, as Qt keeps it.
+    ``places``: where each own window stood last, as Qt keeps it. A panel whose tab is not in front waits outside the
+    window: a new style is worked out for every widget within, on show or not, and most are not.
     """
 
-    def __init__(self, window: QWidget, store: Store, homes: dict[str, QWidget], titles: dict[str, str]):
+    def __init__(self, window: QWidget, store: Store, homes: dict[str, QWidget], entries: tuple[Entry, ...]):
         super().__init__(window)
-        self._window, self._store, self._homes, self._titles = window, store, homes, titles
+        self._window, self._store, self._homes = window, store, homes
+        self._titles = {entry.key: entry.title for entry in entries}
+        self._tabbed = {entry.key for entry in entries if entry.place != "main"}
         self.open: dict[str, OwnWindow] = {}
         self.places: dict[str, QByteArray] = {}
         self._closing = False
+        self._front = ""
+        self._attic = QWidget()
 
     def toggle(self, key: str) -> None:
         """Put a panel into a window of its own, or back."""
@@ -26,11 +32,26 @@ class Floating(QObject):
         self._store.update(windows=tuple(k for k in now if k != key) if key in now else (*now, key))
 
     def place(self, key: str, widget: QWidget) -> None:
-        """Put a panel where it belongs: into its window if it has one, else onto its page."""
-        home = self.open.get(key) or self._homes[key]
-        home.layout().addWidget(widget)
-        widget.show()
+        """Put a panel where it belongs: into its window if it has one, else onto its page, or away behind its tab."""
+        if self._is_behind(key):
+            widget.setParent(self._attic)
+        else:
+            home = self.open.get(key) or self._homes[key]
+            home.layout().addWidget(widget)
+            widget.show()
         self._homes[key].findChild(QLabel, "muted").setVisible(key in self.open)
+
+    def _is_behind(self, key: str) -> bool:
+        return key in self._tabbed and key != self._front and key not in self.open
+
+    def bring_up(self, key: str, panels: dict) -> None:
+        """Put the panel of a tab onto its page, and the one that was there away."""
+        if key == self._front:
+            return
+        before, self._front = self._front, key
+        for name in (before, key):
+            if name in panels:
+                self.place(name, panels[name].widget)
 
     def follow(self, wanted: tuple[str, ...], panels: dict) -> None:
         """Open and close windows until they are those wanted."""

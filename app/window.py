@@ -5,7 +5,7 @@ from time import perf_counter
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QVBoxLayout, QWidget
 
 from app import compute
 from app.actions import Actions
@@ -15,21 +15,22 @@ from app.comparebar import CompareBar
 from app.comparing import Answers, answers
 from app.compute import Live
 from app.controls import Controls
-from app.dropping import is_photo
+from app.dropping import dropped, is_photo
 from app.floating import Floating
 from app.limits import ADDED
 from app.link import is_link
 from app.measuring import Measuring
-from app.opening import is_file
 from app.panels import REGISTRY, Panel, build, view_of
 from app.playbar import PlayBar
 from app.settling import Settling
 from app.sharing import Sharing
+from app.splitting import splitter
 from app.state import State
 from app.store import Store
 from app.tabs import Tabs, page
 from app.teaching import Teaching
 from app.theme import SPACE, palette, stylesheet, tokens
+from app.thrift import Thrift
 from p2sf.errors import P2SFError
 
 ENTRIES = {entry.key: entry for entry in REGISTRY}
@@ -52,7 +53,7 @@ class Window(QMainWindow):
         self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(TABS, self)
         self.compare, self.play = CompareBar(self, self.store), PlayBar(self)
         self.homes = {key: page(key) for key in MAIN} | self.tabs.pages()
-        self.floating = Floating(self, self.store, self.homes, {entry.key: entry.title for entry in REGISTRY})
+        self.floating = Floating(self, self.store, self.homes, REGISTRY)
         self.tabs.detach_asked.connect(self.floating.toggle)
         self.panels: dict[str, Panel] = {}
         for key in MAIN:
@@ -60,10 +61,10 @@ class Window(QMainWindow):
         self.live: Live | None = None
         self._answers: Answers | None = None
         self.frame_ms: float | None = None
-        self._theme = None
+        self._theme, self._styled = None, {}
         self._lay_out()
         self.actions, self.measuring = Actions(self), Measuring(self, measured)
-        self.sharing, self.settling = Sharing(self), Settling(self)
+        self.sharing, self.settling, self.thrift = Sharing(self), Settling(self), Thrift(self)
         self.teaching = Teaching(self)
         for command in (*self.compare.commands(), *self.play.commands(), *self.teaching.commands()):
             self.actions.add(command)
@@ -106,6 +107,7 @@ class Window(QMainWindow):
     def refresh(self, state: State) -> None:
         """Compute an answer and paint it; where there is none, say so over what is of another set-up."""
         begun = perf_counter()
+        self.thrift.touch()
         self._restyle(state)
         self._bring_up(state)
         try:
@@ -178,9 +180,11 @@ class Window(QMainWindow):
         apart = tuple(name for name in state.windows if name in self.homes)
         for name in {key, *apart} - set(self.panels):
             self._build(name)
-            self.panels[name].restyle(self._theme)
         self.floating.follow(apart, self.panels)
+        self.floating.bring_up(key, self.panels)
         self.tabs.bring_up(key)
+        for name in self._visible():
+            self._style(name)
 
     def _build(self, key: str) -> None:
         self.panels[key] = made = build(ENTRIES[key], self.store)
@@ -201,14 +205,21 @@ class Window(QMainWindow):
         self._theme = theme
         QApplication.instance().setPalette(palette(theme))
         self.setStyleSheet(stylesheet(theme))
-        for part in (self.controls, self.status, *self.panels.values()):
+        for part in (self.controls, self.status):
             part.restyle(theme)
+
+    def _style(self, key: str) -> None:
+        """Paint a panel in the present theme, the first time it is on show since that changed."""
+        if self._styled.get(key) != self._theme:
+            self._styled[key] = self._theme
+            self.panels[key].restyle(self._theme)
 
     def closeEvent(self, event) -> None:
         """End the background work with the window."""
         self.play.stop()
         self.measuring.stop()
         self.settling.stop()
+        self.thrift.stop()
         self.floating.stop()
         for panel in self.panels.values():
             getattr(panel, "stop", lambda: None)()
@@ -216,34 +227,14 @@ class Window(QMainWindow):
 
     def dragEnterEvent(self, event) -> None:
         """Welcome a lens file, a saved state, a snapshot, or a link."""
-        if dropped(event):
+        if dropped(event.mimeData()):
             event.acceptProposedAction()
 
     def dropEvent(self, event) -> None:
         """Open what was dropped."""
         event.acceptProposedAction()
-        found = dropped(event)
+        found = dropped(event.mimeData())
         if found and "image" in self._visible() and is_photo(found):
             self.panels["image"].drop.take(Path(found))
             return
         (self.sharing.open if is_link(found) else self.actions.open_path)(found)
-
-
-def dropped(event) -> str | None:
-    """Return a dropped link, or the path of a file, told by its content when opened; None for anything else."""
-    data = event.mimeData()
-    if is_link(data.text()):
-        return data.text()
-    return next((path for path in (url.toLocalFile() for url in data.urls()) if is_file(path)), None)
-
-
-def splitter(orientation: Qt.Orientation, widgets: list[QWidget], shares: tuple[int, ...]) -> QSplitter:
-    """Return a splitter whose parts keep these shares of the room."""
-    made = QSplitter(orientation)
-    made.setHandleWidth(SPACE)
-    made.setChildrenCollapsible(False)
-    for k, (widget, share) in enumerate(zip(widgets, shares, strict=True)):
-        made.addWidget(widget)
-        made.setStretchFactor(k, share)
-    made.setSizes([100 * share for share in shares])
-    return made

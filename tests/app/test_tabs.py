@@ -72,9 +72,32 @@ def test_a_double_click_gives_a_tab_its_own_window_and_closing_gives_it_back(win
     assert own.isVisible() and window.panels["mtf"].widget.window() is own
     assert (window.panels["mtf"].curves["tangential"].data()[1] != before).any(), "it goes on following the sliders"
     own.close()
-    assert window.store.state.windows == () and window.panels["mtf"].widget.window() is window
+    assert window.store.state.windows == () and not window.panels["mtf"].widget.isVisible(), "behind its tab"
+    window.open_panel("mtf")
+    assert window.panels["mtf"].widget.isVisible() and window.panels["mtf"].widget.window() is window
+    window.store.undo()
     window.store.undo()
     assert "mtf" in window.floating.open, "an undone close opens it again"
+
+
+def test_only_what_is_on_show_is_styled_and_the_rest_when_it_comes_up(window):
+    """A switch of the theme works out every widget within the window: the panels behind their tabs wait outside."""
+    window.open_panel("mtf")
+    window.open_panel("profiles")
+    styled = []
+    for key in ("mtf", "profiles"):
+        window.panels[key].restyle = lambda theme, key=key, own=window.panels[key].restyle: (
+            styled.append(key),
+            own(theme),
+        )
+    window.store.update(theme="dark")
+    assert styled == ["profiles"] and not window.isAncestorOf(window.panels["mtf"].widget)
+    window.open_panel("mtf")
+    assert styled == ["profiles", "mtf"] and not window.isAncestorOf(window.panels["profiles"].widget)
+    colours = {key: window.panels[key].widget.palette().windowText().color().name() for key in ("mtf", "psf")}
+    assert len(set(colours.values())) == 1, "as the panel that was always there"
+    for key in ("mtf", "profiles"):
+        del window.panels[key].restyle
 
 
 def test_a_key_puts_the_panel_into_its_own_window_and_back(window, qtbot):
