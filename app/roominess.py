@@ -8,6 +8,7 @@ GAP = 8.0
 LOUPE_SHARE, LOUPE_MOST = 0.42, 150.0  # of the picture's height, and pixels at most, where the PSF lies on it
 PAD = 6.0
 CLOSE_ROWS = 64  # of the picture in an enlarged detail
+SLIMMEST = 0.7  # of its height: what an enlarged detail is wide at least
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ def rooms(width: float, height: float, rows: int, columns: int) -> Rooms:
     left = width - picture.width() - side - GAP
     if left < 0:
         return Rooms(picture, overlaid(picture), ())
-    count = min(2, int(left // (side + GAP)))
+    count = min(2, int(left // (SLIMMEST * side + GAP)))
     wide = min(left / max(count, 1) - GAP, side * columns / CLOSE_ROWS)
     places = (picture.right() + GAP + k * (wide + GAP) for k in range(count))
     details = tuple(QRectF(place, picture.top(), wide, side) for place in places)

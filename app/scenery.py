@@ -24,10 +24,22 @@ CHART_WORDS = {
 
 def scene_values(photo: str, shape: tuple[int, int]) -> np.ndarray:
     """Return a chart by name or a photo by path in linear light, (rows, columns, 3) float32; RequestError."""
+    return _chart(photo, shape) if photo in CHARTS else _photo(photo, changed(photo), shape)[0]
+
+
+def cut_away(photo: str, shape: tuple[int, int]) -> tuple[float, float]:
+    """Return what share of a photo's height and of its width does not fit the frame; RequestError."""
     if photo in CHARTS:
-        return _chart(photo, shape)
+        return 0.0, 0.0
+    rows, columns = _photo(photo, changed(photo), shape)[1]
+    tall, wide = middle(rows, columns, shape)
+    return 1 - tall / rows, 1 - wide / columns
+
+
+def changed(photo: str) -> int:
+    """Return when a photo's file was changed, ns; 0 where there is none."""
     path = Path(photo)
-    return _photo(photo, path.stat().st_mtime_ns if path.is_file() else 0, shape)
+    return path.stat().st_mtime_ns if path.is_file() else 0
 
 
 @lru_cache(maxsize=8)
@@ -36,9 +48,15 @@ def _chart(name: str, shape: tuple[int, int]) -> np.ndarray:
 
 
 @lru_cache(maxsize=4)
-def _photo(path: str, _changed: int, shape: tuple[int, int]) -> np.ndarray:
+def _photo(path: str, _changed: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
     values = read_photo(path).values
-    return fitted(np.repeat(values, 3, axis=-1) if values.shape[-1] == 1 else values, shape)
+    colours = np.repeat(values, 3, axis=-1) if values.shape[-1] == 1 else values
+    return fitted(colours, shape), values.shape[:2]
+
+
+def middle(rows: int, columns: int, shape: tuple[int, int]) -> tuple[float, float]:
+    """Return the height and width of the largest part of a picture that has a frame's proportions."""
+    return min(rows, columns * shape[0] / shape[1]), min(columns, rows * shape[1] / shape[0])
 
 
 def fitted(values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
@@ -46,7 +64,7 @@ def fitted(values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     from PIL import Image
 
     rows, columns = values.shape[:2]
-    tall, wide = min(rows, columns * shape[0] / shape[1]), min(columns, rows * shape[1] / shape[0])
+    tall, wide = middle(rows, columns, shape)
     box = (columns - wide) / 2, (rows - tall) / 2, (columns + wide) / 2, (rows + tall) / 2
     planes = (Image.fromarray(np.ascontiguousarray(plane)) for plane in np.moveaxis(values, -1, 0))
     size, smooth = (shape[1], shape[0]), Image.Resampling.BILINEAR

@@ -244,7 +244,7 @@
 <message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
 <message><source>Picture before and after the lens; arrows move the place looked at, Shift the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile verschieben den betrachteten Ort, mit Umschalt die Teilung</translation></message>
 <message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it.</source><translation>Mit dem Zeiger oder den Pfeiltasten einen Ort betrachten: seine PSF und sein Ausschnitt folgen. Die Teilung ziehen oder mit Umschalt und Pfeil links oder rechts verschieben. Ein PNG oder TIFF fallen lassen, um es zu fotografieren.</translation></message>
-<message><source>Why…</source><translation>Warum…</translation></message>
+<message><source>Why…</source><translation>Warum …</translation></message>
 <message><source>Why the picture is computed in this way: the plan's decisions, each with its error</source><translation>Warum das Bild so berechnet wird: die Entscheidungen des Plans, jede mit ihrem Fehler</translation></message>
 <message><source>{file} is no PNG or TIFF; save the photo as one of these and drop that</source><translation>{file} ist weder PNG noch TIFF; das Foto in einem dieser Formate sichern und dieses fallen lassen</translation></message>
 <message><source>Picture of one panel</source><translation>Bild einer Ansicht</translation></message>
@@ -467,7 +467,7 @@
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
 <message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
-<message><source>When the sliders rest a plan follows, unless pixels hide the PSF.</source><translation>Wenn die Regler ruhen, folgt ein Plan, sofern die Pixel die PSF nicht verbergen.</translation></message>
+<message><source>Unmeasured. When the sliders rest a plan follows, unless pixels hide the PSF.</source><translation>Ungemessen. Wenn die Regler ruhen, folgt ein Plan, sofern die Pixel die PSF nicht verbergen.</translation></message>
 <message><source>{choice}: {why} (error {error})</source><translation>{choice}: {why} (Fehler {error})</translation></message>
 <message><source>{error} relative, keeps {tolerance}; the full grid takes {count} times as long</source><translation>{error} relativ, hält {tolerance} ein; das volle Gitter dauert {count}-mal so lang</translation></message>
 <message><source>{error} relative, does not keep {tolerance}; the full grid takes {count} times as long</source><translation>{error} relativ, hält {tolerance} nicht ein; das volle Gitter dauert {count}-mal so lang</translation></message>
@@ -609,7 +609,7 @@
 <message><source>pictures {wide} µm wide, each over its own peak</source><translation>Bilder {wide} µm breit, jedes über seiner Spitze</translation></message>
 <message><source>place in the entrance pupil, pupil radii</source><translation>Ort in der Eintrittspupille, Pupillenradien</translation></message>
 <message><source>planned</source><translation>geplant</translation></message>
-<message><source>planning</source><translation>plant</translation></message>
+<message><source>planning</source><translation>Plan</translation></message>
 <message><source>present field</source><translation>jetziges Feld</translation></message>
 <message><source>preview {fast} / settled {ms} ms</source><translation>Vorschau {fast} / fertig {ms} ms</translation></message>
 <message><source>preview {ms} ms</source><translation>Vorschau {ms} ms</translation></message>
@@ -702,8 +702,19 @@
 <message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
 <message><source>{columns} × {rows} pixels of {pitch} µm</source><translation>{columns} × {rows} Pixel zu {pitch} µm</translation></message>
-<message><source>{count} PSFs: {rows} × {columns} places × {waves} wavelengths</source><translation>{count} PSFs: {rows} × {columns} Orte × {waves} Wellenlängen</translation></message>
-<message><source>{count} PSFs: {rows} × {columns} places × {waves} wavelengths, at once and unmeasured</source><translation>{count} PSFs: {rows} × {columns} Orte × {waves} Wellenlängen, sofort und ungemessen</translation></message>
+<message><source>no picture</source><translation>kein Bild</translation></message>
+<message><source>PSFs</source><translation>PSFs</translation></message>
+<message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
+<message><source>{rows} × {columns} places × {waves} wavelengths, mirror images for nothing</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
+<message><source>{rows} × {columns} places × {waves} wavelengths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen</translation></message>
+<message><source>Plan it after all</source><translation>Doch noch planen</translation></message>
+<message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
+<message><source>Make the plan that was cancelled, and the picture by it</source><translation>Den abgebrochenen Plan doch machen und das Bild danach</translation></message>
+<message><source>top and bottom of the photo cut off</source><translation>Foto oben und unten abgeschnitten</translation></message>
+<message><source>sides of the photo cut off</source><translation>Foto seitlich abgeschnitten</translation></message>
+<message><source>Frame</source><translation>Ausschnitt</translation></message>
+<message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its sides are cut off, {share} % of its width.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist seitlich abgeschnitten, {share} % seiner Breite.</translation></message>
+<message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its top and bottom are cut off, {share} % of its height.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist oben und unten abgeschnitten, {share} % seiner Höhe.</translation></message>
 <message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
 <message><source>{count} surfaces · edited</source><translation>{count} Flächen · bearbeitet</translation></message>

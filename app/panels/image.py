@@ -1,19 +1,21 @@
 """A photo or chart through the present lens: coarse at once, planned when the sliders rest; why, when asked."""
 
-from html import escape
 from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFileDialog, QLabel, QMenu, QSizePolicy, QToolButton, QWidgetAction
+from PySide6.QtWidgets import QFileDialog, QLabel
 
-from app.card import Card, chooser, select
+from app.card import chooser, select
 from app.compute import Live
 from app.dropping import PhotoDrop
+from app.planning import PlanLine, Why, small_button
 from app.scenery import CHART_WORDS
+from app.sidecard import SideCard
 from app.snapshot import side_car, write_state
 from app.store import Store
 from app.theme import Tokens
+from app.veil import Veil
 from app.views.image import Answer, Question, coarse, fine_enough, local_psf, pixels, planned, save_picture, work
 from app.wipe import Wipe
 from app.words import tr
@@ -31,60 +33,53 @@ SHOWS = {
     "axis": ("by the axis's PSF", ("image", "sharpened wrongly")),
 }
 PHOTOS = "Pictures (*.png *.tif *.tiff)"
-WORDS_PX = 480
-WORKING = "earlier picture, working"
+WORKING, NONE = "earlier picture, working", "no picture"
 
 
 class ImagePanel:
-    """The picture with its split, details and loupe; one line under it, and the plan in words behind "Why…"."""
+    """The picture with its split, details and loupe; controls beside it, and the plan in words behind "Why…"."""
 
     def __init__(self, store: Store):
         self._store = store
-        self.widget = Card("Image", TIP)
+        self.widget = SideCard("Image", TIP)
         self.photo = chooser(tuple(CHART_WORDS.items()), "What stands before the lens", self.widget)
         self.pixel = chooser(tuple(PIXELS.items()), "Pixels at the field point, or the field", self.widget)
         self.show_box = chooser(tuple((k, v[0]) for k, v in SHOWS.items()), "Which picture is made", self.widget)
         self.open = small_button("Photo…", "Choose a PNG or TIFF to photograph", self._ask_photo)
-        self.why = small_button(
-            "Why…", "Why the picture is computed in this way: the plan's decisions, each with its error"
-        )
         self.save = small_button("Save…", "Save the picture as PNG or TIFF, the state beside it", self._ask_save)
-        self.wipe, self.headline, self.words = Wipe(), QLabel(), QLabel()
+        self.wipe, self.headline, self.plan_line, self.words = Wipe(), QLabel(), PlanLine(), Why()
+        self.veil = Veil(self.wipe)
         self._lay_out()
         self._connect()
         self._asked: Question | None = None
         self._answer: Answer | None = None
-        self._unplanned: Question | None = None  # what no plan could be made for, so that none is tried again
+        self._ordered: Question | None = None  # what a plan is being made for,
+        self._stopped: Question | None = None  # what it was cancelled for,
+        self._unplanned: Question | None = None  # and what none could be made for, so that none is tried again
+        self._refusal = ""
         self._settled, self._place = True, (0.5, 0.5)
         self.quick, self.fine = LatestWins(self.widget), LatestWins(self.widget)
         for worker in (self.quick, self.fine):
             worker.finished.connect(self._on_answer)
             worker.failed.connect(self._on_failure)
+        self.fine.progressed.connect(lambda key, share: key == self._ordered and self.plan_line.tell(share))
 
     def _lay_out(self) -> None:
-        for tool in (self.photo, self.open, self.pixel, self.show_box, self.why, self.save):
-            self.widget.add_tool(tool)
+        for line in ((self.photo, self.open), (self.pixel,), (self.show_box,), (self.words.button, self.save)):
+            self.widget.add_line(*line)
         self.headline.setObjectName("muted")
-        self.headline.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.words.setObjectName("fact")
-        self.words.setTextFormat(Qt.TextFormat.RichText)
-        self.words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.words.setWordWrap(True)
-        self.words.setFixedWidth(WORDS_PX)
-        self.words.setMargin(10)
-        fold, shown = QMenu(self.why), QWidgetAction(self.why)
-        shown.setDefaultWidget(self.words)
-        fold.addAction(shown)
-        self.why.setMenu(fold)
-        self.why.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.headline.setWordWrap(True)
+        self.headline.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.widget.add_line(self.plan_line)
+        self.widget.add_rest(self.headline)
         self.widget.set_body(self.wipe)
-        self.widget.add_footer(self.headline)
 
     def _connect(self) -> None:
         store = self._store
         self.photo.activated.connect(lambda: store.update(photo=self.photo.currentData()))
         self.show_box.activated.connect(lambda: store.update(photo_show=self.show_box.currentData()))
         self.pixel.activated.connect(self._choose_pixel)
+        self.plan_line.turned.connect(self._turn)
         self.wipe.taken.connect(store.begin)
         self.wipe.released.connect(store.end)
         self.wipe.moved.connect(lambda part: store.update(photo_split=part))
@@ -101,7 +96,7 @@ class ImagePanel:
         self.wipe.show_split(state.photo_split)
         if asked != self._asked:
             self._asked = asked
-            self.fine.cancel()
+            self._call_off()
             self.quick.submit(asked, work(coarse, asked))
         elif self._settled:
             self._refine()
@@ -121,19 +116,42 @@ class ImagePanel:
 
     def _refine(self) -> None:
         """Have the planned picture made, once, where the coarse one is there and a plan is affordable."""
-        if self._stale() or self._asked == self._unplanned or self.fine.busy:
+        if self._stale() or self._asked in (self._ordered, self._stopped, self._unplanned):
             return
         if self._answer.quality == "coarse" and fine_enough(self._answer):
+            self._ordered = self._asked
+            self.plan_line.begin()
             self.fine.submit(self._asked, work(planned, self._asked))
 
+    def _turn(self) -> None:
+        """Stop the plan on its way; where one was stopped, have it made after all."""
+        if self._ordered:
+            self._stopped = self._asked
+            self._call_off()
+        else:
+            self._stopped = None
+            self._refine()
+        self._show_readout()
+
+    def _call_off(self) -> None:
+        self._ordered = None
+        self.fine.cancel()
+
     def _show_readout(self) -> None:
-        if self._answer is None:
-            self.widget.set_readout("working")
-            return
-        doing = " · planning" if self.fine.busy else ""
-        self.widget.set_readout(WORKING if self._stale() else f"{self._answer.quality}{doing}")
+        doing, stopped = self._ordered is not None, self._stopped == self._asked
+        self.widget.set_readout(self._quality())
+        self.veil.say(self._refusal if self._stale() and self._unplanned == self._asked else "", 0)
+        self.plan_line.show_stage(doing, stopped)
+        self.headline.setHidden(doing or stopped)
+
+    def _quality(self) -> str:
+        if not self._stale():
+            return self._answer.quality
+        return NONE if self._unplanned == self._asked else WORKING if self._answer else "working"
 
     def _on_answer(self, key: Question, found: Answer) -> None:
+        if found.quality == "planned" and key == self._ordered:
+            self._ordered = None
         if key == self._asked or self._stale():  # a plan of before, late to stop, must not cover the present picture
             self._answer = found
             self._paint()
@@ -142,16 +160,16 @@ class ImagePanel:
         self._show_readout()
 
     def _on_failure(self, key: Question, sentence: str) -> None:
-        if key == self._asked:
-            self._say(sentence[0].upper() + sentence[1:])
-            if self._stale():
-                self.widget.set_readout("no picture")
-            else:  # the coarse picture is there, and stays
-                self._unplanned = key
-                self._show_readout()
+        if key != self._asked:
+            return
+        self._ordered, self._unplanned, sentence = None, key, sentence[0].upper() + sentence[1:]
+        self._refusal = sentence
+        if not self._stale():  # the coarse picture is there, and stays
+            self._say(sentence)
+        self._show_readout()
 
     def _say(self, words: str) -> None:
-        """Show one line under the picture; the whole of it as a tooltip, should it not fit."""
+        """Show a few words under the controls; the whole of them as a tooltip, should they not fit."""
         self.headline.setText(tr(words))
         self.headline.setToolTip(tr(words))
 
@@ -160,13 +178,8 @@ class ImagePanel:
         self.wipe.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
         sensor = found.plan.scene.sensor
         wide = f"{sensor.columns} × {sensor.rows} pixels of {sensor.pixel_um:.3g} µm"
-        self._say(f"{found.headline} · {found.seconds:.2g} s · {wide}")
-        lines = (
-            f"<p><b>{escape(what, quote=False)}</b> {escape(sentence, quote=False)}</p>"
-            for what, sentence in found.words
-        )
-        self.words.setText(tr("".join(lines)))
-        self.words.adjustSize()
+        self._say("\n".join(filter(None, (found.cut, f"{found.headline} · {found.seconds:.2g} s", wide))))
+        self.words.tell(found.words)
         rows, columns = found.after.shape[:2]
         self._look(self._place[0] * (rows - 1), self._place[1] * (columns - 1))
 
@@ -212,15 +225,3 @@ class ImagePanel:
         """End the workers' threads."""
         for worker in (self.quick, self.fine):
             worker.stop()
-
-
-def small_button(text: str, tip: str, action=None) -> QToolButton:
-    """Return a small button; without an action it opens a menu."""
-    made = QToolButton()
-    made.setObjectName("small")
-    made.setText(tr(text))
-    made.setToolTip(tr(tip))
-    made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-    if action:
-        made.clicked.connect(action)
-    return made

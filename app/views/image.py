@@ -5,12 +5,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import hypot
+from math import exp, hypot
 from time import perf_counter
 
 import numpy as np
 
 from app.scenery import NOISE, channels_of, scene_values
+from app.views.imagewords import count_words, frame_words, plan_words
 from p2sf.conventions import UM_PER_MM, slope_from_degrees
 from p2sf.deblur import psnr, wiener, with_one_kernel
 from p2sf.errors import GeometryError, SamplingError
@@ -31,6 +32,8 @@ COUNTS = ((800, (3, 3)), (1200, (2, 2)), (2000, (1, 1)))  # samples along a PSF'
 WIDEST = COUNTS[-1][0]
 CORNER = 0.97  # of the way to the outermost chief ray
 TOLERANCE = 0.1  # relative error of a pixel's kernel: less than that no eye sees
+PLANNING = 0.9  # of the time of a planned picture; the rest are its kernels and the blur
+USUAL_STEPS = 150  # of a plan's measurements, whose number nobody knows before the last
 TO_THE_RIM = (1.0, 0.95, 0.9, 0.8, 0.7, 0.5)  # of the lens's widest field, where the outermost chief ray is lost
 
 Result = tuple[np.ndarray, np.ndarray]
@@ -52,7 +55,8 @@ class Question:
 class Answer:
     """Pictures in linear light (rows, columns, 3), ``before`` and ``after`` the lens (or the sharpening).
 
-    ``quality`` is "coarse" or "planned"; ``headline`` and ``words``, (what, sentence), say what was computed and why.
+    ``quality`` is "coarse" or "planned"; ``headline`` and ``words``, (what, sentence), say what was computed and why,
+    ``cut`` what of the photo is not taken.
     """
 
     question: Question
@@ -64,6 +68,7 @@ class Answer:
     seconds: float
     headline: str
     words: tuple[tuple[str, str], ...]
+    cut: str = ""
 
 
 def question(live) -> Question:
@@ -78,21 +83,28 @@ def coarse(asked: Question, watch: Watch | None = None) -> Answer:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
     begun, scene = perf_counter(), scene_of(asked)
     made = affordable(quick_plan(scene.camera(asked.lens), scene))
-    headline = f"{count_words(made)}, at once and unmeasured"
-    words = (
-        (
-            "Coarse",
-            "When the sliders rest a plan follows, unless pixels hide the PSF.",
-        ),
-    )
-    return _answer(asked, made, watch or Watch(), begun, (headline, words))
+    words = ("Coarse", "Unmeasured. When the sliders rest a plan follows, unless pixels hide the PSF.")
+    return _answer(asked, made, watch or Watch(), begun, (words,))
 
 
 def planned(asked: Question, watch: Watch | None = None) -> Answer:
     """Return the picture by a plan that keeps TOLERANCE; raises P2SFError, Cancelled among them."""
     begun, scene, watch = perf_counter(), scene_of(asked), watch or Watch()
-    made = plan(asked.lens, scene, lambda: watch.advance(0))
-    return _answer(asked, made, watch, begun, (count_words(made), plan_words(made)))
+    made = plan(asked.lens, scene, planning(watch))
+    return _answer(asked, made, forming(watch), begun, plan_words(made))
+
+
+def planning(watch: Watch) -> Callable[[], None]:
+    """Return what a plan calls before each measurement; its share nears PLANNING ever slower, since no end is known."""
+    tell = watch.progress
+    steps = Watch(tell and (lambda _: tell(PLANNING * (1 - exp(-steps.done / USUAL_STEPS)))), watch.cancelled)
+    return steps.advance
+
+
+def forming(watch: Watch) -> Watch:
+    """Return what watches the picture being formed by a plan that is made."""
+    tell = watch.progress
+    return Watch(tell and (lambda part: tell(PLANNING + (1 - PLANNING) * part)), watch.cancelled)
 
 
 def _answer(asked: Question, made: Plan, watch: Watch, begun: float, said) -> Answer:
@@ -100,8 +112,10 @@ def _answer(asked: Question, made: Plan, watch: Watch, begun: float, said) -> An
     lattice = plan_lattice(made, made.vergences[0], watch)
     before, after, more = shown(asked.show, made, values, lattice, watch)
     quality = "planned" if made.decisions else "coarse"
-    headline, words = said
-    return Answer(asked, before, after, quality, made, lattice, perf_counter() - begun, headline, (*more, *words))
+    many, product = count_words(made)
+    short, cut = frame_words(asked.photo, (ROWS, COLUMNS))
+    words = (*more, *((("Frame", cut),) if cut else ()), ("PSFs", product), *said)
+    return Answer(asked, before, after, quality, made, lattice, perf_counter() - begun, many, words, short)
 
 
 def shown(show: str, made: Plan, values, lattice: Lattice, watch: Watch):
@@ -174,45 +188,6 @@ def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:
         except GeometryError:
             continue
     raise GeometryError("no chief ray of this lens's field reaches the sensor; choose a part of the field instead")
-
-
-def count_words(made: Plan) -> str:
-    """Return how many PSFs make the picture, as a product that a person can check."""
-    rows, columns = made.counts
-    waves = sum(len(colour.wavelengths_um) for colour in made.colours)
-    twins = made.scene.sensor.centred and rows * columns > 1
-    once = (-(-rows // 2)) * (-(-columns // 2)) if twins else rows * columns
-    text = f"{once * waves} PSFs: {rows} × {columns} places × {waves} wavelengths"
-    return f"{text}, mirror images for nothing" if twins and once < rows * columns else text
-
-
-PLAIN = {  # in the order they are told
-    "field": "Places",
-    "colour": "Colour",
-    "rung": "Method",
-    "terms": "Phase",
-    "sampling": "Sampling",
-    "depth": "Depths",
-    "pupils": "Pupils",
-}
-
-
-def plan_words(made: Plan) -> tuple[tuple[str, str], ...]:
-    """Return every decision of a plan as (what, sentence); rings of the field that agree are told once."""
-    found: dict[tuple[str, str, str], list[float]] = {}
-    for decision in made.decisions:
-        kind, _, which = decision.what.partition(" ")
-        name = f"{PLAIN[kind]} {which}" if kind == "colour" else PLAIN[kind]
-        found.setdefault((name, decision.choice, decision.why), []).append(decision.error)
-    rows = [(name, f"{choice}: {why} (error {max(errors):.1g})") for (name, choice, why), errors in found.items()]
-    order = list(PLAIN.values())
-    rows.sort(key=lambda row: order.index(row[0].split(" ")[0]))
-    verdict = "keeps" if made.meets else "does not keep"
-    saved = made.naive.kernel_seconds / made.cost.kernel_seconds
-    promise = (
-        f"{made.predicted_error:.2g} relative, {verdict} {TOLERANCE:g}; the full grid takes {saved:.0f} times as long"
-    )
-    return (("Error", promise), *rows)
 
 
 def local_psf(answer: Answer, row: float, column: float) -> np.ndarray:

@@ -47,6 +47,16 @@ def window(only_window, qtbot):
 
 
 @pytest.fixture
+def image_panel(window, qtbot):
+    """Return the image panel of the window, photographing print; afterwards another tab is in front again."""
+    window.store.update(tab="image", photo_pixel_um=16.0, photo="text")
+    made = window.panels["image"]
+    qtbot.waitUntil(lambda: not made._stale(), timeout=30000)
+    yield made
+    window.store.update(tab="profiles")
+
+
+@pytest.fixture
 def drag(qtbot):
     """Return a function that drags a slider's handle to a travel with the mouse; ``release=False`` holds it there."""
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from threading import Event
 
 import numpy as np
 import pytest
@@ -11,30 +12,25 @@ from PySide6.QtWidgets import QApplication
 
 from app.copying import png_of
 from app.roominess import close_up, rooms
+from app.scenery import cut_away
 from app.snapshot import write_picture
-from app.views.image import COLUMNS, ROWS, local_psf, pixels
+from app.views.image import COLUMNS, PLANNING, ROWS, forming, local_psf, pixels, planning
+from app.views.imagewords import frame_words
+from p2sf.errors import Cancelled
+from p2sf.image import Watch
 from p2sf.photos import write_photo
 
 
-@pytest.fixture
-def panel(window, qtbot):
-    window.store.update(tab="image", photo_pixel_um=16.0, photo="text")
-    made = window.panels["image"]
-    qtbot.waitUntil(lambda: not made._stale(), timeout=30000)
-    yield made
-    window.store.update(tab="profiles")
-
-
-def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, panel, qtbot):
-    wipe, split = panel.wipe, window.store.state.photo_split
-    panel._look(100.0, 150.0)
+def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):
+    wipe, split = image_panel.wipe, window.store.state.photo_split
+    image_panel._look(100.0, 150.0)
     for key, place in (("Down", (108.0, 150.0)), ("Right", (108.0, 158.0)), ("Up", (100.0, 158.0))):
         qtbot.keyClick(wipe, getattr(Qt.Key, f"Key_{key}"))
         assert wipe.place == pytest.approx(place)
-    panel._look(0.0, COLUMNS - 1.0)
+    image_panel._look(0.0, COLUMNS - 1.0)
     qtbot.keyClick(wipe, Qt.Key.Key_Right)
     assert wipe.place == pytest.approx((0.0, COLUMNS - 1.0)) and window.store.state.photo_split == split
-    wanted = local_psf(panel._answer, 0.0, COLUMNS - 1.0)
+    wanted = local_psf(image_panel._answer, 0.0, COLUMNS - 1.0)
     assert np.array_equal(wipe.loupe, pixels(np.sqrt(wanted)))
 
 
@@ -50,15 +46,15 @@ def test_a_low_panel_has_details_and_the_psf_beside_the_picture_and_a_narrow_one
     assert part.width() / part.height() == pytest.approx(low.details[0].width() / low.details[0].height())
 
 
-def test_the_details_are_the_two_pictures_at_the_place_looked_at(window, panel):
-    wipe = panel.wipe
+def test_the_details_are_the_two_pictures_at_the_place_looked_at(window, image_panel):
+    wipe = image_panel.wipe
     wipe.resize(900, 160)
     before, after = np.full((ROWS, COLUMNS), 0xFF204060, np.uint32), np.full((ROWS, COLUMNS), 0xFFA08060, np.uint32)
     wipe.show_pictures(before, after, ("", ""))
     painted = wipe.grab().toImage()
     for room, colour in zip(wipe.rooms().details, (0xFF204060, 0xFFA08060), strict=True):
         assert painted.pixel(room.center().toPoint()) == colour
-    panel._paint()
+    image_panel._paint()
 
 
 def drop(widget, path) -> QDropEvent:
@@ -73,22 +69,24 @@ def drop(widget, path) -> QDropEvent:
 
 
 def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_the_window(
-    window, panel, qtbot, tmp_path
+    window, image_panel, qtbot, tmp_path
 ):
     write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
-    assert drop(panel.widget, tmp_path / "grey.png").isAccepted()
+    assert drop(image_panel.widget, tmp_path / "grey.png").isAccepted()
     assert window.store.state.photo == str(tmp_path / "grey.png")
-    qtbot.waitUntil(lambda: not panel._stale(), timeout=30000)
-    assert panel.wipe.before[5, 5] & 0xFF == pytest.approx(188, abs=1)  # sRGB of half the light
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert image_panel.wipe.before[5, 5] & 0xFF == pytest.approx(188, abs=1)  # sRGB of half the light
     said = []
     window.store.refused.connect(said.append)
-    drop(panel.widget, tmp_path / "holiday.jpg")
+    drop(image_panel.widget, tmp_path / "holiday.jpg")
     assert said == ["holiday.jpg is no PNG or TIFF; save the photo as one of these and drop that"]
-    assert not drop(panel.widget, tmp_path / "lens.zmx").isAccepted()
+    assert not drop(image_panel.widget, tmp_path / "lens.zmx").isAccepted()
     window.store.update(photo="text")
 
 
-def test_a_photo_dropped_beside_the_open_panel_is_photographed_and_a_snapshot_still_opens(window, panel, tmp_path):
+def test_a_photo_dropped_beside_the_open_panel_is_photographed_and_a_snapshot_still_opens(
+    window, image_panel, tmp_path
+):
     before = window.store.state
     write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
     assert drop(window, tmp_path / "grey.png").isAccepted()
@@ -100,22 +98,88 @@ def test_a_photo_dropped_beside_the_open_panel_is_photographed_and_a_snapshot_st
     assert window.store.state.field_deg == 7.0 and window.store.state.photo == "text"
 
 
-def test_the_plan_is_told_behind_a_button_and_one_line_stands_under_the_picture(window, panel):
-    assert panel.why.menu() is not None and not panel.words.isVisible()
-    panel.why.menu().popup(panel.why.mapToGlobal(panel.why.rect().bottomLeft()))
-    assert panel.words.isVisible() and len(panel.words.text()) > 40
-    panel.why.menu().close()
-    assert "PSFs" in panel.headline.text() and panel.headline.toolTip() == panel.headline.text()
+def test_the_plan_is_told_behind_a_button_and_a_few_words_stand_under_the_controls(window, image_panel):
+    words = image_panel.words
+    assert words.button.menu() is not None and not words.isVisible()
+    words.button.menu().popup(words.button.mapToGlobal(words.button.rect().bottomLeft()))
+    assert words.isVisible() and len(words.text()) > 40
+    words.button.menu().close()
+    assert "PSFs" in image_panel.headline.text() and image_panel.headline.toolTip() == image_panel.headline.text()
 
 
-def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_line_says_why(window, panel, qtbot, monkeypatch):
-    asked = []
-    monkeypatch.setattr(panel.fine, "submit", lambda *job: asked.append(job))
-    panel.fine.cancel()
-    qtbot.waitUntil(lambda: not panel.fine.busy, timeout=30000)
-    panel._answer, asked[:] = replace(panel._answer, quality="coarse"), []
-    panel._on_failure(panel._asked, "points 500 mm away blur over 2.4 mm; stop down")
-    assert panel.headline.text().startswith("Points 500 mm away") and panel.widget.readout.text() == "coarse"
-    panel._refine()
-    assert not asked  # a second try would end the same
-    panel._unplanned = None
+@pytest.fixture
+def orders(window, image_panel, qtbot, monkeypatch):
+    """Return what plans are ordered from now on: none is made, so that a test tells how far one is."""
+    image_panel._call_off()
+    qtbot.waitUntil(lambda: not image_panel.fine.busy, timeout=30000)
+    made = []
+    monkeypatch.setattr(image_panel.fine, "submit", lambda key, job: made.append(key))
+    image_panel._answer = replace(image_panel._answer, quality="coarse")
+    yield made
+    image_panel._ordered = image_panel._stopped = image_panel._unplanned = None
+
+
+def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_words_say_why(window, image_panel, orders):
+    image_panel._on_failure(image_panel._asked, "points 500 mm away blur over 2.4 mm; stop down")
+    assert image_panel.headline.text().startswith("Points 500 mm away")
+    assert image_panel.widget.readout.text() == "coarse" and not image_panel.veil.text
+    image_panel._refine()
+    assert not orders  # a second try would end the same
+
+
+def test_a_plan_says_how_far_it_is_and_is_stopped_and_made_after_all(window, image_panel, orders, qtbot):
+    line, asked = image_panel.plan_line, image_panel._asked
+    window.store.update(psf_scale="log")  # the sliders rest: a plan is ordered
+    image_panel.fine.progressed.emit(asked, 0.63)
+    image_panel.fine.progressed.emit(asked, 0.2)  # of another step; a bar that goes back is none
+    assert orders == [asked] and line.bar.isVisible() and line.bar.text() == "planning 63\u00a0%"
+    qtbot.mouseClick(line.turn, Qt.MouseButton.LeftButton)
+    assert line.turn.text() == "Plan it after all" and not line.bar.isVisible()
+    assert image_panel.widget.readout.text() == "coarse"
+    window.store.update(psf_scale="linear")
+    assert orders == [asked]  # and it stays stopped while the picture is the same
+    qtbot.mouseClick(line.turn, Qt.MouseButton.LeftButton)
+    assert orders == [asked, asked] and line.bar.value() == 0
+    image_panel._on_answer(asked, replace(image_panel._answer, quality="planned"))
+    assert not line.isVisible() and image_panel.headline.isVisible()
+
+
+def test_a_plan_is_ordered_though_the_one_before_has_not_yet_stopped(window, image_panel, orders, qtbot, monkeypatch):
+    monkeypatch.setattr(image_panel.fine, "_cancelled", Event())  # as while a job is running
+    window.store.update(field_deg=3.0)
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert orders == [image_panel._asked]
+
+
+def test_the_share_of_a_plan_grows_to_where_that_of_its_picture_begins():
+    told = []
+    watch = Watch(told.append)
+    step, picture = planning(watch), forming(watch)
+    for _ in range(1000):
+        step()
+    picture.expect(2)
+    picture.advance()
+    picture.advance()
+    assert told == sorted(told) and told[0] < 0.05 and told[999] <= PLANNING and told[-1] == pytest.approx(1.0)
+    with pytest.raises(Cancelled):
+        planning(Watch(told.append, lambda: True))()
+
+
+def test_a_docked_panel_in_a_small_window_gives_the_picture_its_height(window, image_panel):
+    window.resize(1280, 800)
+    QApplication.processEvents()
+    assert image_panel.wipe.area().height() > 0.85 * image_panel.widget.height()
+    assert len(image_panel.wipe.rooms().details) == 2
+    window.resize(1440, 900)
+
+
+def test_a_photo_of_other_proportions_is_cut_and_the_panel_says_where(window, image_panel, qtbot, tmp_path):
+    write_photo(tmp_path / "wide.png", np.full((20, 60, 3), 0.5, np.float32))
+    window.store.update(photo=str(tmp_path / "wide.png"))
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert image_panel._answer.cut == "sides of the photo cut off"
+    assert image_panel.headline.text().startswith(image_panel._answer.cut)
+    assert "50 % of its width" in dict(image_panel._answer.words)["Frame"]  # 60 columns where 20 × 3/2 fit
+    assert cut_away(str(tmp_path / "wide.png"), (80, 60)) == pytest.approx((0.0, 0.75))
+    assert cut_away(str(tmp_path / "wide.png"), (10, 60)) == pytest.approx((0.5, 0.0))
+    assert frame_words("text", (ROWS, COLUMNS)) == ("", "")

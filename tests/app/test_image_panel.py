@@ -50,8 +50,9 @@ def test_the_words_count_the_psfs_and_explain_every_kind_of_decision(found):
     rows, columns = found.plan.counts
     waves = sum(len(colour.wavelengths_um) for colour in found.plan.colours)
     assert found.headline.startswith(f"{rows * columns * waves} PSFs")  # off the axis there are no mirror images
+    assert dict(found.words)["PSFs"] == f"{rows} × {columns} places × {waves} wavelengths"
     names = {what.split(" ")[0] for what, _ in found.words}
-    assert names == {"Error", "Places", "Colour", "Method", "Phase", "Sampling", "Depths", "Pupils"}
+    assert names == {"Error", "PSFs", "Places", "Colour", "Method", "Phase", "Sampling", "Depths", "Pupils"}
     assert "keeps 0.1" in dict(found.words)["Error"]
 
 
@@ -139,38 +140,29 @@ def test_other_lenses_have_a_picture(name):
     assert found.after.shape == (ROWS, COLUMNS, 3) and np.isfinite(found.after).all()
 
 
-@pytest.fixture
-def panel(window, qtbot):
-    window.store.update(tab="image", photo_pixel_um=16.0, photo="text")
-    made = window.panels["image"]
-    qtbot.waitUntil(lambda: not made._stale(), timeout=30000)
-    yield made
-    window.store.update(tab="profiles")
-
-
-def test_the_panel_shows_the_split_picture_and_marks_an_earlier_one(window, panel, qtbot):
-    assert np.array_equal(panel.wipe.before, pixels(scene_values("text", (ROWS, COLUMNS))))
-    assert panel.wipe.names == ("scene", "image")
+def test_the_panel_shows_the_split_picture_and_marks_an_earlier_one(window, image_panel, qtbot):
+    assert np.array_equal(image_panel.wipe.before, pixels(scene_values("text", (ROWS, COLUMNS))))
+    assert image_panel.wipe.names == ("scene", "image")
     window.store.update(field_deg=3.0)
-    assert "earlier picture" in panel.widget.readout.text()
-    qtbot.waitUntil(lambda: not panel._stale(), timeout=30000)
-    assert "earlier" not in panel.widget.readout.text()
+    assert "earlier picture" in image_panel.widget.readout.text()
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert "earlier" not in image_panel.widget.readout.text()
     window.store.update(psf_scale="log")  # nothing the picture depends on
-    assert not panel._stale()
+    assert not image_panel._stale()
 
 
-def test_what_is_painted_is_the_scene_left_of_the_split_and_the_image_right_of_it(window, panel):
-    wipe = panel.wipe
+def test_what_is_painted_is_the_scene_left_of_the_split_and_the_image_right_of_it(window, image_panel):
+    wipe = image_panel.wipe
     before, after = np.full((20, 30), 0xFF204060, np.uint32), np.full((20, 30), 0xFFA08060, np.uint32)
     wipe.show_pictures(before, after, ("", ""))
     painted, area, x = wipe.grab().toImage(), wipe.area(), wipe.split_x()
     y = int(area.bottom()) - 12  # below the loupe
     assert painted.pixel(int(x) - 30, y) == 0xFF204060 and painted.pixel(int(x) + 30, y) == 0xFFA08060
-    panel._paint()
+    image_panel._paint()
 
 
-def test_dragging_the_split_is_one_undo_and_hovering_moves_the_loupe(window, panel, qtbot):
-    wipe, first = panel.wipe, window.store.state
+def test_dragging_the_split_is_one_undo_and_hovering_moves_the_loupe(window, image_panel, qtbot):
+    wipe, first = image_panel.wipe, window.store.state
     area = wipe.area()
     places = [QPointF(area.left() + part * area.width(), area.center().y()).toPoint() for part in (0.5, 0.3, 0.25)]
     qtbot.mousePress(wipe, Qt.MouseButton.LeftButton, pos=places[0])
@@ -180,24 +172,29 @@ def test_dragging_the_split_is_one_undo_and_hovering_moves_the_loupe(window, pan
     assert window.store.state.photo_split == pytest.approx(0.25, abs=1.5 / area.width())
     window.store.undo()
     assert window.store.state == first and wipe.split == first.photo_split
-    panel._look(0.0, 0.0)
+    image_panel._look(0.0, 0.0)
     assert wipe.place == (0.0, 0.0)
     qtbot.keyClick(wipe, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
     assert window.store.state.photo_split == pytest.approx(first.photo_split + 0.05)
 
 
-def test_saving_writes_the_picture_and_the_state(window, panel, tmp_path):
-    panel.save_as(str(tmp_path / "out.png"))
+def test_saving_writes_the_picture_and_the_state(window, image_panel, tmp_path):
+    image_panel.save_as(str(tmp_path / "out.png"))
     written = read_photo(tmp_path / "out.png").values
     assert written.shape == (ROWS, COLUMNS, 3)
-    assert np.abs(written - np.clip(panel._answer.after, 0, 1)).max() < 0.01  # 8 bits of sRGB
+    assert np.abs(written - np.clip(image_panel._answer.after, 0, 1)).max() < 0.01  # 8 bits of sRGB
     assert (tmp_path / "out.json").is_file()
 
 
-def test_a_photo_that_is_gone_is_one_sentence(window, panel, qtbot):
+def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     window.store.update(photo="/nowhere/photo.png")
-    qtbot.waitUntil(lambda: "cannot be read" in panel.headline.text(), timeout=10000)
-    assert panel.widget.readout.text() == "no picture"
+    qtbot.waitUntil(lambda: "cannot be read" in image_panel.veil.text, timeout=10000)
+    assert image_panel.widget.readout.text() == "no picture"
+    window.store.update(psf_scale="log")  # nothing the picture depends on
+    assert image_panel.widget.readout.text() == "no picture"
+    window.store.update(photo="text")
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=10000)
+    assert not image_panel.veil.text
 
 
 def test_shown_pictures_have_the_scene_left_and_the_image_right(found):
@@ -205,13 +202,15 @@ def test_shown_pictures_have_the_scene_left_and_the_image_right(found):
     assert before is found.before and more == () and not np.array_equal(before, after)
 
 
-def test_a_late_answer_to_an_earlier_question_does_not_cover_the_present_picture(window, panel, qtbot):
+def test_a_late_answer_to_an_earlier_question_does_not_cover_the_present_picture(window, image_panel, qtbot):
     """The worker that plans stops when it can, and may still hand over what was asked before."""
-    present, asked_now = panel._answer, panel._asked
+    present, asked_now = image_panel._answer, image_panel._asked
     earlier = replace(present, question=replace(asked_now, centre_mm=asked_now.centre_mm + 1.0), quality="planned")
-    panel.fine.finished.emit(earlier.question, earlier)
-    assert panel._answer is present and "earlier" not in panel.widget.readout.text()
+    image_panel.fine.finished.emit(earlier.question, earlier)
+    assert image_panel._answer is present and "earlier" not in image_panel.widget.readout.text()
     window.store.update(field_deg=2.0)
-    panel.fine.finished.emit(earlier.question, earlier)
-    assert panel._answer is earlier and "earlier" in panel.widget.readout.text(), "better than one older still"
-    qtbot.waitUntil(lambda: panel._answer.question == panel._asked)
+    image_panel.fine.finished.emit(earlier.question, earlier)
+    assert image_panel._answer is earlier and "earlier" in image_panel.widget.readout.text(), (
+        "better than one older still"
+    )
+    qtbot.waitUntil(lambda: image_panel._answer.question == image_panel._asked)
