@@ -71,6 +71,14 @@ def test_zero_field_has_exactly_no_field_aberration():
     assert (c.w31, c.w22, c.w20, c.w11, c.image_height) == (0, 0, 0, 0, 0)
 
 
+def test_heights_in_small_integers_do_not_wrap_around():
+    """300 mm as int16, whose square is 90 000 and whose largest number is 32 767."""
+    lens = prescription_lens("tessar", 587.5618)
+    small, full = (coefficients(lens, 5e3, x, 1, field="height") for x in (np.array([300], np.int16), 300.0))
+    for key in WAVES:
+        assert getattr(small, key) == pytest.approx(getattr(full, key), rel=1e-14), key  # rounding of the order
+
+
 @pytest.mark.parametrize("conic_index", [1.5, 1.8])
 def test_cartesian_oval_images_collimated_light_without_spherical(conic_index):
     """A single surface with K = −(n/n')² focuses collimated light perfectly (Descartes)."""

@@ -4,20 +4,31 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError
-from p2sf.gaussian import ROUNDING, SUSPICIOUS, abcd, cardinal_points, check_depth, magnification, settled_angle
+from p2sf.gaussian import (
+    ROUNDING,
+    SUSPICIOUS,
+    abcd,
+    basis_rays,
+    cardinal_points,
+    check_depth,
+    chief_ray,
+    crossing,
+    magnification,
+    settled_angle,
+)
 from p2sf.glass import TabulatedIndex
 from p2sf.lens import Aperture, Lens, Surface
 
-POWER, GAP = (0.5, -0.25), (3.0, 1e9)  # the gap behind the last surface never counts
-Y, NU = (8.0, 4.0), 2.0  # heights; the angle between the surfaces
-# Σ|power|y² + Σ|gap|nu² = 0.5·64 + 0.25·16 + 3·4, over the last height 4
-BOUND = ROUNDING * (32 + 4 + 12) / 4
+POWER, GAP = (0.5, -0.25, 0.125), (3.0, -2.0, 1e9)  # the gap behind the last surface never counts
+Y, NU = (8.0, 4.0, 2.0), (2.0, 4.0)  # heights; the angles between the surfaces
+# Σ|power|y² + Σ|gap|nu² = 0.5·64 + 0.25·16 + 0.125·4 + 3·4 + 2·16, over the last height 2
+BOUND = ROUNDING * (32 + 4 + 0.5 + 12 + 32) / 2
 
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_an_angle_is_rounding_up_to_its_bound_and_not_beyond(sign):
     def settle(angle):
-        return float(settled_angle(POWER, GAP, np.array(Y), np.array([NU, angle])))
+        return float(settled_angle(POWER, GAP, np.array(Y), np.array([*NU, angle])))
 
     assert settle(sign * BOUND) == 0
     assert settle(sign * BOUND * (1 + 1e-9)) == sign * BOUND * (1 + 1e-9)
@@ -26,19 +37,24 @@ def test_an_angle_is_rounding_up_to_its_bound_and_not_beyond(sign):
 
 def test_a_ray_that_ends_on_the_axis_keeps_its_angle():
     """Its last height is 0, so the bound is infinite; only an angle far below the ray's others is suspicious."""
-    for angle, expected in ((1.0, 1.0), (NU * SUSPICIOUS * 1.01, NU * SUSPICIOUS * 1.01), (NU * SUSPICIOUS, 0.0)):
-        assert settled_angle(POWER, GAP, np.array([8.0, 0.0]), np.array([NU, angle])) == expected
+    least = max(NU) * SUSPICIOUS
+    for angle, expected in ((1.0, 1.0), (least * 1.01, least * 1.01), (least, 0.0)):
+        assert settled_angle(POWER, GAP, np.array([8.0, 4.0, 0.0]), np.array([*NU, angle])) == expected
 
 
 def test_each_of_several_rays_is_judged_by_itself():
-    y = np.array([[8.0, 8.0, 8e6], [4.0, 4.0, 4e6]])
-    nu = np.array([[NU, NU, NU * 1e6], [BOUND / 2, BOUND * 2, BOUND * 9e5]])
-    assert settled_angle(POWER, GAP, y, nu).tolist() == [0.0, BOUND * 2, 0.0]
+    """The fourth ends on the axis, so that only its own angles, not its neighbours' larger ones, say what is small."""
+    size = np.array([1.0, 1.0, 1e6, 1.0])
+    y, nu = np.outer(Y, size), np.outer((*NU, 0.0), size)
+    y[-1, 3], nu[-1] = 0.0, (BOUND / 2, BOUND * 2, BOUND * 9e5, max(NU) * SUSPICIOUS * 2)
+    assert settled_angle(POWER, GAP, y, nu).tolist() == [0.0, BOUND * 2, 0.0, max(NU) * SUSPICIOUS * 2]
 
 
-def dispersive(behind=90.0) -> Lens:
-    glass = TabulatedIndex((0.4, 0.7), (1.6, 1.5))
-    return Lens((Surface(50.0, 4.0, glass), Surface(-50.0, behind)), Aperture("stop_semi_diameter", 5.0), 1)
+GLASS = TabulatedIndex((0.4, 0.7), (1.6, 1.5))
+
+
+def dispersive() -> Lens:
+    return Lens((Surface(50.0, 4.0, GLASS), Surface(-50.0, 90.0)), Aperture("stop_semi_diameter", 5.0), 1)
 
 
 def test_every_first_order_quantity_belongs_to_its_own_wavelength():
@@ -55,13 +71,35 @@ def test_every_first_order_quantity_belongs_to_its_own_wavelength():
 
 
 def test_one_surface_has_its_principal_points_in_its_vertex_at_every_wavelength():
-    lens = Lens((Surface(20.0, 30.0, dispersive().surfaces[0].medium),), Aperture("stop_semi_diameter", 1.0), 1)
+    lens = Lens((Surface(20.0, 30.0, GLASS),), Aperture("stop_semi_diameter", 1.0), 1)
     for wavelength in (0.5, np.array([0.5, 0.6])):
         points = cardinal_points(lens, wavelength)
         for value in (points.front_principal_from_first, points.rear_principal_from_last):
             assert np.shape(value) == np.shape(wavelength) and np.all(value == 0)
         for value in (points.front_nodal_from_first, points.rear_nodal_from_last):
             np.testing.assert_allclose(value, 20.0, rtol=1e-14)  # the centre of curvature
+
+
+@pytest.mark.parametrize("wavelength", [0.5, np.array([0.5, 0.6])])
+def test_a_plane_plate_has_no_cardinal_points_and_says_so_with_plus_infinity(wavelength):
+    """Its A − 1 and D − 1 are 0 as well: 0/0, which is no number and no reason for a warning."""
+    plate = Lens((Surface(thickness=5.0, medium=GLASS), Surface()), Aperture("stop_semi_diameter", 1.0), 1)
+    points = vars(cardinal_points(plate, wavelength))
+    assert np.all(np.isinf(points.pop("effective_focal_length")))  # −1/C, and C may be 0 or −0
+    for name, value in points.items():
+        np.testing.assert_array_equal(value, np.full(np.shape(wavelength), np.inf), name)
+
+
+def test_the_axis_itself_crosses_the_axis_nowhere():
+    assert crossing(1.0, np.array([0.0, 2.0]), np.array([0.0, 0.0])).tolist() == [np.inf, np.inf]
+    assert crossing(1.0, 0.0, np.float64(0.0)) == np.inf
+
+
+def test_the_chief_ray_of_one_wavelength_is_kept_and_that_of_many_is_not():
+    """A slider asks for the one a hundred times a second; tables of the other would fill the memory."""
+    one, many = (basis_rays(dispersive(), x) for x in (0.5, np.array([0.5, 0.6])))
+    assert chief_ray(one, 2)[0] is chief_ray(one, 2)[0] and not chief_ray(one, 2)[0].flags.writeable
+    assert chief_ray(many, 2)[0] is not chief_ray(many, 2)[0]
 
 
 def test_the_first_bad_depth_is_the_one_named():
