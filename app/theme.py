@@ -34,6 +34,7 @@ class Tokens:
     chief: str
     positive: str
     negative: str
+    third: str
     mark: str
     brightness: str = BRIGHTNESS["standard"]
 
@@ -57,6 +58,7 @@ LIGHT = Tokens(
     chief="#d55e00",
     positive="#0072b2",
     negative="#d55e00",
+    third="#009e73",
     mark="#5a6675",
 )
 DARK = Tokens(
@@ -78,6 +80,7 @@ DARK = Tokens(
     chief="#f0883e",
     positive="#56b4e9",
     negative="#f0883e",
+    third="#f0e442",
     mark="#9aa7b6",
 )
 

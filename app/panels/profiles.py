@@ -22,7 +22,7 @@ class ProfilesPanel(CurvesPanel):
     def __init__(self, store: Store):
         super().__init__("PSF profiles", TIP, ("distance from the chief ray, µm", "share of the peak"), LOOKS)
         self.energy = Chart("radius, µm", "energy within")
-        self.perfect, self.within = self.energy.add_curve("muted"), self.energy.add_curve("positive", 2)
+        self.perfect, self.within = self.energy.add_curve("muted"), self.energy.add_curve("third", 2)
         both = QWidget(self.widget)
         row = QHBoxLayout(both)
         row.setContentsMargins(0, 0, 0, 0)

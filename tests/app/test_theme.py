@@ -4,7 +4,7 @@ import numpy as np
 import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QColor, QGuiApplication
 
 from app.limits import CHOICES
 from app.panels import pupil
@@ -47,6 +47,17 @@ def test_values_a_fifth_of_the_scale_apart_differ_to_every_eye(name, vision):
 
 def test_a_map_that_red_green_blind_eyes_cannot_read_would_be_found():
     assert least_difference("CET-R3", BLIND["protan"], False) < ENOUGH
+
+
+@pytest.mark.parametrize("vision", BLIND)
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+def test_the_colours_of_curves_differ_to_every_eye_and_from_the_card(theme, vision):
+    """The energy's is none of those that mean along x and along y beside it."""
+    coded = np.array([QColor(c).getRgbF()[:3] for c in (theme.marginal, theme.chief, theme.third, theme.card)])
+    linear = np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+    seen = lab(linear @ np.asarray(BLIND[vision]).T)
+    apart = np.linalg.norm(seen[:, None] - seen, axis=-1)
+    assert apart[np.triu_indices(4, 1)].min() > ENOUGH
 
 
 def test_every_choice_of_the_state_has_its_colours():
