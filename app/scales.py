@@ -81,11 +81,20 @@ def written_distance(mm: float) -> str:
     return f"{significant(mm, 4)} mm"
 
 
-def short_distance(mm: float) -> str:
-    """Return a distance for a tick: three digits at most, no needless zeros."""
+def short_distance(mm: float, digits: int = 3) -> str:
+    """Return a distance for a tick: so many digits at most, no needless zeros."""
     if isinf(mm):
         return "∞"
-    return f"{mm / 1000:.3g} m" if mm >= 1000 else f"{mm:.3g} mm"
+    return f"{mm / 1000:.{digits}g} m" if mm >= 1000 else f"{mm:.{digits}g} mm"
+
+
+def told_apart(distances_mm: list[float]) -> list[str]:
+    """Return distances for ticks with as many digits as tell all of them apart, three at least and seven at most."""
+    for digits in range(3, 8):
+        words = [short_distance(mm, digits) for mm in distances_mm]
+        if len(set(words)) == len(words):
+            break
+    return words
 
 
 def significant(value: float, digits: int) -> str:

@@ -2,7 +2,6 @@
 
 from math import inf
 
-import numpy as np
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QPainter
 
@@ -10,10 +9,10 @@ from app.card import Card
 from app.compute import Live
 from app.panels.pair import NotedChart, legend
 from app.panels.quantity_edit import MicronEdit
-from app.scales import nice, short_distance, written_distance
+from app.scales import told_apart, written_distance
 from app.store import Store
 from app.theme import Tokens
-from app.views.depth_of_field import DepthOfField
+from app.views.depth_of_field import DepthOfField, highest
 from app.words import tr
 
 TIP = (
@@ -74,11 +73,10 @@ class DepthOfFieldPanel:
         self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {sentence(view)}")
 
     def _frame(self, view: DepthOfField, edges: tuple[float, float]) -> None:
-        """Show what is tolerated and the least blur with air above; depths for ticks."""
-        least = float(np.nanmin(view.real)) if np.isfinite(view.real).any() else 0.0
-        self.chart.set_range(edges, (0.0, nice(max(3 * view.tolerated_um, 2 * least), (1, 1.5, 2, 3, 4, 6, 8))))
+        """Show the ranges, and depths for ticks."""
+        self.chart.set_range(edges, (0.0, highest(view)))
         places = [edges[0] + part * (edges[1] - edges[0]) for part in TICKS]
-        ticks = tuple((near, short_distance(1 / near if near else inf)) for near in places)
+        ticks = tuple(zip(places, told_apart([1 / near if near else inf for near in places]), strict=True))
         if ticks != self.chart.bottom_ticks:
             self.chart.bottom_ticks = ticks
             self.chart.forget_ground()

@@ -1,11 +1,12 @@
 """How large the blur is at every depth, and between which depths it stays below what is tolerated."""
 
 from dataclasses import dataclass
-from math import inf, isfinite
+from math import inf, isfinite, nan
 
 import numpy as np
 
 from app.reach import closest_distance
+from app.scales import nice
 from app.setting import prescription
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import P2SFError
@@ -16,6 +17,12 @@ from p2sf.source import Source
 ELSEWHERE_MM = 1000.0  # any depth but infinity: two points make the line
 DEPTHS = {"preview": 17, "settled": 49}
 RINGS = {"preview": 3, "settled": 6}
+PROBE_RINGS = 3
+FEWEST = 3  # rays: fewer are no spot
+FOCUS_UM = 1e-3  # a blur so small is none
+SEEN = 3  # times what is tolerated: what is sharp with as much again on either side
+FAR_OFF = 2.0  # widths of the range: a least blur farther off is left out
+AIR = 0.1  # of the range, beyond a least blur
 
 
 @dataclass(frozen=True)
@@ -39,27 +46,76 @@ def depth_of_field(live) -> DepthOfField:
     """Return the blur at every depth with the sensor where it stands."""
     s, tolerated = live.setting, live.state.blur_um
     clear = sharp(s, tolerated)
-    near = np.linspace(*shown(clear, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
+    near = np.linspace(*shown(live, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
+    if focus := sharp(s, FOCUS_UM):
+        near = np.sort(np.append(near, 1 / focus[1]))  # so that the V of the blur is drawn to its tip
     depths = np.divide(1.0, near, out=np.full(near.shape, inf), where=near > 0)
     heights = axial_heights(s, depths)
     return DepthOfField(
         near,
         2 * UM_PER_MM * np.abs(heights),
-        real_blur(live, depths),
+        real_blur(live, depths, RINGS[live.quality]),
         tolerated,
         clear,
         hyperfocal(s, tolerated),
     )
 
 
-def shown(clear: tuple[float, float] | None, closest: float) -> tuple[float, float]:
-    """Return the 1/depth to show, 1/mm: what is sharp with as much again on either side, else everything."""
-    if clear is None:
+def shown(live, closest: float) -> tuple[float, float]:
+    """Return the 1/depth to show, 1/mm, up to ``closest``: about what is sharp, wider where there is more to see.
+
+    As wide as the paraxial blur stays below three times what is tolerated, or twice the least there is; where the
+    exact rays' least blur is larger, up to that; and out to where they have it, unless that is too far off.
+    """
+    blur = max(SEEN * live.state.blur_um, 2 * least_axial(live, closest))
+    ends = within(live.setting, blur, closest)
+    least = np.nanmin(probed(live, ends)[1], initial=inf)
+    if blur < least < inf:
+        ends = within(live.setting, least, closest)
+    vertex, air = vertex_of(*probed(live, ends)), AIR * (ends[1] - ends[0])
+    if not -FAR_OFF < (vertex - ends[0]) / (ends[1] - ends[0]) < 1 + FAR_OFF:
+        return ends
+    return max(0.0, min(ends[0], vertex - air)), min(max(closest, ends[1]), max(ends[1], vertex + air))
+
+
+def highest(view: DepthOfField) -> float:
+    """Return how much blur to show, µm: what is tolerated and the least of either curve, with air above."""
+    least = max(
+        float(np.nanmin(blur, initial=0.0 if np.isnan(blur).all() else inf)) for blur in (view.paraxial, view.real)
+    )
+    return nice(max(SEEN * view.tolerated_um, 2 * least), (1, 1.5, 2, 3, 4, 6, 8))
+
+
+def within(setting, blur_um: float, closest: float) -> tuple[float, float]:
+    """Return between which 1/depth, 1/mm, the paraxial blur is below this, up to ``closest`` or just beyond its own."""
+    clear = sharp(setting, blur_um)
+    if clear is None or not clear[0]:
         return 0.0, closest
-    if not clear[0]:
-        return 0.0, closest
-    far, near = 1 / clear[1], 1 / clear[0]
-    return max(0.0, 2 * far - near), max(min(closest, 2 * near - far), 1.01 * near)
+    low, high = (1 / depth for depth in clear[::-1])
+    return low, high if low < closest else 1.01 * high
+
+
+def least_axial(live, closest: float) -> float:
+    """Return the least paraxial blur from infinity to 1/``closest``, µm; 0 where any depth is sharp."""
+    if sharp(live.setting, live.state.blur_um):
+        return 0.0
+    return 2 * UM_PER_MM * float(np.abs(axial_heights(live.setting, np.array([inf, 1 / closest]))).min())
+
+
+def probed(live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Return three 1/depth over a range and the exact rays' blur there, µm."""
+    near = np.linspace(*ends, 3)
+    return near, real_blur(live, np.divide(1.0, near, out=np.full(3, inf), where=near > 0), PROBE_RINGS)
+
+
+def vertex_of(near: np.ndarray, blur: np.ndarray) -> float:
+    """Return where a blur of three equal steps is least, its square being quadratic; NaN where it is least nowhere.
+
+    The spot of rays that all move linearly with the defocus has a variance quadratic in it.
+    """
+    first, middle, last = blur**2
+    bend = first - 2 * middle + last
+    return float(near[1] + (near[1] - near[0]) * (first - last) / (2 * bend)) if bend > 0 else nan
 
 
 def axial_heights(setting, depths, sensor_mm: float | None = None) -> np.ndarray:
@@ -69,15 +125,15 @@ def axial_heights(setting, depths, sensor_mm: float | None = None) -> np.ndarray
     return rays.y[-1] + rays.nu[-1] / rays.index[-1] * sensor_mm
 
 
-def real_blur(live, depths) -> np.ndarray:
+def real_blur(live, depths, rings: int) -> np.ndarray:
     """Return twice the RMS radius of the exact rays' spot at the present field, µm, per depth."""
     s = live.setting
     source = Source(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
     try:
-        rays = pencil(s.lens, source, *hexapolar(RINGS[live.quality]), clip=live.state.clip)
+        rays = pencil(s.lens, source, *hexapolar(rings), clip=live.state.clip)
     except P2SFError:  # a chief ray is lost at some depth: the paraxial curve says what can be said
         return np.full(len(depths), np.nan)
-    lost = ~rays.passed.any(-1)
+    lost = rays.passed.sum(-1) < FEWEST
     x, y = (np.where(np.isfinite(v), v, 0.0) for v in (rays.dx, rays.dy))
     count = np.maximum(rays.passed.sum(-1), 1)
     square = (x * x + y * y).sum(-1) / count - (x.sum(-1) / count) ** 2 - (y.sum(-1) / count) ** 2

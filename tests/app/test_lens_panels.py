@@ -8,11 +8,13 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.compute import live
+from app.scales import told_apart
 from app.setting import with_lens
 from app.state import State
-from app.views.depth_of_field import axial_heights, depth_of_field
+from app.views.depth_of_field import axial_heights, depth_of_field, highest
 from app.views.field import field_curves
 from app.views.first_order import first_order
+from p2sf.library import shipped_lenses
 
 PAINTED = State(theme="light", method="seidel")
 
@@ -126,6 +128,22 @@ def test_the_curve_of_blur_crosses_the_tolerated_one_where_the_shade_ends(window
     assert np.interp(panel.chart.sharp, near, blur) == pytest.approx([30.0, 30.0], rel=0.01)
     assert blur.min() < 3 and 1 / near[blur.argmin()] == pytest.approx(2000, rel=0.02)
     assert "sharp from 1.93" in panel.widget.readout.text()
+
+
+@pytest.mark.parametrize("changes", [{}, {"focus_mm": inf}, {"sensor_shift_um": -300.0}])
+def test_the_plot_shows_what_there_is_of_both_curves(changes):
+    """Neither curve leaves the plot at once nor lies flat on its floor, though the sensor is far from any focus."""
+    for name in shipped_lenses():
+        found = live(replace(with_lens(PAINTED, name), method="seidel", **changes), "preview")
+        view = depth_of_field(found)
+        top = highest(view)
+        for blur in (view.paraxial, view.real):
+            assert np.isnan(blur).all() or (0.2 < np.mean(blur <= top) and np.nanmax(blur) > 0.2 * top), name
+
+
+def test_ticks_of_depths_that_are_near_one_another_have_the_digits_to_tell_them_apart():
+    assert told_apart([inf, 2000.0, 1000.0]) == ["∞", "2 m", "1 m"]
+    assert told_apart([150.12, 150.04, 149.9]) == ["150.1 mm", "150 mm", "149.9 mm"]
 
 
 @pytest.mark.parametrize("lens", ["reverse_telephoto", "double_gauss_28", "plano_convex", "relay", "eye_navarro"])
