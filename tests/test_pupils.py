@@ -77,7 +77,9 @@ def test_of_two_rims_as_wide_as_the_cone_the_files_is_the_stop(first_rim, limiti
     front = Surface(semi_diameter=first_rim, thickness=1.0)  # a bare plane in collimated light: the same height
     back = Surface(radius=-50.0, semi_diameter=5.0, thickness=100.0, medium=ConstantIndex(1.5))
     lens = Lens((front, back), Aperture("stop_semi_diameter", 5.0), 2)
-    assert find_stop(lens).limiting_surface == find_stop(lens, mode="auto").surface == limiting
+    auto = find_stop(lens, mode="auto")
+    assert find_stop(lens).limiting_surface == auto.surface == limiting
+    assert auto.semi_diameter == lens.surfaces[limiting - 1].semi_diameter
     assert (find_stop(lens).warning is None) == (limiting == 2)
 
 
@@ -149,7 +151,7 @@ def test_fields_from_heights():
         if c["wavelength_nm"] == 587.5618 and c["depth_mm"] is None and c["field_deg"] == 10
     )
     assert field_from_image_height(lens, wavelength, height) == pytest.approx(slope, rel=FIRST_ORDER)
-    with pytest.raises(GeometryError, match="object at infinity has no height"):
+    with pytest.raises(GeometryError, match=r"^an object at infinity has no height; .* height$"):
         field_from_object_height(lens, inf, wavelength, 5.0)
 
 
@@ -163,22 +165,29 @@ def test_entrance_pupil_at_infinity_is_said_or_named():
     assert np.isinf(pupils(telecentric(), 0.5).entrance_from_first)
     with pytest.raises(GeometryError, match="entrance pupil is at infinity"):
         paraxial_rays(telecentric(), 100.0, 0.5)
-    with pytest.raises(GeometryError, match="state the stop's semi-diameter"):
+    with pytest.raises(GeometryError, match=r"^the entrance pupil is at infinity, .* state the stop's semi-diameter$"):
         stop_rim(replace(telecentric(), aperture=Aperture("entrance_pupil_diameter", 2.0)))
 
 
 def test_object_in_the_entrance_pupil_is_refused():
     """A stop 4 mm behind a plane window: the pupil stands before the lens only when the stop is virtual."""
     lens = Lens((Surface(thickness=-4.0), Surface()), Aperture("stop_semi_diameter", 1.0), 2)
-    with pytest.raises(GeometryError, match="lies in the entrance pupil"):
-        paraxial_rays(lens, 4.0, 0.5)
+    hair = np.finfo(float).eps
+    for near in (-8, 0, 8):  # the cone of light is known to some roundings of the distance, no better
+        with pytest.raises(GeometryError, match=r"^the object lies in the entrance pupil, .* move the object$"):
+            paraxial_rays(lens, 4.0 * (1 + near * hair), 0.5)
+    assert np.isfinite(paraxial_rays(lens, 4.0 * (1 + 12 * hair), 0.5).nu).all()
 
 
 def test_a_lens_without_named_stop_lets_the_rims_decide():
     lens = replace(middle_lens("double_gauss_28"), stop_surface=None)
     assert named_stop(lens) == 6
+    named = replace(lens, stop_surface=6)
+    np.testing.assert_array_equal(paraxial_rays(lens, 300.0, 0.5).y, paraxial_rays(named, 300.0, 0.5).y)
     bare = replace(lens, surfaces=tuple(replace(s, semi_diameter=inf) for s in lens.surfaces))
-    with pytest.raises(GeometryError, match="names no stop"):
+    with pytest.raises(
+        GeometryError, match=r"^the lens names no stop surface and no semi-diameters; state one of them$"
+    ):
         find_stop(bare)
 
 

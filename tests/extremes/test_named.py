@@ -53,7 +53,7 @@ def test_an_afocal_lens_has_coefficients_but_no_psf():
 
 def test_an_f_number_of_an_afocal_lens_is_refused():
     for lens in TELESCOPES:
-        with pytest.raises(GeometryError, match="afocal lens has no f-number"):
+        with pytest.raises(GeometryError, match=r"^an afocal lens has no f-number; state .* diameter$"):
             stop_rim(replace(lens, aperture=Aperture("f_number", 4.0)))
 
 
@@ -79,9 +79,13 @@ def test_a_stop_imaged_to_infinity_on_both_sides():
     lens = twice_telecentric()
     pupil = pupils(lens, WAVELENGTH)
     assert all(np.isinf(value) for value in vars(pupil).values())
-    with pytest.raises(GeometryError, match="field angle says nothing; move the stop off that focus"):
+    with pytest.raises(GeometryError) as refused:
         coefficients(lens, 98.0, 0.1, WAVELENGTH)
-    with pytest.raises(GeometryError, match="infinity has no height"):
+    assert str(refused.value) == (
+        "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, "
+        'or in Python state the field as an object height, field="height"'
+    )
+    with pytest.raises(GeometryError, match=r"^an object at infinity has no height; .* height$"):
         coefficients(lens, inf, 1.0, WAVELENGTH, field="height")
     found = coefficients(lens, 98.0, 3.0, WAVELENGTH, field="height")
     # The relay is 1:1 and turns the image upside down: an object 3 mm below the axis lands 3 mm above it.
