@@ -1,9 +1,11 @@
-"""What can be shown of a set-up that has no picture: its lens and rays, and why nothing else. No Qt in here."""
+"""What is shown where something has no answer: of a set-up its lens and rays, of a panel why. No Qt in here."""
 
 from dataclasses import dataclass
 
+from app.compute import Live, Refused
 from app.layout import Layout, layout
 from app.setting import Setting, setting
+from app.speech import spoken
 from app.state import State
 from p2sf.errors import P2SFError
 
@@ -27,3 +29,15 @@ def drawn(state: State) -> Drawn | None:
         return Drawn(state, found, layout(found))
     except P2SFError:
         return None
+
+
+def paint(panel, key: str, live: Live) -> None:
+    """Have a panel show an answer, and which side of a comparison it is; or say over it why it has nothing to show."""
+    found = live.views.get(key)
+    if isinstance(found, Refused):
+        panel.widget.show_veil(spoken(found.sentence))
+        return
+    panel.show(live)
+    panel.widget.show_veil("")
+    why = live.difference.why.get(key, "") if live.difference else ""
+    panel.widget.show_side("A" if why else live.side, why)

@@ -102,7 +102,7 @@ def seen(state: State, a: Live, b: Live, views: Mapping[str, View], begun: float
     chosen = compute.with_views(b if state.shown == "b" else a, views, begun)
     if state.shown != "difference":
         return replace(chosen, side=state.shown.upper())
-    found = {name: subtracted(name, chosen.views[name], view(b)) for name, view in views.items()}
+    found = {name: subtracted(name, chosen.views[name], compute.attempted(view, b)) for name, view in views.items()}
     why = WHY | {name: sentence for name, (_, sentence) in found.items() if sentence}
     made = replace(difference(a, b), why=why)
     return replace(chosen, views={name: view for name, (view, _) in found.items()}, side=DIFFERENCE, difference=made)

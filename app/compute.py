@@ -13,6 +13,7 @@ from app.rung import rendered
 from app.setting import Setting, setting
 from app.state import State
 from app.wavesums import Asked, Done
+from p2sf.errors import P2SFError
 from p2sf.measures import airy_radius_um
 from p2sf.psf import Psf
 from p2sf.raytrace import opd_map
@@ -47,6 +48,13 @@ class Live:
     side: str = ""
     owed: Asked | None = None
     difference: object = None
+
+
+@dataclass(frozen=True)
+class Refused:
+    """What stands in ``Live.views`` for a view that has nothing to show: its own ``sentence`` on why."""
+
+    sentence: str
 
 
 View = Callable[["Live"], object]
@@ -93,9 +101,17 @@ def live(
 
 def with_views(answer: Live, views: Mapping[str, View], begun: float) -> Live:
     """Return the answer with the open panels' views and the time of it all."""
-    results = {name: view(answer) for name, view in views.items()}
+    results = {name: attempted(view, answer) for name, view in views.items()}
     total = 1e3 * (perf_counter() - begun)
     return replace(answer, views=results, milliseconds={**answer.milliseconds, "all": total})
+
+
+def attempted(view: View, answer: Live) -> object:
+    """Return what one panel shows, or Refused: the other panels have their pictures all the same."""
+    try:
+        return view(answer)
+    except P2SFError as error:
+        return Refused(str(error))
 
 
 def pupil(set_up: Setting, exact: bool, quality: str) -> PupilMap:

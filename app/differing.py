@@ -6,7 +6,9 @@ from dataclasses import fields, replace
 
 import numpy as np
 
+from app.compute import Refused
 from app.scales import signed
+from app.speech import spoken
 from app.views.chromatic import Chromatic
 from app.views.field import FieldView, exaggeration, grid
 from app.views.seidel import PerSurface
@@ -31,6 +33,7 @@ WHY = {
     "accuracy": "This is A: each lens is measured against its own rays.",
 }
 OTHER_SURFACES = "This is A: it has {a} surfaces and B has {b}, so that none stands for another."
+NONE_OF_B = "This is A: B has none. {why}"
 NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?")
 
 
@@ -114,7 +117,9 @@ SUBTRACTED: dict[str, Callable] = {
 
 def subtracted(key: str, a, b) -> tuple[object, str]:
     """Return what a panel shows for A − B of two views, and a sentence where that is A alone."""
-    if key not in SUBTRACTED:
+    if key not in SUBTRACTED or isinstance(a, Refused):
         return a, WHY.get(key, "")
+    if isinstance(b, Refused):
+        return a, tr(NONE_OF_B, why=tr(spoken(b.sentence)))
     found = SUBTRACTED[key](a, b)
     return (a, found) if isinstance(found, str) else (found, "")

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QVBoxLayou
 
 from app import compute
 from app.actions import Actions
-from app.answerless import WHY, drawn
+from app.answerless import WHY, drawn, paint
 from app.bars import Banner, StatusLine, TopBar
 from app.comparebar import CompareBar
 from app.comparing import Answers, answers
@@ -123,10 +123,7 @@ class Window(QMainWindow):
         self.top.show_state(state, self._theme.dark)
         self.controls.show_live(self._answers.a)
         for key in self._visible():
-            self.panels[key].show(live)
-            self.panels[key].widget.show_veil("")
-            why = live.difference.why.get(key, "") if live.difference else ""
-            self.panels[key].widget.show_side("A" if why else live.side, why)
+            paint(self.panels[key], key, live)
         self.status.show_live(live, self.frame_ms)
         self.settling.watch(state, self._answers.owed)
         self.measuring.watch(live)

@@ -702,6 +702,7 @@
 <message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
 <message><source>{columns} × {rows} pixels of {pitch} µm</source><translation>{columns} × {rows} Pixel zu {pitch} µm</translation></message>
+<message><source>This is A: B has none. {why}</source><translation>Dies ist A: B hat keines. {why}</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
 <message><source>PSFs</source><translation>PSFs</translation></message>
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>

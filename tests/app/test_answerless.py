@@ -6,8 +6,13 @@ from math import inf
 import pytest
 
 from app.answerless import UNKNOWN, WHY
+from app.comparing import answers
+from app.compute import Refused
 from app.setting import setting, with_lens
 from app.state import State
+from app.views.mtf import contrast
+from app.window import MAIN
+from p2sf.errors import SamplingError
 
 TOO_FAR = replace(with_lens(State(theme="light"), "relay"), depth_mm=inf, field_deg=1.0)
 
@@ -57,3 +62,42 @@ def test_the_next_answer_lifts_every_veil(without):
     assert not without.banner.isVisible()
     assert not any(without.panels[key].widget.veil.isVisible() for key in without._visible())
     assert UNKNOWN not in {value for _, value, _ in without.controls.facts.rows}
+
+
+REASON = "the blur is too wide for a table"
+
+
+def refusing(live):
+    raise SamplingError(f"{REASON}; stop down")
+
+
+@pytest.fixture
+def one_refusing(window, monkeypatch):
+    """Return the window with a tab in front whose own view has nothing to show."""
+    monkeypatch.setattr("app.window.view_of", lambda entry: refusing if entry.key == "mtf" else None)
+    window.store.update(tab="mtf", field_deg=7.0)
+    yield window
+    monkeypatch.undo()
+    window.store.update(tab="profiles")
+
+
+def test_a_tab_that_has_nothing_to_show_veils_itself_alone(one_refusing):
+    window, veil = one_refusing, one_refusing.panels["mtf"].widget.veil
+    assert veil.isVisible() and veil.text == "The blur is too wide for a table; stop down"
+    assert not any(window.panels[key].widget.veil.isVisible() for key in MAIN)
+    assert window.live.state.field_deg == 7.0 and not window.banner.isVisible()
+    assert UNKNOWN not in {value for _, value, _ in window.controls.facts.rows}
+
+
+def test_its_veil_goes_with_the_next_answer(one_refusing, monkeypatch):
+    monkeypatch.undo()
+    one_refusing.store.update(field_deg=5.0)
+    assert not one_refusing.panels["mtf"].widget.veil.isVisible()
+
+
+def test_a_difference_is_as_it_was_where_a_side_has_nothing(window):
+    asked = replace(window.store.state, shown="difference", pinned=State(f_number=8.0, method="seidel"))
+    b_refuses = {"mtf": lambda live: refusing(live) if live.state.f_number == 8.0 else contrast(live)}
+    seen = answers(asked, "preview", b_refuses).seen
+    assert seen.difference.why["mtf"] == "This is A: B has none. The blur is too wide for a table; stop down"
+    assert answers(asked, "preview", {"mtf": refusing}).seen.views["mtf"] == Refused(f"{REASON}; stop down")
