@@ -98,6 +98,24 @@ def _product(one, two, size) -> np.ndarray:
     return out
 
 
+def basis_by_powers(order: int, xi, eta) -> tuple[np.ndarray, np.ndarray]:
+    """Return `basis` of the even and of the odd terms, each (terms, points), as products of powers.
+
+    Several times as fast; digits cancel as the order grows: some 1e-13 at 6 and 1e-9 at 18.
+    """
+    down, along = _exponents(order)
+    squares, lines = (np.vander(v, order + 1, increasing=True).T for v in (xi * xi, eta))
+    table = squares[down] * lines[along]
+    even, odd = (form[:, down, along] @ table for form in (powers(order), powers(order, True)))
+    return even, odd * xi
+
+
+@lru_cache(maxsize=32)
+def _exponents(order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return a and b of every ξ²ᵃ·ηᵇ up to this degree."""
+    return np.array([(a, b) for a in range(order // 2 + 1) for b in range(order - 2 * a + 1)]).T
+
+
 def columns(coefficients: np.ndarray, order: int, odd: bool = False) -> list[list[float]]:
     """Return Σ coefficient·term as plain numbers c[b][a] of ξ²ᵃ·ηᵇ, for `evaluate`."""
     form = powers(order, odd)

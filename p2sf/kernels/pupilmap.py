@@ -18,9 +18,10 @@ from p2sf.rayfit import FittedPencil, fit
 from p2sf.seidel import coefficients
 from p2sf.source import Source
 from p2sf.wavefront import wavefront
-from p2sf.zernike import basis, gradient, powers, terms
+from p2sf.zernike import basis, basis_by_powers, gradient, powers, terms
 
-ORDERS = (6, 8, 10, 12, 14, 16, 18)
+ORDERS = 6, 18  # the least and the greatest
+FAR_OFF = 30.0  # times what is allowed: then the next order but one is tried, as one alone seldom helps enough
 NODES = 16, 44
 REACH_NODES = 14, 36
 STRAY = 2e-3  # of the light may land outside the window: next to nothing in L2, and rims of fast lenses throw far
@@ -66,7 +67,7 @@ def _from_seidel(lens: Lens, source: Source) -> PupilMap:
     nodes, sign = disc_nodes(*NODES), np.sign(scale)
     phase = wavefront(six, nodes.xi, nodes.eta)
     columns = phase, nodes.eta, nodes.xi
-    found = _coefficients(4, sign * nodes.xi, sign * nodes.eta, columns)
+    found = _coefficients(*basis_by_powers(4, sign * nodes.xi, sign * nodes.eta), columns)
     reach = reach_of(4, found[0], abs(scale))
     light = np.pi * (abs(scale) * source.wavelength_um) ** 2
     return PupilMap(4, abs(scale), *found, reach, float(light), 0.0, "seidel", 6)
@@ -79,13 +80,16 @@ def _from_fit(found: FittedPencil, source: Source) -> PupilMap:
     centre = (fy.max() + fy.min()) / 2
     radius = float(np.hypot(fx, fy - centre).max()) * 1.02
     u, v = fx / radius, (fy - centre) / radius
-    for order in ORDERS:
-        columns = _coefficients(order, u, v, (phase, nodes.eta, nodes.xi))
-        basis_here = basis(order, u, v)
-        waves, miss = columns[0] @ basis_here - phase, columns[1] @ basis_here - nodes.eta
+    order = ORDERS[0]
+    while True:
+        even_here, odd_here = basis_by_powers(order, u, v)
+        columns = _coefficients(even_here, odd_here, (phase, nodes.eta, nodes.xi))
+        waves, miss = columns[0] @ even_here - phase, columns[1] @ even_here - nodes.eta
         residual = float(np.sqrt(nodes.weight @ waves**2))
-        if residual < PHASE_RESIDUAL and np.abs(miss).max() < POINT_RESIDUAL:
+        excess = max(residual / PHASE_RESIDUAL, float(np.abs(miss).max()) / POINT_RESIDUAL)
+        if excess < 1 or order == ORDERS[-1]:
             break
+        order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
     area = (found.fx @ slopes_odd[0]) * (found.fy @ slopes[1]) - (found.fx @ slopes_odd[1]) * (found.fy @ slopes[0])
     light = float(nodes.weight @ np.abs(area)) * np.pi * source.wavelength_um**2
     left = float(np.hypot(residual, found.residual_waves))
@@ -103,9 +107,8 @@ def _at_nodes(wave_order: int, map_order: int):
     return even, odd, *slopes
 
 
-def _coefficients(order: int, u, v, columns):
+def _coefficients(even: np.ndarray, odd: np.ndarray, columns):
     """Return least-squares coefficients of phase and η over the even terms, and of ξ over the odd ones."""
-    even, odd = basis(order, u, v), basis(order, u, v, odd=True)
     phase, eta, xi = columns
     both = _solve(even, np.stack([phase, eta], axis=1))
     return both[:, 0], both[:, 1], _solve(odd, xi)

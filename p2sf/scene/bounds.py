@@ -27,7 +27,7 @@ def refuse_wide(study: Study) -> None:
 
 def finest_side(study: Study, height_mm: float, vergence: float, wave: float) -> tuple[int, float]:
     """Return the side in samples of the finest transform at one place, and the blur's width in µm."""
-    recipe, pixel = study.recipe(height_mm, vergence, wave, SAMPLINGS[-1]), study.scene.sensor.pixel_um
+    recipe, pixel = study.recipe(SAMPLINGS[-1]), study.scene.sensor.pixel_um
     kernels = study.kernels(recipe, study.colour_of(wave), vergence)
     half, (pupil, _) = kernels.half_width(height_mm), kernels.pupils(height_mm)[0]
     size = 2 * (half + ceil(recipe.margin * half)) + 1

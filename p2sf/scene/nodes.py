@@ -6,6 +6,7 @@ from p2sf.kernels.nodes import nodes_along
 from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, Study, distance, widened
 
 TRIED = (0.5, 0.5), (0.5, 0.2), (0.5, 0.8), (0.2, 0.5), (0.8, 0.5)  # down and right in a cell
+CELLS = 3  # nearest to the axis, farthest from it and between
 EVERY = 8  # intervals of depth that are all tried
 
 
@@ -18,26 +19,30 @@ def field_counts(study: Study, number: int) -> tuple[int, int]:
     return tuple(max(2, 1 + round((count - 1) * n / longer)) for n in (sensor.rows, sensor.columns))
 
 
-def field_error(study: Study, number: int) -> float:
-    """Return the worst error between nodes: nearest to the axis, farthest from it and in the middle of the field."""
+def field_places(study: Study) -> list[tuple[float, float, int]]:
+    """Return (wavelength, vergence, cell) for `field_error`: the likeliest to fail come first, sharp and far out."""
+    sharp = study.sharpest(study.reference_um)
+    places = [(wave, v, cell) for wave in study.waves for v in study.depths(wave) for cell in range(CELLS)]
+    return sorted(places, key=lambda place: (abs(place[1] - sharp[1]), -place[2]))
+
+
+def field_error(study: Study, number: int, wave: float, vergence: float, cell: int) -> float:
+    """Return the worst error between nodes in one of CELLS cells."""
     counts = field_counts(study, number)
-    return max(
-        _cell_error(study, cell, v, wave, counts == (1, 1))
-        for wave in study.waves
-        for v in study.depths(wave)
-        for cell in _cells(study, counts)
-    )
+    cells = _cells(study, counts)
+    return _cell_error(study, cells[min(cell, len(cells) - 1)], vergence, wave, counts == (1, 1))
 
 
 def _cells(study: Study, counts):
-    """Return the rows and columns between which three cells lie: nearest to the axis, farthest from it and between."""
+    """Return the rows and columns between which CELLS cells lie: nearest to the axis, between and farthest from it."""
     sensor = study.scene.sensor
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), counts, strict=True))
     if len(rows) == 1:
         return [(np.array([0.0, sensor.rows - 1]), np.array([0.0, sensor.columns - 1]))]
-    cells = [(rows[a : a + 2], columns[b : b + 2]) for a in range(len(rows) - 1) for b in range(len(columns) - 1)]
-    far = sorted(cells, key=lambda cell: np.hypot(sensor.x_mm(cell[1].mean()), sensor.y_mm(cell[0].mean())))
-    return [far[n] for n in sorted({0, len(far) // 2, len(far) - 1})]
+    away = np.hypot(sensor.x_mm((columns[:-1] + columns[1:]) / 2), sensor.y_mm((rows[:-1] + rows[1:]) / 2)[:, None])
+    order = away.argsort(axis=None, kind="stable")
+    chosen = [np.unravel_index(order[n], away.shape) for n in sorted({0, order.size // 2, order.size - 1})]
+    return [(rows[a : a + 2], columns[b : b + 2]) for a, b in chosen]
 
 
 def _cell_error(study: Study, cell, vergence: float, wave: float, single: bool) -> float:
@@ -63,25 +68,25 @@ def weighted(kernels: list[np.ndarray], weights) -> np.ndarray:
     return sum(weight * widened(kernel, size) for kernel, weight in zip(kernels, weights, strict=True))
 
 
-def depth_error(study: Study, number: int) -> float:
-    """Return the worst error midway between depth nodes: at both ends and about every sharpest place."""
-    nodes = study.scene.vergences(DEPTH_COUNTS[number])
+def depth_places(study: Study) -> list[tuple[float, float, float]]:
+    """Return (wavelength, height, vergence) for `depth_error`."""
     heights = study.nearest_mm, (study.nearest_mm + study.farthest_mm) / 2, study.farthest_mm
-    return max(
-        _between(study, ends, middle, (height, wave))
-        for wave in study.waves
-        for ends, middle in _intervals(nodes, study.depths(wave))
-        for height in heights
-    )
+    return [(wave, height, v) for wave in study.waves for height in heights for v in study.depths(wave)]
 
 
-def _intervals(nodes: np.ndarray, depths: list[float]):
-    """Return (nodes, vergence tried) pairs: every interval of a few, else the ends and those around ``depths``."""
+def depth_error(study: Study, number: int, wave: float, height: float, vergence: float) -> float:
+    """Return the worst error midway between depth nodes, around one vergence; of a few intervals, in them all."""
+    nodes = study.scene.vergences(DEPTH_COUNTS[number])
+    return max(_between(study, ends, middle, (height, wave)) for ends, middle in _intervals(nodes, vergence))
+
+
+def _intervals(nodes: np.ndarray, vergence: float):
+    """Return (nodes, vergence tried) pairs: the interval of a vergence and those beside it, or all of a few."""
     if len(nodes) == 1:
-        return [(nodes, v) for v in depths]
+        return [(nodes, vergence)]
     last = len(nodes) - 2
-    about = {int(np.clip(np.searchsorted(nodes, v) + step, 0, last)) for v in depths for step in (-2, -1, 0)}
-    chosen = sorted(about | set(range(last + 1) if last < EVERY else (0, last)))
+    about = np.clip(np.searchsorted(nodes, vergence) + np.array([-2, -1, 0]), 0, last)
+    chosen = sorted(set(about.tolist()) | set(range(last + 1) if last < EVERY else ()))
     return [(nodes[n : n + 2], float(nodes[n : n + 2].mean())) for n in chosen]
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 from math import hypot
 
@@ -10,17 +10,17 @@ import numpy as np
 
 from p2sf.kernels import Colour, Kernels, Recipe, View, view
 from p2sf.kernels.channel import own_pupil
-from p2sf.kernels.pupilmap import dropped_terms, pupil_map
+from p2sf.kernels.pupilmap import dropped_terms
 from p2sf.kernels.pupiltable import PupilTable, few_nodes, pupil_table
 from p2sf.lens import Lens
 from p2sf.scene.bounds import refuse_wide
 from p2sf.scene.cost import Cost, predicted_cost
-from p2sf.scene.nodes import depth_error, field_counts, field_error
+from p2sf.scene.nodes import depth_error, depth_places, field_counts, field_error, field_places
 from p2sf.scene.pricing import dearest_rung, naive_work, plan_work, rung_seconds, single_seconds
 from p2sf.scene.scene import Scene, depth_of
-from p2sf.scene.sharing import few_depths, few_heights, node_heights
+from p2sf.scene.sharing import few_depths, few_heights, node_heights, share_pupils
 from p2sf.scene.spectrum import reduced
-from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, RUNGS, SAMPLINGS, Study, from_phase
+from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, RUNGS, SAMPLINGS, Study, from_phase, least
 
 # What part of the tolerance each decision may use. The errors have nothing in common, so their squares add.
 SHARES = {"rung": 0.5, "terms": 0.1, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.1}
@@ -108,6 +108,7 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     camera = scene.camera(lens)
     study = Study(camera, scene, check or (lambda: None))
     refuse_wide(study)
+    share_pupils(study)
     budget = scene.relative_tolerance
     rings, rung = _rings(study, budget)
     colours, colour = _colours(study, budget)
@@ -119,30 +120,25 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     nodes, seconds, pupils = _pupils(study, budget, (rings, counts, vergences, waves))
     rings = tuple((rim, Recipe(*RUNGS[n], *SAMPLINGS[sampling], drop)) for rim, n in _shared(rings, nodes))
     decisions = (*rung, terms, sampled, field, depth, *colour, pupils)
-    error = hypot(*(max((d.error for d in decisions if d.what.startswith(what)), default=0.0) for what in SHARES))
+    errors = (max((d.error for d in decisions if d.what.startswith(what)), default=0.0) for what in SHARES)
+    error = hypot(*errors, study.tables_error)
     work = plan_work(study, rings, colours, counts, len(vergences), seconds)
     costs = map(predicted_cost, (work, naive_work(study, rings, counts, len(vergences))))
     parts = scene, study.reference_um, rings, colours, counts, vergences, decisions, error
     return Plan(camera, *parts, *costs, nodes)
 
 
-def _first(errors, allowed: float) -> tuple[int, float]:
-    """Return the first index whose error, found when asked for, is allowed, else the last; and the error."""
-    tried = []
-    for error in errors:
-        tried.append(SAFETY * error)
-        if tried[-1] <= allowed:
-            break
-    return len(tried) - 1, tried[-1]
+def _first(choices, measure, places, allowed: float) -> tuple[int, float]:
+    """Return `least` of these choices with SAFETY."""
+    number, error = least(len(choices), measure, places, allowed / SAFETY)
+    return number, SAFETY * error
 
 
 def _rings(study: Study, budget: float):
     """Return (rim, rung) of every ring, and the decisions."""
     heights, found, decisions = study.heights(), [], []
     for inner, outer in pairwise(heights):
-        places = study.places((inner, outer))
-        errors = (max(study.rung_error(n, *place) for place in places) for n in range(len(RUNGS)))
-        number, error = _first(errors, SHARES["rung"] * budget)
+        number, error = _first(RUNGS, study.rung_error, study.places((outer, inner)), SHARES["rung"] * budget)
         found.append((float(outer), number))
         method, numbers = RUNGS[number]
         why = (
@@ -157,9 +153,8 @@ def _rings(study: Study, budget: float):
 def _terms(study: Study, budget: float) -> tuple[Decision, float]:
     """Return the decision on phase terms too weak to be seen, and their bound in waves."""
     drop = float(SHARES["terms"] * budget / from_phase(1.0))
-    height, wave = study.farthest_mm, study.reference_um
-    vergence = study.depths(wave)[0]
-    pupil = pupil_map(study.lens, study.seen(vergence).source(height, wave), *RUNGS[study.best(height, vergence, wave)])
+    kernels = study.kernels(study.recipe(), study.single, study.depths(study.reference_um)[0])
+    pupil, _ = kernels.pupils(study.farthest_mm)[0]
     gone = dropped_terms(pupil, drop)
     kept = int(np.count_nonzero(pupil.phase)) - len(gone)
     strongest = f", the strongest (n={gone[-1][0]}, m={gone[-1][1]}) has {gone[-1][2]:.1e} waves" if gone else ""
@@ -172,10 +167,10 @@ def _colours(study: Study, budget: float):
     colours, decisions = [], []
     for channel in study.scene.channels:
         depths = study.depths(study.reference_um)
-        places = [(h, v) for h in (study.nearest_mm, study.farthest_mm) for v in depths]
+        places = [(h, v) for h in (study.farthest_mm, study.nearest_mm) for v in depths]
         counts = range(1, len(channel.wavelengths_nm) + 1)
-        errors = (max(study.colour_error(channel, n, *p) for p in places) for n in counts)
-        number, error = _first(errors, SHARES["colour"] * budget)
+        measure = partial(_colour_error, study, channel)
+        number, error = _first(counts, measure, places, SHARES["colour"] * budget)
         colours.append(reduced(channel, number + 1))
         waves = ", ".join(f"{1000 * w:.0f}" for w in colours[-1].wavelengths_um)
         why = f"{number + 1} of {len(counts)} wavelengths keep the channel's lateral and axial colour"
@@ -183,18 +178,22 @@ def _colours(study: Study, budget: float):
     return tuple(colours), decisions
 
 
+def _colour_error(study: Study, channel, number: int, height: float, vergence: float) -> float:
+    return study.colour_error(channel, number + 1, height, vergence)
+
+
 def _sampling(study: Study, budget: float) -> tuple[int, Decision]:
     heights = study.nearest_mm, (study.nearest_mm + study.farthest_mm) / 2, study.farthest_mm
     places = study.places(heights)
-    errors = (max(study.sampling_error(n, *p) for p in places) for n in range(len(SAMPLINGS)))
-    number, error = _first(errors, SHARES["sampling"] * budget)
+    number, error = _first(SAMPLINGS, study.sampling_error, places, SHARES["sampling"] * budget)
     fineness, margin = SAMPLINGS[number]
     why = f"pixels of {study.scene.sensor.pixel_um:g} µm average finer fringes; the window has a margin of {margin:.0%}"
     return number, Decision("sampling", f"λ/2NA/{fineness:g}", why, error)
 
 
 def _field(study: Study, budget: float):
-    number, error = _first((field_error(study, n) for n in range(len(NODE_COUNTS))), SHARES["field"] * budget)
+    measure = partial(field_error, study)
+    number, error = _first(NODE_COUNTS, measure, field_places(study), SHARES["field"] * budget)
     counts = field_counts(study, number)
     why = "kernels in the middle of a cell are then the mean of its corners"
     return counts, Decision("field", f"{counts[0]} × {counts[1]} nodes", why, error)
@@ -205,7 +204,8 @@ def _depths(study: Study, budget: float):
     if scene.near_mm == scene.far_mm:
         vergence = float(scene.vergences(1)[0])
         return (vergence,), Decision("depth", "1 node", "the scene has one depth", 0.0)
-    number, error = _first((depth_error(study, n) for n in range(len(DEPTH_COUNTS))), SHARES["depth"] * budget)
+    measure = partial(depth_error, study)
+    number, error = _first(DEPTH_COUNTS, measure, depth_places(study), SHARES["depth"] * budget)
     nodes = scene.vergences(DEPTH_COUNTS[number])
     why = "defocus grows with 1/distance, so nodes stand at equal steps of it"
     plural = "s" if len(nodes) > 1 else ""

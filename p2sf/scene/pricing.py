@@ -72,8 +72,8 @@ def _widths(study: Study, rings):
     """Return half widths and transform sides at the rings' rims over all depths, pixels and samples."""
     pixel, halves, sides = study.scene.sensor.pixel_um, [], []
     for vergence in study.depths(study.reference_um):
+        kernels = study.kernels(study.recipe(), study.single, vergence)
         for rim, recipe in rings:
-            kernels = study.kernels(recipe, study.single, vergence)
             half, (pupil, _) = kernels.half_width(rim), kernels.pupils(rim)[0]
             halves.append(half)
             sides.append((2 * (half + ceil(half * recipe.margin)) + 1) * samples_across(pupil, pixel, recipe.fineness))

@@ -4,13 +4,15 @@ from itertools import pairwise
 
 import numpy as np
 
-from p2sf.kernels import Kernels, Recipe
+from p2sf.kernels import Kernels
 from p2sf.kernels.nodes import nodes_along
 from p2sf.kernels.pupiltable import chebyshev, pupil_table
 from p2sf.scene.sensor import Sensor
-from p2sf.scene.study import RUNGS, SAMPLINGS, Study, distance, oblique
+from p2sf.scene.study import Study, distance, least, oblique
 
 FITS = (2, 3, 4, 5, 6, 8, 10, 13)  # along the radial line or the depths
+NESTED_FITS = (2, 3, 5, 9, 17)  # the same for planning itself: each one's nodes are among the next one's
+FINE, ROUGH = 1e-3, 3e-2  # relative error of a kernel that planning itself aims at in this, and allows at most
 
 
 def node_heights(sensor: Sensor, counts) -> tuple[float, ...]:
@@ -20,29 +22,55 @@ def node_heights(sensor: Sensor, counts) -> tuple[float, ...]:
     return tuple(np.unique(np.round(heights, 9)).tolist())
 
 
+def share_pupils(study: Study) -> None:
+    """Let a study interpolate its converged pupils unless kernels would change by more than ROUGH.
+
+    Tried in the bluest colour, which shows the most, at the sharpest depths and in the corner.
+    """
+    wave, scene = min(study.waves), study.scene
+    sharp = [(v, wave) for v in dict.fromkeys(study.sharpest(wave))]
+    high, across = _few(_error_across, study, (NESTED_FITS, FINE), sharp)
+    corner = [(study.farthest_mm, wave)]
+    deep, along = _few(_error_along, study, (NESTED_FITS, FINE), corner) if scene.near_mm < scene.far_mm else (1, 0.0)
+    if max(across, along) > ROUGH:
+        return
+    heights = chebyshev(study.nearest_mm, study.farthest_mm, high)
+    vergences = chebyshev(*map(float, scene.vergences(2)), deep)
+    study.tables.update({w: pupil_table(_own(study, w), heights, vergences) for w in study.waves})
+    study.tables_error = across + along
+
+
 def few_heights(study: Study, needed: int, allowed: float) -> tuple[int, float]:
     """Return how many heights are fitted, all ``needed`` ones at most, and the error of interpolating between them."""
-    tried = (
-        (n, max(_error_across(study, n, v, wave) for wave in study.waves for v in study.depths(wave)))
-        for n in FITS
-        if n < needed
-    )
-    return next((found for found in tried if found[1] <= allowed), (needed, 0.0))
+    places = [(v, wave) for wave in study.waves for v in study.depths(wave)]
+    return _fewer(_error_across, study, (needed, allowed), places)
 
 
 def few_depths(study: Study, needed: int, allowed: float) -> tuple[int, float]:
     """Return how many depths are fitted, all ``needed`` ones at most, and the error of interpolating between them."""
-    ends = study.nearest_mm, study.farthest_mm
-    tried = (
-        (n, max(_error_along(study, n, h, wave) for h in ends for wave in study.waves)) for n in FITS if n < needed
-    )
-    return next((found for found in tried if found[1] <= allowed), (needed, 0.0))
+    places = [(h, wave) for h in (study.farthest_mm, study.nearest_mm) for wave in study.waves]
+    return _fewer(_error_along, study, (needed, allowed), places)
+
+
+def _fewer(error, study: Study, limits, places) -> tuple[int, float]:
+    needed, allowed = limits
+    counts = [n for n in FITS if n < needed]
+    count, found = _few(error, study, (counts, allowed), places) if counts else (needed, np.inf)
+    return (count, found) if found <= allowed else (needed, 0.0)
+
+
+def _few(error, study: Study, limits, places) -> tuple[int, float]:
+    """Return the first of some counts whose error is allowed at all places, else the last; and the error."""
+    counts, allowed = limits
+    number, found = least(len(counts), lambda n, *place: error(study, counts[n], *place), places, allowed)
+    return counts[number], found
 
 
 def _error_across(study: Study, count: int, vergence: float, wave: float) -> float:
-    """Return the worst error midway between the heights that are fitted, at one depth."""
-    heights = chebyshev(study.nearest_mm, study.farthest_mm, count)
-    return _error(study, (heights, [vergence]), [((a + b) / 2, vergence) for a, b in pairwise(heights)], wave)
+    """Return the worst error amid the heights that are fitted, at one depth."""
+    ends = study.nearest_mm, study.farthest_mm
+    places = [(height, vergence) for height in chebyshev(*ends, 2 * count - 1)[1::2]]
+    return _error(study, (chebyshev(*ends, count), [vergence]), places, wave)
 
 
 def _error_along(study: Study, count: int, height: float, wave: float) -> float:
@@ -57,22 +85,16 @@ def _error_along(study: Study, count: int, height: float, wave: float) -> float:
 
 
 def _error(study: Study, nodes, places, wave: float) -> float:
-    recipe, single, pixel = _recipe(study, wave), study.colour_of(wave), study.scene.sensor.pixel_um
-
-    def own(height: float, vergence: float):
-        return study.kernels(recipe, single, vergence).pupils(height)[0]
-
-    table, errors = pupil_table(own, *nodes), []
+    study.check()
+    recipe, single, pixel = study.recipe(), study.colour_of(wave), study.scene.sensor.pixel_um
+    table, errors = pupil_table(_own(study, wave), *nodes), []
     for height, vergence in places:
         x, y = oblique(float(height))
         mixed = Kernels(study.seen(float(vergence)), single, pixel, lambda _: recipe, tables={wave: table})
-        errors.append(distance(mixed.at(x, y), study.kernels(recipe, single, float(vergence)).at(x, y)))
+        errors.append(distance(mixed.at(x, y), study.plain(float(vergence), x, y, wave)))
     return max(errors)
 
 
-def _recipe(study: Study, wave: float) -> Recipe:
-    """Return the recipe that is converged at both ends of the field, since one rung makes a whole table."""
-    study.check()
-    far = float(study.scene.vergences(2)[0])
-    best = max(study.best(height, far, wave) for height in (study.nearest_mm, study.farthest_mm))
-    return Recipe(*RUNGS[best], *SAMPLINGS[1])
+def _own(study: Study, wave: float):
+    """Return what gives the study's converged pupil and its lateral colour of a height and vergence."""
+    return lambda height, vergence: study.kernels(study.recipe(), study.colour_of(wave), vergence).pupils(height)[0]

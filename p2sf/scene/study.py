@@ -3,12 +3,14 @@
 No estimate here depends on the tolerance, so that a looser one can only stop earlier in a list and never costs more.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 
 import numpy as np
 
 from p2sf.kernels import Colour, Kernels, Recipe, View, view
+from p2sf.kernels.pupiltable import PupilTable
 from p2sf.lens import Lens
 from p2sf.rayfit import LEVELS, fit
 from p2sf.scene.scene import Scene, depth_of
@@ -19,19 +21,25 @@ RUNGS = (("seidel", None), *(("fitted", level.numbers) for level in LEVELS))
 SAMPLINGS = ((1.0, 0.0), (1.0, 0.5), (1.5, 0.5), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0))  # fineness and margin of `Recipe`
 NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
 DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
-RINGS = 4
+RINGS = 2
 CONVERGED_WAVES = 3e-4
 SCAN = 65
 
 
 @dataclass(eq=False)
 class Study:
-    """Kernels of one lens and scene, made once each; ``check`` may raise before each measurement."""
+    """Kernels of one lens and scene, made once each; ``check`` may raise before each measurement.
+
+    ``tables`` hold the converged pupils by wavelength once `sharing.share_pupils` has found how few need fitting,
+    and ``tables_error`` what that changes a kernel by.
+    """
 
     lens: Lens
     scene: Scene
     check: Callable[[], None] = lambda: None
     made: dict = field(default_factory=dict)
+    tables: dict[float, PupilTable] = field(default_factory=dict)
+    tables_error: float = 0.0
 
     def __post_init__(self):
         middle = self.scene.channels[len(self.scene.channels) // 2]
@@ -40,7 +48,6 @@ class Study:
         self.single = self.colour_of(self.reference_um)
         middles = [float(channel.wavelengths_um @ channel.shares) for channel in self.scene.channels]
         self.waves = tuple(sorted({min(middles), self.reference_um, max(middles)}))
-        self.levels: dict = {}
 
     def seen(self, vergence: float) -> View:
         """Return the view of one depth out to the sensor's corner."""
@@ -54,13 +61,21 @@ class Study:
         return np.linspace(self.nearest_mm, self.farthest_mm, RINGS + 1)
 
     def depths(self, wave: float) -> list[float]:
-        """Return the vergences at which decisions are tried: five over the scene and the sharpest, on axis and off."""
+        """Return the vergences at which decisions are tried: both ends, middle and sharpest, on axis and off."""
+        if ("depths", wave) not in self.made:
+            scan = self.scene.vergences(SCAN)
+            found = {float(v) for v in (*scan[:: SCAN // 2], *self.sharpest(wave))}
+            self.made["depths", wave] = sorted(found)
+        return self.made["depths", wave]
+
+    def sharpest(self, wave: float) -> list[float]:
+        """Return the vergences of the smallest blur on the axis, at 0.6 of the field and in the corner."""
         scan = self.scene.vergences(SCAN)
         depths = np.array([depth_of(v) for v in scan])[:, None]
         slopes = self.seen(scan[0]).slope(np.array([0.0, 0.6, 1.0]) * self.farthest_mm)
         six = coefficients(self.lens, depths, slopes, wave)
         blur = np.abs(six.wd + six.w40 + six.w20 + six.w22 / 2)
-        return sorted({float(v) for v in (*scan[:: SCAN // 4], *scan[blur.argmin(0)])})
+        return [float(v) for v in scan[blur.argmin(0)]]
 
     def places(self, heights) -> list[tuple[float, float, float]]:
         """Return (height, vergence, wavelength) at which a decision is tried: every depth and the extreme colours."""
@@ -70,68 +85,102 @@ class Study:
         """Return the kernels of one way of making them."""
         key = (recipe, colour, round(vergence, 15))
         if key not in self.made:
-            self.made[key] = Kernels(self.seen(vergence), colour, self.scene.sensor.pixel_um, lambda height: recipe)
+            good = (recipe.method, recipe.numbers) == RUNGS[self.top]
+            tables, recipe_at = (self.tables, partial(self._enough, recipe)) if good else ({}, lambda height: recipe)
+            pixel = self.scene.sensor.pixel_um
+            self.made[key] = Kernels(self.seen(vergence), colour, pixel, recipe_at, tables=tables)
         return self.made[key]
+
+    def _enough(self, recipe: Recipe, height_mm: float) -> Recipe:
+        """Return the converged recipe with no more numbers than converge at this height."""
+        return recipe if self.tables else replace(recipe, numbers=RUNGS[self.rung_at(height_mm)][1])
 
     @staticmethod
     def colour_of(wave: float) -> Colour:
         """Return one wavelength as a colour."""
         return Colour((wave,), (1.0,))
 
-    def best(self, height_mm: float, vergence: float, wave: float) -> int:
-        """Return the first rung whose residual is converged here, or the last."""
-        self.check()
-        key = (round(height_mm, 9), round(vergence, 15), wave)
-        if key not in self.levels:
-            source = self.seen(vergence).source(height_mm, wave)
-            good = (
-                n for n in range(1, len(RUNGS)) if fit(self.lens, source, RUNGS[n][1]).residual_waves < CONVERGED_WAVES
-            )
-            self.levels[key] = next(good, len(RUNGS) - 1)
-        return self.levels[key]
+    @cached_property
+    def top(self) -> int:
+        """Return the first rung that is converged at both ends of field and depth, in the colour that asks most."""
+        return max(self.rung_at(height) for height in (self.farthest_mm, self.nearest_mm))
 
-    def recipe(self, height_mm: float, vergence: float, wave: float, sampling=SAMPLINGS[1]) -> Recipe:
-        """Return the converged recipe at one place."""
-        return Recipe(*RUNGS[self.best(height_mm, vergence, wave)], *sampling)
+    def rung_at(self, height_mm: float) -> int:
+        """Return the first rung whose fit leaves next to nothing of the phase at both ends of the depths."""
+        self.check()
+        ends, wave = {float(v) for v in self.scene.vergences(2)}, min(self.waves)
+        good = (
+            n for n in range(1, len(RUNGS)) if all(self.residual(n, height_mm, v, wave) < CONVERGED_WAVES for v in ends)
+        )
+        return next(good, len(RUNGS) - 1)
+
+    def recipe(self, sampling=SAMPLINGS[1]) -> Recipe:
+        """Return the converged recipe."""
+        return Recipe(*RUNGS[self.top], *sampling)
 
     def rung_error(self, rung: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the relative error of a rung's kernel against the converged one, and that one's own."""
-        best = self.best(height_mm, vergence, wave)
-        left = self.residual(min(rung, best), height_mm, vergence, wave) if rung else 0.0
-        if rung >= best:
-            return from_phase(left)
-        good, tried = (Recipe(*RUNGS[n], *SAMPLINGS[3]) for n in (best, rung))
-        return self.distance(tried, good, height_mm, vergence, wave)
+        if rung >= self.top:
+            return from_phase(self.residual(self.top, height_mm, vergence, wave))
+        tried = Recipe(*RUNGS[rung], *SAMPLINGS[3])
+        return self.distance(tried, self.recipe(SAMPLINGS[3]), height_mm, vergence, wave)
 
     def residual(self, rung: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the phase residual of a fit in waves."""
-        source = self.seen(vergence).source(height_mm, wave)
-        return fit(self.lens, source, RUNGS[rung][1]).residual_waves
+        key = ("residual", rung, round(height_mm, 9), round(vergence, 15), wave)
+        if key not in self.made:
+            source = self.seen(vergence).source(height_mm, wave)
+            self.made[key] = fit(self.lens, source, RUNGS[rung][1]).residual_waves
+        return self.made[key]
 
     def distance(self, tried: Recipe, good: Recipe, height_mm: float, vergence: float, wave: float) -> float:
         """Return the relative L2 distance of two recipes' kernels at one place."""
-        single = self.colour_of(wave)
-        one, two = (self.kernels(r, single, vergence).at(*oblique(height_mm)) for r in (tried, good))
-        return distance(one, two)
+        self.check()
+        single, at = self.colour_of(wave), oblique(height_mm)
+        return distance(*(self.kept(r, single, vergence, at) for r in (tried, good)))
+
+    def kept(self, recipe: Recipe, colour: Colour, vergence: float, at: tuple[float, float]) -> np.ndarray:
+        """Return one kernel, made once."""
+        key = (recipe, colour, round(vergence, 15), round(at[0], 9), round(at[1], 9))
+        if key not in self.made:
+            self.made[key] = self.kernels(recipe, colour, vergence).at(*at)
+        return self.made[key]
 
     def sampling_error(self, number: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the error of a sampling against the finest."""
-        tried, good = (self.recipe(height_mm, vergence, wave, SAMPLINGS[n]) for n in (number, -1))
+        tried, good = (self.recipe(SAMPLINGS[n]) for n in (number, -1))
         return self.distance(tried, good, height_mm, vergence, wave)
 
     def colour_error(self, channel, count: int, height_mm: float, vergence: float) -> float:
         """Return the error of fewer wavelengths against all of a channel's."""
-        recipe = self.recipe(height_mm, vergence, self.reference_um, SAMPLINGS[3])  # a coarser one hides the change
+        self.check()
+        recipe, at = self.recipe(SAMPLINGS[3]), oblique(height_mm)  # a coarser one hides the change
         few, every = (reduced(channel, n) for n in (count, len(channel.wavelengths_nm)))
-        return distance(*(self.kernels(recipe, c, vergence).at(*oblique(height_mm)) for c in (few, every)))
+        return distance(*(self.kept(recipe, c, vergence, at) for c in (few, every))) if few != every else 0.0
 
     def plain(self, vergence: float, x_mm: float, y_mm: float, wave: float) -> np.ndarray:
-        """Return the kernel in one wavelength by one converged recipe for the whole field."""
-        recipe = self.recipe(self.farthest_mm, vergence, wave)
-        key = ("kernel", round(vergence, 15), round(x_mm, 9), round(y_mm, 9), wave)
-        if key not in self.made:
-            self.made[key] = self.kernels(recipe, self.colour_of(wave), vergence).at(x_mm, y_mm)
-        return self.made[key]
+        """Return the kernel in one wavelength by the converged recipe."""
+        self.check()
+        return self.kept(self.recipe(), self.colour_of(wave), vergence, (x_mm, y_mm))
+
+
+def least(count: int, measure: Callable[..., float], places: Iterable[tuple], allowed: float) -> tuple[int, float]:
+    """Return the first number whose error is allowed at all places, else the last below ``count``; and the error.
+
+    The error is the largest of ``measure(number, *place)``. Most numbers fail where the one before did, so that
+    place is asked first.
+    """
+    places = list(places)
+    for number in range(count):
+        worst = 0.0
+        for n, place in enumerate(places):
+            worst = max(worst, measure(number, *place))
+            if worst > allowed and number < count - 1:
+                places.insert(0, places.pop(n))
+                break
+        else:
+            break
+    return number, worst
 
 
 def oblique(height_mm: float) -> tuple[float, float]:
