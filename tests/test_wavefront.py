@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 
 from p2sf.quadrature import disc_nodes
-from p2sf.wavefront import bound_of, coma_tilt, pv, rms, steepest_chords, steepest_polar, steepest_slope, wavefront
+from p2sf.wavefront import (
+    bound_of,
+    coma_tilt,
+    pv,
+    rms,
+    shape_coefficients,
+    steepest_chords,
+    steepest_polar,
+    steepest_slope,
+    wavefront,
+)
 from tests.waves import waves
 
 RANDOM = waves(*np.random.default_rng(1).normal(size=(6, 200)))
@@ -24,6 +34,12 @@ def test_coefficients_broadcast_before_the_pupil():
     c = waves(w40=np.ones((3, 1, 2)), wd=np.ones((3, 4, 1)))
     assert wavefront(c, np.zeros((6, 5)), np.zeros((6, 1))).shape == (3, 4, 2, 6, 5)
     assert steepest_slope(c).shape == rms(c).shape == pv(c).shape == (3, 4, 2)
+    assert bound_of(np.ones((3, 1, 2, 4))).shape == (3, 1, 2)
+
+
+def test_the_tilt_stays_out_of_the_shape_unless_asked_for():
+    c = waves(1.0, 2, 3, 4, 5, 6)
+    assert shape_coefficients(c) == (1, 2, 3, 10, 0) and shape_coefficients(c, tilt=True) == (1, 2, 3, 10, 5)
 
 
 def brute_slopes(c, rho, theta, h=1e-5):
