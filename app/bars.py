@@ -16,7 +16,7 @@ from app.scales import signed
 from app.speech import spoken
 from app.store import Store
 from app.theme import DARK, LIGHT, Tokens
-from app.words import tr
+from app.words import tr, unbroken
 
 METHOD_WORDS = {
     "auto": "auto",
@@ -217,5 +217,5 @@ class Banner(QFrame):
 
     def say(self, sentence: str) -> None:
         """Show a sentence."""
-        self.text.setText(tr(spoken(sentence)))
+        self.text.setText(unbroken(tr(spoken(sentence))))
         self.show()

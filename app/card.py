@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 
 from app.copying import copy_menu
 from app.veil import Veil
-from app.words import tr
+from app.words import tr, unbroken
 
 LIST_AIR = 24  # beside the longest line of an open list
 
@@ -98,14 +98,15 @@ class Card(QFrame):
     def show_side(self, side: str, why: str = "") -> None:
         """Say behind the title which side of a comparison this is, and under it why a difference is not shown."""
         words = " · ".join(filter(None, (self._title, tr(side))))
-        if (self.title.text(), self.note.text()) != (words, tr(why)):
+        note = unbroken(tr(why))
+        if (self.title.text(), self.note.text()) != (words, note):
             self.title.setText(words)
-            self.note.setText(tr(why))
+            self.note.setText(note)
             self.note.setVisible(bool(why))
 
     def show_veil(self, sentence: str) -> None:
         """Cover everything but the title with a sentence on why there is nothing to show; uncover it for ""."""
-        if tr(sentence) != self.veil.text:
+        if unbroken(tr(sentence)) != self.veil.text:
             self.readout.setVisible(not sentence)
             self.veil.say(sentence, self.head.geometry().bottom() + 1)
 

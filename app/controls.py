@@ -22,7 +22,7 @@ from app.stopping import StopRow
 from app.store import Store
 from app.theme import SPACE, Tokens
 from app.valueedit import PlayButton, ValueEdit
-from app.words import tr
+from app.words import tr, unbroken
 from p2sf.errors import P2SFError
 
 WIDTH = 292
@@ -205,8 +205,8 @@ class Controls(QWidget):
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
         apart = live.state.shown != "a"  # B or A − B is on screen, and this column stays A's
-        self.sentence.setText(f"A: {tr(live.dominant)}" if apart else tr(live.dominant))
-        self.detail.setText(tr(live.why))
+        self.sentence.setText(unbroken(f"A: {tr(live.dominant)}" if apart else tr(live.dominant)))
+        self.detail.setText(unbroken(tr(live.why)))
         self.facts.show_rows((OF_A, *rows(live)) if apart else rows(live))
 
     def show_none(self) -> None:

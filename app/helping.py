@@ -12,6 +12,10 @@ HANDS = (
     ("drop a file", "open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, "
      ".csv with named columns, .toml, or a saved state"),
 )  # fmt: skip
+POINT = (
+    "Numbers have a decimal point, in every language, as in files and on the command line; "
+    "a comma that is typed is read as one too."
+)
 LEAD = "Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition."
 
 
@@ -23,7 +27,8 @@ def help_text(commands: tuple[Command, ...]) -> str:
         if known:
             rows.append(f'<tr><td colspan="2"><b>{escape(tr(group))}</b></td></tr>')
             rows += [_row(", ".join(command.keys), tr(command.title)) for command in known]
-    return f'<h3>P2SF Explorer</h3><p>{escape(tr(LEAD))}</p><table cellpadding="2">{"".join(rows)}</table>'
+    lead, point = escape(tr(LEAD)), escape(tr(POINT))
+    return f'<h3>P2SF Explorer</h3><p>{lead}</p><table cellpadding="2">{"".join(rows)}</table><p>{point}</p>'
 
 
 def _row(keys: str, words: str) -> str:

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollA
 from app.card import chooser, select
 from app.lesson import Lesson
 from app.theme import SPACE
-from app.words import tr
+from app.words import tr, unbroken
 
 WIDTHS = 250, 330  # in a narrow window and in a wide one
 SHARE = 0.205  # of the window's width
@@ -106,7 +106,7 @@ class LessonPanel(QFrame):
             (self.answer, rich(step.answer if told else "")),
         )
         for label, text in texts:
-            label.setText(text)
+            label.setText(unbroken(text))
             label.setVisible(bool(text))
         self.reveal.setVisible(bool(step.question) and not told)
         self.count.setText(tr("step {k} of {n}", k=number + 1, n=last + 1))

@@ -5,7 +5,7 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QProgressBar, QSizePolicy, QToolButton, QWidget, QWidgetAction
 
-from app.words import tr
+from app.words import tr, unbroken
 
 WORDS_PX = 480
 TURNS = (
@@ -71,7 +71,7 @@ class Why(QLabel):
     def tell(self, words: tuple[tuple[str, str], ...]) -> None:
         """Show (what, sentence) a line each."""
         lines = (f"<p><b>{escape(a, quote=False)}</b> {escape(b, quote=False)}</p>" for a, b in words)
-        self.setText(tr("".join(lines)))
+        self.setText(unbroken(tr("".join(lines))))
         self.adjustSize()
 
 

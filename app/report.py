@@ -19,7 +19,7 @@ from app.setting import prescription
 from app.state import State
 from app.theme import LIGHT, tokens
 from app.thumbnail import glass
-from app.words import tr
+from app.words import tr, unbroken
 from p2sf.export import write_beside
 
 PAGE = QSizeF(210.0, 297.0)  # A4, mm; everything below is in mm
@@ -46,7 +46,8 @@ class Page:
         flags = {-1: Qt.AlignmentFlag.AlignLeft, 0: Qt.AlignmentFlag.AlignHCenter, 1: Qt.AlignmentFlag.AlignRight}
         box = self.pixels(room)
         self.painter.setPen(QColor(LIGHT.text))
-        self.painter.drawText(box, flags[side] | Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap, tr(words))
+        how = flags[side] | Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap
+        self.painter.drawText(box, how, unbroken(tr(words)))
 
     def pixels(self, room: QRectF) -> QRectF:
         """Return a rectangle in the painter's own unit."""

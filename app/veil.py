@@ -4,7 +4,7 @@ from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QWidget
 
-from app.words import tr
+from app.words import tr, unbroken
 
 COVER = 0.9  # of the light: so little is left of an earlier picture that nobody reads figures off it
 MARGIN = 12
@@ -22,7 +22,7 @@ class Veil(QWidget):
 
     def say(self, sentence: str, top: int) -> None:
         """Cover the parent from ``top`` pixels on with a sentence, or uncover it for an empty one."""
-        self.text, self._top = tr(sentence), top
+        self.text, self._top = unbroken(tr(sentence)), top
         self.setVisible(bool(sentence))
         self._cover()
 

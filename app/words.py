@@ -6,10 +6,13 @@ whatever computes without a window speaks English. Titles, tips, axis labels and
 chooser or the registry are translated there; only what a panel builds itself needs `tr`.
 """
 
+import re
 import sys
 from functools import lru_cache
 
 CONTEXT = "p2sf"
+UNITS = "%|[kMGn]?m|[µm]m|cm|ms|s|dB|λ|kB|MiB|GiB|waves?|Wellen?|rays|Strahlen|numbers|Zahlen|PSFs"
+GAP = re.compile(rf"(?<=[\d∞]) (?=(?:{UNITS})(?![^\W_]))|(?<=[≥≤≈]) (?=[−\d])")
 
 
 def tr(text: str, **values) -> str:
@@ -22,6 +25,12 @@ def tr(text: str, **values) -> str:
 def _translated(text: str) -> str:
     core = sys.modules.get("PySide6.QtCore")
     return core.QCoreApplication.translate(CONTEXT, text) if core and text else text
+
+
+@lru_cache(maxsize=512)
+def unbroken(text: str) -> str:
+    """Return a text that no line end parts from its unit or from its ≥ where a number stands: for labels that wrap."""
+    return GAP.sub("\u00a0", text)
 
 
 def forget() -> None:

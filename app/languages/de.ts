@@ -120,7 +120,7 @@
 <message><source>Exit pupil</source><translation>Austrittspupille</translation></message>
 <message><source>F-number</source><translation>Blendenzahl</translation></message>
 <message><source>Farthest ray</source><translation>Fernster Strahl</translation></message>
-<message><source>Fast double Gauss f/1.4, 50 mm</source><translation>Lichtstarker Doppel-Gauß f/1,4, 50 mm</translation></message>
+<message><source>Fast double Gauss f/1.4, 50 mm</source><translation>Lichtstarker Doppel-Gauß f/1.4, 50 mm</translation></message>
 <message><source>Field</source><translation>Feld</translation></message>
 <message><source>Field angle</source><translation>Feldwinkel</translation></message>
 <message><source>Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
@@ -132,7 +132,7 @@
 <message><source>Film…</source><translation>Film …</translation></message>
 <message><source>Find a command, a panel, a lens or a preset</source><translation>Befehl, Ansicht, Objektiv oder Vorgabe finden</translation></message>
 <message><source>Find a command…</source><translation>Befehl finden …</translation></message>
-<message><source>First dark ring of a perfect lens, 0.61 λ/NA.</source><translation>Erster dunkler Ring eines perfekten Objektivs, 0,61 λ/NA.</translation></message>
+<message><source>First dark ring of a perfect lens, 0.61 λ/NA.</source><translation>Erster dunkler Ring eines perfekten Objektivs, 0.61 λ/NA.</translation></message>
 <message><source>First order</source><translation>Erste Ordnung</translation></message>
 <message><source>First-order data</source><translation>Daten erster Ordnung</translation></message>
 <message><source>First-order data: everything that follows from paraxial rays alone; hover over a row for its definition.</source><translation>Daten erster Ordnung: alles, was allein aus paraxialen Strahlen folgt; über einer Zeile steht ihre Definition.</translation></message>
@@ -180,7 +180,7 @@
 <message><source>Link all</source><translation>Alles koppeln</translation></message>
 <message><source>Link none</source><translation>Nichts koppeln</translation></message>
 <message><source>Link: {count}</source><translation>Gekoppelt: {count}</translation></message>
-<message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0,7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
+<message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0.7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
 <message><source>MTF</source><translation>MTF</translation></message>
 <message><source>MTF: contrast left of a sine pattern, |FT of the PSF|; grey: a perfect lens, (2/π)(acos ν − ν√(1−ν²)).</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, |FT der PSF|; grau: ein perfektes Objektiv, (2/π)(acos ν − ν√(1−ν²)).</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
@@ -237,7 +237,7 @@
 <message><source>Perfect lens</source><translation>Ideale Linse</translation></message>
 <message><source>Perfect lens and pixels</source><translation>Ideale Linse und Pixel</translation></message>
 <message><source>Periskop-type symmetric lens, f/11, 100 mm</source><translation>Symmetrisches Objektiv vom Periskop-Typ, f/11, 100 mm</translation></message>
-<message><source>Petzval lens f/1.4, 50 mm</source><translation>Petzval-Objektiv f/1,4, 50 mm</translation></message>
+<message><source>Petzval lens f/1.4, 50 mm</source><translation>Petzval-Objektiv f/1.4, 50 mm</translation></message>
 <message><source>Petzval radius</source><translation>Petzval-Radius</translation></message>
 <message><source>Phase</source><translation>Phase</translation></message>
 <message><source>Photo…</source><translation>Foto …</translation></message>
@@ -257,7 +257,7 @@
 <message><source>Pixels at the field point, or the field</source><translation>Pixel am Feldpunkt, oder das Feld</translation></message>
 <message><source>Places</source><translation>Orte</translation></message>
 <message><source>Pupils</source><translation>Pupillen</translation></message>
-<message><source>Plano-convex singlet, 25.4 mm, N-SF11 (stock lens)</source><translation>Plankonvexe Einzellinse, 25,4 mm, N-SF11 (Lagerware)</translation></message>
+<message><source>Plano-convex singlet, 25.4 mm, N-SF11 (stock lens)</source><translation>Plankonvexe Einzellinse, 25.4 mm, N-SF11 (Lagerware)</translation></message>
 <message><source>Play or pause (Space on a slider)</source><translation>Abspielen oder anhalten (Leertaste auf einem Regler)</translation></message>
 <message><source>Play or pause the last slider</source><translation>Letzten Regler abspielen oder anhalten</translation></message>
 <message><source>Play this slider (Space)</source><translation>Diesen Regler abspielen (Leertaste)</translation></message>
@@ -296,7 +296,7 @@
 <message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
 <message><source>Reset</source><translation>Nullen</translation></message>
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
-<message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
+<message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6.7, 60 Grad Feld (f = 2)</translation></message>
 <message><source>Rims clip {lost} of {all} rays, and fitted describes the whole pupil; choose traced or huygens, or leave clip off</source><translation>Ränder nehmen {lost} von {all} Strahlen weg, und fitted beschreibt die ganze Pupille; traced oder huygens wählen oder den Randbeschnitt auslassen</translation></message>
 <message><source>R² ≥ 0.9</source><translation>R² ≥ 0.9</translation></message>
 <message><source>R² ≥ 0.95</source><translation>R² ≥ 0.95</translation></message>
@@ -372,8 +372,8 @@
 <message><source>Take back one step (Ctrl+Z)</source><translation>Einen Schritt zurücknehmen (Strg+Z)</translation></message>
 <message><source>Take the step again (Ctrl+Shift+Z)</source><translation>Den Schritt wiederholen (Strg+Umschalt+Z)</translation></message>
 <message><source>Take this surface out; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
-<message><source>Telephoto f/5.6, 127 mm</source><translation>Teleobjektiv f/5,6, 127 mm</translation></message>
-<message><source>Tessar f/4.5 (unit scale, f = 4 in)</source><translation>Tessar f/4,5 (Einheitsmaßstab, f = 4 Zoll)</translation></message>
+<message><source>Telephoto f/5.6, 127 mm</source><translation>Teleobjektiv f/5.6, 127 mm</translation></message>
+<message><source>Tessar f/4.5 (unit scale, f = 4 in)</source><translation>Tessar f/4.5 (Einheitsmaßstab, f = 4 Zoll)</translation></message>
 <message><source>Textbook wavefronts, in a free pupil</source><translation>Wellenfronten aus dem Lehrbuch, in freier Pupille</translation></message>
 <message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; bring focus and source together to see waves.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; Fokus und Quelle zusammenbringen, um Wellen zu sehen.</translation></message>
@@ -703,6 +703,7 @@
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
 <message><source>{columns} × {rows} pixels of {pitch} µm</source><translation>{columns} × {rows} Pixel zu {pitch} µm</translation></message>
 <message><source>This is A: B has none. {why}</source><translation>Dies ist A: B hat keines. {why}</translation></message>
+<message><source>Numbers have a decimal point, in every language, as in files and on the command line; a comma that is typed is read as one too.</source><translation>Zahlen haben in jeder Sprache einen Dezimalpunkt, wie in Dateien und auf der Kommandozeile; ein getipptes Komma wird ebenso gelesen.</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
 <message><source>PSFs</source><translation>PSFs</translation></message>
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
@@ -1066,7 +1067,7 @@
 <message><source>there is no picture yet</source><translation>es gibt noch kein Bild</translation></message>
 <message><source>the {words} "{text}" has the unit "{unit}"</source><translation>{words}: "{text}" hat die Einheit "{unit}"</translation></message>
 <message><source>the {words} "{text}" is not a number</source><translation>{words}: "{text}" ist keine Zahl</translation></message>
-<message><source>write one such as 12.5</source><translation>eine schreiben wie 12,5</translation></message>
+<message><source>write one such as 12.5</source><translation>eine schreiben wie 12.5</translation></message>
 <message><source>write the number alone</source><translation>die Zahl allein schreiben</translation></message>
 <message><source>write {names} or no unit</source><translation>{names} oder keine Einheit schreiben</translation></message>
 <message><source>PSF data has no ending "{ending}"</source><translation>PSF-Daten haben nicht die Endung "{ending}"</translation></message>

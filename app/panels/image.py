@@ -18,7 +18,7 @@ from app.theme import Tokens
 from app.veil import Veil
 from app.views.image import Answer, Question, coarse, fine_enough, local_psf, pixels, planned, save_picture, work
 from app.wipe import Wipe
-from app.words import tr
+from app.words import tr, unbroken
 from app.worker import LatestWins
 from p2sf.errors import P2SFError
 
@@ -170,7 +170,7 @@ class ImagePanel:
 
     def _say(self, words: str) -> None:
         """Show a few words under the controls; the whole of them as a tooltip, should they not fit."""
-        self.headline.setText(tr(words))
+        self.headline.setText(unbroken(tr(words)))
         self.headline.setToolTip(tr(words))
 
     def _paint(self) -> None:

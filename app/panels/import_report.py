@@ -11,7 +11,7 @@ from app.opening import Refusal, with_substitutes
 from app.store import Store
 from app.theme import LIGHT, Tokens
 from app.views.import_report import REFUSED, Report, refused
-from app.words import tr
+from app.words import tr, unbroken
 from p2sf.errors import P2SFError
 
 TIP = "Import report: everything the reader of the lens file took, replaced, passed over or refused, and why."
@@ -62,7 +62,7 @@ class ImportReportPanel:
     def _write(self, report: Report) -> None:
         if report != self._report:
             self._report = report
-            self.text.setHtml(page(report, self._theme))
+            self.text.setHtml(unbroken(page(report, self._theme)))
 
     def _accept(self) -> None:
         try:

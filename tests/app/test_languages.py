@@ -121,7 +121,7 @@ def shown(window) -> set[str]:
         if isinstance(widget, QComboBox):
             found |= {widget.itemText(k) for k in range(widget.count())}
         found |= {action.text().split("\t")[0] for action in QWidget.actions(widget)}
-    return found
+    return {text.replace("\u00a0", " ") for text in found}
 
 
 def test_nothing_shown_passes_the_language_by(german):
