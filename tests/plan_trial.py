@@ -5,7 +5,11 @@ person would compute for the same error without a plan: one method everywhere, t
 place, its own rays for every PSF; depth × rows × columns × every wavelength, as dense all over as the worst place asks;
 every fringe; all phase terms; one window, that of the widest blur; nothing from symmetry (`pricing.naive_work`). Both
 prices are printed as predicted and as measured (CPU seconds of making the kernels, of the full grid from a sample of
-them), and the reference sum's on the same grid beside them.
+them; chief rays, which both need alike, are traced before), and the reference sum's on the same grid beside them.
+
+`python -m tests.plan_trial` runs 20 scenes of all lenses, `python -m tests.plan_trial 4 tessar relay` four of two; set
+OMP_NUM_THREADS=1 and OPENBLAS_NUM_THREADS=1, or a second thread counts as CPU time. At the end it prints the sums of
+every lens and of all: full grid, plan, plan with its planning.
 """
 
 import sys
@@ -107,6 +111,10 @@ def trial(lens, scene, seed: int = 0) -> dict:
 
 def plan_seconds(planned: Plan) -> float:
     """Return the CPU seconds of all kernels of a plan, its pupils included: of one depth times the depths."""
+    for vergence in planned.vergences:
+        planned.view(vergence)
+    for vergence in (planned.pupil_nodes or ((), ()))[1]:
+        planned.view(vergence)
     started = process_time()
     for number in range(len(planned.colours)):
         planned.kernels(number, planned.vergences[0])  # makes the pupils that are shared
@@ -142,7 +150,7 @@ def run(name: str, scenes: int) -> list[dict]:
     random, rows, refused = np.random.default_rng(sum(map(ord, name))), [], 0
     while len(rows) < scenes and refused < 3 * scenes:
         try:
-            rows.append(trial(*random_scene(find_lens(name), random), len(rows)))
+            rows.append({"lens": name, **trial(*random_scene(find_lens(name), random), len(rows))})
         except P2SFError as error:
             refused += 1
             print(f"  {name}: redrawn, {error}", flush=True)
@@ -154,7 +162,8 @@ def run(name: str, scenes: int) -> list[dict]:
             f"{row['predicted_saving']:.1f}× predicted, {row['measured_saving']:.1f}× measured "
             f"({row['naive_seconds']:.3f} s to {row['kernel_seconds']:.3f} s), "
             f"{row['reference_saving']:.0f}× against the reference, "
-            f"looser is cheaper: {row['loosening_is_cheaper']}",
+            f"looser is cheaper: {row['loosening_is_cheaper']}, "
+            f"planned in {row['planning_seconds']:.2f} s",
             flush=True,
         )
         if not row["kept"]:
@@ -175,6 +184,23 @@ def main(arguments: list[str]) -> None:
         low, middle = np.percentile(found, [5, 50])
         print(f"{key}: median {middle:.1f}, 5th percentile {low:.1f}, at least 5 in {np.mean(found >= 5):.0%}")
     print("dearer when looser:", sum(row["loosening_is_cheaper"] is False for row in rows))
+    for name in dict.fromkeys(row["lens"] for row in rows):
+        print(sums(name, [row for row in rows if row["lens"] == name]))
+    print(sums("all", rows))
+
+
+def sums(name: str, rows: list[dict]) -> str:
+    """Return a sentence on what these scenes cost together."""
+    full, spent, planning = (
+        np.array([row[key] for row in rows]) for key in ("naive_seconds", "kernel_seconds", "planning_seconds")
+    )
+    saving = np.median([row["measured_saving"] for row in rows])
+    return (
+        f"{name}: {len(rows)} scenes, full grid {full.sum():.2f} s, plan {spent.sum():.2f} s "
+        f"({full.sum() / spent.sum():.1f}× in sum, median {saving:.1f}×), planning {planning.sum():.2f} s more "
+        f"(median {np.median(planning):.2f} s, longest {planning.max():.2f} s), "
+        f"{full.sum() / (spent + planning).sum():.1f}× with it"
+    )
 
 
 if __name__ == "__main__":

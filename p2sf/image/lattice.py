@@ -10,6 +10,7 @@ from p2sf.image.watch import Watch
 from p2sf.kernels.nodes import nodes_along
 
 WORKERS = 2
+THREADED = 2**14  # pixels of a kernel in all channels: threads of smaller ones wait for each other
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,10 +56,19 @@ def build_lattice(
         watch.advance()
         return kernel_at(float(rows[node[0]]), float(columns[node[1]]))
 
-    with ThreadPoolExecutor(WORKERS) as pool:
-        made = dict(zip(wanted, pool.map(one, wanted), strict=True))
+    first = one(wanted[0])
+    rest = _each(one, wanted[1:], first.size >= THREADED)
+    made = dict(zip(wanted, (first, *rest), strict=True))
     lines = [[_mirror_of(made, a, b, len(rows), len(columns)) for b in range(len(columns))] for a in range(len(rows))]
     return Lattice(rows, columns, lines)
+
+
+def _each(make: Callable, nodes: list, threaded: bool) -> list[np.ndarray]:
+    """Return what is made of every node, by WORKERS threads or one after the other."""
+    if not threaded:
+        return [make(node) for node in nodes]
+    with ThreadPoolExecutor(WORKERS) as pool:
+        return list(pool.map(make, nodes))
 
 
 def _mirror_of(made: dict, a: int, b: int, rows: int, columns: int) -> np.ndarray:

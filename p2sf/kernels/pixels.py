@@ -66,10 +66,22 @@ def pixel_kernel(pupil: PupilMap, angle: float, window: Window, shift_um=(0.0, 0
 
 
 def _binned(light: np.ndarray, size: int, samples: int) -> np.ndarray:
-    """Return sums over blocks of ``samples``² as two products, (size, size)."""
-    ones = np.ones(samples, light.dtype)
-    lines = light.reshape(size, samples, -1).sum(1)
-    return lines.reshape(size, size, samples) @ ones
+    """Return the light of every pixel from ``samples``² samples in it, (size, size), none of it negative."""
+    lines = _edged(light.reshape(size, samples, -1))
+    return np.maximum(_edged(np.ascontiguousarray(lines.T).reshape(size, samples, -1)).T, 0)
+
+
+def _edged(light: np.ndarray) -> np.ndarray:
+    """Return sums over samples in the middle of equal steps, (pixels, samples, columns) → (pixels, columns).
+
+    The midpoint rule misses h²/24 of the slope's change from edge to edge (Abramowitz & Stegun 1964, 25.4.2 over half
+    steps); the slope at an edge is that of the samples on either side, so pixels exchange it and no light is lost.
+    """
+    sums = light.sum(1)
+    passed = (light[1:, 0] - light[:-1, -1]) / np.float32(24)
+    sums[:-1] += passed
+    sums[1:] -= passed
+    return sums
 
 
 def _field(pupil: Turned, side: int, step: float, origin) -> np.ndarray:

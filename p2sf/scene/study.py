@@ -18,7 +18,9 @@ from p2sf.scene.spectrum import reduced
 from p2sf.seidel import coefficients
 
 RUNGS = (("seidel", None), *(("fitted", level.numbers) for level in LEVELS))
-SAMPLINGS = ((1.0, 0.0), (1.0, 0.5), (1.5, 0.5), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0))  # fineness and margin of `Recipe`
+# Fineness and margin of `Recipe`, cheapest first.
+SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0)
+PLAIN, SHARP = SAMPLINGS[2], SAMPLINGS[4]  # for changes of whole kernels, and for those that fringes show
 NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
 DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
 RINGS = 2
@@ -114,7 +116,7 @@ class Study:
         )
         return next(good, len(RUNGS) - 1)
 
-    def recipe(self, sampling=SAMPLINGS[1]) -> Recipe:
+    def recipe(self, sampling=PLAIN) -> Recipe:
         """Return the converged recipe."""
         return Recipe(*RUNGS[self.top], *sampling)
 
@@ -122,8 +124,8 @@ class Study:
         """Return the relative error of a rung's kernel against the converged one, and that one's own."""
         if rung >= self.top:
             return from_phase(self.residual(self.top, height_mm, vergence, wave))
-        tried = Recipe(*RUNGS[rung], *SAMPLINGS[3])
-        return self.distance(tried, self.recipe(SAMPLINGS[3]), height_mm, vergence, wave)
+        tried = Recipe(*RUNGS[rung], *SHARP)
+        return self.distance(tried, self.recipe(SHARP), height_mm, vergence, wave)
 
     def residual(self, rung: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the phase residual of a fit in waves."""
@@ -154,7 +156,7 @@ class Study:
     def colour_error(self, channel, count: int, height_mm: float, vergence: float) -> float:
         """Return the error of fewer wavelengths against all of a channel's."""
         self.check()
-        recipe, at = self.recipe(SAMPLINGS[3]), oblique(height_mm)  # a coarser one hides the change
+        recipe, at = self.recipe(SHARP), oblique(height_mm)  # a coarser one hides the change
         few, every = (reduced(channel, n) for n in (count, len(channel.wavelengths_nm)))
         return distance(*(self.kept(recipe, c, vergence, at) for c in (few, every))) if few != every else 0.0
 
