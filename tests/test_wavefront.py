@@ -69,6 +69,11 @@ def test_one_term_has_the_slope_calculus_gives():
         assert float(steepest_slope(waves(**{name: -1.5}))) == pytest.approx(1.5 * slope, rel=1e-12)
     assert float(steepest_slope(waves(w11=2.0), tilt=True)) == pytest.approx(2.0)
     assert float(steepest_slope(waves(w11=2.0))) == 0
+    for tilt, slope in (
+        (1.0, 4),
+        (-1.0, 2),
+    ):  # W31ρ²η rises by 3 towards the field at the rim: with the tilt, or against
+        assert float(steepest_slope(waves(w31=1.0, w11=tilt), tilt=True)) == pytest.approx(slope, rel=1e-12)
 
 
 def test_rms_is_the_variance_over_the_disc():
