@@ -12,7 +12,6 @@ STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `psf` refuses t
 # Measured for 64 × 64 samples: the nodes, and with them the time, grow with the square of the slope.
 SECONDS_PER_SQUARE_WAVE = 4e-6
 
-NO_PUPIL = "not defined for a fitted shape"
 TOO_COARSE = "unknown: samples so far apart add up to no share; give a smaller --pixel-um"
 
 
@@ -46,10 +45,3 @@ def long_sum(setup: Setup) -> str | None:
         f"{SECONDS_PER_SQUARE_WAVE * slope**2:.0f} s and describes little; choose a smaller field or "
         "aperture, or another method"
     )
-
-
-def why_unknown(share: float | None, strehl: float | None) -> str:
-    """Return why nobody knows which share of all light is in a picture; nothing where it is known."""
-    if share is not None:
-        return ""
-    return NO_PUPIL if strehl is None else TOO_COARSE

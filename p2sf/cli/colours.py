@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from p2sf.cli.cautions import why_unknown
+from p2sf.cli.cautions import TOO_COARSE
 from p2sf.cli.options import check_output
 from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.colour import chromaticity
@@ -48,7 +48,7 @@ def rows(found: ColourPsf, output: Path | None) -> list[tuple]:
         ("methods", ", ".join(found.methods), ""),
         ("samples", f"{found.xyz.shape[1]} × {found.xyz.shape[0]}", ""),
         ("pixel", found.pixel_um, "µm"),
-        ("light in the picture", known["light_in_window"], why_unknown(known["light_in_window"], 1.0)),
+        ("light in the picture", known["light_in_window"], "" if known["light_in_window"] else TOO_COARSE),
         ("lateral colour between the outermost chief rays", shift, "µm"),
         ("chromaticity x, y (CIE 1931)", f"{x:.4f}, {y:.4f}", ""),
         ("time", 1e3 * found.seconds, "ms"),

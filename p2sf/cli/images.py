@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from p2sf.cli.cautions import NO_PUPIL, caution, why_unknown
+from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
 from p2sf.cli.screen import heading, print_json, print_table
@@ -147,8 +147,8 @@ def summary(result: Psf, output: Path | None) -> list[tuple]:
         ("method", result.method, ""),
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", ""),
         ("pixel", result.pixel_um, "µm"),
-        ("Strehl ratio", known["strehl"], NO_PUPIL if known["strehl"] is None else ""),
-        ("light in the picture", known["energy"], why_unknown(known["energy"], known["strehl"])),
+        ("Strehl ratio", known["strehl"], "not defined for a fitted shape" if known["strehl"] is None else ""),
+        ("light in the picture", known["energy"], TOO_COARSE if known["energy"] is None else ""),
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
         ("radius of 50 % of the light in the picture", measured["radius_50_um"], "µm"),
         ("radius of 80 % of the light in the picture", measured["radius_80_um"], "µm"),
