@@ -10,6 +10,7 @@ from app.words import tr
 
 PAD = 7.0
 SIZE = 12
+BAR_AIR = 6
 
 
 class Readout(QWidget):
@@ -137,9 +138,18 @@ class FactTable(QWidget):
             write(painter, line, value, 1, SIZE)
 
 
+class Scrolling(QScrollArea):
+    """An area that keeps what it holds clear of its scroll bar, where there is one."""
+
+    def resizeEvent(self, event) -> None:
+        """Leave air beside the bar, and none where there is no bar."""
+        super().resizeEvent(event)
+        self.widget().layout().setContentsMargins(0, 0, BAR_AIR if self.verticalScrollBar().isVisible() else 0, 0)
+
+
 def scrolled(table: FactTable) -> QScrollArea:
     """Return a table at the foot of an area that scrolls where the room is short, so that no row is cut in two."""
-    body, area = QWidget(), QScrollArea()
+    body, area = QWidget(), Scrolling()
     column = QVBoxLayout(body)
     column.setContentsMargins(0, 0, 0, 0)
     column.addStretch(1)

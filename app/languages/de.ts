@@ -75,7 +75,7 @@
 <message><source>Coma, 3 λ</source><translation>Koma, 3 λ</translation></message>
 <message><source>Coma, ½ λ</source><translation>Koma, ½ λ</translation></message>
 <message><source>Compare</source><translation>Vergleich</translation></message>
-<message><source>Conic K</source><translation>Kegelschnitt K</translation></message>
+<message><source>Conic K</source><translation>Konik K</translation></message>
 <message><source>Conic constant K = −e²: 0 a sphere, −1 a paraboloid.</source><translation>Kegelschnittkonstante K = −e²: 0 eine Kugel, −1 ein Paraboloid.</translation></message>
 <message><source>Cooke triplet, f/5, 50 mm, 40 degree field</source><translation>Cooke-Triplet, f/5, 50 mm, 40 Grad Feld</translation></message>
 <message><source>Copied a link of {count} letters; paste it into a window of the explorer</source><translation>Link aus {count} Zeichen kopiert; in ein Fenster des Explorers einfügen</translation></message>
@@ -263,7 +263,7 @@
 <message><source>Play this slider (Space)</source><translation>Diesen Regler abspielen (Leertaste)</translation></message>
 <message><source>Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW).</source><translation>Punktbildfunktion: das Licht einer Punktquelle auf dem Sensor, |FT{P}|² der Pupille P = A·exp(i2πW).</translation></message>
 <message><source>Points</source><translation>Punkte</translation></message>
-<message><source>Pop out</source><translation>Abtrennen</translation></message>
+<message><source>Pop out</source><translation>Lösen</translation></message>
 <message><source>Preparing the 3D view: loading it takes some seconds, once.</source><translation>Die 3D-Ansicht wird vorbereitet: das Laden dauert einmal einige Sekunden.</translation></message>
 <message><source>Preset</source><translation>Vorgabe</translation></message>
 <message><source>Presets</source><translation>Vorgaben</translation></message>
@@ -419,12 +419,12 @@
 <message><source>This is A: two lenses drawn to scale have no difference that could be drawn.</source><translation>Dies ist A: zwei maßstäblich gezeichnete Objektive haben keine Differenz, die sich zeichnen ließe.</translation></message>
 <message><source>This panel has no numbers</source><translation>Diese Ansicht hat keine Zahlen</translation></message>
 <message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Diese Ansicht steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
-<message><source>Through focus</source><translation>Durch den Fokus</translation></message>
-<message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Durch den Fokus: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
+<message><source>Through focus</source><translation>Fokusreihe</translation></message>
+<message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Fokusreihe: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
 <message><source>Tolerance</source><translation>Toleranz</translation></message>
 <message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
 <message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
-<message><source>Tools</source><translation>Werkzeuge</translation></message>
+<message><source>Tools</source><translation>Extras</translation></message>
 <message><source>Track</source><translation>Baulänge</translation></message>
 <message><source>Try</source><translation>Versuchen</translation></message>
 <message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>

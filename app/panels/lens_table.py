@@ -74,7 +74,7 @@ class LensTablePanel:
         columns.setHighlightSections(False)
         columns.setStretchLastSection(True)
         for column, key in enumerate(KEYS):
-            self.view.setColumnWidth(column, WIDTHS.get(key, 160))
+            self.view.setColumnWidth(column, max(WIDTHS.get(key, 160), columns.sectionSizeHint(column)))
 
     def show(self, live: Live) -> None:
         """Follow the lens."""

@@ -3,16 +3,20 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 
 from app.card import Card, chooser
 from app.compute import live
 from app.glass import clear_rims, glass_of, still
 from app.ink import fitting, width_of
+from app.languages import speak
+from app.panels.lens_table import LensTablePanel
 from app.plots import HeatMap
-from app.readout import Readout
+from app.readout import BAR_AIR, Readout
 from app.setting import default_state, load, setting, shipped
 from app.speech import spoken
+from app.tabs import Tabs
+from app.window import TABS
 from p2sf.errors import P2SFError
 from p2sf.request import Request
 
@@ -88,6 +92,8 @@ def test_no_fact_is_cut_where_the_banner_takes_room(window, qtbot):
     qtbot.waitUntil(lambda: facts.height() == round(facts.ROW * len(facts._rows)))
     bar = area.verticalScrollBar()
     qtbot.waitUntil(lambda: bar.maximum() == 0 or bar.isVisible())
+    air = area.viewport().width() - facts.mapTo(area, facts.rect().topRight()).x() - 1
+    assert air == (BAR_AIR if bar.isVisible() else 0)
     window.resize(1440, 900)
 
 
@@ -162,3 +168,23 @@ def test_the_window_fits_a_screen_of_1920_by_1080_at_twice_the_size(window):
         window.resize(1440, 900)
         QApplication.processEvents()
     assert window.top.undo.text() == "Undo" and window.top.named.isVisible()
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_every_groups_tabs_fit_a_small_window_and_no_column_of_the_lens_is_cut(window, language):
+    speak(language)
+    try:
+        tabs, table = Tabs(TABS), LensTablePanel(window.store)
+        tabs.setStyleSheet(window.styleSheet())
+        tabs.resize(964, 200)  # what a window of 1280 pixels leaves them
+        tabs.show()
+        tabs.chosen.connect(tabs.bring_up)
+        for button in tabs.buttons.named.values():
+            button.click()
+            QApplication.processEvents()
+            assert not any(arrow.isVisible() for arrow in tabs.tabBar().findChildren(QToolButton)), button.text()
+        head = table.view.horizontalHeader()
+        assert all(head.sectionSize(k) >= head.sectionSizeHint(k) for k in range(head.count() - 1))
+    finally:
+        speak("en")
+        tabs.close()
