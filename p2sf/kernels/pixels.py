@@ -96,7 +96,10 @@ def _field(pupil: Turned, side: int, step: float, origin) -> np.ndarray:
     cell = step / pupil.radius
     axis = np.arange(-half, half + 1) * cell
     table = np.vander(axis, len(phase), increasing=True)
-    across, maps = phase.T @ table.T, _maps_across(pupil, table)
+    slopes = np.zeros_like(table)
+    slopes[:, 1:] = table[:, :-1] * np.arange(1, len(phase))
+    across, maps = phase.T @ table.T, _maps_across(pupil, table, slopes)
+    single, steep = table.astype(np.float32), slopes.astype(np.float32)
     field = np.empty((axis.size, axis.size), np.complex64)
     rows_at_once = max(8, BLOCK // axis.size)
     for start in range(0, axis.size, rows_at_once):
@@ -104,38 +107,30 @@ def _field(pupil: Turned, side: int, step: float, origin) -> np.ndarray:
         turns = table[rows] @ across
         turns -= np.rint(turns)
         turns = (2 * np.pi * turns).astype(np.float32)
-        amplitude = _amplitude(table[rows].astype(np.float32) @ maps, axis, rows, cell)
+        (xi, xi_u), (eta, eta_u) = single[rows] @ maps
+        xi_v, eta_v = steep[rows] @ maps[:, 0]
+        amplitude = _amplitude((xi, eta), np.abs(xi_u * eta_v - xi_v * eta_u), axis, rows)
         np.multiply(amplitude, np.cos(turns), out=field[rows].real)
         np.multiply(amplitude, np.sin(turns), out=field[rows].imag)
     return _wrapped(field, half, side)
 
 
-def _maps_across(pupil: Turned, table: np.ndarray) -> np.ndarray:
-    """Return ξ, η and their four slopes summed over the powers of u, (6, powers of v, columns) float32."""
-    forms = np.stack([c for form in (pupil.xi, pupil.eta) for c in (form, *_derivatives(form))])
-    return (np.swapaxes(forms, 1, 2) @ table.T).astype(np.float32)
+def _maps_across(pupil: Turned, table: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Return (ξ, η) × (value, slope by u) summed over the powers of u, (2, 2, powers of v, columns) float32."""
+    forms = np.stack([pupil.xi.T, pupil.eta.T])[:, None]
+    return (forms @ np.stack([table.T, slopes.T])).astype(np.float32)
 
 
-def _amplitude(maps: np.ndarray, axis, rows: slice, cell: float) -> np.ndarray:
-    """Return |∂(ξ, η)/∂u| times each cell's share inside the pupil, float32, for some rows.
+def _amplitude(point, area: np.ndarray, axis: np.ndarray, rows: slice) -> np.ndarray:
+    """Return ``area``, |∂(ξ, η)/∂u|, times each cell's share inside the pupil, float32, for some rows.
 
     Across the rim the share falls linearly over one cell, whose width in the pupil is the root of its area there.
     """
-    xi, xi_u, xi_v, eta, eta_u, eta_v = maps
-    area = np.abs(xi_u * eta_v - xi_v * eta_u)
+    (xi, eta), cell = point, axis[1] - axis[0]
     inside = (1 - np.sqrt(xi * xi + eta * eta)) / (np.sqrt(area) * np.float32(cell) + np.float32(1e-30)) + 0.5
     inside *= axis[rows, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials mean nothing
     np.clip(inside, 0, 1, out=inside)
     return np.multiply(area, inside, out=area)
-
-
-def _derivatives(c: np.ndarray):
-    """Return the powers' derivatives by u and by v."""
-    n = np.arange(len(c))
-    by_u, by_v = np.zeros_like(c), np.zeros_like(c)
-    by_u[:-1] = c[1:] * n[1:, None]
-    by_v[:, :-1] = c[:, 1:] * n[1:]
-    return by_u, by_v
 
 
 def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:

@@ -36,11 +36,11 @@ class PupilTable:
             return None
         weights = np.outer(lagrange(self.heights_mm, height_mm), lagrange(self.vergences, vergence)).ravel()
         row, like = weights @ self.rows, self.like
-        ends = np.cumsum([like.phase.size, like.eta.size, like.xi.size])
-        phase, eta, xi, (radius, light, shift) = np.split(row, ends)
-        reach = reach_of(like.order, phase, float(radius))
-        forms = {"phase": phase, "eta": eta, "xi": xi, "reach_um": reach}
-        return replace(like, **forms, radius=float(radius), light=float(light)), float(shift)
+        even = like.phase.size
+        phase, eta, xi = row[:even], row[even : 2 * even], row[2 * even : -3]
+        radius, light, shift = row[-3:].tolist()
+        forms = {"phase": phase, "eta": eta, "xi": xi, "reach_um": reach_of(like.order, phase, radius)}
+        return replace(like, **forms, radius=radius, light=light), shift
 
 
 def pupil_table(make: Callable[[float, float], Made], heights_mm, vergences) -> PupilTable:
