@@ -8,10 +8,11 @@ from PySide6.QtGui import QColor, QImage, QPainter, QPen
 from PySide6.QtWidgets import QWidget
 
 from app.chart import Chart
+from app.cursor import Cursor, paint_cursor
 from app.plots import as_indices, lookup, small_font
 from app.scales import short_distance
 from app.theme import LIGHT, Tokens
-from app.views.database import Atlas
+from app.views.database import Atlas, nearest
 from app.words import tr
 
 PER_METRE = 1000.0
@@ -30,6 +31,9 @@ class DepthFieldMap(Chart):
         super().__init__("1/depth, 1/m (0 is ∞)", "field, °")
         self.point: tuple[float, float] | None = None
         self.nodes: tuple[np.ndarray, np.ndarray] = (np.array([]), np.array([]))
+        self.cursor = Cursor()
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(tr("Map over depth and field"))
         self.ends = ((0.0, 1.0), (0.0, 1.0))
 
     def show_map(self, indices: np.ndarray, name: str, ends, nodes) -> None:
@@ -60,6 +64,10 @@ class DepthFieldMap(Chart):
             for colour, width in (("#ffffff", 4.0), ("#000000", 1.6)):
                 painter.setPen(QPen(QColor(colour), width))
                 painter.drawEllipse(centre, 5.0, 5.0)
+        places = self._places() if self.hasFocus() and self.cursor.number is not None else ()
+        if len(places) > (self.cursor.number or 0):
+            x, y = places[self.cursor.number]
+            paint_cursor(painter, QRectF(x - 7, y - 7, 14, 14))
 
     def mousePressEvent(self, event) -> None:
         """Take hold of the source."""
@@ -74,6 +82,26 @@ class DepthFieldMap(Chart):
     def mouseReleaseEvent(self, event) -> None:
         """Let go."""
         self.released.emit()
+
+    def keyPressEvent(self, event) -> None:
+        """Choose a node with the arrow keys, and set the source on it with Enter."""
+        points = self._places()
+        taken = self.cursor.taken(event.key(), len(points))
+        if taken is not None:
+            self._pick(QPointF(*points[taken]))
+        elif self.cursor.moved(event.key(), points, self._nearest(points)):
+            self.update()
+        else:
+            super().keyPressEvent(event)
+
+    def _places(self) -> np.ndarray:
+        x, y = self.to_pixels(*self.nodes)
+        return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+
+    def _nearest(self, points: np.ndarray) -> int:
+        if self.point is None or not len(points):
+            return 0
+        return int(np.hypot(*(points - np.array(self.to_pixels(*self.point), float)).T).argmin())
 
     def _pick(self, place: QPointF) -> None:
         (left, right), (low, high) = self.ends
@@ -213,14 +241,3 @@ class AtlasView(QWidget):
 
 
 STEPS = {Qt.Key.Key_Up: (1, 0), Qt.Key.Key_Down: (-1, 0), Qt.Key.Key_Left: (0, -1), Qt.Key.Key_Right: (0, 1)}
-
-
-def nearest(atlas: Atlas, depth_mm: float, field_deg: float) -> tuple[int, int] | None:
-    """Return the (field, depth) cell of a source, None when it lies more than half a cell outside."""
-    with np.errstate(divide="ignore"):
-        columns, rows = 1 / atlas.depths_mm, atlas.fields_deg
-    places = ((rows, field_deg), (columns, 1 / depth_mm))
-    cell = [int(np.argmin(np.abs(nodes - value))) for nodes, value in places]
-    steps = [abs(nodes[1] - nodes[0]) for nodes, _ in places]
-    inside = [abs(nodes[k] - v) <= 0.51 * s for (nodes, v), k, s in zip(places, cell, steps, strict=True)]
-    return (cell[0], cell[1]) if all(inside) else None

@@ -87,7 +87,7 @@
 <message><source>Copy the panel's picture</source><translation>Bild der Ansicht kopieren</translation></message>
 <message><source>Dark</source><translation>Dunkel</translation></message>
 <message><source>Database</source><translation>Datenbank</translation></message>
-<message><source>Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; drag on a map or the atlas to set the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas setzt die Quelle.</translation></message>
+<message><source>Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; drag on a map or the atlas, or use the arrow keys and Enter, to set the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas, oder Pfeiltasten und Enter, setzen die Quelle.</translation></message>
 <message><source>Defocus is {wd} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down.</source><translation>Der Defokus ist {wd} λ, jenseits der 10 λ der Methode; Fokus oder Quelle näher bringen oder abblenden.</translation></message>
 <message><source>Defocus, 1 λ</source><translation>Defokus, 1 λ</translation></message>
 <message><source>Delete</source><translation>Löschen</translation></message>
@@ -126,7 +126,7 @@
 <message><source>Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
 <message><source>Field curves</source><translation>Feldkurven</translation></message>
 <message><source>Field map</source><translation>Feldkarte</translation></message>
-<message><source>Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as its field is. Click a picture to go to its field.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild geht zu seinem Feld.</translation></message>
+<message><source>Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld.</translation></message>
 <message><source>Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field).</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld).</translation></message>
 <message><source>Files</source><translation>Dateien</translation></message>
 <message><source>Film…</source><translation>Film …</translation></message>
@@ -704,6 +704,7 @@
 <message><source>{columns} × {rows} pixels of {pitch} µm</source><translation>{columns} × {rows} Pixel zu {pitch} µm</translation></message>
 <message><source>This is A: B has none. {why}</source><translation>Dies ist A: B hat keines. {why}</translation></message>
 <message><source>Numbers have a decimal point, in every language, as in files and on the command line; a comma that is typed is read as one too.</source><translation>Zahlen haben in jeder Sprache einen Dezimalpunkt, wie in Dateien und auf der Kommandozeile; ein getipptes Komma wird ebenso gelesen.</translation></message>
+<message><source>Map over depth and field</source><translation>Karte über Abstand und Feld</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
 <message><source>PSFs</source><translation>PSFs</translation></message>
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>

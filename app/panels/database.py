@@ -19,7 +19,7 @@ from p2sf.database.parts import KINDS
 
 TIP = (
     "Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; "
-    "drag on a map or the atlas to set the source."
+    "drag on a map or the atlas, or use the arrow keys and Enter, to set the source."
 )
 VALUE_MAP, ERROR_MAP = "CET-D1A", "viridis"
 DECADES = 6  # of the error map below its largest value

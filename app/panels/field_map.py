@@ -2,10 +2,12 @@
 
 import numpy as np
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QPainter
 
 from app.brightness import stretched
 from app.card import Card
 from app.compute import Live
+from app.cursor import Cursor, paint_cursor
 from app.panels.tiles import TilesChart, tile
 from app.panels.worked import Asking
 from app.store import Store
@@ -16,7 +18,7 @@ from p2sf.conventions import degrees_from_slope
 
 TIP = (
     "Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as "
-    "its field is. Click a picture to go to its field."
+    "its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field."
 )
 
 
@@ -27,12 +29,39 @@ class MapChart(TilesChart):
         super().__init__(framed=False)
         self._store = store
         self.fields_deg = np.zeros(0)
+        self.cursor = Cursor()
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(tr("Field map"))
 
     def mousePressEvent(self, event) -> None:
         """Go to the field of the picture under the pointer."""
         number = self.tile_at(event.position())
         if event.button() == Qt.MouseButton.LeftButton and number is not None:
-            self._store.update(field_deg=round(float(self.fields_deg[number]), 4))
+            self._take(number)
+
+    def keyPressEvent(self, event) -> None:
+        """Choose a picture with the arrow keys, from that of the present field on, and go to its field with Enter."""
+        points = np.array([(room.center().x(), room.center().y()) for room in map(self.room, self.tiles)])
+        taken = self.cursor.taken(event.key(), len(points))
+        if taken is not None:
+            self._take(taken)
+        elif self.cursor.moved(event.key(), points, self._nearest()):
+            self.update()
+        else:
+            super().keyPressEvent(event)
+
+    def _nearest(self) -> int:
+        return int(np.abs(self.fields_deg - abs(self._store.state.field_deg)).argmin()) if self.tiles else 0
+
+    def _take(self, number: int) -> None:
+        self._store.update(field_deg=round(float(self.fields_deg[number]), 4))
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the pictures, and a frame about the one that the keys have chosen."""
+        super().paint_over(painter)
+        number = self.cursor.number
+        if self.hasFocus() and number is not None and number < len(self.tiles):
+            paint_cursor(painter, self.room(self.tiles[number]))
 
 
 class FieldMapPanel:

@@ -178,3 +178,14 @@ def sharp_range(exact: ExactDatabase, asked: Question) -> np.ndarray:
     half = ATLAS_DEFOCUS / abs(slope) if slope else high
     first, last = np.clip([focus - half, focus + half], low, high)
     return np.linspace(first, last, ATLAS[1])
+
+
+def nearest(atlas: Atlas, depth_mm: float, field_deg: float) -> tuple[int, int] | None:
+    """Return the (field, depth) cell of a source, None when it lies more than half a cell outside."""
+    with np.errstate(divide="ignore"):
+        columns, rows = 1 / atlas.depths_mm, atlas.fields_deg
+    places = ((rows, field_deg), (columns, 1 / depth_mm))
+    cell = [int(np.argmin(np.abs(nodes - value))) for nodes, value in places]
+    steps = [abs(nodes[1] - nodes[0]) for nodes, _ in places]
+    inside = [abs(nodes[k] - v) <= 0.51 * s for (nodes, v), k, s in zip(places, cell, steps, strict=True)]
+    return (cell[0], cell[1]) if all(inside) else None

@@ -143,6 +143,18 @@ def test_dragging_on_the_map_sets_the_point_under_the_pointer(window, panel, qtb
     assert window.store.state.depth_mm == inf
 
 
+def test_arrow_keys_choose_a_node_of_the_map_and_enter_sets_the_source_on_it(window, panel, qtbot):
+    chart, (near, fields) = panel.map, panel.map.nodes
+    window.store.update(depth_mm=inf, field_deg=0.0)
+    chart.setFocus()
+    for key in (Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Up):
+        qtbot.keyClick(chart, key)
+    assert window.store.state.field_deg == 0.0
+    qtbot.keyClick(chart, Qt.Key.Key_Return)
+    assert window.store.state.field_deg == pytest.approx(float(np.sort(fields)[2]), abs=1e-6)
+    assert 1000 / window.store.state.depth_mm == pytest.approx(float(np.sort(near)[1]), rel=1e-6)
+
+
 def test_the_choosers_repaint(window, panel, qtbot):
     before = panel.map.grab().toImage(), panel.error.grab().toImage()
     panel.term.setFocus()

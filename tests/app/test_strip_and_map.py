@@ -142,6 +142,22 @@ def test_a_click_on_the_map_goes_to_that_field(window, qtbot):
     assert panel.asking.asked == panel.found[0], "and the map stays as it is"
 
 
+def test_arrow_keys_choose_a_picture_of_the_map_and_enter_goes_to_its_field(window, qtbot):
+    window.store.update(tab="field_map", field_deg=0.0)
+    chart = window.panels["field_map"].chart
+    filled(window.panels["field_map"], qtbot)
+    chart.setFocus()
+    for _ in range(9):  # from the middle to the rim, and no farther
+        qtbot.keyClick(chart, Qt.Key.Key_Right)
+    assert chart.fields_deg[chart.cursor.number] == pytest.approx(chart.fields_deg[17]), "the end of the middle row"
+    assert window.store.state.field_deg == 0.0, "choosing alone moves nothing"
+    before = chart.grab().toImage()
+    qtbot.keyClick(chart, Qt.Key.Key_Down)
+    assert chart.grab().toImage() != before, "the frame is seen to move"
+    qtbot.keyClick(chart, Qt.Key.Key_Return)
+    assert window.store.state.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
+
+
 def test_coma_points_away_from_the_axis_at_every_place():
     question = field_map.field_map(live(replace(FIRST, solo=("w31",), f_number=4.0)))
     found, told = worked(question, field_map)
