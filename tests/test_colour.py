@@ -8,7 +8,8 @@ import pytest
 
 from p2sf import colour, polychromatic
 from p2sf.cli import main
-from p2sf.errors import RequestError
+from p2sf.errors import ExportError, RequestError
+from p2sf.export.colour_files import write_colour_psf
 from p2sf.fieldcurves import heights
 from p2sf.gaussian import image_distance
 from p2sf.lens import with_f_number, with_sensor
@@ -80,6 +81,20 @@ def test_colours_a_screen_has_not_are_paled_and_keep_their_luminance():
 def test_a_spectrum_that_cannot_be_is_a_sentence(word):
     with pytest.raises(RequestError, match=r"planck:5600|lines:486"):
         spectrum_of(word)
+
+
+def test_light_beyond_what_the_eye_sees_has_no_colour():
+    with pytest.raises(RequestError, match="has no light that the eye sees"):
+        colour.bands(spectrum_of("lines:1500"), 3, (1.4, 1.6))
+
+
+def test_a_colour_psf_of_no_wavelengths_or_ending_is_refused(tmp_path):
+    lens, source, white, window = find_lens("tessar"), Source(np.inf, 0.0, 0.55), spectrum_of("d65"), (8, 1.0)
+    with pytest.raises(RequestError, match="0 wavelengths for a colour PSF; give a whole number from 1"):
+        polychromatic.colour_psf(lens, source, white, window, count=0)
+    made = polychromatic.colour_psf(lens, source, white, window, "seidel", 1)
+    with pytest.raises(ExportError, match=r'a colour PSF has no ending "\.doc"; choose \.npz'):
+        write_colour_psf(made, tmp_path / "a.doc", {})
 
 
 def test_a_shift_keeps_light_and_sign_and_goes_upwards():

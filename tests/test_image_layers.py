@@ -7,6 +7,7 @@ import pytest
 
 from p2sf.image import Forming, form_image
 from p2sf.image.layers import layer_weights, merged
+from p2sf.image.lowrank import _spline
 from p2sf.image.preview import quick_plan
 from p2sf.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor
@@ -62,3 +63,13 @@ def test_a_layer_hides_all_but_its_neighbour():
     dark = np.array([[[0.0, 1.0]]], np.float32)
     assert merged([ones, dark], [0, 2])[0, 0, 0] == 0  # hidden
     assert merged([ones, dark], [0, 1])[0, 0, 0] == pytest.approx(0.5)  # shares the pixel
+
+
+def test_weights_between_nodes_add_up_to_one_and_are_straight_between_two():
+    positions = np.linspace(-1.0, 5.0, 13)
+    for nodes in ([2.0], [0.0, 4.0], [0.0, 1.0, 4.0]):
+        weights = _spline(np.array(nodes), positions)
+        np.testing.assert_allclose(weights.sum(1), 1, atol=1e-14)  # rounding of the few that add up
+        np.testing.assert_allclose(weights[positions == nodes[-1]][0], np.eye(len(nodes))[-1], atol=1e-14)
+    halfway = _spline(np.array([0.0, 4.0]), np.array([-1.0, 1.0, 9.0]))
+    np.testing.assert_allclose(halfway, [[1, 0], [0.75, 0.25], [0, 1]], rtol=1e-15)

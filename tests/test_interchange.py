@@ -4,6 +4,8 @@ import csv
 import json
 import shutil
 import subprocess
+import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,8 +16,10 @@ from p2sf.database.render import rendered
 from p2sf.databasefile import save_database
 from p2sf.errors import DatabaseError, ExportError
 from p2sf.interchange import IsetOptions, open_cube, open_stored, write_csv, write_fits, write_iset, write_tiff
+from p2sf.interchange.fitspsf import read_psf_fits, write_psf_fits
 from p2sf.interchange.iset import polygon_area, ray_trace
 from p2sf.library import find_lens
+from p2sf.psf import seidel_psf
 from p2sf.seidel import coefficients
 from p2sf.stack import Sampling, write_stack
 
@@ -81,6 +85,30 @@ def test_fits_is_verified_by_astropy(cube, lens, tmp_path):
         assert head["CRPIX2"] == 17
         assert file["DEPTH"].data["DEPTH"].tolist() == cube.depths_mm.tolist()
         assert file["WAVELENGTH"].columns["WAVELENGTH"].unit == "nm"
+
+
+@pytest.mark.filterwarnings("error")
+def test_one_psf_goes_to_fits_and_back_exactly_and_astropy_finds_its_axes(lens, tmp_path):
+    from astropy.io import fits
+
+    psf = seidel_psf(coefficients(lens, np.inf, 0.2, 0.55), 24, 1.5)
+    path = write_psf_fits(psf, tmp_path / "one.fits", {"note": "long enough for a second card " * 9})
+    again, meta = read_psf_fits(path)
+    np.testing.assert_array_equal(again.values, psf.values)
+    assert replace(again, values=psf.values, seconds=psf.seconds) == psf and meta["note"].startswith("long")
+    with fits.open(path) as file:
+        file.verify("exception")
+        head = file[0].header
+        assert [head[key] for key in ("CRPIX1", "CRPIX2", "CDELT1", "CUNIT2")] == [13, 13, 1.5, "um"]
+    with pytest.raises(ExportError, match="not a PSF that this program wrote as FITS"):
+        read_psf_fits(tmp_path / "none.fits")
+
+
+def test_fits_without_its_library_says_what_to_install(monkeypatch, cube, tmp_path):
+    monkeypatch.setitem(sys.modules, "astropy.io", None)
+    for write in (lambda: write_fits(cube, tmp_path / "a.fits"), lambda: read_psf_fits(tmp_path / "a.fits")):
+        with pytest.raises(ExportError, match=r"need astropy, which is not installed; pip install 'p2sf\[fits\]'"):
+            write()
 
 
 def test_tiff_is_an_imagej_hyperstack(cube, tmp_path):

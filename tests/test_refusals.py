@@ -1,5 +1,6 @@
 """Refusals and rare roads that no other test takes: each is a sentence that names what is wrong, or an exact answer."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -8,9 +9,11 @@ import pytest
 from p2sf.cli import main
 from p2sf.errors import ExportError, GeometryError, LensFileError, RequestError, SamplingError
 from p2sf.export import read_psf
-from p2sf.glass import ConstantIndex
+from p2sf.glass import ConstantIndex, catalogue_glass
 from p2sf.huygens import huygens_psf
 from p2sf.lens import Aperture, Lens, Surface
+from p2sf.lensfile import load_lens
+from p2sf.lensfile.writing import SILICA_LABEL, write_lens
 from p2sf.library import find_lens
 from p2sf.photos import read_photo
 from p2sf.pupils import pupils
@@ -19,7 +22,7 @@ from p2sf.scene import Sensor, read_scene
 from p2sf.source import Source
 from p2sf.spectrum import relative_power, spectrum_of
 from tests.extremes.test_named import twice_telecentric
-from tests.imports import read
+from tests.imports import read, read_file
 
 TRIPLET, DOUBLET, BENCH = "triplet.json", "doublet.seq", "bench.txt"
 GLASS = ConstantIndex(1.5)
@@ -164,3 +167,52 @@ def test_an_interlaced_deep_png_is_refused(tmp_path):
     (tmp_path / "a.png").write_bytes(header + b"\x00" * 40)
     with pytest.raises(RequestError, match="interlaced or oversized"):
         read_photo(tmp_path / "a.png")
+
+
+FIRST, SURFACE = "SO    0.0 0.1e14", "S     -128.2051282051282 95.5"
+CODEV_REFUSED = {
+    "an aperture angle beyond a right one": ((("EPD   20.0", "NA 1.5"),), "1.5 is impossible in index 1"),
+    "an object in the first vertex": ((("EPD   20.0", "NAO 0.1"), (FIRST, "SO 0.0 0.0")), "lies in the first vertex"),
+    "a surface out of its turn": (((SURFACE, "S7 -128.2 95.5"),), "surface 7 stands where 3 is due"),
+    "a tilted image": ((("SI    0.0 0.5", "SI 0.0 0.5\n  ADE 3.0"),), "the image surface .*ADE"),
+}
+
+
+@pytest.mark.parametrize("what", CODEV_REFUSED)
+def test_a_codev_file_that_describes_no_lens_is_refused(what):
+    changes, words = CODEV_REFUSED[what]
+    with pytest.raises(LensFileError, match=words):
+        read(DOUBLET, *changes)
+
+
+def test_what_a_codev_file_says_besides_is_told_and_changes_nothing():
+    plain = read(DOUBLET)
+    zoomed = read(DOUBLET, ("REF   2", "REF   2\nZOO 2"))
+    assert "several zoom positions" in zoomed.report.text and zoomed.lens == plain.lens
+    assert read(DOUBLET, (SURFACE, f"{SURFACE} AIR")).lens == plain.lens
+
+
+def test_heights_on_the_axis_are_a_field_of_zero_and_heights_at_infinity_none():
+    assert read(DOUBLET, ("YAN   0.0 1.0", "YIM 0.0 0.0")).lens.fields_deg == (0.0,)
+    far = read(DOUBLET, ("YAN   0.0 1.0", "YOB 0.0 5.0"))
+    assert far.lens.fields_deg == (0.0,) and "the field list holds the axis only" in far.report.text
+
+
+@pytest.mark.parametrize(("name", "words"), [("none.zmx", "no such file"), ("a\0b.zmx", "cannot be read")])
+def test_a_lens_file_that_cannot_be_opened_is_a_sentence(tmp_path, name, words):
+    with pytest.raises(LensFileError, match=words):
+        read_file(tmp_path / name)
+
+
+def test_a_comment_of_several_lines_is_written_and_read_as_it_is(tmp_path):
+    lens = replace(find_lens("tessar"), comment='first "quoted"\nsecond \\ line\x7f')
+    write_lens(lens, tmp_path / "a.toml")
+    assert load_lens(tmp_path / "a.toml").comment == lens.comment
+
+
+def test_fused_silica_keeps_its_dispersion_through_a_zemax_file(tmp_path):
+    silica = Surface(50.0, 5.0, catalogue_glass(SILICA_LABEL), semi_diameter=5.0), Surface(inf, 100.0)
+    write_lens(Lens(silica, Aperture("stop_semi_diameter", 5.0), 1), tmp_path / "a.zmx")
+    again = load_lens(tmp_path / "a.zmx")
+    assert float(again.media[1].index(0.5875618)) == pytest.approx(1.458464, abs=1e-5)  # Malitson 1965 at the d line
+    assert float(again.media[1].index(0.3)) == pytest.approx(1.48779, abs=1e-5)

@@ -1,5 +1,6 @@
 """PSF stacks: whole chunks or none, the same bytes whoever renders them, and never a torn one read back."""
 
+import json
 import os
 import resource
 import signal
@@ -182,6 +183,22 @@ def test_damaged_headers_are_sentences(stack, tmp_path):
             assert "\n" not in str(error)
         finally:
             header.write_bytes(whole)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"), [("p2sf_stack_schema", 99, "newer than"), ("shape", 7, "do not fit")]
+)
+def test_a_newer_stack_and_one_of_another_shape_are_told_apart(stack, tmp_path, key, value, words):
+    path = copied(stack, tmp_path / "odd.zarr")
+    header = path / "zarr.json" if key != "shape" else path / "psf" / "zarr.json"
+    content = json.loads(header.read_text())
+    if key == "shape":
+        content["shape"][0] = value
+    else:
+        content["attributes"][key] = value
+    header.write_text(json.dumps(content))
+    with pytest.raises(DatabaseError, match=words):
+        open_stack(path)
 
 
 @pytest.mark.parametrize("kind", ["nothing", "file", "folder"])

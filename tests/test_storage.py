@@ -8,6 +8,7 @@ import pytest
 from p2sf.errors import LensFileError
 from p2sf.lensfile.storage import LARGEST_FILE
 from p2sf.lensfile.toml import parse_toml, read_toml, write_toml
+from p2sf.wholefile import write_whole
 
 GOOD = "[aperture]\nf_number = 8\n\n[[surface]]\nradius = 50.0\nthickness = 90.0\nglass = 1.5\n"
 
@@ -55,6 +56,20 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
     with pytest.raises(LensFileError, match=r"cannot be written \(No space left on device\); choose another place"):
         write_toml(parse_toml(GOOD), path)
     assert path.read_text() == "what was here before" and os.listdir(tmp_path) == ["lens.toml"]
+
+
+def test_without_files_that_have_no_name_a_file_is_still_whole(tmp_path, monkeypatch):
+    """Some systems know none; what breaks off then leaves nothing either."""
+
+    def refuse(handle):
+        handle.write(b"half")
+        raise OSError("none here")
+
+    monkeypatch.setattr("p2sf.wholefile._unnamed", lambda folder: None)
+    write_whole(tmp_path / "a", lambda handle: handle.write(b"whole"))
+    with pytest.raises(OSError, match="none here"):
+        write_whole(tmp_path / "a", refuse)
+    assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [("a", b"whole")]
 
 
 def test_writing_into_a_folder_that_is_not_there(tmp_path):
