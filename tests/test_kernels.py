@@ -7,7 +7,7 @@ from p2sf.errors import GeometryError
 from p2sf.huygens import huygens_psf
 from p2sf.kernels import Colour, Kernels, Recipe, distortion_at, view
 from p2sf.kernels.channel import own_pupil
-from p2sf.kernels.pixels import Window, half_width, pixel_kernel
+from p2sf.kernels.pixels import Window, _binned, half_width, pixel_kernel
 from p2sf.kernels.pupilmap import dropped_terms, pupil_map, without
 from p2sf.kernels.pupiltable import chebyshev, few_nodes, lagrange, pupil_table
 from p2sf.library import find_lens
@@ -15,6 +15,7 @@ from p2sf.scene.reference import exact_pixels
 from p2sf.scene.scene import Channel
 from p2sf.scene.spectrum import reduced
 from p2sf.source import Source
+from p2sf.zernike import basis, basis_by_powers
 
 WAVE, PIXEL = 0.5876, 6.0
 FINE = Recipe("fitted", 46, 4.0, 1.0)
@@ -144,3 +145,28 @@ def test_interpolation_is_exact_for_polynomials_and_few_values_are_their_own_nod
     nodes = tuple(chebyshev(-1.0, 3.0, 4).tolist())
     assert lagrange(nodes, 0.7) @ np.power(nodes, 3) == pytest.approx(0.7**3)
     assert few_nodes((1.0, 2.0, 7.0), 3).tolist() == [1, 2, 7] and few_nodes((1.0, 2.0, 7.0), 2).tolist() == [1, 7]
+
+
+def test_a_node_but_for_rounding_is_that_node():
+    """Of a polynomial through 200 even nodes nothing is left 1e-10 beside one of them."""
+    nodes = tuple(np.linspace(0.0, 3.0, 200).tolist())
+    np.testing.assert_array_equal(lagrange(nodes, nodes[7] + 1e-10), np.eye(200)[7])
+    assert lagrange(nodes[:5], nodes[2] + 1e-3).sum() == pytest.approx(1)
+
+
+def test_samples_of_a_cubic_are_summed_over_inner_pixels_without_error():
+    """The midpoint rule alone is off by h³/24 of the second derivative in each sample; edges' slopes mend it."""
+    place = (np.arange(15) + 0.5) / 3
+    values = np.repeat((place**3).astype(np.float32)[:, None], 15, axis=1)
+    pixels = _binned(values, 5, 3)[1:-1, 2] / 9
+    start = np.arange(1, 4)
+    np.testing.assert_allclose(pixels, ((start + 1.0) ** 4 - start**4.0) / 4, rtol=1e-5)
+    assert _binned(values, 5, 3).sum() == pytest.approx(values.sum(), rel=1e-6)
+
+
+def test_powers_give_the_same_terms():
+    points = np.random.default_rng(0).uniform(-0.7, 0.7, (2, 50))
+    for order, close in ((6, 1e-12), (18, 1e-8)):
+        even, odd = basis_by_powers(order, *points)
+        np.testing.assert_allclose(even, basis(order, *points), atol=close)
+        np.testing.assert_allclose(odd, basis(order, *points, odd=True), atol=close)

@@ -9,9 +9,9 @@ from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
 from p2sf.scene.reference import reference_kernel
-from p2sf.scene.sharing import few_heights
+from p2sf.scene.sharing import few_heights, share_pupils
 from p2sf.scene.spectrum import reduced
-from p2sf.scene.study import Study, distance
+from p2sf.scene.study import Study, distance, least
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 SCENE = """
@@ -79,6 +79,30 @@ def test_as_many_heights_are_fitted_as_the_error_between_them_asks():
     (few, error), (more, less) = (few_heights(study, 20, allowed) for allowed in (1.0, 1e-3))
     assert few == 2 < more < 20
     assert error > 1e-3 >= less > 0
+
+
+def test_planning_interpolates_pupils_as_well_as_it_says():
+    scene = Scene(Sensor(300, 400, 9.0), GREEN, 15000.0, 25000.0, focus_mm=20000.0, f_number=4.0)
+    own, shared = (Study(scene.camera(find_lens("double_gauss_28")), scene) for _ in range(2))
+    share_pupils(shared)
+    assert shared.tables and 0 < shared.tables_error < 2e-3
+    wave, found = shared.reference_um, []
+    for v in shared.scene.vergences(4):
+        found.append(distance(*(study.plain(float(v), 0.5, 0.9, wave) for study in (shared, own))))
+    assert 0 < max(found) <= shared.tables_error
+
+
+def test_the_least_choice_is_the_first_that_holds_everywhere_whatever_was_asked_first():
+    asked = []
+
+    def measure(number: int, place: float) -> float:
+        asked.append((number, place))
+        return place / (number + 1)
+
+    places = [(1.0,), (2.0,), (8.0,), (3.0,)]
+    assert least(5, measure, places, 2.0) == (3, 2.0)
+    assert asked[3:5] == [(1, 8.0), (2, 8.0)]  # once it failed there, it is asked first
+    assert least(2, measure, places, 2.0) == (1, 4.0)  # none holds: the last, with its own largest error
 
 
 @pytest.mark.parametrize("lens", ["double_gauss_28", "tessar"])

@@ -14,6 +14,7 @@ import numpy as np
 from p2sf.kernels.pupilmap import PupilMap, reach_of
 
 FORMS = "phase", "eta", "xi"
+SAME = 1e-9  # of the farthest node: places as near as this are one
 Made = tuple[PupilMap, float]  # and its lateral colour in mm
 
 
@@ -60,7 +61,13 @@ def _row(pupil: PupilMap, shift_mm: float, like: PupilMap) -> np.ndarray:
 
 @lru_cache(maxsize=1024)
 def lagrange(nodes: tuple[float, ...], place: float) -> np.ndarray:
-    """Return the weights of Lagrange's interpolation at a place; they sum to 1."""
+    """Return the weights of Lagrange's interpolation at a place; they sum to 1.
+
+    A place that is a node but for rounding is that node: polynomials of high degree would tell them apart by miles.
+    """
+    away = np.abs(np.array(nodes) - place)
+    if away.min() <= SAME * max(abs(nodes[0]), abs(nodes[-1])):
+        return np.eye(len(nodes))[away.argmin()]
     return np.array([prod((place - other) / (node - other) for other in nodes if other != node) for node in nodes])
 
 
@@ -76,5 +83,5 @@ def few_nodes(values, count: int) -> np.ndarray:
 
 
 def _within(value: float, nodes) -> bool:
-    slack = 1e-9 * max(abs(nodes[0]), abs(nodes[-1]))
+    slack = SAME * max(abs(nodes[0]), abs(nodes[-1]))
     return nodes[0] - slack <= value <= nodes[-1] + slack

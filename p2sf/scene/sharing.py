@@ -10,7 +10,7 @@ from p2sf.kernels.pupiltable import chebyshev, pupil_table
 from p2sf.scene.sensor import Sensor
 from p2sf.scene.study import Study, distance, least, oblique
 
-FITS = (2, 3, 4, 5, 6, 8, 10, 13)  # along the radial line or the depths
+FITS = (2, 3, 4, 5, 6, 8, 10, 13, 18, 25)  # along the radial line or the depths
 NESTED_FITS = (2, 3, 5, 9, 17)  # the same for planning itself: each one's nodes are among the next one's
 FINE, ROUGH = 1e-3, 3e-2  # relative error of a kernel that planning itself aims at in this, and allows at most
 
