@@ -1,5 +1,6 @@
 """A photo or chart through the present lens: coarse at once, planned when the sliders rest; why, when asked."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,18 @@ from app.snapshot import side_car, write_state
 from app.store import Store
 from app.theme import Tokens
 from app.veil import Veil
-from app.views.image import Answer, Question, coarse, fine_enough, local_psf, pixels, planned, save_picture, work
+from app.views.image import (
+    Answer,
+    Question,
+    coarse,
+    fine_enough,
+    local_psf,
+    pixels,
+    planned,
+    same_optics,
+    save_picture,
+    work,
+)
 from app.wipe import Wipe
 from app.words import tr, unbroken
 from app.worker import LatestWins
@@ -53,6 +65,7 @@ class ImagePanel:
         self._connect()
         self._asked: Question | None = None
         self._answer: Answer | None = None
+        self._planned: Answer | None = None  # the last one by a plan
         self._ordered: Question | None = None  # what a plan is being made for,
         self._stopped: Question | None = None  # what it was cancelled for,
         self._unplanned: Question | None = None  # and what none could be made for, so that none is tried again
@@ -97,7 +110,7 @@ class ImagePanel:
         if asked != self._asked:
             self._asked = asked
             self._call_off()
-            self.quick.submit(asked, work(coarse, asked))
+            self.quick.submit(asked, work(self._quickest(asked), asked))
         elif self._settled:
             self._refine()
         self._show_readout()
@@ -110,6 +123,11 @@ class ImagePanel:
             self.pixel.addItem(f"{state.photo_pixel_um:g} µm pixels", size)
         for box, value in ((self.photo, state.photo), (self.pixel, size), (self.show_box, state.photo_show)):
             select(box, value)
+
+    def _quickest(self, asked: Question):
+        """Return what makes a picture at once: the plan there is, where only the photo or what is shown is another."""
+        known = self._planned
+        return partial(planned, known=known) if known and same_optics(known.question, asked) else coarse
 
     def _stale(self) -> bool:
         return self._answer is None or self._answer.question != self._asked
@@ -150,8 +168,9 @@ class ImagePanel:
         return NONE if self._unplanned == self._asked else WORKING if self._answer else "working"
 
     def _on_answer(self, key: Question, found: Answer) -> None:
-        if found.quality == "planned" and key == self._ordered:
-            self._ordered = None
+        if found.quality == "planned":
+            self._planned = found if found.plan.decisions else None
+            self._ordered = None if key == self._ordered else self._ordered
         if key == self._asked or self._stale():  # a plan of before, late to stop, must not cover the present picture
             self._answer = found
             self._paint()

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.copying import png_of
 from app.roominess import close_up, rooms
-from app.scenery import cut_away
+from app.scenery import cut_away, scene_values
 from app.snapshot import write_picture
 from app.views.image import COLUMNS, PLANNING, ROWS, forming, local_psf, pixels, planning
 from app.views.imagewords import frame_words
@@ -20,6 +20,8 @@ from app.words import unbroken
 from p2sf.errors import Cancelled
 from p2sf.image import Watch
 from p2sf.photos import write_photo
+from p2sf.scene.cost import Cost
+from p2sf.scene.plan import Decision
 
 
 def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):
@@ -120,7 +122,7 @@ def orders(window, image_panel, qtbot, monkeypatch):
     monkeypatch.setattr(image_panel.fine, "submit", lambda key, job: made.append(key))
     image_panel._answer = replace(image_panel._answer, quality="coarse")
     yield made
-    image_panel._ordered = image_panel._stopped = image_panel._unplanned = None
+    image_panel._ordered = image_panel._stopped = image_panel._unplanned = image_panel._planned = None
 
 
 def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_words_say_why(window, image_panel, orders):
@@ -153,6 +155,22 @@ def test_a_plan_is_ordered_though_the_one_before_has_not_yet_stopped(window, ima
     window.store.update(field_deg=3.0)
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
     assert orders == [image_panel._asked]
+
+
+def test_another_photo_is_made_by_the_plan_there_is(window, image_panel, orders, qtbot):
+    price = Cost(1.0, 1.0, 1.0)
+    plan = replace(
+        image_panel._answer.plan, decisions=(Decision("depth", "1 node", "one", 0.0),), cost=price, naive=price
+    )
+    by_plan = replace(image_panel._answer, quality="planned", plan=plan)
+    image_panel._on_answer(image_panel._asked, by_plan)
+    window.store.update(photo="siemens_star")
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert image_panel._answer.plan is by_plan.plan and image_panel._answer.lattice is by_plan.lattice and not orders
+    assert np.array_equal(image_panel._answer.before, scene_values("siemens_star", (ROWS, COLUMNS)))
+    window.store.update(field_deg=5.0)
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert image_panel._answer.plan is not by_plan.plan and orders == [image_panel._asked]
 
 
 def test_the_share_of_a_plan_grows_to_where_that_of_its_picture_begins():
