@@ -10,6 +10,7 @@ from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens import with_sensor
 from p2sf.psf import (
     AIRY_RADIUS,
+    check_window,
     energy_fraction,
     fft_intensity,
     fft_samples,
@@ -211,6 +212,7 @@ def test_bad_pitches_are_refused(pixel_um):
 
 
 def test_what_no_computer_holds_is_refused_before_it_is_tried():
+    assert check_window(waves(), 2**14, 1.0) == 1.0  # 2²⁸ samples are the most there may be
     with pytest.raises(SamplingError, match="fewer"):
         seidel_psf(waves(), 100_000, 1.0)
     with pytest.raises(SamplingError, match="phase slope"):
@@ -220,7 +222,9 @@ def test_what_no_computer_holds_is_refused_before_it_is_tried():
 
 
 def test_an_image_at_infinity_is_a_sentence():
-    with pytest.raises(GeometryError, match="infinity"):
+    with pytest.raises(
+        GeometryError, match=r"^the image of this object lies at infinity \(NA 0\), .* no PSF; .* refocus$"
+    ):
         seidel_psf(waves(na=0.0))
     with pytest.raises(GeometryError, match="w40 is not finite"):
         seidel_psf(waves(w40=np.nan))

@@ -173,7 +173,7 @@ def test_a_psf_says_how_it_was_made():
 def test_one_sample_is_as_wide_as_the_whole_picture():
     c = waves(w40=1.0)
     assert suitable_pixel_um(c, 1) == pytest.approx(2 * suitable_pixel_um(c, 2), rel=1e-15)
-    assert suitable_pixel_um(c, 0) == suitable_pixel_um(c, 1)
+    assert suitable_pixel_um(c, 0) == suitable_pixel_um(c, 1) == 64 * suitable_pixel_um(c)
 
 
 def test_the_padded_fft_takes_what_window_blur_and_rim_ask_for():
@@ -205,7 +205,7 @@ def test_a_stack_of_no_psfs_is_empty_and_needs_a_pixel():
         found = seidel_psf(nothing, 16, 1.0, sampling=sampling)
         assert (found.values.shape, found.strehl.shape, found.energy.shape) == ((2, 0, 16, 16), (2, 0), (2, 0))
         assert found.sampling == words
-    with pytest.raises(SamplingError, match="give the pixel in µm"):
+    with pytest.raises(SamplingError, match=r"^a stack of no PSFs has no width of its own; give the pixel in µm$"):
         seidel_psf(nothing, 16)
 
 
@@ -245,5 +245,6 @@ def test_the_coefficient_that_is_no_number_is_named(name):
 
 
 def test_coefficients_too_large_to_add_are_told_together():
-    with np.errstate(over="ignore"), pytest.raises(GeometryError, match=r"^their sum is not finite"):
-        seidel_psf(waves(w40=1.7e308, w31=1.7e308), 8, 1.0)
+    for name in ("w31", "w22", "w20", "wd", "na"):
+        with np.errstate(over="ignore"), pytest.raises(GeometryError, match=r"^their sum is not finite"):
+            seidel_psf(waves(w40=1.7e308, **{name: 1.7e308}, sign=1), 8, 1.0)
