@@ -160,7 +160,7 @@ class ImagePanel:
         self.widget.set_readout(self._quality())
         self.veil.say(self._refusal if self._stale() and self._unplanned == self._asked else "", 0)
         self.plan_line.show_stage(doing, stopped)
-        self.headline.setHidden(doing or stopped)
+        self.headline.setHidden(doing or stopped or bool(self.veil.text))
 
     def _quality(self) -> str:
         if not self._stale():
@@ -225,7 +225,7 @@ class ImagePanel:
 
     def save_as(self, path: str) -> None:
         """Save the picture and beside it the state; a refusal is one sentence."""
-        if self._answer is None:
+        if self._stale():  # the picture on screen is none of the state that would lie beside it
             self._store.refused.emit("there is no picture yet; save it when it is on screen")
             return
         try:

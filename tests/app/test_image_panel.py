@@ -191,7 +191,9 @@ def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     qtbot.waitUntil(lambda: "cannot be read" in image_panel.veil.text, timeout=10000)
     assert image_panel.widget.readout.text() == "no picture"
     window.store.update(psf_scale="log")  # nothing the picture depends on
-    assert image_panel.widget.readout.text() == "no picture"
+    assert image_panel.widget.readout.text() == "no picture" and not image_panel.headline.isVisible()
+    image_panel.save_as("/nowhere/out.png")
+    assert "there is no picture yet" in window.banner.text.text().lower()
     window.store.update(photo="text")
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=10000)
     assert not image_panel.veil.text
