@@ -9,6 +9,7 @@ from PySide6.QtGui import QColor, QGuiApplication, QPalette
 
 # Colours of brightness, all of them told apart with every kind of colour blindness (tests/app/test_theme.py).
 BRIGHTNESS = {"standard": "inferno", "viridis": "viridis", "cividis": "cividis", "grey": "CET-L1"}
+DONE = "#66"  # how opaque the done part of a bar is, AARRGGBB: per cent are read on either part
 SPACE = 8  # every gap of the window is this, or half or twice this, in pixels
 
 
@@ -194,7 +195,7 @@ def _inputs(t: Tokens) -> str:
     QToolButton#flat:hover, QToolButton#flat:focus {{ border: 1px solid {t.accent}; color: {t.text}; }}
     QProgressBar {{ background: {t.faint}; border: none; border-radius: 4px; max-height: 14px; text-align: center;
         font-size: 11px; color: {t.text}; }}
-    QProgressBar::chunk {{ background: {t.accent}; border-radius: 4px; }}
+    QProgressBar::chunk {{ background: {DONE + t.accent[1:]}; border-radius: 4px; }}
     QToolButton::menu-indicator {{ image: none; width: 0; }}
     QComboBox {{ padding-right: 20px; }}
     QComboBox#small {{ padding-right: 18px; }}

@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QGuiApplication
 from app.limits import CHOICES
 from app.panels import pupil
 from app.stageview import WAVES_MAP
-from app.theme import BRIGHTNESS, DARK, LIGHT, tokens
+from app.theme import BRIGHTNESS, DARK, DONE, LIGHT, tokens
 
 # Machado, Oliveira and Fernandes (2009), IEEE TVCG 15, table 1: no cone of one kind at all; linear RGB.
 BLIND = {
@@ -80,3 +80,15 @@ def test_light_and_dark_follow_the_system_live(window, monkeypatch):
         monkeypatch.setattr("app.theme.system_scheme", lambda scheme=scheme: scheme)
         QGuiApplication.styleHints().colorSchemeChanged.emit(scheme)
         assert window.grab().toImage().pixelColor(3, 3).name() == theme.window
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+def test_per_cent_are_read_on_both_parts_of_a_bar(theme):
+    """WCAG 2.1 asks a contrast of 4.5 of small letters."""
+    text, rest, accent = (np.array(QColor(c).getRgbF()[:3]) for c in (theme.text, theme.faint, theme.accent))
+    part = int(DONE[1:], 16) / 255
+    for ground in (rest, part * accent + (1 - part) * rest):
+        light = sorted(
+            TO_XYZ[1] @ np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4) for c in (text, ground)
+        )
+        assert (light[1] + 0.05) / (light[0] + 0.05) > 4.5
