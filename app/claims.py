@@ -54,7 +54,10 @@ def parse_claim(text: str, changes: Callable[[str], Changes]) -> Claim:
 
 
 def _number(text: str) -> float:
-    return float(text.replace("−", "-"))
+    try:
+        return float(text.replace("−", "-"))
+    except ValueError:
+        raise P2SFError(f'"{text}" in a claim is no number; write one such as 0.25 or 1e-3') from None
 
 
 def measured(claim: Claim, state: State) -> float:

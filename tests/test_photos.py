@@ -1,11 +1,15 @@
 """Pictures come back as they were written, whatever their depth, and files that are none are named."""
 
+import struct
+import zlib
+
 import numpy as np
 import pytest
+import tifffile
 
 from p2sf.errors import ExportError, P2SFError, RequestError
 from p2sf.photos import linear_from_srgb, read_photo, srgb_from_linear, write_photo
-from p2sf.photos.png import read_deep, write_deep
+from p2sf.photos.png import BAND, read_deep, unfiltered, write_deep
 
 
 def picture(channels: int = 3) -> np.ndarray:
@@ -46,21 +50,55 @@ def test_every_png_filter_is_undone():
     assert (read_deep(write_deep(values), "x") == values).all()
 
 
-@pytest.mark.parametrize("kind", [0, 1, 2, 3, 4])
-def test_filters_one_by_one(kind):
-    from p2sf.photos.png import _paeth, _unfiltered
+def paeth(left: int, up: int, corner: int) -> int:
+    """Return the neighbour nearest to the plane through them, as ISO/IEC 15948 has it in 9.4."""
+    guess = left + up - corner
+    return min((left, up, corner), key=lambda value: abs(guess - value))
 
-    plain = np.random.default_rng(kind).integers(0, 256, (4, 12), dtype=np.uint8).astype(int)
-    rows = []
-    for y, line in enumerate(plain):
-        out = []
+
+@pytest.mark.parametrize("step", [2, 6])
+@pytest.mark.parametrize(("rows", "columns"), [(1, 1), (1, 9), (9, 1), (2 * BAND + 3, 5)])
+def test_filters_are_undone_byte_by_byte(rows, columns, step):
+    """Filtered here one byte after the other, each row by another filter, over more than two bands of rows."""
+    random = np.random.default_rng(rows)
+    plain = random.integers(0, 256, (rows, columns * step), dtype=np.uint8).astype(int)
+    raw = []
+    for y, line in enumerate(plain.tolist()):
+        kind, out = int(random.integers(0, 5)), []
+        above = plain[y - 1].tolist() if y else [0] * len(line)
         for x, value in enumerate(line):
-            left, up = (plain[y][x - 6] if x >= 6 else 0), (plain[y - 1][x] if y else 0)
-            corner = plain[y - 1][x - 6] if y and x >= 6 else 0
-            guess = (0, left, up, (left + up) // 2, _paeth(left, up, corner))[kind]
+            left, corner = (line[x - step], above[x - step]) if x >= step else (0, 0)
+            guess = (0, left, above[x], (left + above[x]) // 2, paeth(left, above[x], corner))[kind]
             out.append((value - guess) % 256)
-        rows.append([kind, *out])
-    assert (_unfiltered(np.array(rows, np.uint8), 6) == plain).all()
+        raw.append([kind, *out])
+    assert (unfiltered(np.array(raw, np.uint8), step) == plain).all()
+
+
+def claimed(width: int, height: int, deep: bool) -> bytes:
+    """Return a small PNG whose head is altered to claim another size."""
+    data = bytearray(write_deep(np.zeros((4, 4, 3), np.uint16)))
+    data[16:25] = struct.pack(">IIB", width, height, 16 if deep else 8)
+    data[29:33] = struct.pack(">I", zlib.crc32(bytes(data[12:29])))
+    return bytes(data)
+
+
+@pytest.mark.parametrize("deep", [True, False])
+@pytest.mark.parametrize(("width", "height"), [(60_000, 60_000), (70_000, 2), (2**31 - 1, 1), (0, 5)])
+def test_a_size_that_its_bytes_cannot_mean_is_refused_before_it_is_unpacked(tmp_path, width, height, deep):
+    (tmp_path / "huge.png").write_bytes(claimed(width, height, deep))
+    with pytest.raises(RequestError, match=r"huge\.png"):
+        read_photo(tmp_path / "huge.png")
+
+
+def test_a_tiff_of_more_strips_than_bytes_is_refused(tmp_path):
+    """What fuzzing found: eight million strips in a file of 400 bytes, each looked for."""
+    tifffile.imwrite(tmp_path / "strips.tif", np.zeros((3000, 4), np.uint8), rowsperstrip=1, compression="zlib")
+    assert read_photo(tmp_path / "strips.tif").values.shape == (3000, 4, 1)
+    with tifffile.TiffFile(tmp_path / "strips.tif", mode="r+b") as file:
+        file.pages[0].tags["ImageLength"].overwrite(65_000)
+    assert (tmp_path / "strips.tif").stat().st_size < 65_000
+    with pytest.raises(RequestError, match=r"strips\.tif is a TIFF that cannot be read \(65000 parts"):
+        read_photo(tmp_path / "strips.tif")
 
 
 def test_what_is_no_picture_is_one_sentence(tmp_path):

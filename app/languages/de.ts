@@ -811,7 +811,10 @@
 <message><source>save the picture again</source><translation>das Bild neu speichern</translation></message>
 <message><source>save it as UTF-8</source><translation>als UTF-8 speichern</translation></message>
 <message><source>save it uncompressed</source><translation>unkomprimiert speichern</translation></message>
-<message><source>save it without interlacing</source><translation>ohne Interlacing speichern</translation></message>
+<message><source>save it plain</source><translation>einfach speichern</translation></message>
+<message><source>{claim} samples in {size} bytes</source><translation>{claim} Werte in {size} Byte</translation></message>
+<message><source>at most {side} on a side and {all} in all</source><translation>höchstens {side} je Seite und {all} im Ganzen</translation></message>
+<message><source>{parts} parts in {size} bytes</source><translation>{parts} Teile in {size} Byte</translation></message>
 <message><source>save it with 8 or 16 bits or as float</source><translation>mit 8 oder 16 Bit oder als Gleitkomma speichern</translation></message>
 <message><source>save as TOML</source><translation>als TOML speichern</translation></message>
 <message><source>save as TOML, or give nd and vd</source><translation>als TOML speichern oder nd und vd angeben</translation></message>
@@ -1036,6 +1039,8 @@
 <message><source>the image is at infinity, so no sensor position is in focus</source><translation>das Bild liegt im Unendlichen, also ist kein Sensorort scharf</translation></message>
 <message><source>"{word}" sets nothing</source><translation>"{word}" stellt nichts ein</translation></message>
 <message><source>write entries such as field_deg 10, tab mtf</source><translation>Einträge schreiben wie field_deg 10, tab mtf</translation></message>
+<message><source>"{text}" in a claim is no number</source><translation>"{text}" in einer Behauptung ist keine Zahl</translation></message>
+<message><source>write one such as 0.25 or 1e-3</source><translation>eine wie 0.25 oder 1e-3 schreiben</translation></message>
 <message><source>"{text}" is no claim</source><translation>"{text}" ist keine Behauptung</translation></message>
 <message><source>write one such as {example}</source><translation>eine schreiben wie {example}</translation></message>
 <message><source>measure "{name}" is unknown</source><translation>das Maß "{name}" ist unbekannt</translation></message>
@@ -1141,7 +1146,7 @@
 <message><source>{path} is a TIFF that cannot be read ({why})</source><translation>{path} ist ein TIFF, das nicht lesbar ist ({why})</translation></message>
 <message><source>{path} is neither a PNG nor a TIFF that can be read</source><translation>{path} ist weder ein PNG noch ein lesbares TIFF</translation></message>
 <message><source>convert it to one</source><translation>in eines davon umwandeln</translation></message>
-<message><source>{path} is an interlaced or oversized 16-bit PNG</source><translation>{path} ist ein verschachteltes oder zu großes 16-Bit-PNG</translation></message>
+<message><source>{path} is an interlaced or indexed 16-bit PNG</source><translation>{path} ist ein verschachteltes oder indiziertes 16-Bit-PNG</translation></message>
 <message><source>{path} is a damaged PNG ({why})</source><translation>{path} ist ein beschädigtes PNG ({why})</translation></message>
 <message><source>an FFT of {count} × {count} pupil samples is too large</source><translation>eine FFT von {count} × {count} Pupillenproben ist zu groß</translation></message>
 <message><source>use mdft or change the pixel</source><translation>mdft nehmen oder das Pixel ändern</translation></message>

@@ -10,6 +10,7 @@ from p2sf.errors import ExportError
 from p2sf.export.beside import plain, write_beside
 from p2sf.export.record import CONVENTIONS, caption, facts
 from p2sf.psf import Psf
+from p2sf.rasters import first_page
 from p2sf.wholefile import DAMAGED, read_arrays
 
 UM_PER_CM = 1e4
@@ -96,13 +97,8 @@ def _read_npz(path) -> tuple[np.ndarray, dict]:
 
 
 def _read_tiff(path) -> tuple[np.ndarray, dict]:
-    import tifffile
-
-    try:
-        with tifffile.TiffFile(path) as file:
-            return file.pages[0].asarray(), json.loads(file.pages[0].description)
-    except tifffile.TiffFileError as error:
-        raise ValueError(str(error)) from error
+    values, text = first_page(path)
+    return values, json.loads(text)
 
 
 def _read_csv(path) -> tuple[np.ndarray, dict]:

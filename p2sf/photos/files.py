@@ -10,6 +10,8 @@ from p2sf.errors import ExportError, RequestError
 from p2sf.export import write_beside
 from p2sf.photos.png import is_deep, read_deep, write_deep
 from p2sf.photos.transfer import check_encoding, linear_from_srgb, srgb_from_linear
+from p2sf.rasters import check_samples, first_page
+from p2sf.wholefile import DAMAGED
 
 READABLE = (".png", ".tif", ".tiff")
 DEPTHS = ("8", "16", "float")
@@ -103,12 +105,9 @@ def _samples(path: Path) -> np.ndarray:
 
 
 def _from_tiff(data: bytes, path) -> np.ndarray:
-    import tifffile
-
     try:
-        with tifffile.TiffFile(io.BytesIO(data)) as file:
-            return np.asarray(file.pages[0].asarray())
-    except (tifffile.TiffFileError, ValueError, RuntimeError, IndexError, OSError) as error:
+        return np.asarray(first_page(io.BytesIO(data))[0])
+    except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(f"{path} is a TIFF that cannot be read ({error}); save it uncompressed") from error
 
 
@@ -117,10 +116,13 @@ def _from_png(data: bytes, path) -> np.ndarray:
 
     try:
         with Image.open(io.BytesIO(data), formats=("PNG",)) as picture:
+            check_samples((picture.height, picture.width, len(picture.getbands())), len(data))
             grey = picture.mode in ("1", "L", "LA")
             return np.asarray(picture.convert("L" if grey else "RGB"))
-    except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
+    except UnidentifiedImageError as error:
         raise RequestError(f"{path} is neither a PNG nor a TIFF that can be read; convert it to one") from error
+    except (Image.DecompressionBombError, OSError, ValueError, *DAMAGED) as error:
+        raise RequestError(f"{path} is a damaged PNG ({error}); save the picture again") from error
 
 
 def _channels(raw: np.ndarray, path) -> np.ndarray:

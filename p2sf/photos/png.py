@@ -6,11 +6,12 @@ import zlib
 import numpy as np
 
 from p2sf.errors import RequestError
+from p2sf.rasters import check_samples
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}  # colour type: grey, RGB, grey with alpha, RGB with alpha
 COLOUR_TYPE = {1: 0, 3: 2}
-LARGEST = 2**28  # samples of a picture that is read
+BAND = 256  # rows
 
 
 def is_deep(data: bytes) -> bool:
@@ -22,15 +23,15 @@ def read_deep(data: bytes, path) -> np.ndarray:
     """Return the samples of a 16-bit PNG, (rows, columns, channels) uint16; RequestError for a damaged file."""
     try:
         width, height, _, colour, _, _, interlaced = struct.unpack(">IIBBBBB", data[16:29])
-        if interlaced or colour not in CHANNELS or not 0 < width * height * 4 <= LARGEST:
-            raise RequestError(f"{path} is an interlaced or oversized 16-bit PNG; save it without interlacing")
-        stride = width * CHANNELS[colour] * 2
-        raw = np.frombuffer(zlib.decompress(_body(data)), np.uint8).reshape(height, stride + 1)
+        if interlaced or colour not in CHANNELS:
+            raise RequestError(f"{path} is an interlaced or indexed 16-bit PNG; save it plain")
+        check_samples((height, width, CHANNELS[colour]), len(data))
+        step = 2 * CHANNELS[colour]
+        # No more is unpacked than the head has announced.
+        raw = zlib.decompressobj().decompress(_body(data), height * (width * step + 1))
+        plain = unfiltered(np.frombuffer(raw, np.uint8).reshape(height, width * step + 1), step)
     except (struct.error, zlib.error, ValueError) as error:
-        if isinstance(error, RequestError):
-            raise
         raise RequestError(f"{path} is a damaged PNG ({error}); save the picture again") from error
-    plain = _unfiltered(raw, 2 * CHANNELS[colour])
     return plain.view(">u2").astype(np.uint16).reshape(height, width, -1)
 
 
@@ -63,32 +64,47 @@ def _body(data: bytes) -> bytes:
     return b"".join(parts)
 
 
-def _unfiltered(raw: np.ndarray, step: int) -> np.ndarray:
-    """Return the bytes before filtering; ``step`` bytes a pixel (ISO/IEC 15948, §9)."""
-    plain, above = np.empty((raw.shape[0], raw.shape[1] - 1), np.uint8), np.zeros(raw.shape[1] - 1, np.uint8)
-    for number, row in enumerate(raw):
-        kind, line = row[0], row[1:]
-        if kind == 1:
-            line = np.cumsum(line.reshape(-1, step), axis=0, dtype=np.uint8).ravel()
-        elif kind == 2:
-            line = line + above
-        elif kind in (3, 4):
-            line = _from_both(line.tolist(), above.tolist(), step, kind == 4)
-        plain[number] = above = np.asarray(line, np.uint8)
-    return plain
+def unfiltered(raw: np.ndarray, step: int) -> np.ndarray:
+    """Return the bytes before filtering, (rows, width · step); each raw row begins with its filter's number.
+
+    A byte needs its neighbours on the left and above (ISO/IEC 15948, §9). Those of one diagonal do not need each
+    other, hence diagonal by diagonal, in bands of rows so that the slanted copy stays small. ValueError for filters
+    that are none.
+    """
+    kinds, lines = raw[:, 0], raw[:, 1:].reshape(len(raw), -1, step)
+    if kinds.max(initial=0) > 4 or not lines.size:
+        raise ValueError("filters that are none")
+    plain = np.empty_like(lines)
+    above = np.zeros_like(lines[0])
+    for start in range(0, len(raw), BAND):
+        band = slice(start, start + BAND)
+        plain[band] = _unfiltered_band(kinds[band], lines[band], above)
+        above = plain[band][-1]
+    return plain.reshape(len(raw), -1)
 
 
-def _from_both(line: list[int], above: list[int], step: int, paeth: bool) -> list[int]:
-    """Undo the average or the Paeth filter, which need the byte on the left first."""
-    out = [0] * step + line
-    upper = [0] * step + above
-    for i in range(step, len(out)):
-        left, up = out[i - step], upper[i]
-        guess = _paeth(left, up, upper[i - step]) if paeth else (left + up) // 2
-        out[i] = (out[i] + guess) & 255
-    return out[step:]
+def _unfiltered_band(kinds: np.ndarray, lines: np.ndarray, above: np.ndarray) -> np.ndarray:
+    """Return a band's bytes; ``above`` is the row before it. Row c of the slanted copy is the diagonal x + row = c."""
+    rows, width, step = lines.shape
+    slanted = np.zeros((width + rows + 1, rows + 1, step), np.int16)  # one more before each side: zeros, and ``above``
+    slanted[1 : width + 1, 0] = above
+    row, pick = np.arange(rows), kinds[:, None]
+    for c in range(width + rows - 1):
+        now = slice(max(0, c - width + 1), min(rows, c + 1))
+        shifted = slice(now.start + 1, now.stop + 1)
+        left, up, corner = slanted[c + 1, shifted], slanted[c + 1, now], slanted[c, now]
+        guess = _guess(pick[now], left, up, corner)
+        slanted[c + 2, shifted] = (lines[row[now], c - row[now]] + guess) & 255
+    return np.stack([slanted[r + 2 : r + 2 + width, r + 1] for r in row]).astype(np.uint8)
 
 
-def _paeth(left: int, up: int, corner: int) -> int:
-    guess = left + up - corner
-    return min((left, up, corner), key=lambda value: abs(guess - value))
+def _guess(kind: np.ndarray, left: np.ndarray, up: np.ndarray, corner: np.ndarray) -> np.ndarray:
+    """Return what each filter, 0 to 4, expects of a byte: nothing, left, above, their mean, Paeth's nearest."""
+    return np.choose(kind, (np.zeros_like(left), left, up, (left + up) >> 1, _paeth(left, up, corner)))
+
+
+def _paeth(left: np.ndarray, up: np.ndarray, corner: np.ndarray) -> np.ndarray:
+    """Return of three neighbours the nearest to left + up − corner, the earlier where two are as near."""
+    far_left, far_up, far_corner = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
+    up_or_corner = np.where(far_up <= far_corner, up, corner)
+    return np.where((far_left <= far_up) & (far_left <= far_corner), left, up_or_corner)

@@ -21,13 +21,13 @@ def read_scene(path) -> Scene:
         table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
         raise RequestError(f"{path} cannot be read, {error.strerror}; give the path of a scene file") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:
         raise RequestError(f"{path} is no TOML: {error}; correct it") from error
     try:
         return scene_from(table, Path(path))
     except RequestError as error:
         raise RequestError(f"{path}: {error}") from error
-    except (TypeError, ValueError, LookupError, AttributeError) as error:
+    except (TypeError, ValueError, LookupError, AttributeError, OverflowError) as error:
         raise RequestError(
             f"{path}: a value is missing or of the wrong kind ({error}); numbers stand without quotes"
         ) from error

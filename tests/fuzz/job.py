@@ -6,7 +6,7 @@ from pathlib import Path
 
 import atheris
 
-with atheris.instrument_imports(include=["p2sf", "tomllib"]):
+with atheris.instrument_imports(include=["p2sf", "app", "tomllib"]):
     from tests.fuzz.seeds import seeds
     from tests.fuzz.targets import LAST, TARGETS
 

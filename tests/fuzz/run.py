@@ -25,6 +25,10 @@ LONGEST = {
     "glass_catalogue": 4000,
     "database": 60_000,
     "psf_file": 8000,
+    "picture": 8000,
+    "scene": 2000,
+    "state": 6000,
+    "lesson": 4000,
 }
 MEGABYTES = 1024
 

@@ -1,19 +1,26 @@
 """What the fuzzing starts from: every sample file of the tests, a database, and ordinary command lines."""
 
+from dataclasses import replace
 from functools import cache
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+import tifffile
 from PIL import Image
 
 from app.embedded import with_state
+from app.lesson import lesson_files
+from app.link import link
+from app.state import State, state_to_json
 from p2sf.database import Space, build_database
 from p2sf.databasefile.npz import MARK, database_bytes
 from p2sf.databasefile.sealed import sealed
 from p2sf.export import write_psf
+from p2sf.lensfile.toml import lens_to_toml
 from p2sf.library import find_lens, lenses_folder
+from p2sf.photos import write_photo
 from p2sf.psf import seidel_psf
 from tests.fuzz.targets import ENDINGS, PSF_ENDINGS, good_database
 from tests.imports import FILES, FOLDER
@@ -26,6 +33,24 @@ LINES = (
     b"\x01\x00\n\x00inf\n\x0310\n\x04656.2725\n\x052000\n\x06-20\n\x078",
     b"\x02\x03\n\x0916\n\x0bseidel\n\x0cfft\n\x08auto",
 )
+
+
+SCENE = b"""tolerance = 0.1
+measure = "r2"
+f_number = 5.6
+[sensor]
+rows = 40
+columns = 60
+pixel_um = 6.0
+centre_mm = [1.0, 2.0]
+[depth]
+near_mm = 800.0
+far_mm = inf
+[[channel]]
+name = "green"
+wavelengths_nm = [520.0, 550.0]
+weights = [1.0, 2.0]
+"""
 
 
 def seeds(target: str) -> list[bytes]:
@@ -45,7 +70,8 @@ def seeds(target: str) -> list[bytes]:
         plain = sealed({MARK: np.array("{}"), "series": np.zeros((2, 3))})
         head = str(good_database()[MARK]).encode()
         return [b"\x00" + raw, b"\x01" + raw, b"\x01" + plain, b"\x02" + head]
-    return psf_files() if target == "psf_file" else list(LINES)
+    more = {"psf_file": psf_files, "picture": pictures, "scene": scenes, "state": states, "lesson": lessons}
+    return more[target]() if target in more else list(LINES)
 
 
 @cache
@@ -58,3 +84,32 @@ def psf_files() -> list[bytes]:
             found.append(bytes([number]) + path.read_bytes())
     Image.new("L", (8, 8)).save(picture, "PNG")
     return [*found, b"\x00" + with_state(picture.getvalue(), "{}")]
+
+
+@cache
+def pictures() -> list[bytes]:
+    """Return one picture in every depth and ending, with three colours and with one, and a packed TIFF."""
+    values, found = np.linspace(0, 1, 8 * 9 * 3, dtype=np.float32).reshape(8, 9, 3), []
+    with TemporaryDirectory() as folder:
+        for ending, depth in ((".png", "8"), (".png", "16"), (".tif", "8"), (".tif", "16"), (".tif", "float")):
+            for channels in (1, 3):
+                path = write_photo(Path(folder) / f"p{ending}", values[..., :channels], depth=depth)
+                found.append(path.read_bytes())
+    packed = BytesIO()
+    tifffile.imwrite(packed, (255 * values).astype(np.uint8), rowsperstrip=2, compression="zlib", predictor=True)
+    return [*found, packed.getvalue()]
+
+
+def scenes() -> list[bytes]:
+    return [SCENE]
+
+
+def states() -> list[bytes]:
+    edited = replace(State(), field_deg=3.0, lens_text=lens_to_toml(find_lens("singlet_f6")), windows=("mtf",))
+    pinned = replace(State(), pinned=edited)
+    saved = [b"\1" + state_to_json(state).encode() for state in (State(), edited, pinned)]
+    return saved + [b"\0" + link(state).encode() for state in (State(), edited, pinned)]
+
+
+def lessons() -> list[bytes]:
+    return [path.read_bytes() for path in lesson_files()]

@@ -14,6 +14,9 @@ from functools import cache
 import numpy as np
 
 from app.embedded import text_inside
+from app.lesson import parse_lesson
+from app.link import state_of_link
+from app.state import state_from_json, state_to_json
 from p2sf.cli import main
 from p2sf.database import Space, build_database
 from p2sf.databasefile.npz import MARK, database_bytes, database_from_bytes
@@ -27,8 +30,10 @@ from p2sf.lensfile.resolve import GlassSources
 from p2sf.lensfile.sourcetext import source_of
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
 from p2sf.library import find_lens
+from p2sf.photos import read_photo
 from p2sf.pupils import pupils
 from p2sf.request import Request, set_up
+from p2sf.scene.files import read_scene
 from p2sf.seidel import coefficients
 
 LAST = "last-input"  # the file with what a fuzzing process tried last, beside its folder of inputs
@@ -116,10 +121,39 @@ def good_database() -> dict:
 
 def psf_file(data: bytes) -> str:
     """Read the bytes as a PSF that was exported, the first byte picks the ending, and as a snapshot with a state."""
-    with tempfile.NamedTemporaryFile(suffix=PSF_ENDINGS[data[0] % len(PSF_ENDINGS)] if data else ".npz") as file:
-        file.write(data[1:])
+    ending = PSF_ENDINGS[data[0] % len(PSF_ENDINGS)] if data else ".npz"
+    return refused_or(lambda: read_file(lambda path: (text_inside(path), read_psf(path)), data[1:], ending))
+
+
+def picture(data: bytes) -> str:
+    """Read the bytes as a picture to be imaged; its ending does not matter."""
+    return refused_or(lambda: read_file(read_photo, data, ".png"))
+
+
+def scene(data: bytes) -> str:
+    return refused_or(lambda: read_file(read_scene, data, ".toml"))
+
+
+def state(data: bytes) -> str:
+    """Read the bytes as a saved state, with an even first byte as a link; what is accepted is written again."""
+    text, is_saved = data[1:].decode("utf-8", "replace"), bool(data) and data[0] % 2 == 1
+
+    def read() -> None:
+        found = state_from_json(text) if is_saved else state_of_link(text)
+        assert state_from_json(state_to_json(found)) == found
+
+    return refused_or(read)
+
+
+def lesson(data: bytes) -> str:
+    return refused_or(lambda: parse_lesson(data.decode("utf-8", "replace"), "hostile", "hostile.md"))
+
+
+def read_file(read: Callable, data: bytes, ending: str):
+    with tempfile.NamedTemporaryFile(suffix=ending) as file:
+        file.write(data)
         file.flush()
-        return refused_or(lambda: (text_inside(file.name), read_psf(file.name)))
+        return read(file.name)
 
 
 def command_line(data: bytes) -> str:
@@ -160,6 +194,10 @@ TARGETS = {
     "glass_catalogue": glass_catalogue,
     "database": database,
     "psf_file": psf_file,
+    "picture": picture,
+    "scene": scene,
+    "state": state,
+    "lesson": lesson,
     "command_line": command_line,
 }
 
