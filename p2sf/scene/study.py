@@ -63,10 +63,10 @@ class Study:
         return np.linspace(self.nearest_mm, self.farthest_mm, RINGS + 1)
 
     def depths(self, wave: float) -> list[float]:
-        """Return the vergences at which decisions are tried: both ends, middle and sharpest, on axis and off."""
+        """Return the vergences at which decisions are tried: five over the scene and the sharpest, on axis and off."""
         if ("depths", wave) not in self.made:
             scan = self.scene.vergences(SCAN)
-            found = {float(v) for v in (*scan[:: SCAN // 2], *self.sharpest(wave))}
+            found = {float(v) for v in (*scan[:: SCAN // 4], *self.sharpest(wave))}
             self.made["depths", wave] = sorted(found)
         return self.made["depths", wave]
 
@@ -80,8 +80,13 @@ class Study:
         return [float(v) for v in scan[blur.argmin(0)]]
 
     def places(self, heights) -> list[tuple[float, float, float]]:
-        """Return (height, vergence, wavelength) at which a decision is tried: every depth and the extreme colours."""
-        return [(float(h), v, wave) for wave in self.waves for h in heights for v in self.depths(wave)]
+        """Return (height, vergence, wavelength) at which a pupil's own decisions are tried: extreme depths and colours.
+
+        Between the sharpest depth and the ends what a pupil leaves out shows less than at one of these.
+        """
+        ends = self.scene.vergences(2).tolist()
+        depths = {wave: sorted({*ends, *self.sharpest(wave)}) for wave in self.waves}
+        return [(float(h), v, wave) for wave in self.waves for h in heights for v in depths[wave]]
 
     def kernels(self, recipe: Recipe, colour: Colour, vergence: float) -> Kernels:
         """Return the kernels of one way of making them."""
