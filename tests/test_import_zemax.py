@@ -203,6 +203,16 @@ def test_what_is_refused_says_where_and_why(case):
     refused_at(DOUBLET, *REFUSED[case])
 
 
+def test_a_glass_in_no_catalogue_is_offered_by_the_numbers_written_beside_it():
+    change = ("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS NOBODY-7 0 0 1.62 36.4")
+    with pytest.raises(
+        LensFileError, match=r"a model glass nd 1\.62000 vd 36\.40 as the file writes it, Δn at d \+0\.0"
+    ):
+        read(DOUBLET, change)
+    taken = read(DOUBLET, change, accept=True).lens.surfaces[0].medium
+    assert (taken.nd, taken.vd) == (1.62, 36.4)
+
+
 def test_a_substitute_is_offered_and_only_taken_with_consent():
     change = ("N-BK7", "BK7")
     with pytest.raises(

@@ -229,4 +229,4 @@ def _difference(medium: Medium, wanted: float | None) -> str:
     nd = nd_of(medium)
     if wanted is None or nd is None:
         return "Δn at d unknown, the file does not tell the index it wants"
-    return f"Δn at d {nd - wanted:+.5f}"
+    return f"Δn at d {round(nd - wanted, 5) + 0.0:+.5f}"  # + 0.0, because −0.00000 would be rounding with a sign
