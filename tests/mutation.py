@@ -4,16 +4,24 @@
 psf and fitted) prints for each module how many mutants its tests kill, and every survivor as a difference. The
 working tree is not touched. ``psf:7`` tries the tenth of its mutants whose number ends in 7.
 
-Last complete runs: fitted 170 of 176 (96.6 %), psf 414 of 445 (93.0 %); of what survived there 5 and 13 were killed
-since, one by one. What is left, and why:
+Last complete runs, in which survivors are mutants that no test tells from the original:
 
-- fitted: None in place of False for a table's odd half, which is the same.
-- psf: more nodes or a wider empty rim than needed, in the two plain formulas that others are compared with: the same
-  picture to rounding; ``strict`` of a zip over columns that were broadcast to one length; signs within a sum of which
-  only its being finite counts; a limit met exactly, 2²⁸ samples; letters in the middle of a sentence of an error whose
-  telling words a test does find.
+- gaussian: 527 of 570 (92.5 %). 26 are ``strict`` of a zip over columns of one length, 6 a dtype that all numbers
+  have already, 6 the short way of one source, which gives the numbers of the long one; the others multiply a height
+  of 0, count a gap behind the last surface, begin a sum or an axis where broadcasting would.
+- seidel: 304 of 319 (95.3 %). 12 times ``strict``, two short ways, −2 for the −1 of a reshape.
+- pupils: 463 of 465 (99.6 %). −2 for −1, and a division by a sign of 1 or −1.
+- wavefront: 341 of 361 (94.5 %), one by timeout: a slope 1728 times too large, which its first test refuses at
+  once and others sum for long. Memory used twice (4), dtypes (2), −2 for −1; a tilt of 0 added or carried (3);
+  the signs of an angular slope whose largest value all of them share (3), and powers of ρ in it, which is largest at
+  the rim, where they are 1 (2); slope points more or fewer within the promised 1 % (3); what a division by 0 leaves
+  undefined and then multiplies by 0 (2).
+- psf: 438 of 445 (98.4 %). 3 times ``strict``; more nodes or a wider empty rim than needed, in the two plain formulas
+  that others are compared with: the same picture to rounding (4).
+- fitted: 188 of 189 (99.5 %). None in place of False for a table's odd half.
 """
 
+import re
 import shutil
 import subprocess
 import sys
@@ -38,6 +46,7 @@ TESTS = {
     "psf": ("tests/test_psf.py", "tests/extremes/test_psf_extremes.py"),
     "fitted": ("tests/test_fitted.py", "tests/test_rows.py"),
 }
+BARE = ("seidel", "wavefront")  # tried without their caches, because mutmut passes over decorated functions
 SETTINGS = """[mutmut]
 source_paths=p2sf
 only_mutate=p2sf/{module}.py
@@ -56,10 +65,13 @@ also_copy=
 
 
 def mutate(module: str, folder: Path, ending: str = "") -> Counter:
-    """Return how many mutants of a module were killed or survived, and print the survivors."""
+    """Return how many mutants of a module were killed or survived, and print the survivors, and what timed out."""
     for name in ("p2sf", "app", "tests", "lenses"):
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "pyproject.toml", folder)
+    if module in BARE:
+        source = folder / "p2sf" / f"{module}.py"
+        source.write_text(re.sub(r"^@lru_cache.*\n", "", source.read_text(), flags=re.MULTILINE))
     tests = "".join(f"\n    {path}" for path in TESTS[module])
     (folder / "setup.cfg").write_text(SETTINGS.format(module=module, tests=tests))
     run("run", "--max-children", "1", *([f"p2sf.{module}.*{ending}"] if ending else []), folder=folder)
@@ -69,7 +81,7 @@ def mutate(module: str, folder: Path, ending: str = "") -> Counter:
         if ": " in line and not line.endswith("not checked")
     )
     for name, state in states.items():
-        if state not in ("killed", "timeout"):
+        if state != "killed":
             print(f"--- {state}\n{run('show', name, folder=folder)}", flush=True)
     return Counter(states.values())
 
