@@ -159,6 +159,12 @@ class Person:
         place = bar.tabRect(self.chance.randrange(bar.count())).center()
         self.event("open a tab", QTest.mouseClick, bar, LEFT, pos=place)
 
+    def close_a_window(self) -> None:
+        """Put a panel that stands in a window of its own back, as one does before there are too many."""
+        if self.window.floating.open:
+            own = self.chance.choice(list(self.window.floating.open.values()))
+            self.event("close a window", own.close)
+
     def step_in_time(self) -> None:
         button = self.chance.choice((self.window.top.undo, self.window.top.redo))
         for _ in range(self.chance.randrange(1, 5)):
@@ -222,7 +228,7 @@ class Person:
 HABITS = {
     **{"drag": 24, "press_keys": 12, "type_a_value": 6, "reset": 3, "press_a_button": 5, "choose_a_lens": 3},
     **{"choose_a_method": 5, "open_a_tab": 8, "step_in_time": 4, "touch_a_panel": 20, "edit_the_lens": 3},
-    **{"take_an_entry": 1, "resize": 1},
+    **{"take_an_entry": 1, "resize": 1, "close_a_window": 4},
 }
 
 
