@@ -1,5 +1,7 @@
 """Panels in windows of their own: they follow the state's ``windows``, and closing one takes it out of there."""
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QByteArray, QObject
 from PySide6.QtWidgets import QLabel, QWidget
 
@@ -25,6 +27,7 @@ class Floating(QObject):
         self._closing = False
         self._front = ""
         self._attic = QWidget()
+        self.destroyed.connect(self._attic.deleteLater)  # no child of the window, it would outlive it with its panels
 
     def toggle(self, key: str) -> None:
         """Put a panel into a window of its own, or back."""
@@ -44,14 +47,17 @@ class Floating(QObject):
     def _is_behind(self, key: str) -> bool:
         return key in self._tabbed and key != self._front and key not in self.open
 
-    def bring_up(self, key: str, panels: dict) -> None:
-        """Put the panel of a tab onto its page, and the one that was there away."""
-        if key == self._front:
-            return
+    def bring_up(self, key: str, panels: dict, turn: Callable[[str], None]) -> None:
+        """Put the panel of a tab onto its page, ``turn`` to that, and put the one that was in front away.
+
+        In this order: Qt hands the keys on to what stands on the page it turns to, else to whatever comes next.
+        """
         before, self._front = self._front, key
-        for name in (before, key):
-            if name in panels:
-                self.place(name, panels[name].widget)
+        if before != key:
+            self.place(key, panels[key].widget)
+        turn(key)
+        if before != key and before in panels:
+            self.place(before, panels[before].widget)
 
     def follow(self, wanted: tuple[str, ...], panels: dict) -> None:
         """Open and close windows until they are those wanted."""

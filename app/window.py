@@ -178,8 +178,7 @@ class Window(QMainWindow):
         for name in {key, *apart} - set(self.panels):
             self._build(name)
         self.floating.follow(apart, self.panels)
-        self.floating.bring_up(key, self.panels)
-        self.tabs.bring_up(key)
+        self.floating.bring_up(key, self.panels, self.tabs.bring_up)
         for name in self._visible():
             self._style(name)
 

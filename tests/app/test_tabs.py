@@ -1,15 +1,17 @@
 """Groups of tabs, and panels in windows of their own, by mouse and keyboard."""
 
 import pytest
-from PySide6.QtCore import QEvent, QPoint, QPointF, QSize, Qt
+from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, QSize, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel
+from shiboken6 import isValid
 
 from app.keeping import Keeping
 from app.panels import GROUPS, REGISTRY
 from app.session import last_session
 from app.state import State, state_from_json, state_to_json
+from app.window import Window
 from p2sf.errors import P2SFError
 
 TABS = [entry for entry in REGISTRY if entry.place != "main"]
@@ -98,6 +100,28 @@ def test_only_what_is_on_show_is_styled_and_the_rest_when_it_comes_up(window):
     assert len(set(colours.values())) == 1, "as the panel that was always there"
     for key in ("mtf", "profiles"):
         del window.panels[key].restyle
+
+
+def test_keys_go_on_to_the_panel_that_comes_to_the_front_by_itself(window):
+    """As undo and a lesson bring it; they went to the choice of the lens while panels waited outside."""
+    for first, then in (("seidel", "profiles"), ("database", "lens")):
+        window.open_panel(then)
+        window.open_panel(first)
+        window.panels[first].term.setFocus()
+        window.store.undo()
+        page = window.tabs.pages()[then]
+        assert QApplication.focusWidget() is page or page.isAncestorOf(QApplication.focusWidget()), then
+
+
+def test_a_panel_behind_its_tab_goes_with_its_window(qapp):
+    made = Window(State(method="seidel", theme="light", tab="mtf"), measured=False)
+    made.open_panel("profiles")
+    behind = made.panels["mtf"].widget
+    made.close()
+    made.deleteLater()
+    for _ in range(2):  # the window, and then what has to go with it
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    assert not isValid(behind)
 
 
 def test_a_key_puts_the_panel_into_its_own_window_and_back(window, qtbot):
