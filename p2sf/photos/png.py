@@ -21,16 +21,17 @@ def is_deep(data: bytes) -> bool:
 
 def read_deep(data: bytes, path) -> np.ndarray:
     """Return the samples of a 16-bit PNG, (rows, columns, channels) uint16; RequestError for a damaged file."""
+    if data[25] not in CHANNELS or any(data[28:29]):
+        raise RequestError(f"{path} is an interlaced or indexed 16-bit PNG; save it plain")
+    channels = CHANNELS[data[25]]
     try:
-        width, height, _, colour, _, _, interlaced = struct.unpack(">IIBBBBB", data[16:29])
-        if interlaced or colour not in CHANNELS:
-            raise RequestError(f"{path} is an interlaced or indexed 16-bit PNG; save it plain")
-        check_samples((height, width, CHANNELS[colour]), len(data))
-        step = 2 * CHANNELS[colour]
+        width, height = struct.unpack(">II", data[16:24])
+        check_samples((height, width, channels), len(data))
         # No more is unpacked than the head has announced.
-        raw = zlib.decompressobj().decompress(_body(data), height * (width * step + 1))
-        plain = unfiltered(np.frombuffer(raw, np.uint8).reshape(height, width * step + 1), step)
-    except (struct.error, zlib.error, ValueError) as error:
+        line = 2 * width * channels + 1
+        raw = zlib.decompressobj().decompress(_body(data), height * line)
+        plain = unfiltered(np.frombuffer(raw, np.uint8).reshape(height, line), 2 * channels)
+    except (zlib.error, ValueError) as error:
         raise RequestError(f"{path} is a damaged PNG ({error}); save the picture again") from error
     return plain.view(">u2").astype(np.uint16).reshape(height, width, -1)
 
