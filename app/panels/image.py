@@ -171,6 +171,7 @@ class ImagePanel:
         if found.quality == "planned":
             self._planned = found if found.plan.decisions else None
             self._ordered = None if key == self._ordered else self._ordered
+            self._stopped = None if key == self._stopped else self._stopped  # it came all the same
         if key == self._asked or self._stale():  # a plan of before, late to stop, must not cover the present picture
             self._answer = found
             self._paint()

@@ -150,6 +150,16 @@ def test_a_plan_says_how_far_it_is_and_is_stopped_and_made_after_all(window, ima
     assert not line.isVisible() and image_panel.headline.isVisible()
 
 
+def test_a_planned_picture_that_came_too_late_to_be_cancelled_is_no_cancelled_one(window, image_panel, orders, qtbot):
+    """As one that another photo's plan made, when the photo whose plan was cancelled stands there again."""
+    line, asked = image_panel.plan_line, image_panel._asked
+    window.store.update(psf_scale="log")
+    qtbot.mouseClick(line.turn, Qt.MouseButton.LeftButton)
+    assert line.isVisible()
+    image_panel._on_answer(asked, replace(image_panel._answer, quality="planned"))
+    assert not line.isVisible() and image_panel.headline.isVisible()
+
+
 def test_a_plan_is_ordered_though_the_one_before_has_not_yet_stopped(window, image_panel, orders, qtbot, monkeypatch):
     monkeypatch.setattr(image_panel.fine, "_cancelled", Event())  # as while a job is running
     window.store.update(field_deg=3.0)
