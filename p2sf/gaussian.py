@@ -179,7 +179,7 @@ def cardinal_points(lens: Lens, wavelength_um) -> CardinalPoints:
     lift, turn = _lift(rays), _turn(rays)
     with np.errstate(divide="ignore", invalid="ignore"):
         return CardinalPoints(
-            effective_focal_length=-1 / c,
+            effective_focal_length=_ratio(-1.0, c),
             back_focal_distance=_ratio(-n_image * a, c),
             front_focal_distance=_ratio(n * d, c),
             front_principal_from_first=_ratio(n * turn, c),
