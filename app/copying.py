@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QMenu, QTableView, QWidget
 from app.chart import Chart
 from app.plots import HeatMap
 from app.readout import FactTable
+from app.veil import Veil
 from app.words import tr
 
 QUICKLY = 85  # Qt's word for the fastest compression of a PNG there is: a tenth more bytes, two thirds of the time
@@ -63,7 +64,13 @@ def copy_data(widget: QWidget) -> bool:
 
 
 def data_of(widget: QWidget) -> str:
-    """Return what a panel shows as CSV (RFC 4180), one table behind the other; nothing where there are no numbers."""
+    """Return what a panel shows as CSV (RFC 4180), one table behind the other.
+
+    Nothing where there are no numbers, and where a veil covers those of an earlier set-up.
+    """
+    veil = widget.findChild(Veil, options=Qt.FindChildOption.FindDirectChildrenOnly)
+    if veil and veil.text:
+        return ""
     tables = [rows for rows in map(table, [widget, *widget.findChildren(QWidget)]) if rows]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\r\n")

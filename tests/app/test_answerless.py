@@ -8,6 +8,7 @@ import pytest
 from app.answerless import UNKNOWN, WHY
 from app.comparing import answers
 from app.compute import Refused
+from app.copying import data_of
 from app.setting import setting, with_lens
 from app.state import State
 from app.views.mtf import contrast
@@ -30,6 +31,7 @@ def test_no_picture_and_no_figure_of_the_lens_before_is_left(without):
         veil = without.panels[key].widget.veil
         assert veil.isVisible() and veil.text == WHY
         assert veil.geometry().contains(without.panels[key].widget.rect().center())
+        assert not data_of(without.panels[key].widget), "nor copied"
     assert {value for _, value, _ in without.controls.facts.rows} == {UNKNOWN}
     assert not without.controls.sentence.text() and without.controls.rows["field_deg"].note.text() == UNKNOWN
     assert without.status.facts.text() == UNKNOWN
@@ -92,7 +94,7 @@ def test_a_tab_that_has_nothing_to_show_veils_itself_alone(one_refusing):
 def test_its_veil_goes_with_the_next_answer(one_refusing, monkeypatch):
     monkeypatch.undo()
     one_refusing.store.update(field_deg=5.0)
-    assert not one_refusing.panels["mtf"].widget.veil.isVisible()
+    assert not one_refusing.panels["mtf"].widget.veil.isVisible() and data_of(one_refusing.panels["mtf"].widget)
 
 
 def test_a_difference_is_as_it_was_where_a_side_has_nothing(window):
