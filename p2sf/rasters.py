@@ -11,11 +11,18 @@ LONGEST = 65_535  # pixels of a side, as in JPEG
 UNHEARD = NullHandler()  # tifffile logs every fault of a file, which is one sentence here
 
 
+class OversizedError(ValueError):
+    """A picture of more samples than are unpacked; the file may be sound."""
+
+
 def check_samples(shape: tuple[int, ...], size: int) -> None:
-    """Raise ValueError for a picture of more samples than a file of ``size`` bytes has any business to hold."""
-    if max(shape) > LONGEST or not 0 < prod(shape) <= max(SAMPLES, PER_BYTE * size):
-        claim = " × ".join(map(str, shape))
-        raise ValueError(f"{claim} samples in {size} bytes; at most {LONGEST} on a side and {SAMPLES:,} in all")
+    """Raise OversizedError for more samples than ``size`` bytes have any business to hold, ValueError for none."""
+    claim = " × ".join(map(str, shape))
+    words = f"{claim} samples in {size} bytes, at most {LONGEST} on a side and {SAMPLES:,} in all"
+    if not prod(shape):
+        raise ValueError(words)
+    if max(shape) > LONGEST or prod(shape) > max(SAMPLES, PER_BYTE * size):
+        raise OversizedError(words)
 
 
 def first_page(source) -> tuple[np.ndarray, str]:

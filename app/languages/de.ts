@@ -811,9 +811,9 @@
 <message><source>save the picture again</source><translation>das Bild neu speichern</translation></message>
 <message><source>save it as UTF-8</source><translation>als UTF-8 speichern</translation></message>
 <message><source>save it uncompressed</source><translation>unkomprimiert speichern</translation></message>
-<message><source>save it plain</source><translation>einfach speichern</translation></message>
-<message><source>{claim} samples in {size} bytes</source><translation>{claim} Werte in {size} Byte</translation></message>
-<message><source>at most {side} on a side and {all} in all</source><translation>höchstens {side} je Seite und {all} im Ganzen</translation></message>
+<message><source>save it without interlacing, in RGB or grey</source><translation>ohne Interlacing speichern, in RGB oder Grau</translation></message>
+<message><source>save it smaller</source><translation>kleiner speichern</translation></message>
+<message><source>{claim} samples in {size} bytes, at most {side} on a side and {all} in all</source><translation>{claim} Werte in {size} Byte, höchstens {side} je Seite und {all} im Ganzen</translation></message>
 <message><source>{parts} parts in {size} bytes</source><translation>{parts} Teile in {size} Byte</translation></message>
 <message><source>save it with 8 or 16 bits or as float</source><translation>mit 8 oder 16 Bit oder als Gleitkomma speichern</translation></message>
 <message><source>save as TOML</source><translation>als TOML speichern</translation></message>
@@ -1147,6 +1147,7 @@
 <message><source>{path} is neither a PNG nor a TIFF that can be read</source><translation>{path} ist weder ein PNG noch ein lesbares TIFF</translation></message>
 <message><source>convert it to one</source><translation>in eines davon umwandeln</translation></message>
 <message><source>{path} is an interlaced or indexed 16-bit PNG</source><translation>{path} ist ein verschachteltes oder indiziertes 16-Bit-PNG</translation></message>
+<message><source>{path} is too large a PNG ({why})</source><translation>{path} ist ein zu großes PNG ({why})</translation></message>
 <message><source>{path} is a damaged PNG ({why})</source><translation>{path} ist ein beschädigtes PNG ({why})</translation></message>
 <message><source>an FFT of {count} × {count} pupil samples is too large</source><translation>eine FFT von {count} × {count} Pupillenproben ist zu groß</translation></message>
 <message><source>use mdft or change the pixel</source><translation>mdft nehmen oder das Pixel ändern</translation></message>

@@ -10,7 +10,7 @@ from p2sf.errors import ExportError, RequestError
 from p2sf.export import write_beside
 from p2sf.photos.png import is_deep, read_deep, write_deep
 from p2sf.photos.transfer import check_encoding, linear_from_srgb, srgb_from_linear
-from p2sf.rasters import check_samples, first_page
+from p2sf.rasters import OversizedError, check_samples, first_page
 from p2sf.wholefile import DAMAGED
 
 READABLE = (".png", ".tif", ".tiff")
@@ -121,7 +121,9 @@ def _from_png(data: bytes, path) -> np.ndarray:
             return np.asarray(picture.convert("L" if grey else "RGB"))
     except UnidentifiedImageError as error:
         raise RequestError(f"{path} is neither a PNG nor a TIFF that can be read; convert it to one") from error
-    except (Image.DecompressionBombError, OSError, ValueError, *DAMAGED) as error:
+    except (OversizedError, Image.DecompressionBombError) as error:
+        raise RequestError(f"{path} is too large a PNG ({error}); save it smaller") from error
+    except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(f"{path} is a damaged PNG ({error}); save the picture again") from error
 
 

@@ -6,7 +6,7 @@ import zlib
 import numpy as np
 
 from p2sf.errors import RequestError
-from p2sf.rasters import check_samples
+from p2sf.rasters import OversizedError, check_samples
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}  # colour type: grey, RGB, grey with alpha, RGB with alpha
@@ -22,7 +22,9 @@ def is_deep(data: bytes) -> bool:
 def read_deep(data: bytes, path) -> np.ndarray:
     """Return the samples of a 16-bit PNG, (rows, columns, channels) uint16; RequestError for a damaged file."""
     if data[25] not in CHANNELS or any(data[28:29]):
-        raise RequestError(f"{path} is an interlaced or indexed 16-bit PNG; save it plain")
+        raise RequestError(
+            f"{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey"
+        )
     channels = CHANNELS[data[25]]
     try:
         width, height = struct.unpack(">II", data[16:24])
@@ -31,6 +33,8 @@ def read_deep(data: bytes, path) -> np.ndarray:
         line = 2 * width * channels + 1
         raw = zlib.decompressobj().decompress(_body(data), height * line)
         plain = unfiltered(np.frombuffer(raw, np.uint8).reshape(height, line), 2 * channels)
+    except OversizedError as error:
+        raise RequestError(f"{path} is too large a PNG ({error}); save it smaller") from error
     except (zlib.error, ValueError) as error:
         raise RequestError(f"{path} is a damaged PNG ({error}); save the picture again") from error
     return plain.view(">u2").astype(np.uint16).reshape(height, width, -1)
