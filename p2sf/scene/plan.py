@@ -43,7 +43,8 @@ class Plan:
 
     ``rings``: (outer rim in mm, recipe) from the axis outwards; ``colours`` one per channel; ``counts`` kernel nodes
     along rows and columns; ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error`` is the root of
-    the sum of squared errors, of the decisions and of the pupils that planning itself interpolated. ``naive`` is what the full grid would cost (`pricing.naive_work`).
+    the sum of squared errors, of the decisions and of the pupils that planning itself interpolated. ``naive`` is what
+    the full grid would cost (`pricing.naive_work`).
     ``pupil_nodes``: heights in mm and vergences of the pupils that all others are interpolated from; None where
     each is fitted.
     """
