@@ -545,7 +545,7 @@
 <message><source>equal energy</source><translation>gleiche Energie</translation></message>
 <message><source>error of table 1 of the paper</source><translation>Fehler von Tabelle 1 des Aufsatzes</translation></message>
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
-<message><source>exact rays, this field</source><translation>exakte Strahlen, dieses Feld</translation></message>
+<message><source>exact rays, this field</source><translation>exakt, dieses Feld</translation></message>
 <message><source>f-number</source><translation>Blendenzahl</translation></message>
 <message><source>f-number N = f′/D: focal length over the diameter of the entrance pupil.</source><translation>Blendenzahl N = f′/D: Brennweite durch den Durchmesser der Eintrittspupille.</translation></message>
 <message><source>field angle</source><translation>Feldwinkel</translation></message>
@@ -565,7 +565,7 @@
 <message><source>geometric: ray density, no diffraction; {share} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {share} % des Lichts der Pupille im Bild</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
 <message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
-<message><source>hyperfocal distance {focus}</source><translation>hyperfokale Entfernung {focus}</translation></message>
+<message><source>hyperfocal distance {focus}</source><translation>hyperfokal {focus}</translation></message>
 <message><source>image</source><translation>Bild</translation></message>
 <message><source>image height {h} mm</source><translation>Bildhöhe {h} mm</translation></message>
 <message><source>image {h} mm</source><translation>Bild {h} mm</translation></message>
@@ -636,7 +636,7 @@
 <message><source>share of the light in a pixel</source><translation>Anteil des Lichts in einem Pixel</translation></message>
 <message><source>share of the peak</source><translation>Anteil an der Spitze</translation></message>
 <message><source>sharp from {near} to {far}</source><translation>scharf von {near} bis {far}</translation></message>
-<message><source>sharp from {near} to {far} · hyperfocal distance {focus}</source><translation>scharf von {near} bis {far} · hyperfokale Entfernung {focus}</translation></message>
+<message><source>sharp from {near} to {far} · hyperfocal distance {focus}</source><translation>scharf von {near} bis {far} · hyperfokal {focus}</translation></message>
 <message><source>sharpened by its PSFs</source><translation>mit seinen PSFs geschärft</translation></message>
 <message><source>six coefficients</source><translation>sechs Koeffizienten</translation></message>
 <message><source>spherical</source><translation>sphärisch</translation></message>
@@ -1129,7 +1129,7 @@
 <message><source>this blur over {pixels} pixels of {pitch} µm needs {rows} × {columns} pupil samples</source><translation>diese Unschärfe über {pixels} Pixel zu {pitch} µm braucht {rows} × {columns} Pupillenproben</translation></message>
 <message><source>a blur of {pixels} pixels with {samples} samples each needs a {side}² transform</source><translation>eine Unschärfe von {pixels} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²</translation></message>
 <message><source>the image lies at infinity, so the sensor sees no blur of finite size</source><translation>das Bild liegt im Unendlichen, der Sensor sieht also keine Unschärfe endlicher Größe</translation></message>
-<message><source>no chief ray of an object at {depth} mm lands {height} mm from the axis, where the sensor's corner is</source><translation>kein Hauptstrahl eines Objekts bei {depth} mm landet {height} mm neben der Achse, wo die Ecke des Sensors ist</translation></message>
+<message><source>no chief ray of an object at {depth} lands {height} mm from the axis, where the sensor's corner is</source><translation>kein Hauptstrahl eines Objekts bei {depth} landet {height} mm neben der Achse, wo die Ecke des Sensors ist</translation></message>
 <message><source>FITS files need astropy, which is not installed</source><translation>FITS-Dateien brauchen astropy, das nicht installiert ist</translation></message>
 <message><source>{path} is not a PSF that this program wrote as FITS</source><translation>{path} ist keine PSF, die dieses Programm als FITS geschrieben hat</translation></message>
 <message><source>{path} is not a PSF that this program wrote</source><translation>{path} ist keine PSF, die dieses Programm geschrieben hat</translation></message>
@@ -1168,7 +1168,8 @@
 <message><source>give a smaller one</source><translation>ein kleineres angeben</translation></message>
 <message><source>Sensor shift is {shift} µm, which moves the sensor from {place} mm behind the lens into it</source><translation>der Sensorversatz ist {shift} µm, was den Sensor von {place} mm hinter dem Objektiv in dieses hinein schiebt</translation></message>
 <message><source>give a smaller shift</source><translation>einen kleineren Versatz angeben</translation></message>
-<message><source>{what} is {value} mm, but the image of that distance lies {where} and not on a sensor behind the lens</source><translation>{what} ist {value} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv</translation></message>
+<message><source>{what} is {value}, but the image of that distance lies {where} and not on a sensor behind the lens</source><translation>{what} ist {value}, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv</translation></message>
+<message><source>{place} mm from the last vertex</source><translation>{place} mm vom letzten Scheitel</translation></message>
 <message><source>give a distance whose image is real, as a rule a longer one</source><translation>einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
 <message><source>Field is {value}°, and no ray at 90° or more from the axis enters a lens</source><translation>das Feld ist {value}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein</translation></message>
 <message><source>give an angle between −90 and 90°, both ends left out</source><translation>einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>

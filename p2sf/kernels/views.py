@@ -73,8 +73,9 @@ def view(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) ->
             continue
         if heights[-1] >= height_mm and (np.diff(heights) > 0).all():
             return View(lens, float(depth_mm), float(wavelength_um), slopes, heights, scale)
+    depth = "∞" if np.isinf(depth_mm) else f"{depth_mm:g} mm"
     raise GeometryError(
-        f"no chief ray of an object at {depth_mm:g} mm lands {height_mm:.4g} mm from the axis, where the sensor's "
+        f"no chief ray of an object at {depth} lands {height_mm:.4g} mm from the axis, where the sensor's "
         "corner is; take a smaller sensor"
     )
 

@@ -156,6 +156,15 @@ def test_every_label_and_button_fits(german, size):
     assert len(parts) > 40 and cut == set()
 
 
+def test_what_is_sharp_is_said_whole_beside_the_german_curves(german):
+    window, _ = german
+    window.resize(1280, 800)
+    window.store.update(tab="depth_of_field", depth_mm=12345.6, focus_mm=15000.0, f_number=8.0)
+    QApplication.processEvents()
+    readout = window.panels["depth_of_field"].widget.readout
+    assert "scharf von" in readout.text() and readout.sizeHint().width() <= readout.width()
+
+
 def test_qts_own_words_are_its_own_or_its_translators(qapp):
     speak("de")
     try:
@@ -206,6 +215,17 @@ def test_refusals_of_the_library_are_said_in_german(only_window, changes, german
     with pytest.raises(P2SFError) as refused:
         live(replace(State(method="seidel"), **changes))
     assert german_words in Spoken("de").said(in_the_windows_words(str(refused.value)))
+
+
+def test_a_refusal_at_infinity_is_german_as_one_at_a_depth():
+    for depth in ("∞", "300 mm"):
+        corner = f"No chief ray of an object at {depth} lands 5 mm from the axis, where the sensor's corner is; take"
+        assert f"eines Objekts bei {depth} landet" in Spoken("de").said(corner + " a smaller sensor")
+        image = (
+            f"Focus distance is {depth}, but the image of that distance lies −4.5 mm from the last vertex and not on "
+        )
+        said = Spoken("de").said(image + "a sensor behind the lens")
+        assert f"Fokus auf ist {depth}, aber" in said and "liegt −4.5 mm vom letzten Scheitel und" in said
 
 
 def test_every_sentence_about_opengl_is_in_german():
