@@ -70,6 +70,21 @@ def test_depths_come_from_a_float_tiff(scene, tmp_path, capsys):
     assert "whole numbers" in capsys.readouterr().err
 
 
+def test_a_missing_depth_map_is_told_before_the_plan(scene, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("p2sf.cli.scenes.plan", lambda *_: pytest.fail("seconds of planning for nothing"))
+    scene.write_text(SCENE + '[depth]\nnear_mm = 20000\nmap = "absent.tif"\n')
+    assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 2
+    assert "absent.tif cannot be read" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("line", ["f_number = 0", "f_number = 5.6\nfocus_mm = 10"])
+def test_a_scene_the_lens_cannot_take_is_told_in_the_scenes_words(scene, capsys, line):
+    scene.write_text(SCENE.replace("f_number = 5.6", line))
+    assert main(["plan", "double_gauss_28", str(scene)]) == 2
+    told = capsys.readouterr().err
+    assert f"scene.toml: {line.split()[-3]} is " in told and "--" not in told
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

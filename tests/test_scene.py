@@ -129,6 +129,7 @@ def test_a_scene_is_read_from_toml(tmp_path):
     [
         ("rows = 48", "rows = 0", "rows is 0"),
         ("rows = 48", "rows = 'x'", "wrong kind"),
+        ("rows = 48", "rows = 48.5", "rows is 48.5; give a whole number"),
         ("rows = 48\n", "", "lacks rows"),
         ("pixel_um = 9.0", "pixel_um = -1", "positive pitch"),
         ("tolerance = 0.1", "tolerance = 2", "between 0 and 1"),

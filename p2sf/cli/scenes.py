@@ -41,7 +41,7 @@ def plan_command(
     if not 0 <= check <= 1000:
         raise RequestError(f"--check is {check}; give a whole number from 0 to 1000")
     glass = find_lens(lens)
-    planned = _planned(glass, read_scene(scene))
+    planned = _planned(glass, _asked(glass, scene))
     verdict = verify(planned, check) if check else None
     measured = None if verdict is None else {"points": check, "worst": verdict.worst, "kept": verdict.kept}
     if as_json:
@@ -55,6 +55,17 @@ def plan_command(
         sentences.append(f"At {check} random points exact rays find {verdict.worst:.3g} at most, {held} the tolerance.")
     print("\n".join(sentences))
     return None
+
+
+def _asked(glass, path: Path) -> Scene:
+    """Return a file's scene; a focus or f-number the lens cannot take is told by the file's words for it."""
+    scene = read_scene(path)
+    try:
+        scene.camera(glass)
+    except RequestError as error:
+        told = str(error).replace("--focus-mm", "focus_mm").replace("--f-number", "f_number")
+        raise RequestError(f"{path}: {told}") from error
+    return scene
 
 
 def _planned(glass, scene: Scene) -> Plan:
@@ -128,7 +139,8 @@ def image(
     if output is None:
         raise RequestError("there is no --output; say with -o where the picture goes, such as -o out.png")
     check_output(output, READABLE)
-    glass, asked = find_lens(lens), read_scene(scene)
+    glass = find_lens(lens)
+    asked = _asked(glass, scene)
     values, encoding = source_picture(picture, asked, shown)
     formed, facts = _formed(glass, asked, values, shown)
     written = _for_file(formed, asked)
@@ -169,7 +181,8 @@ def _formed(glass, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.n
 
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
-    planned, depth = _planned(glass, scene), depth_map(scene)
+    depth = depth_map(scene)  # before the plan, which takes seconds
+    planned = _planned(glass, scene)
     warn(None if planned.meets else "the plan cannot keep the tolerance; loosen it or reduce the scene")
     formed = form_image(planned, values, depth, Forming(shown.method, shown.surround))
     if shown.noise:

@@ -48,7 +48,7 @@ def scene_from(table: dict, path: Path) -> Scene:
     given = {key: table[key] for key in ("name", "measure") if key in table}
     numbers = {key: float(table[key]) for key in ("tolerance", "focus_mm", "f_number") if key in table}
     return Scene(
-        Sensor(int(sensor["rows"]), int(sensor["columns"]), float(sensor["pixel_um"]), _pair(sensor)),
+        Sensor(_whole(sensor, "rows"), _whole(sensor, "columns"), float(sensor["pixel_um"]), _pair(sensor)),
         channels=tuple(map(_channel, table["channel"])) if "channel" in table else RGB,
         near_mm=float(depth.get("near_mm", far)),
         far_mm=far,
@@ -56,6 +56,13 @@ def scene_from(table: dict, path: Path) -> Scene:
         **given,
         **numbers,
     )
+
+
+def _whole(sensor: dict, key: str) -> int:
+    """Return a number of pixels; a fraction is refused, since rounded down it would be another sensor."""
+    if sensor[key] != int(sensor[key]):
+        raise RequestError(f"sensor {key} is {sensor[key]:g}; give a whole number")
+    return int(sensor[key])
 
 
 def _pair(sensor: dict) -> tuple[float, float]:
