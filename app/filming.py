@@ -7,6 +7,7 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
 from app.film import Frame, Reel, check_film, write_film
+from app.measuring import asked_for
 from app.pinning import with_links
 from app.state import State
 from app.sweep import changes, sweep
@@ -16,7 +17,6 @@ from p2sf.errors import P2SFError
 
 FRAMES_PER_S = 12
 TICK_MS = 4  # between looks at what is being computed
-MEASURED = "accuracy"  # the tab that is filled by the measuring of pictures, which rests otherwise
 
 
 class Filming(QObject):
@@ -57,7 +57,7 @@ class Filming(QObject):
             return False
         self._subject, self._reel = subject or self._window, Reel()
         self._number, self._shown = 0, False
-        self._window.measuring.rest(state.tab != MEASURED)
+        self._window.measuring.rest(not asked_for(state))
         reel, frame_ms = self._reel, round(1000 / FRAMES_PER_S)
         self._worker.submit(path, lambda cancelled, _: write_film(reel.frames(cancelled), path, frame_ms))
         self._timer.start(TICK_MS)

@@ -4,6 +4,7 @@ from PySide6.QtCore import QObject
 
 from app.compute import Live
 from app.reference import Accuracy, measure
+from app.state import State
 from app.whatif import NO_REFERENCE
 from app.worker import LatestWins
 
@@ -32,7 +33,7 @@ class Measuring(QObject):
         if live.setting.altered:
             self._refuse_altered(live)
             return
-        ladder = live.state.tab == "accuracy"
+        ladder = asked_for(live.state)
         if self._last and fits(self._last, live, ladder):
             self._tell(self._last)
             return
@@ -64,12 +65,17 @@ class Measuring(QObject):
 
     def _each(self, method: str, *arguments) -> None:
         panel = self._window.panels.get("accuracy")
-        if panel and self._window.live and self._window.live.state.tab == "accuracy":
+        if panel and self._window.live and asked_for(self._window.live.state):
             getattr(panel, method)(*arguments)
 
     def stop(self) -> None:
         """End the worker's thread."""
         self.worker.stop()
+
+
+def asked_for(state: State) -> bool:
+    """Return whether the accuracy has its panel on show, in front of the tabs or in a window of its own."""
+    return "accuracy" in (state.tab, *state.windows)
 
 
 def fits(known: Accuracy, live: Live, ladder: bool) -> bool:

@@ -37,6 +37,13 @@ def test_the_badge_and_the_ladder_arrive_by_themselves(measured, qtbot):
     assert "vs Huygens" in measured.panels["accuracy"].message.text()
 
 
+def test_the_panel_in_a_window_of_its_own_is_told_whatever_tab_is_in_front(measured, qtbot):
+    measured.store.update(tab="mtf", windows=("accuracy",), field_deg=1.0)
+    message = measured.panels["accuracy"].message
+    qtbot.waitUntil(lambda: "vs Huygens" in message.text() and "earlier" not in message.text(), timeout=30000)
+    assert measured.measuring._last.live.state.field_deg == 1.0 and measured.measuring._last.rungs
+
+
 def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
     """The six coefficients ask for a wider window than the rays do; measured there they would have another figure."""
     found = {}
