@@ -208,7 +208,7 @@ def test_a_change_of_language_reopens_the_window_and_undo_brings_it_back(only_wi
         ({"wavelength_nm": 150.0}, "Die Wellenlänge 150 nm liegt außerhalb der Daten von SCHOTT N-SSK2"),
         ({"field_deg": 95.0}, "Feldwinkel ist 95°; eine Zahl von −89 bis 89° angeben"),
         ({"field_deg": 60.0, "method": "fitted"}, "Der Hauptstrahl wird an Fläche 5 total reflektiert"),
-        ({"focus_mm": 10.0}, "Fokus auf ist 10 mm, aber das Bild dieses Abstands liegt −456.132 mm vom letzten Scheitel"),
+        ({"focus_mm": 10.0}, "ist 10 mm, aber das Bild dieses Abstands liegt −456.132 mm vom letzten Scheitel"),
         ({"depth_mm": 29.32063039659634}, "liegt bei ∞ (NA 0), auf dem Sensor gibt es also keine PSF"),
     ],
 )
