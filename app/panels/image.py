@@ -14,6 +14,7 @@ from app.planning import PlanLine, Why, small_button
 from app.scenery import CHART_WORDS
 from app.sidecard import SideCard
 from app.snapshot import side_car, write_state
+from app.speech import spoken
 from app.store import Store
 from app.theme import Tokens
 from app.veil import Veil
@@ -182,10 +183,9 @@ class ImagePanel:
     def _on_failure(self, key: Question, sentence: str) -> None:
         if key != self._asked:
             return
-        self._ordered, self._unplanned, sentence = None, key, sentence[0].upper() + sentence[1:]
-        self._refusal = sentence
+        self._ordered, self._unplanned, self._refusal = None, key, spoken(sentence)
         if not self._stale():  # the coarse picture is there, and stays
-            self._say(sentence)
+            self._say(self._refusal)
         self._show_readout()
 
     def _say(self, words: str) -> None:

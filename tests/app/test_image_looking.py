@@ -131,6 +131,8 @@ def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_words_say_wh
     assert image_panel.widget.readout.text() == "coarse" and not image_panel.veil.text
     image_panel._refine()
     assert not orders  # a second try would end the same
+    image_panel._on_failure(image_panel._asked, "points inf mm away blur over 6 mm; stop down")
+    assert image_panel.headline.text().startswith("Points ∞ away")
 
 
 def test_a_plan_says_how_far_it_is_and_is_stopped_and_made_after_all(window, image_panel, orders, qtbot):
