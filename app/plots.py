@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from app.chart import Chart
-from app.ink import small_font
+from app.ink import small_font, width_of
 from app.theme import LIGHT, Tokens
 from app.words import tr
 
@@ -99,7 +99,9 @@ def as_indices(values: np.ndarray, low: float, high: float) -> np.ndarray:
 
 
 class ColourBar(QWidget):
-    """A vertical colour bar with a few labelled values and a unit on top."""
+    """A vertical colour bar with a few labelled values and a unit on top; it widens for long labels and stays so."""
+
+    WIDTH, TICK = 62, 22  # px: at least, and from its left edge to a label
 
     def __init__(self, parent=None):
         super().__init__(parent)
@@ -107,16 +109,25 @@ class ColourBar(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
         self._theme, self._name, self._unit = LIGHT, "CET-L4", ""
         self._labels: tuple[tuple[float, str], ...] = ()
+        self._wide = self.WIDTH
 
     def sizeHint(self) -> QSize:
         """Return a width that holds bar and labels."""
-        return QSize(62, 120)
+        return QSize(self._wide, 120)
 
     def show_scale(self, name: str, unit: str, labels: tuple[tuple[float, str], ...]) -> None:
         """Show a colour map with labels at parts (0 bottom to 1 top) of the bar."""
         if (name, unit, labels) != (self._name, self._unit, self._labels):
             self._name, self._unit, self._labels = name, unit, labels
+            self._widen()
             self.update()
+
+    def _widen(self) -> None:
+        """Take the room the labels need; never give it back, or the map beside would breathe as they change."""
+        need = ceil(self.TICK + max((width_of(text) for _, text in self._labels), default=0)) + 2
+        if need > self._wide:
+            self._wide = need
+            self.updateGeometry()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -141,7 +152,7 @@ class ColourBar(QWidget):
         for part, text in self._labels:
             y = bar.bottom() - part * bar.height()
             painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + 4, y))
-            painter.drawText(QPointF(bar.right() + 7, y + 4), text)
+            painter.drawText(QPointF(self.TICK, y + 4), text)
 
 
 class HeatMap(QWidget):

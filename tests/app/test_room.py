@@ -11,7 +11,7 @@ from app.glass import clear_rims, glass_of, still
 from app.ink import fitting, width_of
 from app.languages import speak
 from app.panels.lens_table import LensTablePanel
-from app.plots import HeatMap
+from app.plots import ColourBar, HeatMap
 from app.readout import BAR_AIR, Readout
 from app.setting import default_state, load, setting, shipped
 from app.speech import spoken
@@ -95,6 +95,16 @@ def test_no_fact_is_cut_where_the_banner_takes_room(window, qtbot):
     air = area.viewport().width() - facts.mapTo(area, facts.rect().topRight()).x() - 1
     assert air == (BAR_AIR if bar.isVisible() else 0)
     window.resize(1440, 900)
+
+
+def test_a_colour_bar_widens_for_its_longest_label_and_keeps_that_room(qapp):
+    bar = ColourBar()
+    usual = bar.sizeHint().width()
+    bar.show_scale("CET-L4", "of light", ((0.0, "0"), (1.0, "0.181 %")))
+    wide = bar.sizeHint().width()
+    assert wide > usual and wide >= ColourBar.TICK + width_of("0.181 %")
+    bar.show_scale("CET-L4", "of light", ((0.0, "0"), (1.0, "4 %")))
+    assert bar.sizeHint().width() == wide
 
 
 def test_the_contrast_fills_its_axis_and_marks_the_sensors_nyquist(window):
