@@ -98,7 +98,7 @@ class FieldMapPanel:
         self.chart.show_tiles(shown, spacing, SHAPE[0])
         heads = (
             tr("at ({x}, {y}) of the corner: share of the peak", x=f"{x:.3g}", y=f"{y:.3g}")
-            for x, y in where[tuple(zip(*kept, strict=True))]
+            for x, y in (where[place] for place in kept)
         )
         self.chart.means(zip(heads, (found[place] for place in kept), strict=True), asked.window[1])
         corner, wide = float(degrees_from_slope(asked.corner_slope)), asked.window[0] * asked.window[1]

@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from app.compute import live
+from app.panels.field_map import FieldMapPanel
 from app.setting import setting, with_lens
 from app.state import State
 from app.views import field_map, through_focus
@@ -140,6 +141,12 @@ def test_a_click_on_the_map_goes_to_that_field(window, qtbot):
     qtbot.mouseClick(panel.chart, Qt.MouseButton.LeftButton, pos=panel.chart.room(corner).center().toPoint())
     assert window.store.state.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
     assert panel.asking.asked == panel.found[0], "and the map stays as it is"
+
+
+def test_a_map_given_up_before_its_first_picture_is_an_empty_one(window):
+    panel = FieldMapPanel(window.store)
+    panel._paint(field_map.field_map(window.live), np.full((*field_map.SHAPE, 8, 8), np.nan))
+    assert not panel.chart.tiles
 
 
 def test_arrow_keys_choose_a_picture_of_the_map_and_enter_goes_to_its_field(window, qtbot):
