@@ -4,6 +4,7 @@ from PySide6.QtCore import QObject
 
 from app.compute import Live
 from app.reference import Accuracy, measure
+from app.speech import spoken
 from app.state import State
 from app.whatif import NO_REFERENCE
 from app.worker import LatestWins
@@ -58,7 +59,7 @@ class Measuring(QObject):
         self._each("show_accuracy", accuracy, stale)
 
     def _on_failed(self, key: Live, sentence: str) -> None:
-        self._each("show_failure", sentence)
+        self._each("show_failure", spoken(sentence))
 
     def _on_progress(self, key: Live, part: float) -> None:
         self._each("show_progress", part)

@@ -9,6 +9,7 @@ from app.depthfield import PER_METRE, AtlasView, DepthFieldMap
 from app.plots import ColourBar, as_indices
 from app.pupil import WORDS
 from app.scales import nice
+from app.speech import spoken
 from app.store import Store
 from app.theme import Tokens
 from app.views.database import LOSSY, NODES, Answer, Question, answer
@@ -86,7 +87,7 @@ class DatabasePanel:
             self.widget.set_readout(f"at {1000 * key.wavelength_um:.1f} nm")
 
     def _on_failure(self, key: Question, sentence: str) -> None:
-        self.note.setText(tr(sentence))
+        self.note.setText(tr(spoken(sentence)))
 
     def _paint(self) -> None:
         if not self._answer:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject
 
+from app.speech import spoken
 from app.worker import LatestWins
 
 EARLIER, WORKING = " · earlier picture", "working"
@@ -38,7 +39,7 @@ class Asking(QObject):
 
     def refuse(self, sentence: str) -> None:
         """Say why there is nothing to ask; what is on its way is no longer wanted."""
-        self.asked, self._refusal, self._shown = None, sentence, None
+        self.asked, self._refusal, self._shown = None, spoken(sentence), None
         self.worker.cancel()
         self._tell()
 
@@ -74,5 +75,5 @@ class Asking(QObject):
 
     def _on_failed(self, question, sentence: str) -> None:
         if question == self.asked:
-            self._refusal = sentence
+            self._refusal = spoken(sentence)
             self._tell()

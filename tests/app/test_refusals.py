@@ -108,3 +108,21 @@ def test_a_refusal_with_its_place_is_said_whole(sentence, german):
 def test_what_is_no_refusal_is_left_alone():
     for text in ("PSF × 100 breit, Höhe: √", "kein Englisch: gar nichts", "N-BK7"):
         assert GERMAN.said(text) == text
+
+
+def test_panels_that_work_behind_the_slider_refuse_in_the_windows_words(window):
+    """As the banner does: ∞ for inf, and what the controls are called."""
+    raw, words = "nothing at inf mm; choose another --depth-mm", "Nothing at ∞; choose another Depth"
+    window.store.update(tab="field_map")
+    asking = window.panels["field_map"].asking
+    asking.refuse(raw)
+    assert window.panels["field_map"].widget.readout.text() == words
+    window.store.update(field_deg=1.0)
+    asking.worker.failed.emit(asking.asked, raw)
+    assert window.panels["field_map"].widget.readout.text() == words
+    window.store.update(tab="database")
+    window.panels["database"].worker.failed.emit(None, raw)
+    assert window.panels["database"].note.text() == words
+    window.store.update(tab="accuracy")
+    window.measuring.worker.failed.emit(None, raw)
+    assert words in window.panels["accuracy"].message.text()
