@@ -111,8 +111,9 @@ def test_what_is_no_refusal_is_left_alone():
 
 
 def test_panels_that_work_behind_the_slider_refuse_in_the_windows_words(window):
-    """As the banner does: ∞ for inf, and what the controls are called."""
-    raw, words = "nothing at inf mm; choose another --depth-mm", "Nothing at ∞; choose another Depth"
+    """As the banner does: ∞ for inf, and a capital in front."""
+    rest = "away blur over 6 mm, which takes 7000² samples of 4096² at most; bring the depths nearer to the focus"
+    raw, words = f"points inf mm {rest} or stop down", f"Points ∞ {rest} or stop down"
     window.store.update(tab="field_map")
     asking = window.panels["field_map"].asking
     asking.refuse(raw)
