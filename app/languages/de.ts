@@ -1333,5 +1333,41 @@
 <message><source>A − B {part} at {field}</source><translation>A − B {part} bei {field}</translation></message>
 <message><source>drawn {times} times</source><translation>{times}fach gezeichnet</translation></message>
 <message><source>as it is</source><translation>wie es ist</translation></message>
+<message><source>read</source><translation>gelesen</translation></message>
+<message><source>substituted</source><translation>ersetzt</translation></message>
+<message><source>ignored, without effect on the picture</source><translation>übergangen, ohne Wirkung auf das Bild</translation></message>
+<message><source>taken differently from the file</source><translation>anders genommen als in der Datei</translation></message>
+<message><source>refused</source><translation>abgelehnt</translation></message>
+<message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
+<message><source>a lens file of this program, exactly as written</source><translation>eine Objektivdatei dieses Programms, genau wie geschrieben</translation></message>
+<message><source>edited since</source><translation>seither geändert</translation></message>
+<message><source>{path} is not on this computer; the saved state carries the lens itself</source><translation>{path} ist nicht auf diesem Rechner; der gespeicherte Zustand enthält das Objektiv selbst</translation></message>
+<message><source>surface {number}, line {count}: {why}</source><translation>Fläche {number}, Zeile {count}: {why}</translation></message>
+<message><source>glass catalogue {path} with {count} glasses is at hand</source><translation>der Glaskatalog {path} mit {count} Gläsern liegt bei</translation></message>
+<message><source>glass {name} is not known by name</source><translation>Glas {name} ist dem Namen nach unbekannt</translation></message>
+<message><source>its nd {index} and vd {abbe} of the same row are taken</source><translation>nd {index} und vd {abbe} derselben Zeile gelten</translation></message>
+<message><source>{count} surfaces, stop on surface {number}, {aperture}; {waves} nm; fields {angles}°</source><translation>{count} Flächen, Blende auf Fläche {number}, {aperture}; {waves} nm; Felder {angles}°</translation></message>
+<message><source>f number {value}</source><translation>Blendenzahl {value}</translation></message>
+<message><source>entrance pupil diameter {value} mm</source><translation>Durchmesser der Eintrittspupille {value} mm</translation></message>
+<message><source>stop semi diameter {value} mm</source><translation>Halbmesser der Blende {value} mm</translation></message>
+<message><source>the file holds several positions (zoom or focus)</source><translation>die Datei enthält mehrere Stellungen (Zoom oder Fokus)</translation></message>
+<message><source>the first column is read</source><translation>die erste Spalte wird gelesen</translation></message>
+<message><source>titles, sessions and computing settings</source><translation>Titel, Sitzungen und Recheneinstellungen</translation></message>
+<message><source>solves and pickups, whose stored values are read</source><translation>Löse- und Übernahmevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
+<message><source>computing settings</source><translation>Recheneinstellungen</translation></message>
+<message><source>variables, pickups and solves, whose stored values are read</source><translation>Variable, Übernahme- und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
+<message><source>tolerances and merit function</source><translation>Toleranzen und Gütefunktion</translation></message>
+<message><source>the fourth column as the rim's diameter</source><translation>die vierte Spalte als Durchmesser des Rands</translation></message>
+<message><source>the stop, surface {number}, is open to its rim, semi-diameter {value} mm</source><translation>die Blende, Fläche {number}, ist bis zum Rand offen, Halbmesser {value} mm</translation></message>
+<message><source>the file does not say where the sensor is</source><translation>die Datei sagt nicht, wo der Sensor steht</translation></message>
+<message><source>it is put at the paraxial focus for infinity</source><translation>er kommt in den paraxialen Fokus für unendlich</translation></message>
+<message><source>private glass {name} as a table of {count} indices, straight lines between them</source><translation>eigenes Glas {name} als Tabelle von {count} Indizes, dazwischen Geraden</translation></message>
+<message><source>fields given as {kind} are kept as angles at the entrance pupil</source><translation>als {kind} gegebene Felder werden als Winkel an der Eintrittspupille geführt</translation></message>
+<message><source>image heights</source><translation>Bildhöhen</translation></message>
+<message><source>object heights</source><translation>Objekthöhen</translation></message>
+<message><source>lengths converted to mm from units of {value} mm</source><translation>Längen in mm umgerechnet aus Einheiten von {value} mm</translation></message>
+<message><source>the file's object is at {value} mm</source><translation>das Objekt der Datei liegt bei {value} mm</translation></message>
+<message><source>ask for this depth to see the file's image</source><translation>mit diesem Objektabstand entsteht das Bild der Datei</translation></message>
+<message><source>a radius of 0 with an index is a plane</source><translation>ein Radius 0 mit einem Index ist eine Ebene</translation></message>
 </context>
 </TS>

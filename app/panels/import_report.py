@@ -76,7 +76,8 @@ def page(report: Report, theme: Tokens) -> str:
     parts = [f"<p><b>{escape(report.heading)}</b><br><span style='color:{theme.muted}'>{escape(report.source)}</span>"]
     for title, sentences in report.groups:
         colour = theme.warning if title == REFUSED else theme.text
-        items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences)
-        parts.append(f"<p style='color:{colour}; margin-bottom:2px'><b>{escape(title[0].upper() + title[1:])}</b>")
+        items = "".join(f"<li>{escape(tr(sentence))}</li>" for sentence in sentences)
+        said = tr(title)
+        parts.append(f"<p style='color:{colour}; margin-bottom:2px'><b>{escape(said[0].upper() + said[1:])}</b>")
         parts.append(f"<ul style='margin-top:0; -qt-list-indent:0; margin-left:14px'>{items}</ul>")
     return "".join(parts)

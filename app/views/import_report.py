@@ -3,11 +3,13 @@
 from dataclasses import dataclass
 
 from app.opening import imported, is_file
+from app.words import tr
 from p2sf.errors import P2SFError
 from p2sf.lensfile.report import TITLES, ImportReport
 from p2sf.library import lenses_folder, shipped_lenses
 
 REFUSED = "refused"
+AWAY = "{path} is not on this computer; the saved state carries the lens itself"
 
 
 @dataclass(frozen=True)
@@ -25,14 +27,14 @@ def report(live) -> Report:
     path = str(lenses_folder() / f"{state.lens}.toml") if state.lens in shipped_lenses() else state.lens
     heading = live.setting.lens.title or live.setting.lens.name
     if not is_file(path):
-        return Report(heading, f"{path} is not on this computer; the saved state carries the lens itself", ())
+        return Report(heading, tr(AWAY, path=path), ())
     try:
         found = described(heading, imported(path).report)
     except P2SFError as error:
         found = refused(heading, path, str(error))
     if state.lens_text is None:
         return found
-    return Report(heading, f"{found.source}; edited since", found.groups)
+    return Report(heading, f"{found.source}; {tr('edited since')}", found.groups)
 
 
 def described(heading: str, read: ImportReport) -> Report:

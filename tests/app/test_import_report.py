@@ -13,10 +13,13 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QFileDialog
 
 from app import recent
+from app.languages import Spoken
+from app.opening import imported
 from app.recent import recent_files, remember
 from app.setting import prescription
 from app.snapshot import write_state
 from app.state import State
+from app.views.import_report import described
 from p2sf.library import lenses_folder
 
 FILES = Path(__file__).parents[1] / "data" / "import"
@@ -53,6 +56,15 @@ def test_every_kind_of_file_dropped_shows_its_lens_and_report(window, name):
     text = window.panels["import"].text.toPlainText()
     assert name in text
     assert "Read" in text
+
+
+def test_a_report_is_in_german_where_the_window_is():
+    german = Spoken("de")
+    for path in (*(FILES / name for name in FOREIGN), lenses_folder() / "tessar.toml"):
+        for title, sentences in described("", imported(str(path)).report).groups:
+            for english in (title, *sentences):
+                assert german.said(english) != english, english
+                assert not {"the", "of", "is", "are", "as", "on"} & set(german.said(english).split()), english
 
 
 def test_a_zipped_lens_from_the_open_dialog_by_its_key(window, qtbot, tmp_path, zemax, monkeypatch):

@@ -83,6 +83,7 @@ def is_german(text: str) -> bool:
 @pytest.fixture(scope="module")
 def german(only_window):
     """Return a German window, every panel of which was opened, and its translator."""
+    only_window.store.replace(State(method="seidel"))  # a file's warnings left there would be heard in English
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(languages, "Spoken", Listening)
         patch.setattr(SolidPanel, "_probe", lambda panel: None)  # the renderer says nothing
