@@ -20,6 +20,7 @@ FRONT = (10, 48)  # rings and directions of the wavefront
 RELIEF = 64  # samples of the relief, across
 BEFORE = 0.45  # of the drawing's length: where rays from afar begin
 SWING, RIM = 0.3, 0.96  # the exaggerated wavefront's depth over its radius; how much of the way it may take
+LEAST = 0.05  # and what it takes at least, of the picture's half height
 SPREAD, HEIGHT = 0.9, 0.6  # the relief's width over half the sensor, its height over its width
 
 
@@ -71,7 +72,7 @@ def front(setting: Setting, drawn: Drawing, last_z: float) -> Front:
     radius = _drawn_radius(setting, drawn, last_z, float(rays.chief_kz[0]))
     swing = SWING * radius * float(np.hypot(kx, ky - rays.chief_ky).max())
     wave_mm = setting.source.wavelength_um / UM_PER_MM
-    factor = _round_down(swing / max(float(np.ptp(waves)) * wave_mm, 1e-9))
+    factor = _round_down(swing / max(float(np.ptp(waves)) * wave_mm, 1e-9)) if swing else 1.0  # else no ray has passed
     along = (radius - factor * wave_mm * waves)[:, None]
     image = np.array([0.0, float(rays.chief_y[0]), drawn.sensor_z])
     return Front(Mesh(image - along * np.stack([kx, ky, kz], -1), grid_faces(*FRONT_GRID)), waves, factor)
@@ -95,8 +96,11 @@ def _exit_radius(setting: Setting, rays: Pencil) -> float:
 
 
 def _drawn_radius(setting: Setting, drawn: Drawing, last_z: float, chief_kz: float) -> float:
-    """Return how far from the image the wavefront is drawn, mm: at the exit pupil, or just behind the lens."""
-    room = RIM * (drawn.sensor_z - last_z) / chief_kz
+    """Return how far from the image the wavefront is drawn, mm: at the exit pupil, or just behind the lens.
+
+    The sensor may touch the last glass or stand within: then just before the image.
+    """
+    room = max(RIM * (drawn.sensor_z - last_z), LEAST * drawn.half_height) / chief_kz
     pupil = (setting.lens.sensor_mm - float(setting.pupils.exit_from_last)) / chief_kz
     return min(room, pupil) if isfinite(pupil) and pupil > 0 else room
 

@@ -11,7 +11,9 @@ from app.setting import default_state
 from app.solid import RINGS, STEPS, area, element, elements, plate, revolved, ring, volume
 from app.state import State
 from app.views.solid import scene
-from p2sf.lens import Surface
+from p2sf.lens import Surface, with_sensor
+from p2sf.lensfile.toml import lens_to_toml
+from p2sf.library import find_lens
 from tests.test_layers import loaded_by
 
 LENSES = ("double_gauss_28", "cooke_triplet", "eye_navarro", "achromat_f6")
@@ -117,3 +119,12 @@ def test_the_window_loads_no_renderer():
 def test_revolving_about_a_hole_needs_no_axis():
     made = revolved(np.array([1.0, 2.0]), np.zeros(2), np.ones(2), sweep=(0.0, np.pi), steps=180)
     assert volume(made) == pytest.approx(np.pi * 3 / 2, rel=1e-4)
+
+
+@pytest.mark.parametrize("sensor_mm", [0.0, -8.0, 1e-6])
+def test_a_sensor_that_touches_the_glass_or_stands_in_it_has_a_wavefront_too(sensor_mm):
+    """Found by random hands: the wavefront was drawn between last glass and sensor, where there was no room."""
+    lens = with_sensor(find_lens("double_gauss_28"), sensor_mm)
+    found = scene(live(replace(default_state("double_gauss_28"), lens_text=lens_to_toml(lens))))
+    assert found.front.factor > 0 and np.isfinite(found.front.mesh.points).all()
+    assert np.ptp(found.front.mesh.points, axis=0).max() > 0.01
