@@ -106,7 +106,7 @@ def test_a_tiff_of_more_strips_than_bytes_is_refused(tmp_path):
     with tifffile.TiffFile(tmp_path / "strips.tif", mode="r+b") as file:
         file.pages[0].tags["ImageLength"].overwrite(65_000)
     assert (tmp_path / "strips.tif").stat().st_size < 65_000
-    with pytest.raises(RequestError, match=r"strips\.tif is a TIFF that cannot be read \(65000 parts"):
+    with pytest.raises(RequestError, match=r"strips\.tif is a TIFF that cannot be read \(65000 parts.*save it again"):
         read_photo(tmp_path / "strips.tif")
 
 

@@ -810,7 +810,7 @@
 <message><source>save the snapshot again</source><translation>den Schnappschuss neu speichern</translation></message>
 <message><source>save the picture again</source><translation>das Bild neu speichern</translation></message>
 <message><source>save it as UTF-8</source><translation>als UTF-8 speichern</translation></message>
-<message><source>save it uncompressed</source><translation>unkomprimiert speichern</translation></message>
+<message><source>save it again, uncompressed</source><translation>noch einmal speichern, unkomprimiert</translation></message>
 <message><source>save it without interlacing, in RGB or grey</source><translation>ohne Interlacing speichern, in RGB oder Grau</translation></message>
 <message><source>save it smaller</source><translation>kleiner speichern</translation></message>
 <message><source>{claim} samples in {size} bytes, at most {side} on a side and {all} in all</source><translation>{claim} Werte in {size} Byte, höchstens {side} je Seite und {all} im Ganzen</translation></message>

@@ -108,7 +108,7 @@ def _from_tiff(data: bytes, path) -> np.ndarray:
     try:
         return np.asarray(first_page(io.BytesIO(data))[0])
     except (OSError, ValueError, *DAMAGED) as error:
-        raise RequestError(f"{path} is a TIFF that cannot be read ({error}); save it uncompressed") from error
+        raise RequestError(f"{path} is a TIFF that cannot be read ({error}); save it again, uncompressed") from error
 
 
 def _from_png(data: bytes, path) -> np.ndarray:
