@@ -77,6 +77,22 @@ def test_a_missing_depth_map_is_told_before_the_plan(scene, tmp_path, capsys, mo
     assert "absent.tif cannot be read" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("lost", ["in.png", "depth.tif"])
+def test_a_picture_does_not_overwrite_what_it_is_made_of(scene, tmp_path, capsys, monkeypatch, lost):
+    """By another path to the same file too, and before any work."""
+    monkeypatch.setattr("p2sf.cli.scenes.plan", lambda *_: pytest.fail("work for nothing"))
+    monkeypatch.chdir(tmp_path)
+    scene.write_text(SCENE + '[depth]\nnear_mm = 20000\nmap = "depth.tif"\n')
+    for name in ("in.png", "depth.tif"):
+        write_photo(tmp_path / name, np.full((40, 60), 0.5, np.float32))
+    before = (tmp_path / lost).read_bytes()
+    elsewhere = tmp_path / "link" / lost
+    elsewhere.parent.symlink_to(tmp_path)
+    assert main(["image", "double_gauss_28", str(scene), "in.png", "-o", str(elsewhere)]) == 2
+    assert f"{lost}; choose another name" in capsys.readouterr().err
+    assert (tmp_path / lost).read_bytes() == before
+
+
 @pytest.mark.parametrize("line", ["f_number = 0", "f_number = 5.6\nfocus_mm = 10"])
 def test_a_scene_the_lens_cannot_take_is_told_in_the_scenes_words(scene, capsys, line):
     scene.write_text(SCENE.replace("f_number = 5.6", line))

@@ -3,6 +3,7 @@
 import sys
 from dataclasses import dataclass
 from math import inf
+from os.path import exists, samefile
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Literal
@@ -141,6 +142,7 @@ def image(
     check_output(output, READABLE)
     glass = find_lens(lens)
     asked = _asked(glass, scene)
+    _check_kept(output, picture, asked)
     values, encoding = source_picture(picture, asked, shown)
     formed, facts = _formed(glass, asked, values, shown)
     written = _for_file(formed, asked)
@@ -153,6 +155,13 @@ def image(
         + "".join(f", {key.replace('_', ' ')} {_short(value)}" for key, value in facts.items())
     )
     return None
+
+
+def _check_kept(output: Path, picture: str, scene: Scene) -> None:
+    """Refuse to write over what the picture is made of; RequestError."""
+    for path in filter(None, (None if picture.startswith(CHART) else picture, scene.depth_map)):
+        if exists(path) and exists(output) and samefile(path, output):
+            raise RequestError(f"--output is {output}, which would overwrite the input {path}; choose another name")
 
 
 def _short(value) -> str:
