@@ -148,7 +148,13 @@ def test_a_name_no_file_can_have_is_no_lens(refused):
 
 def test_a_scene_without_a_sensor_is_refused(tmp_path):
     (tmp_path / "s.toml").write_text("tolerance = 0.1\nsensor = 5\n")
-    with pytest.raises(RequestError, match=r"there is no table \[sensor\]"):
+    with pytest.raises(RequestError, match=r"there is no table \[sensor\]; add it, with rows"):
+        read_scene(tmp_path / "s.toml")
+
+
+def test_a_depth_that_is_no_table_is_told_by_itself(tmp_path):
+    (tmp_path / "s.toml").write_text("depth = 5\n[sensor]\nrows = 4\ncolumns = 4\npixel_um = 4\n")
+    with pytest.raises(RequestError, match=r"s\.toml: depth is 5; write a table \[depth\]"):
         read_scene(tmp_path / "s.toml")
 
 

@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from p2sf.errors import GeometryError, RequestError, SamplingError
+from p2sf.errors import GeometryError, GlassError, RequestError, SamplingError
+from p2sf.image import preview
 from p2sf.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
+from p2sf.scene.bounds import refuse_wide
 from p2sf.scene.reference import reference_kernel
 from p2sf.scene.sharing import few_heights, share_pupils
 from p2sf.scene.spectrum import reduced
@@ -128,14 +130,21 @@ def test_a_scene_is_read_from_toml(tmp_path):
     ("old", "new", "words"),
     [
         ("rows = 48", "rows = 0", "rows is 0"),
-        ("rows = 48", "rows = 'x'", "wrong kind"),
+        ("rows = 48", "rows = 'x'", "rows is 'x'; give a number"),
+        ("rows = 48", "rows = inf", "rows is inf; give a whole number"),
+        ("tolerance = 0.1", 'tolerance = "a"', "tolerance is 'a'; give a number, without quotes"),
+        ("far_mm = 25000", "far_mm = [1]", r"far_mm is \[1\]; give a number"),
+        ("[530, 560]", "[530, 'b']", "wavelengths_nm is 'b'; give a number"),
+        ("[530, 560]", "530", "wavelengths_nm is 530; give numbers in brackets"),
+        ("pixel_um = 9.0", "pixel_um = 9.0\ncentre_mm = [1]", "centre_mm has 1 numbers; give two"),
+        ("[depth]\nnear_mm = 15000\nfar_mm = 25000", "[shallow]", 'the scene has "shallow"'),
         ("rows = 48", "rows = 48.5", "rows is 48.5; give a whole number"),
         ("rows = 48\n", "", "lacks rows"),
         ("pixel_um = 9.0", "pixel_um = -1", "positive pitch"),
         ("tolerance = 0.1", "tolerance = 2", "between 0 and 1"),
         ("tolerance = 0.1", "tolerance = 1e-5", "tighter"),
         ("near_mm = 15000", "near_mm = 30000", "near one first"),
-        ("wavelengths_nm = [530, 560]", "wavelengths_nm = []", "at least one|wrong kind"),
+        ("wavelengths_nm = [530, 560]", "wavelengths_nm = []", "at least one"),
         ('name = "desk"', "nane = 1", "means nothing here"),
         ("[depth]", "[depth", "no TOML"),
     ],
@@ -146,6 +155,14 @@ def test_a_wrong_scene_is_one_sentence_with_its_file(tmp_path, old, new, words):
     with pytest.raises(RequestError, match=words) as caught:
         read_scene(path)
     assert "desk.toml" in str(caught.value)
+
+
+def test_a_colour_that_no_glass_knows_is_named_as_it_was_given():
+    """Not the mean of the channel, 2700 nm, which planning asks first; for a coarse picture too."""
+    scene = Scene(Sensor(20, 30, 20.0), (Channel("wide", (400.0, 5000.0), (1.0, 1.0)),))
+    for make in (plan, lambda lens, asked: preview(lens, asked, np.zeros((20, 30, 1), np.float32))):
+        with pytest.raises(GlassError, match="channel wide: wavelength 5000 nm is outside the data of SCHOTT"):
+            make(find_lens("double_gauss_28"), scene)
 
 
 def test_a_sensor_beyond_the_lens_is_one_sentence():
@@ -160,6 +177,13 @@ def test_a_blur_that_no_transform_holds_is_refused_before_anything_is_measured(m
     with pytest.raises(SamplingError, match=r"1000 mm away blur over .* mm, which takes \d+² samples of 4096² at most"):
         plan(find_lens("double_gauss_28"), Scene(Sensor(600, 900, 20.0), GREEN, 1000.0, f_number=4.0))
     assert not measured
+
+
+def test_such_a_blur_of_a_far_end_is_told_with_the_sign_of_infinity(monkeypatch):
+    monkeypatch.setattr("p2sf.scene.bounds.finest_side", lambda *_: (5000, 1e4))
+    scene = Scene(Sensor(60, 90, 20.0), GREEN)
+    with pytest.raises(SamplingError, match=r"^points ∞ away blur over 10 mm"):
+        refuse_wide(Study(scene.camera(find_lens("tessar")), scene))
 
 
 def test_a_colours_error_is_the_one_that_exact_rays_find_even_on_large_pixels():

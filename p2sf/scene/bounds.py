@@ -1,12 +1,26 @@
-"""Refusing at once a scene whose blur no transform holds, before minutes of measuring find it out."""
+"""Refusing at once a scene whose colours no glass knows or whose blur no transform holds; measuring takes minutes."""
 
-from math import ceil
+from math import ceil, isinf
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import SamplingError
+from p2sf.errors import GlassError, SamplingError
 from p2sf.kernels.pixels import LARGEST_WINDOW, samples_across
-from p2sf.scene.scene import depth_of
+from p2sf.lens import Lens
+from p2sf.scene.scene import Scene, depth_of
 from p2sf.scene.study import SAMPLINGS, Study
+
+
+def refuse_colours(lens: Lens, scene: Scene) -> None:
+    """Raise GlassError where a glass has no data for a wavelength of the scene, and name that.
+
+    Fewer wavelengths stand for a channel later, and none of these may be one that a person gave.
+    """
+    for channel in scene.channels:
+        for medium in lens.media:
+            try:
+                medium.index(channel.wavelengths_um)
+            except GlassError as error:
+                raise GlassError(f"channel {channel.name}: {error}") from error
 
 
 def refuse_wide(study: Study) -> None:
@@ -19,8 +33,10 @@ def refuse_wide(study: Study) -> None:
         for height in (study.nearest_mm, study.farthest_mm):
             side, size = finest_side(study, height, float(vergence), wave)
             if side > LARGEST_WINDOW:
+                depth = depth_of(vergence)
+                away = "∞" if isinf(depth) else f"{depth:.4g} mm"
                 raise SamplingError(
-                    f"points {depth_of(vergence):.4g} mm away blur over {size / UM_PER_MM:.2g} mm, which takes {side}² "
+                    f"points {away} away blur over {size / UM_PER_MM:.2g} mm, which takes {side}² "
                     f"samples of {LARGEST_WINDOW}² at most; bring the depths nearer to the focus or stop down"
                 )
 

@@ -37,20 +37,24 @@ def scene_from(table: dict, path: Path) -> Scene:
     """Return the scene of a table as TOML gives it; paths are relative to the file."""
     _check_keys(table, "")
     sensor, depth = table.get("sensor"), table.get("depth", {})
-    if not isinstance(sensor, dict) or not isinstance(depth, dict):
-        raise RequestError("there is no table [sensor], or [depth] is none; add rows, columns and pixel_um under it")
+    if not isinstance(sensor, dict):
+        raise RequestError("there is no table [sensor]; add it, with rows, columns and pixel_um under it")
+    if not isinstance(depth, dict):
+        raise RequestError(f"depth is {depth!r:.40}; write a table [depth] with near_mm, far_mm or map under it")
     _check_keys(sensor, "sensor")
     _check_keys(depth, "depth")
     missing = {"rows", "columns", "pixel_um"} - set(sensor)
     if missing:
         raise RequestError(f"[sensor] lacks {', '.join(sorted(missing))}; add it")
-    far = float(depth.get("far_mm", depth.get("near_mm", "inf")))
+    far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", "inf")))
     given = {key: table[key] for key in ("name", "measure") if key in table}
-    numbers = {key: float(table[key]) for key in ("tolerance", "focus_mm", "f_number") if key in table}
+    numbers = {key: _number(key, table[key]) for key in ("tolerance", "focus_mm", "f_number") if key in table}
     return Scene(
-        Sensor(_whole(sensor, "rows"), _whole(sensor, "columns"), float(sensor["pixel_um"]), _pair(sensor)),
+        Sensor(
+            _whole(sensor, "rows"), _whole(sensor, "columns"), _number("pixel_um", sensor["pixel_um"]), _pair(sensor)
+        ),
         channels=tuple(map(_channel, table["channel"])) if "channel" in table else RGB,
-        near_mm=float(depth.get("near_mm", far)),
+        near_mm=_number("near_mm", depth.get("near_mm", far)),
         far_mm=far,
         depth_map=str(path.parent / depth["map"]) if "map" in depth else None,
         **given,
@@ -58,23 +62,39 @@ def scene_from(table: dict, path: Path) -> Scene:
     )
 
 
+def _number(key: str, value) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise RequestError(f"{key} is {value!r:.40}; give a number, without quotes") from error
+
+
+def _numbers(key: str, values) -> tuple[float, ...]:
+    if not isinstance(values, list):
+        raise RequestError(f"{key} is {values!r:.40}; give numbers in brackets, such as [530, 560]")
+    return tuple(_number(key, value) for value in values)
+
+
 def _whole(sensor: dict, key: str) -> int:
     """Return a number of pixels; a fraction is refused, since rounded down it would be another sensor."""
-    if sensor[key] != int(sensor[key]):
-        raise RequestError(f"sensor {key} is {sensor[key]:g}; give a whole number")
-    return int(sensor[key])
+    value = _number(key, sensor[key])
+    if not value.is_integer():
+        raise RequestError(f"sensor {key} is {value:g}; give a whole number")
+    return int(value)
 
 
 def _pair(sensor: dict) -> tuple[float, float]:
-    x, y = sensor.get("centre_mm", (0.0, 0.0))
-    return float(x), float(y)
+    values = _numbers("centre_mm", sensor.get("centre_mm", [0.0, 0.0]))
+    if len(values) != 2:
+        raise RequestError(f"centre_mm has {len(values)} numbers; give two, x and y")
+    return values
 
 
 def _channel(table: dict) -> Channel:
     _check_keys(table, "channel")
-    waves = tuple(map(float, table["wavelengths_nm"]))
-    weights = tuple(map(float, table.get("weights", [1.0] * len(waves))))
-    return Channel(str(table.get("name", f"{waves[0]:g} nm")), waves, weights)
+    waves = _numbers("wavelengths_nm", table["wavelengths_nm"])
+    weights = _numbers("weights", table.get("weights", [1.0] * len(waves)))
+    return Channel(str(table.get("name", f"{waves[0]:g} nm" if waves else "of no name")), waves, weights)
 
 
 def _check_keys(table: dict, place: str) -> None:

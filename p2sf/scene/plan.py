@@ -13,7 +13,7 @@ from p2sf.kernels.channel import own_pupil
 from p2sf.kernels.pupilmap import dropped_terms
 from p2sf.kernels.pupiltable import PupilTable, few_nodes, pupil_table
 from p2sf.lens import Lens
-from p2sf.scene.bounds import refuse_wide
+from p2sf.scene.bounds import refuse_colours, refuse_wide
 from p2sf.scene.cost import Cost, predicted_cost
 from p2sf.scene.nodes import depth_error, depth_places, field_counts, field_error, field_places
 from p2sf.scene.pricing import dearest_rung, naive_work, plan_work, rung_seconds, single_seconds
@@ -107,6 +107,7 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     the lens cannot form the scene's image.
     """
     camera = scene.camera(lens)
+    refuse_colours(camera, scene)
     study = Study(camera, scene, check or (lambda: None))
     refuse_wide(study)
     share_pupils(study)
