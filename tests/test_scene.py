@@ -1,6 +1,7 @@
 """A scene says what it tolerates, and its plan keeps it at the least price."""
 
 from dataclasses import replace
+from math import hypot
 
 import numpy as np
 import pytest
@@ -57,6 +58,19 @@ def test_every_decision_has_a_reason_and_an_error(planned):
     assert kinds == {"rung", "terms", "sampling", "field", "depth", "colour", "pupils"}
     assert all(len(d.why) > 20 and 0 <= d.error < 0.1 for d in planned.decisions)
     assert planned.naive.kernel_seconds > planned.cost.kernel_seconds
+
+
+def test_a_plan_also_counts_what_planning_itself_interpolated(planned):
+    """The root of the squares: each kind of decision with its largest error, and the pupils these were tried on."""
+    study = Study(planned.lens, planned.scene)
+    share_pupils(study)
+    largest = {}
+    for decision in planned.decisions:
+        kind = decision.what.split()[0]
+        largest[kind] = max(largest.get(kind, 0.0), decision.error)
+    decided = hypot(*largest.values())
+    assert planned.predicted_error == pytest.approx(hypot(decided, study.tables_error), rel=1e-9)  # round-off
+    assert study.tables_error > 1e-3 * decided, "less would not show"
 
 
 def test_pupils_between_the_fitted_ones_cost_no_more_than_the_plan_says():
