@@ -20,6 +20,10 @@ class Cursor:
     def __init__(self):
         self.number: int | None = None
 
+    def forget(self) -> None:
+        """Choose nothing: the next arrow starts from the present place, wherever a slider or the mouse has put that."""
+        self.number = None
+
     def moved(self, key, points: np.ndarray, start: int) -> bool:
         """Move by an arrow among ``points``, (x, y) in pixels, from ``start`` at first; say whether it was an arrow."""
         step = ARROWS.get(key)

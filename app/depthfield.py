@@ -48,10 +48,11 @@ class DepthFieldMap(Chart):
         self.show_pixels(table[indices], (left - wide / 2, low - tall / 2, columns * wide, rows * tall))
 
     def show_point(self, depth_mm: float, field_deg: float) -> None:
-        """Mark the present source."""
+        """Mark the present source; the keys choose from there on."""
         point = (PER_METRE / depth_mm, abs(field_deg))
         if point != self.point:
             self.point = point
+            self.cursor.forget()
             self.update()
 
     def paint_over(self, painter: QPainter) -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QPainter
+from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.brightness import stretched
 from app.card import Card
@@ -18,8 +18,11 @@ from p2sf.conventions import degrees_from_slope
 
 TIP = (
     "Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as "
-    "its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field."
+    "its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the "
+    "present one."
 )
+
+SAME_DEG = 1e-3  # pictures whose fields differ by less stand equally far from the axis
 
 
 class MapChart(TilesChart):
@@ -30,6 +33,7 @@ class MapChart(TilesChart):
         self._store = store
         self.fields_deg = np.zeros(0)
         self.cursor = Cursor()
+        self._taken, self._field = 0, 0.0
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Field map"))
 
@@ -45,20 +49,37 @@ class MapChart(TilesChart):
         taken = self.cursor.taken(event.key(), len(points))
         if taken is not None:
             self._take(taken)
-        elif self.cursor.moved(event.key(), points, self._nearest()):
+        elif self.cursor.moved(event.key(), points, self.present() if self.tiles else 0):
             self.update()
         else:
             super().keyPressEvent(event)
 
-    def _nearest(self) -> int:
-        return int(np.abs(self.fields_deg - abs(self._store.state.field_deg)).argmin()) if self.tiles else 0
+    def show_field(self, field_deg: float) -> None:
+        """Mark the picture of the present field; the keys choose from there on."""
+        if abs(field_deg) != self._field:
+            self._field = abs(field_deg)
+            self.cursor.forget()
+            self.update()
+
+    def present(self) -> int:
+        """Return the picture of the present field; of those as far from the axis the one last taken, else the first."""
+        apart = np.abs(self.fields_deg - self._field)
+        least = apart.min() + SAME_DEG
+        return self._taken if self._taken < len(apart) and apart[self._taken] < least else int(apart.argmin())
 
     def _take(self, number: int) -> None:
+        self._taken = number
+        self.cursor.forget()
+        self.update()
         self._store.update(field_deg=round(float(self.fields_deg[number]), 4))
 
     def paint_over(self, painter: QPainter) -> None:
-        """Paint the pictures, and a frame about the one that the keys have chosen."""
+        """Paint the pictures, and frames about the present one and the one that the keys have chosen."""
         super().paint_over(painter)
+        if self.tiles:
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(self.theme.accent), 2))
+            painter.drawRect(self.room(self.tiles[self.present()]))
         number = self.cursor.number
         if self.hasFocus() and number is not None and number < len(self.tiles):
             paint_cursor(painter, self.room(self.tiles[number]))
@@ -73,11 +94,11 @@ class FieldMapPanel:
         self.widget.set_body(self.chart)
         self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
         self.found: tuple[FieldMap, np.ndarray] | None = None
-        self._scale, self._field = "sqrt", 0.0
+        self._scale = "sqrt"
 
     def show(self, live: Live) -> None:
         """Ask for the map where more than the field has changed; mark the present field."""
-        self._field = abs(live.state.field_deg)
+        self.chart.show_field(live.state.field_deg)
         changed, self._scale = live.state.psf_scale != self._scale, live.state.psf_scale
         self.asking.ask(live.views["field_map"])
         if changed:

@@ -155,6 +155,17 @@ def test_arrow_keys_choose_a_node_of_the_map_and_enter_sets_the_source_on_it(win
     assert 1000 / window.store.state.depth_mm == pytest.approx(float(np.sort(near)[1]), rel=1e-6)
 
 
+def test_arrow_keys_start_from_where_a_slider_has_put_the_source(window, panel, qtbot):
+    chart, fields = panel.map, panel.map.nodes[1]
+    window.store.update(depth_mm=inf, field_deg=0.0)
+    chart.setFocus()
+    qtbot.keyClick(chart, Qt.Key.Key_Up)
+    window.store.update(field_deg=float(fields.max()))
+    qtbot.keyClick(chart, Qt.Key.Key_Down)
+    qtbot.keyClick(chart, Qt.Key.Key_Return)
+    assert window.store.state.field_deg == pytest.approx(float(np.sort(fields)[-2]), abs=1e-6)
+
+
 def test_the_choosers_repaint(window, panel, qtbot):
     before = panel.map.grab().toImage(), panel.error.grab().toImage()
     panel.term.setFocus()
