@@ -6,6 +6,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QLineEdit, QWidget
 
 from app.panels import REGISTRY
+from tests.app.test_strip_and_map import filled
 
 TABS = [entry.key for entry in REGISTRY if entry.place != "main" and entry.key != "solid"]
 MOST = 200
@@ -71,3 +72,20 @@ def test_the_focus_can_be_seen(window):
         if part.grab().toImage() == before:
             blind.append(part)
     assert not blind, named(blind)
+
+
+def test_the_maps_frame_follows_the_field_and_the_keys_start_from_it(window, qtbot):
+    window.store.update(tab="field_map", field_deg=0.0)
+    panel = window.panels["field_map"]
+    filled(panel, qtbot)
+    chart = panel.chart
+    chart.setFocus()
+    qtbot.keyClick(chart, Qt.Key.Key_Right)
+    before = chart.grab().toImage()
+    assert (chart.present(), chart.cursor.number) == (13, 14), "the fifth of nine in the second row, and the next"
+    qtbot.mouseClick(chart, Qt.MouseButton.LeftButton, pos=chart.room(chart.tiles[26]).center().toPoint())
+    qtbot.keyClick(chart, Qt.Key.Key_Left)
+    assert (chart.present(), chart.cursor.number) == (26, 25), "of four corners as far out the one that was clicked"
+    window.store.update(field_deg=0.0)  # as by the slider
+    qtbot.keyClick(chart, Qt.Key.Key_Right)
+    assert chart.cursor.number == 14 and chart.grab().toImage() == before, "the frame is back too"

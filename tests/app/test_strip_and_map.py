@@ -165,23 +165,6 @@ def test_arrow_keys_choose_a_picture_of_the_map_and_enter_goes_to_its_field(wind
     assert window.store.state.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
 
 
-def test_the_maps_frame_follows_the_field_and_the_keys_start_from_it(window, qtbot):
-    window.store.update(tab="field_map", field_deg=0.0)
-    chart = window.panels["field_map"].chart
-    filled(window.panels["field_map"], qtbot)
-    chart.setFocus()
-    qtbot.keyClick(chart, Qt.Key.Key_Right)
-    before = chart.grab().toImage()
-    assert chart.present() == 13 and chart.cursor.number == 14, "the fifth of nine in the second row, and the next"
-    qtbot.mouseClick(chart, Qt.MouseButton.LeftButton, pos=chart.room(chart.tiles[26]).center().toPoint())
-    qtbot.keyClick(chart, Qt.Key.Key_Left)
-    assert (chart.present(), chart.cursor.number) == (26, 25), "of four corners as far out the one that was clicked"
-    window.store.update(field_deg=0.0)  # as by the slider
-    assert chart.present() == 13 and chart.grab().toImage() != before, "only the frame of the chosen one is gone"
-    qtbot.keyClick(chart, Qt.Key.Key_Right)
-    assert chart.cursor.number == 14 and chart.grab().toImage() == before
-
-
 def test_coma_points_away_from_the_axis_at_every_place():
     question = field_map.field_map(live(replace(FIRST, solo=("w31",), f_number=4.0)))
     found, told = worked(question, field_map)
