@@ -20,6 +20,7 @@ from app.words import tr
 
 OWN_WINDOW = "Open in its own window (double-click the tab or drag it out, or Ctrl+D)"
 OUT_PX = 40  # so far off the bar a dragged tab is out
+APART = (("Pop out", OWN_WINDOW), ("Put back", "Close the panel's own window and have it back under its tab (Ctrl+D)"))
 ALL = "Every panel by its group (Alt+0)"
 SIZE = 720, 480
 
@@ -34,7 +35,7 @@ class Tabs(QTabWidget):
         super().__init__(parent)
         self._groups = {entry.key: entry.group for entry in entries}
         self._last: dict[str, str] = {}
-        self._out = False
+        self._out, self._apart = False, APART[False]
         self._pages = {entry.key: page(entry.key) for entry in entries}
         for entry in entries:
             self.addTab(self._pages[entry.key], tr(entry.title))
@@ -82,6 +83,12 @@ class Tabs(QTabWidget):
         """Ask for the panel in front in a window of its own, or back."""
         self.detach_asked.emit(self.current())
 
+    def show_apart(self, keys: tuple[str, ...]) -> None:
+        """Say what the button does to the panel in front, ``keys`` being those in windows of their own."""
+        if (words := APART[self.current() in keys]) != self._apart:  # this is on a slider's way
+            self._apart = words
+            _name(self.apart, *words)
+
     def open_group(self, group: str) -> None:
         """Open the panel of a group that was last in front, else its first."""
         first = next(key for key, own in self._groups.items() if own == group)
@@ -108,19 +115,22 @@ class Tabs(QTabWidget):
         row = QHBoxLayout(holder)
         row.setContentsMargins(0, 1, 0, 3)
         row.setSpacing(SPACE // 2)
-        for text, tip in (("Pop out", OWN_WINDOW), ("All", ALL)):
-            button = QToolButton(holder)
+        self.apart, everything = QToolButton(holder), QToolButton(holder)
+        for button, words in ((self.apart, APART[False]), (everything, ("All", ALL))):
             button.setObjectName("small")
-            button.setText(tr(text))
-            button.setToolTip(tr(tip))
-            button.setAccessibleName(tr(tip))
+            _name(button, *words)
             row.addWidget(button)
-        own, everything = holder.findChildren(QToolButton)
         everything.setShortcut("Alt+0")
-        own.clicked.connect(self.detach)
+        self.apart.clicked.connect(self.detach)
         everything.setMenu(self.menu)
         everything.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         return holder
+
+
+def _name(button: QToolButton, text: str, tip: str) -> None:
+    button.setText(tr(text))
+    button.setToolTip(tr(tip))
+    button.setAccessibleName(tr(tip))
 
 
 class GroupButtons(QWidget):

@@ -179,6 +179,7 @@ class Window(QMainWindow):
             self._build(name)
         self.floating.follow(apart, self.panels)
         self.floating.bring_up(key, self.panels, self.tabs.bring_up)
+        self.tabs.show_apart(apart)
         for name in self._visible():
             self._style(name)
 

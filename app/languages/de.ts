@@ -263,6 +263,8 @@
 <message><source>Play this slider (Space)</source><translation>Diesen Regler abspielen (Leertaste)</translation></message>
 <message><source>Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW).</source><translation>Punktbildfunktion: das Licht einer Punktquelle auf dem Sensor, |FT{P}|² der Pupille P = A·exp(i2πW).</translation></message>
 <message><source>Points</source><translation>Punkte</translation></message>
+<message><source>Put back</source><translation>Zurück</translation></message>
+<message><source>Close the panel's own window and have it back under its tab (Ctrl+D)</source><translation>Das eigene Fenster der Ansicht schließen und sie unter ihrem Reiter wiederhaben (Strg+D)</translation></message>
 <message><source>Pop out</source><translation>Lösen</translation></message>
 <message><source>Preparing the 3D view: loading it takes some seconds, once.</source><translation>Die 3D-Ansicht wird vorbereitet: das Laden dauert einmal einige Sekunden.</translation></message>
 <message><source>Preset</source><translation>Vorgabe</translation></message>

@@ -82,6 +82,20 @@ def test_a_double_click_gives_a_tab_its_own_window_and_closing_gives_it_back(win
     assert "mtf" in window.floating.open, "an undone close opens it again"
 
 
+def test_the_button_says_whether_it_pops_a_panel_out_or_puts_it_back(window, qtbot):
+    window.open_panel("mtf")
+    told = [window.tabs.apart.text()]
+    qtbot.mouseClick(window.tabs.apart, Qt.MouseButton.LeftButton)
+    told.append(window.tabs.apart.text())
+    window.open_panel("profiles")
+    told.append(window.tabs.apart.text())
+    window.open_panel("mtf")
+    assert "back under its tab" in window.tabs.apart.toolTip()
+    qtbot.mouseClick(window.tabs.apart, Qt.MouseButton.LeftButton)
+    assert [*told, window.tabs.apart.text()] == ["Pop out", "Put back", "Pop out", "Pop out"]
+    assert not window.store.state.windows
+
+
 def test_only_what_is_on_show_is_styled_and_the_rest_when_it_comes_up(window):
     """A switch of the theme works out every widget within the window: the panels behind their tabs wait outside."""
     window.open_panel("mtf")
