@@ -14,24 +14,31 @@ every lens and of all: full grid, plan, plan with its planning.
 
 import sys
 from dataclasses import replace
+from math import ceil
 from time import process_time
 
 import numpy as np
 
-from p2sf.errors import P2SFError
+from p2sf.errors import GeometryError, P2SFError
 from p2sf.image import plan_lattice
 from p2sf.kernels import Colour, Kernels
 from p2sf.kernels.nodes import nodes_along
 from p2sf.lens import lens_range_um, with_f_number
 from p2sf.library import find_lens, shipped_lenses
 from p2sf.pupils import f_number, numerical_aperture
+from p2sf.quadrature import disc_nodes
+from p2sf.rayfit import ray_data, steepness
+from p2sf.raytrace import pencil
+from p2sf.rendering import counts_for
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan, verify
 from p2sf.scene.pricing import naive_recipe
+from p2sf.scene.reference import LEAST_POINTS, PROBE
 from p2sf.scene.scene import depth_of
 from p2sf.seidel import coefficients
 
 SCENES, POINTS, SAMPLE = 20, 2, 12
 TOLERANCES = 0.2, 0.1, 0.05, 0.03
+AFFORDABLE = 2e11  # products of a reference sum, some minutes of one core
 SLOWEST_TRIED = 4.0  # f-number: faster lenses are stopped down to it or beyond, as their rims are not clipped here
 
 
@@ -88,6 +95,7 @@ def trial(lens, scene, seed: int = 0) -> dict:
     started = process_time()
     planned = plan(lens, scene)
     planning = process_time() - started
+    check_affordable(planned)
     spent, full = plan_seconds(planned), naive_seconds(planned)
     verdict = verify(planned, POINTS, seed)
     nodes = planned.counts[0] * planned.counts[1] * len(planned.vergences)
@@ -107,6 +115,20 @@ def trial(lens, scene, seed: int = 0) -> dict:
         "loosening_is_cheaper": loosened_cost(lens, scene) <= planned.cost.kernel_seconds if seed % 5 == 0 else None,
         "what": [f"{d.what}: {d.choice} ({d.error:.2g})" for d in planned.decisions],
     }
+
+
+def check_affordable(planned: Plan) -> None:
+    """Raise GeometryError for a scene whose reference sum is hours of work, as of a relay far out of focus."""
+    sensor, seen = planned.scene.sensor, planned.view(planned.vergences[0])
+    half = planned.kernels(0, planned.vergences[0]).half_width(sensor.corners_mm()[1])
+    source = seen.source(sensor.corners_mm()[1], min(planned.colours[0].wavelengths_um))
+    probe = disc_nodes(*PROBE)
+    steep = steepness(ray_data(pencil(seen.lens, source, probe.xi, probe.eta)), probe.xi, probe.eta)
+    size = 2 * half + 1
+    points = size * max(LEAST_POINTS, ceil(np.pi * steep.spread * sensor.pixel_um) + 3)
+    products = float(np.prod(counts_for(steep, size, sensor.pixel_um))) * points**2
+    if products > AFFORDABLE:
+        raise GeometryError(f"its reference is a sum of {products:.0e} products; too long to be tried")
 
 
 def plan_seconds(planned: Plan) -> float:
@@ -146,7 +168,10 @@ def loosened_cost(lens, scene) -> float:
 
 
 def run(name: str, scenes: int) -> list[dict]:
-    """Return the figures of this many scenes of one lens, printing a line each; scenes no light reaches are redrawn."""
+    """Return the figures of this many scenes of one lens, printing a line each.
+
+    Scenes that no light reaches, or that take too long to check, are redrawn.
+    """
     random, rows, refused = np.random.default_rng(sum(map(ord, name))), [], 0
     while len(rows) < scenes and refused < 3 * scenes:
         try:
