@@ -469,7 +469,11 @@
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
 <message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
-<message><source>Unmeasured. When the sliders rest a plan follows, unless pixels hide the PSF.</source><translation>Ungemessen. Wenn die Regler ruhen, folgt ein Plan, sofern die Pixel die PSF nicht verbergen.</translation></message>
+<message><source>Unmeasured. When the sliders rest a plan follows.</source><translation>Ungemessen. Wenn die Regler ruhen, folgt ein Plan.</translation></message>
+<message><source>Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones.</source><translation>Ungemessen. Für so große Pixel wird kein Plan gemacht, denn sie verbergen, worum es ihm geht: kleinere wählen.</translation></message>
+<message><source>Unmeasured. No plan is made for PSFs as wide as these: it would take minutes.</source><translation>Ungemessen. Für so breite PSFs wird kein Plan gemacht: er würde Minuten brauchen.</translation></message>
+<message><source>No plan: these pixels hide the PSF</source><translation>Kein Plan: so große Pixel verbergen die PSF</translation></message>
+<message><source>No plan: these PSFs are too wide</source><translation>Kein Plan: diese PSFs sind zu breit</translation></message>
 <message><source>{choice}: {why} (error {error})</source><translation>{choice}: {why} (Fehler {error})</translation></message>
 <message><source>{error} relative, keeps {tolerance}; the full grid takes {count} times as long</source><translation>{error} relativ, hält {tolerance} ein; das volle Gitter dauert {count}-mal so lang</translation></message>
 <message><source>{error} relative, does not keep {tolerance}; the full grid takes {count} times as long</source><translation>{error} relativ, hält {tolerance} nicht ein; das volle Gitter dauert {count}-mal so lang</translation></message>

@@ -159,6 +159,8 @@ class ImagePanel:
     def _show_readout(self) -> None:
         doing, stopped = self._ordered is not None, self._stopped == self._asked
         self.widget.set_readout(self._quality())
+        for button in (self.words.button, self.save):  # in a drag the earlier picture keeps them, and the keys on them
+            button.setEnabled(self._quality() not in ("working", NONE))
         self.veil.say(self._refusal if self._stale() and self._unplanned == self._asked else "", 0)
         self.plan_line.show_stage(doing, stopped)
         self.headline.setHidden(doing or stopped or bool(self.veil.text))
@@ -198,7 +200,8 @@ class ImagePanel:
         self.wipe.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
         sensor = found.plan.scene.sensor
         wide = f"{sensor.columns} × {sensor.rows} pixels of {sensor.pixel_um:.3g} µm"
-        self._say("\n".join(filter(None, (found.cut, f"{found.headline} · {found.seconds:.2g} s", wide))))
+        many = f"{found.headline} · {found.seconds:.2g} s"
+        self._say("\n".join(filter(None, (found.cut, found.no_plan, many, wide))))
         self.words.tell(found.words)
         rows, columns = found.after.shape[:2]
         self._look(self._place[0] * (rows - 1), self._place[1] * (columns - 1))

@@ -28,6 +28,11 @@ from p2sf.source import Source
 
 ROWS, COLUMNS = 208, 312
 MOST_SAMPLES = 24  # of λ/2NA across a pixel: a plan of larger pixels takes minutes, and they hide what it is about
+TOO_WIDE, TOO_LARGE = "No plan: these PSFs are too wide", "No plan: these pixels hide the PSF"
+PLANLESS = {
+    TOO_WIDE: "No plan is made for PSFs as wide as these: it would take minutes.",
+    TOO_LARGE: "No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones.",
+}
 COUNTS = ((800, (3, 3)), (1200, (2, 2)), (2000, (1, 1)))  # samples along a PSF's side, and at how many places then
 WIDEST = COUNTS[-1][0]
 CORNER = 0.97  # of the way to the outermost chief ray
@@ -56,7 +61,7 @@ class Answer:
     """Pictures in linear light (rows, columns, 3), ``before`` and ``after`` the lens (or the sharpening).
 
     ``quality`` is "coarse" or "planned"; ``headline`` and ``words``, (what, sentence), say what was computed and why,
-    ``cut`` what of the photo is not taken.
+    ``cut`` what of the photo is not taken, ``no_plan`` why a coarse picture stays so.
     """
 
     question: Question
@@ -69,6 +74,7 @@ class Answer:
     headline: str
     words: tuple[tuple[str, str], ...]
     cut: str = ""
+    no_plan: str = ""
 
 
 def question(live) -> Question:
@@ -83,8 +89,9 @@ def coarse(asked: Question, watch: Watch | None = None) -> Answer:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
     begun, scene = perf_counter(), scene_of(asked)
     made = affordable(quick_plan(scene.camera(asked.lens), scene))
-    words = ("Coarse", "Unmeasured. When the sliders rest a plan follows, unless pixels hide the PSF.")
-    return _answer(asked, made, watch or Watch(), begun, (words,))
+    why_not = no_plan(made)
+    words = ("Coarse", f"Unmeasured. {PLANLESS.get(why_not, 'When the sliders rest a plan follows.')}")
+    return replace(_answer(asked, made, watch or Watch(), begun, (words,)), no_plan=why_not)
 
 
 def planned(asked: Question, watch: Watch | None = None, known: Answer | None = None) -> Answer:
@@ -160,10 +167,17 @@ def affordable(made: Plan) -> Plan:
 
 
 def fine_enough(answer: Answer) -> bool:
-    """Return whether a plan is worth its time: pixels show what it takes care of, and PSFs are not too wide."""
-    kernels = answer.plan.kernels(1, answer.plan.vergences[0])
+    """Return whether a plan is worth its time."""
+    return not no_plan(answer.plan)
+
+
+def no_plan(made: Plan) -> str:
+    """Return why a plan is not worth its time, one of PLANLESS; nothing where it is."""
+    if made.counts == (1, 1):
+        return TOO_WIDE
+    kernels = made.kernels(1, made.vergences[0])
     pupil, _ = kernels.pupils(0.0)[0]
-    return answer.plan.counts != (1, 1) and 2 * pupil.radius * kernels.pixel_um <= MOST_SAMPLES
+    return TOO_LARGE if 2 * pupil.radius * kernels.pixel_um > MOST_SAMPLES else ""
 
 
 def axis_kernel(made: Plan, lattice: Lattice) -> np.ndarray:

@@ -11,10 +11,11 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
 from app.copying import png_of
+from app.languages import Spoken
 from app.roominess import close_up, rooms
 from app.scenery import cut_away, scene_values
 from app.snapshot import write_picture
-from app.views.image import COLUMNS, PLANNING, ROWS, forming, local_psf, pixels, planning
+from app.views.image import COLUMNS, PLANLESS, PLANNING, ROWS, TOO_LARGE, forming, local_psf, pixels, planning
 from app.views.imagewords import frame_words
 from app.words import unbroken
 from p2sf.errors import Cancelled
@@ -133,6 +134,14 @@ def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_words_say_wh
     assert not orders  # a second try would end the same
     image_panel._on_failure(image_panel._asked, "points inf mm away blur over 6 mm; stop down")
     assert image_panel.headline.text().startswith("Points ∞ away")
+
+
+def test_a_picture_without_a_plan_says_why_under_the_controls(window, image_panel, orders):
+    image_panel._on_answer(image_panel._asked, replace(image_panel._answer, no_plan=TOO_LARGE))
+    assert image_panel.headline.text().startswith("No plan: these pixels hide")
+    said = Spoken("de").said
+    for short, sentence in PLANLESS.items():
+        assert said(short).startswith("Kein Plan") and said(f"Unmeasured. {sentence}").startswith("Ungemessen. Für so")
 
 
 def test_a_plan_says_how_far_it_is_and_is_stopped_and_made_after_all(window, image_panel, orders, qtbot):

@@ -11,7 +11,19 @@ from app.scenery import channels_of, fitted, scene_values
 from app.setting import default_state
 from app.state import State
 from app.views import image
-from app.views.image import COLUMNS, ROWS, TOLERANCE, coarse, fine_enough, local_psf, pixels, question, scene_of, shown
+from app.views.image import (
+    COLUMNS,
+    ROWS,
+    TOLERANCE,
+    coarse,
+    fine_enough,
+    local_psf,
+    no_plan,
+    pixels,
+    question,
+    scene_of,
+    shown,
+)
 from p2sf.errors import Cancelled, RequestError, SamplingError
 from p2sf.image import Watch, form_image
 from p2sf.image.lattice import Lattice
@@ -68,8 +80,11 @@ def test_the_whole_field_uses_mirror_images_and_reaches_the_widest_chief_ray():
 
 
 def test_large_pixels_get_no_plan_and_small_ones_do():
-    assert not fine_enough(coarse(asked(photo_pixel_um=None)))
-    assert fine_enough(coarse(asked()))
+    whole, part = coarse(asked(photo_pixel_um=None)), coarse(asked())
+    assert not fine_enough(whole) and fine_enough(part)
+    assert whole.no_plan == "No plan: these pixels hide the PSF" and not part.no_plan
+    assert "pixels as large as these" in dict(whole.words)["Coarse"] and "a plan follows" in dict(part.words)["Coarse"]
+    assert no_plan(replace(part.plan, counts=(1, 1))) == "No plan: these PSFs are too wide"
 
 
 def test_sharpening_by_the_right_psfs_helps_and_by_the_axis_psf_does_not():
@@ -192,11 +207,12 @@ def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     assert image_panel.widget.readout.text() == "no picture"
     window.store.update(psf_scale="log")  # nothing the picture depends on
     assert image_panel.widget.readout.text() == "no picture" and not image_panel.headline.isVisible()
+    assert not image_panel.save.isEnabled() and not image_panel.words.button.isEnabled()
     image_panel.save_as("/nowhere/out.png")
     assert "there is no picture yet" in window.banner.text.text().lower()
     window.store.update(photo="text")
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=10000)
-    assert not image_panel.veil.text
+    assert not image_panel.veil.text and image_panel.save.isEnabled() and image_panel.words.button.isEnabled()
 
 
 def test_shown_pictures_have_the_scene_left_and_the_image_right(found):
