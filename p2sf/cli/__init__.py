@@ -69,7 +69,9 @@ def _app():
 
 def _usage(error) -> str:
     """Return a wrong command line as one sentence that says where to look."""
-    first, *others = str(error).removesuffix(", ...").rstrip(".").split(". ")
+    told, known, _ = str(error).partition("Available commands: ")
+    text = f"{told}{known}{', '.join(COMMANDS)}" if known and not error.command_chain else str(error)  # not eight alone
+    first, *others = text.removesuffix(", ...").rstrip(".").split(". ")
     parts = [first, *(part[:1].lower() + part[1:] for part in others)]
     command = " ".join(("p2sf", *(error.command_chain or ())))
     return f"{', '.join(parts)}; {command} --help lists what there is"
