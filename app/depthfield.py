@@ -12,7 +12,7 @@ from app.cursor import Cursor, paint_cursor
 from app.plots import as_indices, lookup, small_font
 from app.scales import short_distance
 from app.theme import LIGHT, Tokens
-from app.views.database import Atlas, nearest
+from app.views.database import Atlas, closest, nearest
 from app.words import tr
 
 PER_METRE = 1000.0
@@ -232,10 +232,10 @@ class AtlasView(QWidget):
         self.picked.emit(float(self.atlas.depths_mm[column]), float(self.atlas.fields_deg[row]))
 
     def keyPressEvent(self, event) -> None:
-        """Move to a neighbouring cell."""
+        """Move to a neighbouring cell of the source's, which may itself lie outside."""
         step = STEPS.get(event.key())
         if step and self.atlas:
-            row, column = self.cell or (0, 0)
+            row, column = closest(self.atlas, self._source[0], abs(self._source[1]))
             self._choose(row + step[0], column + step[1])
         else:
             super().keyPressEvent(event)

@@ -182,10 +182,19 @@ def sharp_range(exact: ExactDatabase, asked: Question) -> np.ndarray:
 
 def nearest(atlas: Atlas, depth_mm: float, field_deg: float) -> tuple[int, int] | None:
     """Return the (field, depth) cell of a source, None when it lies more than half a cell outside."""
-    with np.errstate(divide="ignore"):
-        columns, rows = 1 / atlas.depths_mm, atlas.fields_deg
-    places = ((rows, field_deg), (columns, 1 / depth_mm))
-    cell = [int(np.argmin(np.abs(nodes - value))) for nodes, value in places]
+    places, cell = _places(atlas, depth_mm, field_deg), closest(atlas, depth_mm, field_deg)
     steps = [abs(nodes[1] - nodes[0]) for nodes, _ in places]
     inside = [abs(nodes[k] - v) <= 0.51 * s for (nodes, v), k, s in zip(places, cell, steps, strict=True)]
-    return (cell[0], cell[1]) if all(inside) else None
+    return cell if all(inside) else None
+
+
+def closest(atlas: Atlas, depth_mm: float, field_deg: float) -> tuple[int, int]:
+    """Return the (field, depth) cell that a source is in or, outside, that is the least away from it."""
+    row, column = (int(np.argmin(np.abs(n - value))) for n, value in _places(atlas, depth_mm, field_deg))
+    return row, column
+
+
+def _places(atlas: Atlas, depth_mm: float, field_deg: float):
+    """Return (nodes, value) of the fields in degrees and of 1/depth in 1/mm."""
+    with np.errstate(divide="ignore"):
+        return (atlas.fields_deg, field_deg), (1 / atlas.depths_mm, 1 / depth_mm)

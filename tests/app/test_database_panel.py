@@ -132,6 +132,16 @@ def test_arrow_keys_walk_over_the_atlas(window, panel, qtbot):
     assert panel.atlas.cell == (1, 2)
 
 
+def test_arrow_keys_start_from_the_atlass_rim_where_the_source_lies_beyond_it(panel, qtbot, monkeypatch):
+    atlas, chosen = panel.atlas, []
+    monkeypatch.setattr(atlas, "_source", (1.0, 80.0))  # nearer and farther out than any cell
+    monkeypatch.setattr(atlas, "cell", None)
+    monkeypatch.setattr(atlas, "_choose", lambda row, column: chosen.append((row, column)))
+    qtbot.keyClick(atlas, Qt.Key.Key_Left)
+    fields, depths = atlas.atlas.psfs.shape[:2]
+    assert chosen == [(fields - 1, depths - 2)]
+
+
 def test_dragging_on_the_map_sets_the_point_under_the_pointer(window, panel, qtbot):
     chart = panel.map
     x, y = chart.to_pixels(4.0, 6.0)  # 250 mm, 6°
