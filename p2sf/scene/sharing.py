@@ -25,17 +25,19 @@ def node_heights(sensor: Sensor, counts) -> tuple[float, ...]:
 def share_pupils(study: Study) -> None:
     """Let a study interpolate its converged pupils unless kernels would change by more than ROUGH.
 
-    Tried in the bluest colour, which shows the most, at the sharpest depths and in the corner.
+    Tried in the bluest colour, which shows the most; at the sharpest depths and at both ends, as pixels wider than a
+    sharp kernel hide there what they show of a blurred one.
     """
     wave, scene = min(study.waves), study.scene
-    sharp = [(v, wave) for v in dict.fromkeys(study.sharpest(wave))]
-    high, across = _few(_error_across, study, (NESTED_FITS, FINE), sharp)
-    corner = [(study.farthest_mm, wave)]
-    deep, along = _few(_error_along, study, (NESTED_FITS, FINE), corner) if scene.near_mm < scene.far_mm else (1, 0.0)
+    ends = tuple(map(float, scene.vergences(2)))
+    depths = [(v, wave) for v in dict.fromkeys((*study.sharpest(wave), *ends))]
+    high, across = _few(_error_across, study, (NESTED_FITS, FINE), depths)
+    rims = [(height, wave) for height in (study.farthest_mm, study.nearest_mm)]
+    deep, along = _few(_error_along, study, (NESTED_FITS, FINE), rims) if scene.near_mm < scene.far_mm else (1, 0.0)
     if max(across, along) > ROUGH:
         return
     heights = chebyshev(study.nearest_mm, study.farthest_mm, high)
-    vergences = chebyshev(*map(float, scene.vergences(2)), deep)
+    vergences = chebyshev(*ends, deep)
     study.tables.update({w: pupil_table(_own(study, w), heights, vergences) for w in study.waves})
     study.tables_error = across + along
 
