@@ -173,7 +173,7 @@ def run(name: str, scenes: int) -> list[dict]:
     Scenes that no light reaches, or that take too long to check, are redrawn.
     """
     random, rows, refused = np.random.default_rng(sum(map(ord, name))), [], 0
-    while len(rows) < scenes and refused < 3 * scenes:
+    while len(rows) < scenes and refused < 10 * scenes:
         try:
             rows.append({"lens": name, **trial(*random_scene(find_lens(name), random), len(rows))})
         except P2SFError as error:
