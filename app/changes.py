@@ -5,9 +5,9 @@ from math import inf
 from pathlib import Path
 
 from app.limits import ADDED
-from app.pupil import TERMS
 from app.setting import with_lens
 from app.state import State
+from app.terms import TERMS
 from p2sf.errors import P2SFError
 
 NUMBERS = {"∞": inf, "inf": inf, "file": None, "whole": None}

@@ -11,9 +11,10 @@ from app import compute
 from app.compute import Live, View
 from app.differing import WHY, subtracted
 from app.pinning import side_b
-from app.pupil import TERMS, PupilMap, pupil_map
+from app.pupil import PupilMap, pupil_map
 from app.setting import prescription
 from app.state import State
+from app.terms import TERMS
 from app.wavesums import Asked, Done
 
 DIFFERENCE = "A − B"

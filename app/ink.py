@@ -8,7 +8,7 @@ from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText, QTransform
 
-from app.words import tr
+from app.words import cached_per_language, tr
 
 FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
 SHORT, LONG = 5, 24  # letters
@@ -37,7 +37,7 @@ def pen(colour: str, alpha: int = 255, width: float = 1.0) -> QPen:
     return QPen(ink, width)
 
 
-@lru_cache(maxsize=1024)
+@cached_per_language(1024)
 def set_text(words: str, size: int = 11) -> QStaticText:
     """Return words laid out once: most of them stand on every frame, and laying out is two thirds of painting."""
     text = QStaticText(tr(words))

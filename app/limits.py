@@ -2,7 +2,7 @@
 
 from math import inf
 
-from app.pupil import TERMS
+from app.terms import TERMS
 
 CHOICES = {
     "stop": ("file", "auto"),

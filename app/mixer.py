@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QLineEdit, QToolTip, QWidget
 
 from app import mixerparts as parts
 from app.mixerparts import LETTERS, NAMES, Places, held
-from app.pupil import FORMULAS, TERMS, WORDS
 from app.scales import nice
+from app.terms import FORMULAS, TERMS, WORDS
 from app.theme import LIGHT, Tokens
 from app.words import tr
 

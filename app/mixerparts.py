@@ -6,8 +6,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.ink import set_text, write
-from app.pupil import TERMS
 from app.scales import signed
+from app.terms import TERMS
 from app.theme import Tokens
 from app.words import tr
 
@@ -28,7 +28,7 @@ LETTERS = (("muted", "M", "warning"), ("solo", "S", "accent"))
 
 @dataclass(frozen=True)
 class Places:
-    """The desk's geometry for a size in pixels; rows in the order of `app.pupil.TERMS`."""
+    """The desk's geometry for a size in pixels; rows in the order of `app.terms.TERMS`."""
 
     width: float
     height: float

@@ -5,18 +5,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from app.terms import WORDS
 from p2sf.conventions import centred_axis
-
-TERMS = ("w40", "w31", "w22", "w20", "wd", "w11")
-WORDS = {
-    "w40": "spherical aberration",
-    "w31": "coma",
-    "w22": "astigmatism",
-    "w20": "field curvature",
-    "wd": "defocus",
-    "w11": "distortion",
-}
-FORMULAS = {"w40": "ρ⁴", "w31": "ρ³ cos θ", "w22": "ρ² cos² θ", "w20": "ρ²", "wd": "ρ²", "w11": "ρ cos θ"}
 
 
 @dataclass(frozen=True)

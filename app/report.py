@@ -13,10 +13,10 @@ from app.facts import described_depth, rows
 from app.layout import Layout
 from app.lens_cards import shown_title
 from app.plots import as_indices, lookup
-from app.pupil import FORMULAS, TERMS, WORDS
 from app.scales import signed, significant
 from app.setting import prescription
 from app.state import State
+from app.terms import FORMULAS, TERMS, WORDS
 from app.theme import LIGHT, tokens
 from app.thumbnail import glass
 from app.words import tr, unbroken

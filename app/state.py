@@ -6,7 +6,7 @@ from math import inf, isfinite
 from pathlib import Path
 
 from app.limits import CHOICES, KINDS, LINKABLE, MOST_WAVES, OPTIONAL, PLAIN, PLAYABLE, RANGES
-from app.pupil import TERMS
+from app.terms import TERMS
 from p2sf.errors import P2SFError
 from p2sf.spectrum import spectrum_of
 
@@ -22,7 +22,7 @@ class State:
     ``lens_text`` is the TOML text of a lens edited in the window, None while it is as ``lens`` names it.
     ``windows`` names the panels that stand in windows of their own. ``pixel_um`` is a sensor's pixel, ``blur_um`` the
     blur's diameter still called sharp, ``spectrum`` the colour PSF's light (`p2sf.spectrum`).
-    What if: ``added_waves`` on top of the lens's own six coefficients (`app.pupil.TERMS` in order), or alone in a
+    What if: ``added_waves`` on top of the lens's own six coefficients (`app.terms.TERMS` in order), or alone in a
     ``free_pupil``; ``muted`` terms count as zero, and with any ``solo`` all others do. Compare: ``pinned`` is the
     setup B, ``shown`` which of the two is on screen, ``linked`` what moves both. ``play`` is the slider that is
     swept, over ``play_range`` (None: all of its travel) in ``play_seconds``.

@@ -7,11 +7,11 @@ from math import inf, log
 from app.contrasts import LINK_WORDS
 from app.limits import ADDED, DRAGGED
 from app.mixerparts import NAMES
-from app.pupil import TERMS
 from app.quantities import QUANTITIES
 from app.scales import read_number, signed
 from app.setting import prescription, ranges
 from app.state import State
+from app.terms import TERMS
 from app.whatif import with_added
 
 RATIOS, VERGENCES = ("f_number",), ("depth_mm", "focus_mm")

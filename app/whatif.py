@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, replace
 
-from app.pupil import TERMS
 from app.state import State
+from app.terms import TERMS
 from p2sf.errors import GeometryError
 from p2sf.seidel import Coefficients
 

@@ -15,13 +15,27 @@ UNITS = "%|[kMGn]?m|[µm]m|cm|ms|s|dB|λ|kB|MiB|GiB|waves?|Wellen?|rays|Strahlen
 GAP = re.compile(rf"(?<=[\d∞]) (?=(?:{UNITS})(?![^\W_]))|(?<=[≥≤≈]) (?=[−\d])")
 
 
+_per_language: list = []
+
+
+def cached_per_language(size: int):
+    """Return `functools.lru_cache` of this size for a function of translated texts; a new language empties it."""
+
+    def decorate(function):
+        cached = lru_cache(maxsize=size)(function)
+        _per_language.append(cached)
+        return cached
+
+    return decorate
+
+
 def tr(text: str, **values) -> str:
     """Return a text in the present language, ``values`` put into its braces; English where there is no other."""
     said = _translated(text)
     return said.format(**values) if values else said
 
 
-@lru_cache(maxsize=4096)
+@cached_per_language(4096)
 def _translated(text: str) -> str:
     core = sys.modules.get("PySide6.QtCore")
     return core.QCoreApplication.translate(CONTEXT, text) if core and text else text
@@ -35,4 +49,5 @@ def unbroken(text: str) -> str:
 
 def forget() -> None:
     """Ask Qt anew from now on: the language has changed."""
-    _translated.cache_clear()
+    for cached in _per_language:
+        cached.cache_clear()

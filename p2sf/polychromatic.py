@@ -10,11 +10,11 @@ import numpy as np
 from p2sf.colour import bands, displayable, linear_rgb
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, centred_axis
 from p2sf.errors import RequestError
-from p2sf.ladder import render
 from p2sf.lens import Lens, lens_range_um
 from p2sf.psf import Psf, check_image, suitable_pixel_um
 from p2sf.pupils import Stop
 from p2sf.raytrace import pencil
+from p2sf.rungs import render
 from p2sf.seidel import coefficients
 from p2sf.source import Source
 from p2sf.spectrum import Spectrum

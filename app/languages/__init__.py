@@ -9,7 +9,6 @@ from xml.etree import ElementTree
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
-from app.ink import set_text
 from app.words import CONTEXT, forget
 
 FOLDER = Path(__file__).parent
@@ -133,4 +132,3 @@ def speak(choice: str) -> None:
         for translator in (own, Spoken(code, application)):
             application.installTranslator(translator)
     forget()
-    set_text.cache_clear()

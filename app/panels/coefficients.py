@@ -6,9 +6,9 @@ from app.card import Card
 from app.compute import Live
 from app.mixer import Mixer
 from app.mixerparts import NAMES
-from app.pupil import TERMS
 from app.scales import read_number
 from app.store import Store
+from app.terms import TERMS
 from app.theme import LIGHT, Tokens
 from app.whatif import PRESETS, SHORT_NOTE, UNTOUCHED, of_preset, toggled, with_added
 from app.words import tr

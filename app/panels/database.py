@@ -7,10 +7,10 @@ from app.card import Card, chooser
 from app.compute import Live
 from app.depthfield import PER_METRE, AtlasView, DepthFieldMap
 from app.plots import ColourBar, as_indices
-from app.pupil import WORDS
 from app.scales import nice
 from app.speech import spoken
 from app.store import Store
+from app.terms import WORDS
 from app.theme import Tokens
 from app.views.database import LOSSY, NODES, Answer, Question, answer
 from app.words import tr

@@ -9,9 +9,9 @@ from PySide6.QtGui import QColor, QPainter
 from app.card import Card, chooser
 from app.chart import Chart
 from app.compute import Live
-from app.pupil import WORDS
 from app.scales import nice, signed
 from app.store import Store
+from app.terms import WORDS
 from app.theme import Tokens
 from app.views.seidel import PerSurface
 from app.words import tr

@@ -11,8 +11,8 @@ from app import compute
 from app.comparing import answers, resampled
 from app.contrasts import contrasts
 from app.pinning import OPTICS, optics, pin, side_b, swapped, unpin, with_links
-from app.pupil import TERMS
 from app.state import State
+from app.terms import TERMS
 from app.views.mtf import contrast
 from app.views.profiles import profiles
 from p2sf.library import lenses_folder

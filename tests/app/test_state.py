@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.pupil import TERMS
 from app.state import CHOICES, LINKABLE, SCHEMA, State, read_state, state_from_json, state_to_json
+from app.terms import TERMS
 from p2sf.errors import P2SFError
 
 finite = {"allow_nan": False, "allow_infinity": False}

@@ -7,10 +7,10 @@ import pytest
 from app.limits import CHOICES, LINKABLE, PLAYABLE
 from app.link import link, state_of_link
 from app.pinning import link_toggled, pin, swapped, unpin
-from app.pupil import TERMS
 from app.state import State
 from app.store import MOST_STEPS, Store
 from app.sweep import changes, sweep
+from app.terms import TERMS
 from app.whatif import PRESETS, UNTOUCHED, of_preset, toggled
 
 

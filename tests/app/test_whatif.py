@@ -12,10 +12,10 @@ from app.focus import best_shift_um
 from app.ink import set_text
 from app.mixerparts import NUMBER, waves
 from app.panels import REGISTRY, view_of
-from app.pupil import TERMS
 from app.reference import measure
 from app.setting import setting
 from app.state import State
+from app.terms import TERMS
 from app.views.solid import scene
 from app.whatif import PRESETS, UNTOUCHED, is_altered, of_preset, toggled, with_added
 from p2sf.errors import GeometryError, SamplingError

@@ -1,0 +1,12 @@
+"""The six coefficients by name: how each is written, what it is called, its shape over the pupil. No Qt in here."""
+
+TERMS = ("w40", "w31", "w22", "w20", "wd", "w11")
+WORDS = {
+    "w40": "spherical aberration",
+    "w31": "coma",
+    "w22": "astigmatism",
+    "w20": "field curvature",
+    "wd": "defocus",
+    "w11": "distortion",
+}
+FORMULAS = {"w40": "ρ⁴", "w31": "ρ³ cos θ", "w22": "ρ² cos² θ", "w20": "ρ²", "wd": "ρ²", "w11": "ρ cos θ"}
