@@ -9,9 +9,10 @@ from typing import Literal
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import RequestError
-from p2sf.gaussian import image_distance
-from p2sf.lens import Aperture, Lens, indices, with_f_number, with_sensor
-from p2sf.pupils import (
+from p2sf.lens.lens import Aperture, Lens, indices, with_f_number, with_sensor
+from p2sf.lens.source import Source
+from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.pupils import (
     Stop,
     field_from_image_height,
     field_from_object_height,
@@ -19,7 +20,6 @@ from p2sf.pupils import (
     paraxial_rays,
     rim_radii,
 )
-from p2sf.source import Source
 
 FIELDS = ("field_deg", "object_height_mm", "image_height_mm")
 

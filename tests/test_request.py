@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from p2sf.errors import P2SFError
-from p2sf.gaussian import cardinal_points, image_distance
-from p2sf.pupils import f_number, find_stop, pupils
+from p2sf.paraxial.first_order import cardinal_points, image_distance
+from p2sf.paraxial.pupils import f_number, find_stop, pupils
+from p2sf.paraxial.seidel import coefficients
 from p2sf.request import Request, set_up
-from p2sf.seidel import coefficients
-from tests.reference import prescription_lens
+from tests.support.reference import prescription_lens
 
 ROUND_OFF = 1e-12  # a few operations in float64
 

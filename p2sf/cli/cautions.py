@@ -3,10 +3,10 @@
 from math import inf
 
 from p2sf.cli.screen import text, warn
-from p2sf.gaussian import image_distance
+from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.seidel import coefficients
+from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.request import Setup
-from p2sf.seidel import coefficients
-from p2sf.wavefront import steepest_slope
 
 STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `psf` refuses the sum
 # Measured for 64 × 64 samples: the nodes, and with them the time, grow with the square of the slope.

@@ -5,13 +5,13 @@ from pathlib import Path
 from p2sf.cli.cautions import TOO_COARSE
 from p2sf.cli.options import check_output
 from p2sf.cli.screen import heading, print_json, print_table, warn
-from p2sf.colour import chromaticity
+from p2sf.colour.colorimetry import chromaticity
+from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import RequestError
-from p2sf.export import describe
-from p2sf.export.colour_files import COLOUR_ENDINGS, write_colour_psf
-from p2sf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
+from p2sf.io.colour_files import COLOUR_ENDINGS, write_colour_psf
+from p2sf.io.record import describe
+from p2sf.psf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
 from p2sf.request import Setup
-from p2sf.spectrum import spectrum_of
 
 
 def colour(setup: Setup, spectrum: str, picture, output: Path | None, as_json: bool) -> None:

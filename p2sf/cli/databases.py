@@ -16,10 +16,10 @@ from p2sf.cli.spans import even_span, span
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import Space, depth_nodes
 from p2sf.database.render import Sampling
-from p2sf.databasefile import load_database, save_database
+from p2sf.database_files import load_database, save_database
 from p2sf.errors import ExportError, RequestError
-from p2sf.export import check_place
-from p2sf.library import find_lens
+from p2sf.files.writing import check_place
+from p2sf.lensfile.library import find_lens
 from p2sf.request import Request, set_up
 
 app = App(name="database", help="Every PSF of a lens as a file: build one, look into one.")
@@ -138,7 +138,7 @@ def build(
 def _built(setup, space: Space, kind: Kind):
     """Return the coefficients of a setup over a space."""
     if kind.method == "fitted":
-        from p2sf.fitseries import build_fitted
+        from p2sf.database.fitted_build import build_fitted
 
         return build_fitted(setup.lens, space, setup.stop)
     from p2sf.database import build_database
@@ -171,7 +171,7 @@ def _check_ending(output: Path, ending: str) -> None:
 
 def _write_stack(database, lens, output: Path, kind: Kind) -> None:
     """Fill a stack, with a line of progress on a terminal."""
-    from p2sf.stack import Watch, write_stack
+    from p2sf.database_files.stack_write import Watch, write_stack
 
     def tell(done: int, total: int, seconds_left: float) -> None:
         print(f"\r{done} of {total} chunks, {seconds_left:.0f} s left ", end="", file=sys.stderr, flush=True)
@@ -187,7 +187,7 @@ def info(file: Path, /, *, as_json: Json = False) -> None:
     """Say what a database or a stack holds, where it comes from, and how exact it is."""
     stack = None
     if file.is_dir():
-        from p2sf.stack import open_stack
+        from p2sf.database_files.stack import open_stack
 
         stack = open_stack(file)
     meta = (stack or load_database(file)).stored.meta if stack else load_database(file).meta

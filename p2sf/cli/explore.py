@@ -15,6 +15,6 @@ def explore(what: What = None, /) -> int:
     missing = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
     if missing:
         raise P2SFError(f"the explorer needs {' and '.join(missing)}, not installed here; run pip install 'p2sf[app]'")
-    from app.__main__ import main
+    from p2sf_explorer.__main__ import main
 
     return main([what] if what else [])

@@ -6,12 +6,12 @@ import numpy as np
 
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import heading, print_json, print_table, warn
-from p2sf.gaussian import abcd, cardinal_points, image_distance, magnification
-from p2sf.library import find_lens
-from p2sf.oddities import oddities
-from p2sf.pupils import f_number, numerical_aperture, paraxial_rays, pupils
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, magnification
+from p2sf.paraxial.lens_checks import oddities
+from p2sf.paraxial.pupils import f_number, numerical_aperture, paraxial_rays, pupils
+from p2sf.paraxial.seidel import Coefficients, coefficients, seidel_sums
 from p2sf.request import Setup, set_up
-from p2sf.seidel import Coefficients, coefficients, seidel_sums
 
 INFO_ROWS = (
     ("effective_focal_length", "effective focal length", "mm"),

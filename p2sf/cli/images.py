@@ -10,14 +10,14 @@ from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
 from p2sf.cli.screen import heading, print_json, print_table
+from p2sf.colour.spectrum import WORDS
 from p2sf.errors import RequestError, SamplingError
-from p2sf.export import ENDINGS, describe, write_psf
-from p2sf.export.record import facts
-from p2sf.library import find_lens
-from p2sf.measures import centroid, radius_of_energy
-from p2sf.psf import Psf
+from p2sf.io.psf_files import ENDINGS, write_psf
+from p2sf.io.record import describe, facts
+from p2sf.lensfile.library import find_lens
+from p2sf.psf.metrics import centroid, radius_of_energy
+from p2sf.psf.seidel import Psf
 from p2sf.request import Setup, set_up
-from p2sf.spectrum import WORDS
 
 MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine
 
@@ -118,15 +118,15 @@ def render(setup: Setup, picture: Picture) -> Psf:
     method = picture.method or "auto"
     if picture.seidel:
         return _from_coefficients(setup, picture)
-    from p2sf import ladder
+    from p2sf.studies import ladder
 
     grid = {"pixels": picture.pixels, "pixel_um": picture.pixel_um}
     return ladder.render(setup.lens, setup.source, method=method, tolerance=picture.tolerance, **grid)
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
-    from p2sf.psf import seidel_psf
-    from p2sf.seidel import coefficients
+    from p2sf.paraxial.seidel import coefficients
+    from p2sf.psf.seidel import seidel_psf
 
     source = setup.source
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)

@@ -2,10 +2,10 @@
 
 from p2sf.cli.options import Json
 from p2sf.cli.screen import print_json, print_table
-from p2sf.gaussian import cardinal_points
-from p2sf.lens import Lens
-from p2sf.library import find_lens, shipped_lenses
-from p2sf.pupils import f_number
+from p2sf.lens.lens import Lens
+from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.paraxial.first_order import cardinal_points
+from p2sf.paraxial.pupils import f_number
 
 
 def lenses(*, as_json: Json = False) -> None:

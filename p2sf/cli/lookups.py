@@ -5,12 +5,12 @@ from pathlib import Path
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
 from p2sf.database.render import database_psf
-from p2sf.databasefile import Stored
+from p2sf.database_files import Stored
 from p2sf.errors import RequestError
-from p2sf.export import plain
-from p2sf.psf import Psf
+from p2sf.files.writing import plain
+from p2sf.lens.source import Source
+from p2sf.psf.seidel import Psf
 from p2sf.request import Request
-from p2sf.source import Source
 
 FROM_THE_LENS = {"object_height_mm": None, "focus_mm": None, "f_number": None, "stop": "file"}
 

@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from p2sf.errors import ExportError
-from p2sf.export import check_place
+from p2sf.files.writing import check_place
 from p2sf.request import Request
 
 

@@ -11,12 +11,12 @@ from typing import Annotated, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.charts import CHARTS, draw_chart
 from p2sf.cli.options import Json, LensName, Output, Whole, check_output
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
-from p2sf.library import find_lens
-from p2sf.photos import READABLE, read_photo, write_photo
+from p2sf.image.charts import CHARTS, draw_chart
+from p2sf.io.photo_files import READABLE, read_photo, write_photo
+from p2sf.lensfile.library import find_lens
 from p2sf.scene import Plan, Scene, plan, read_scene, verify
 from p2sf.scene.table import plan_facts, plan_rows, plan_sentences
 
@@ -204,8 +204,8 @@ def _formed(glass, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.n
 
 def _sharpened(planned: Plan, formed: np.ndarray, shown: Shown) -> np.ndarray:
     """Return the picture sharpened with the kernels of the scene's far end, assuming the noise of 8 bits at least."""
-    from p2sf.deblur import richardson_lucy, wiener
     from p2sf.image import plan_lattice
+    from p2sf.image.deblur import richardson_lucy, wiener
 
     lattice = plan_lattice(planned, planned.vergences[0])
     if shown.deblur == "wiener":

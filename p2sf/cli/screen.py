@@ -4,7 +4,7 @@ import json
 import sys
 from math import isinf
 
-from p2sf.export import plain
+from p2sf.files.writing import plain
 from p2sf.request import Setup
 
 WIDE = 240  # columns of a page that no terminal limits

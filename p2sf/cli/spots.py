@@ -10,10 +10,11 @@ from cyclopts import Parameter
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
 from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.errors import RequestError
-from p2sf.export import describe, write_beside, write_json
-from p2sf.library import find_lens
-from p2sf.measures import airy_radius_um
-from p2sf.pupils import numerical_aperture
+from p2sf.files.writing import write_beside, write_json
+from p2sf.io.record import describe
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.pupils import numerical_aperture
+from p2sf.psf.metrics import airy_radius_um
 from p2sf.request import Setup, set_up
 
 MOST_RINGS = 200  # 120 601 rays
@@ -63,7 +64,7 @@ ROWS = (
 
 def trace_spot(setup: Setup, rings: int, aim: str, clip: bool) -> tuple[np.ndarray, dict]:
     """Return the arriving rays' (x, y) in µm from the chief ray, shape (rays, 2), and the spot's figures."""
-    from p2sf import raytrace
+    from p2sf.raytrace import pencil as raytrace
 
     found = raytrace.spot(setup.lens, setup.source, rings, aim, clip)
     all_points = np.stack([found.x_um, found.y_um], axis=-1)
@@ -98,7 +99,7 @@ def _write_json(points: np.ndarray, record: dict, output: Path) -> None:
 
 
 def _write_png(points: np.ndarray, record: dict, output: Path) -> None:
-    from p2sf.picture import draw_spot
+    from p2sf.io.psf_plot import draw_spot
 
     figures, setup = record["spot"], record["setup"]
     title = f"{record['lens']['title']}\nfield {setup['field_deg']:g}°, RMS radius {figures['rms_um']:.3g} µm"

@@ -9,8 +9,8 @@ from cyclopts import Parameter
 from p2sf.cli.options import Json, LensName, Output, Whole, check_output
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
-from p2sf.export import write_beside, write_json
-from p2sf.library import find_lens
+from p2sf.files.writing import write_beside, write_json
+from p2sf.lensfile.library import find_lens
 from p2sf.request import Request, set_up
 
 WRITTEN = (".json", ".csv", ".png")
@@ -38,7 +38,7 @@ def tradeoff(
     as_json: Json = False,
 ) -> None:
     """Measure every method against the exact reference: errors, numbers, rays, time and memory; .json, .csv or .png."""
-    from p2sf import ladder
+    from p2sf.studies import ladder
 
     check_output(output, WRITTEN)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
@@ -72,7 +72,7 @@ def _check(pixels: int, fields_deg, depths_mm, wavelengths_nm) -> None:
 
 
 def _write_tradeoff(output: Path, rows, lines, title: str) -> None:
-    from p2sf import ladder
+    from p2sf.studies import ladder
 
     contents = {
         ".json": lambda handle: handle.write(ladder.to_json(rows).encode()),
@@ -87,7 +87,7 @@ Folder = Annotated[Path, Parameter(["--output", "-o"], negative="", help="Folder
 
 def paper(*, folder: Folder = Path("paper"), as_json: Json = False) -> None:
     """Redo the paper's figures: stage times against refracting elements, and R² against field; PNG and JSON."""
-    from p2sf.paper import draw_accuracy, draw_timing, paper_figures
+    from p2sf.studies.paper import draw_accuracy, draw_timing, paper_figures
 
     _make(folder)
     figures = paper_figures()

@@ -9,9 +9,9 @@ from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import RULES, GridDatabase, traced_grid
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
-from p2sf.lens import Lens
-from p2sf.pupils import Stop, find_stop
-from p2sf.seidel import coefficients
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.pupils import Stop, find_stop
+from p2sf.paraxial.seidel import coefficients
 
 INTERPOLANTS = ("exact", *RULES)
 # A smooth glass needs some 20 terms over the visible; what still departs at 192 is not smooth.

@@ -5,7 +5,7 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.database.parts import KINDS
 from p2sf.database.space import Space
-from p2sf.seidel import Coefficients
+from p2sf.paraxial.seidel import Coefficients
 
 # Steps of the additive recurrence that fills a cube most evenly (Roberts 2018): powers of 1/g, g⁴ = g + 1.
 EVEN_STEPS = 1.2207440846057596 ** -np.arange(1, 4)

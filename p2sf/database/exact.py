@@ -19,9 +19,9 @@ from p2sf.conventions import vergence
 from p2sf.database.parts import Parts, assemble
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
-from p2sf.lens import Lens
-from p2sf.pupils import ParaxialRays, Stop, paraxial_rays
-from p2sf.seidel import Coefficients, seidel_sums
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
+from p2sf.paraxial.seidel import Coefficients, seidel_sums
 
 # Numbers per wavelength of each part: a polynomial's degree in s, plus one.
 LENGTHS = {

@@ -17,9 +17,9 @@ from p2sf.database.parts import KINDS, PARTS, Parts, assemble, traced_parts
 from p2sf.database.space import ROUNDING, Space
 from p2sf.database.stencil import Axis, crossed, placed, weighted
 from p2sf.errors import DatabaseError
-from p2sf.lens import Lens
-from p2sf.pupils import Stop
-from p2sf.seidel import Coefficients
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.pupils import Stop
+from p2sf.paraxial.seidel import Coefficients
 
 
 class Depth(NamedTuple):

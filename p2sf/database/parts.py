@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.lens import Lens
-from p2sf.pupils import ParaxialRays, Stop, paraxial_rays
-from p2sf.seidel import Coefficients, defocus, seidel_sums
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
+from p2sf.paraxial.seidel import Coefficients, defocus, seidel_sums
 
 KINDS = ("w40", "w31", "w22", "w20", "w11", "wd")
 

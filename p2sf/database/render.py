@@ -5,9 +5,9 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.batches import stack_of
-from p2sf.psf import Psf, check_image, check_window, seidel_psf
-from p2sf.source import Source
+from p2sf.lens.source import Source
+from p2sf.psf.seidel import Psf, check_image, check_window, seidel_psf
+from p2sf.psf.seidel_stack import stack_of
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from p2sf.image.lattice import Lattice, build_lattice
 from p2sf.image.layers import layer_weights, merged
 from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.overlap import overlap_add
-from p2sf.image.watch import Watch
+from p2sf.image.progress import Watch
 from p2sf.scene.plan import Plan
 
 METHODS = ("patches", "lowrank")

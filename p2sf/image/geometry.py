@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from p2sf.kernels import Kernels, View
+from p2sf.pixel_kernels import Kernels, View
 from p2sf.scene.sensor import Sensor
 
 VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is left out

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.image.watch import Watch
-from p2sf.kernels.nodes import nodes_along
+from p2sf.image.progress import Watch
+from p2sf.pixel_kernels.nodes import nodes_along
 
 WORKERS = 2
 # Pixels of a kernel in all channels, three of some 74²: NumPy's calls on smaller ones are so short that two threads

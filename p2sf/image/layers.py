@@ -4,7 +4,7 @@ import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.errors import RequestError
-from p2sf.kernels.nodes import hats
+from p2sf.pixel_kernels.nodes import hats
 
 THIN = 1e-6  # coverage below which nothing is known of what stands behind
 

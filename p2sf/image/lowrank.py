@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.image.lattice import Lattice, common_size
-from p2sf.image.watch import Watch
+from p2sf.image.progress import Watch
 
 TILE = 256
 

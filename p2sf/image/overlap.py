@@ -9,8 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from p2sf.image.lattice import WORKERS, Lattice
-from p2sf.image.watch import Watch
-from p2sf.kernels.nodes import hats
+from p2sf.image.progress import Watch
+from p2sf.pixel_kernels.nodes import hats
 
 
 def overlap_add(values: np.ndarray, lattice: Lattice, watch: Watch | None = None, border: int = 0) -> np.ndarray:

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from p2sf.image.form import Forming, form_image
-from p2sf.kernels import Recipe
-from p2sf.lens import Lens
+from p2sf.lens.lens import Lens
+from p2sf.pixel_kernels import Recipe
 from p2sf.scene.bounds import refuse_colours
 from p2sf.scene.cost import Cost
 from p2sf.scene.plan import Plan

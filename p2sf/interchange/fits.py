@@ -8,10 +8,10 @@ import numpy as np
 from p2sf import __version__
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import ExportError
-from p2sf.export import write_beside
-from p2sf.interchange.cube import Cube
-from p2sf.lens import Lens
-from p2sf.pupils import pupils
+from p2sf.files.writing import write_beside
+from p2sf.interchange.psf_cube import Cube
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.pupils import pupils
 
 METRES_PER_UM = 1e-6
 ARCSECONDS = 180 * 3600 / np.pi

@@ -14,14 +14,14 @@ import numpy as np
 from p2sf import __version__
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.database.render import Sampling, critical_pixel_um, rendered
-from p2sf.databasefile import Stored
+from p2sf.database_files import Stored
 from p2sf.errors import ExportError
-from p2sf.export import write_beside
-from p2sf.gaussian import cardinal_points, magnification
-from p2sf.lens import Lens
-from p2sf.pupils import f_number, working_f_number
-from p2sf.raytrace import pencil
-from p2sf.source import Source
+from p2sf.files.writing import write_beside
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.first_order import cardinal_points, magnification
+from p2sf.paraxial.pupils import f_number, working_f_number
+from p2sf.raytrace.pencil import pencil
 
 MOST_PIXELS = 128  # ISETCam's own size
 LEAST_HEIGHTS = 9  # its distortion is fitted by a polynomial of degree 8

@@ -5,8 +5,9 @@ from itertools import product
 from pathlib import Path
 
 from p2sf import __version__
-from p2sf.export import CONVENTIONS, write_beside
-from p2sf.interchange.cube import Cube
+from p2sf.files.writing import write_beside
+from p2sf.interchange.psf_cube import Cube
+from p2sf.io.record import CONVENTIONS
 
 # Row 0 is the lowest y; a reader that honours the TIFF tag turns the picture up.
 ORIENTATION = (274, "H", 1, 4, True)

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Iterable
 
-from p2sf.lens import Lens
+from p2sf.lens.lens import Lens
 from p2sf.lensfile.storage import read_text
 from p2sf.lensfile.toml import parse_toml
 

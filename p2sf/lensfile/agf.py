@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.errors import GlassError
-from p2sf.glass import checked_wavelength
-from p2sf.lensfile.agfformulas import COEFFICIENTS, DIRECT, SQUARED, refractive_index
-from p2sf.lensfile.sourcetext import LensText, number, read_source, whole
+from p2sf.glass.media import checked_wavelength
+from p2sf.lensfile.agf_formulas import COEFFICIENTS, DIRECT, SQUARED, refractive_index
+from p2sf.lensfile.source_text import LensText, number, read_source, whole
 
 F_LINE_UM, D_LINE_UM, C_LINE_UM = 0.4861327, 0.5875618, 0.6562725
 

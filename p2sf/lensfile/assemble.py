@@ -6,13 +6,13 @@ from math import inf, isfinite
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
-from p2sf.glass import AIR, Medium
-from p2sf.lens import Aperture, Lens, Surface
+from p2sf.glass.media import AIR, Medium
+from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile import conjugates
+from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.resolve import GlassSources, resolve
-from p2sf.lensfile.sourcetext import LensText
+from p2sf.lensfile.source_text import LensText
 
 HIGHEST_ORDER = 40
 MOST_SURFACES = 1000

@@ -7,7 +7,7 @@ Surfaces count from 1; the object is SO, the image SI.
 import re
 from math import inf
 
-from p2sf.lens import Lens
+from p2sf.lens.lens import Lens
 from p2sf.lensfile import codevwords as words_of
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.codevlines import (
@@ -22,10 +22,10 @@ from p2sf.lensfile.codevlines import (
     read_private,
 )
 from p2sf.lensfile.codevtext import Command, commands
+from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.resolve import GlassSources
-from p2sf.lensfile.sourcetext import LensText
+from p2sf.lensfile.source_text import LensText
 
 
 def read_codev(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:

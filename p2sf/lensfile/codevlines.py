@@ -6,12 +6,12 @@ from math import inf
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
-from p2sf.glass import Medium, measured_index
+from p2sf.glass.media import Medium, measured_index
 from p2sf.lensfile.codevtext import Command
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.sourcetext import LensText, number
+from p2sf.lensfile.source_text import LensText, number
 
 UNITS_MM = {"M": 1.0, "MM": 1.0, "C": 10.0, "CM": 10.0, "I": 25.4, "IN": 25.4, "INC": 25.4, "INCH": 25.4}
 APERTURES = {"EPD": "entrance_pupil_diameter", "FNO": "image_f_number", "NA": "image_na", "NAO": "object_na"}

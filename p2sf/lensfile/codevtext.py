@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from p2sf.lensfile.sourcetext import LensText
+from p2sf.lensfile.source_text import LensText
 
 
 @dataclass(frozen=True)

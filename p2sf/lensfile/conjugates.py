@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from math import asin, atan, degrees, hypot, inf, isfinite, radians, tan
 
 from p2sf.errors import GeometryError
-from p2sf.lens import Aperture, Lens
+from p2sf.lens.lens import Aperture, Lens
 from p2sf.lensfile.raw import RawLens
 
 # Above this a distance in a file means infinity; CODE V writes 1e13, ray-tracing programs 1e10.

@@ -10,13 +10,13 @@ from math import inf
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
-from p2sf.glass import measured_index
-from p2sf.lens import Lens
+from p2sf.glass.media import measured_index
+from p2sf.lens.lens import Lens
 from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.resolve import GlassSources
-from p2sf.lensfile.sourcetext import LensText, number
+from p2sf.lensfile.source_text import LensText, number
 
 STOP_NAMES = ("stop", "diaphragm", "aperture")
 IDENTITY = ([1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0])

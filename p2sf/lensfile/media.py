@@ -1,9 +1,9 @@
-"""Media as a lens file of this program writes them: what `p2sf.glass` knows, and glasses of AGF catalogues."""
+"""Media as a lens file of this program writes them: what `p2sf.glass.media` knows, and glasses of AGF catalogues."""
 
 from p2sf.errors import GlassError
-from p2sf.glass import Medium, parse_medium
+from p2sf.glass.media import Medium, parse_medium
 from p2sf.lensfile.agf import FormulaGlass
-from p2sf.lensfile.agfformulas import COEFFICIENTS, DIRECT, SQUARED
+from p2sf.lensfile.agf_formulas import COEFFICIENTS, DIRECT, SQUARED
 
 KEYS = {"agf_formula", "coefficients", "range_um", "name"}
 

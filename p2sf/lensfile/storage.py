@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 from p2sf.errors import LensFileError
-from p2sf.wholefile import write_whole
+from p2sf.files.atomic import write_whole
 
 LARGEST_FILE = 1_000_000  # bytes; a lens takes a few thousand
 

@@ -27,10 +27,10 @@ from pathlib import Path
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.lens import Aperture, Lens, Surface
+from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile.storage import read_text, write_text
-from p2sf.lensfile.table import Rule, Table, find_line, shown
-from p2sf.lensfile.written import lens_text
+from p2sf.lensfile.toml_table import Rule, Table, find_line, shown
+from p2sf.lensfile.toml_writer import lens_text
 
 MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
 TEXTS = ("title", "name", "character", "source", "comment")

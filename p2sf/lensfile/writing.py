@@ -7,12 +7,12 @@ from pathlib import Path
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import LensFileError
-from p2sf.glass import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
-from p2sf.lens import Lens
+from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
+from p2sf.lens.lens import Lens
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
 from p2sf.lensfile.conjugates import limiting_rim, trace
+from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
-from p2sf.lensfile.resolve import GlassSources, resolve
 from p2sf.lensfile.storage import write_text
 from p2sf.lensfile.toml import lens_to_toml
 

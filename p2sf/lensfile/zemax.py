@@ -5,14 +5,14 @@ Surface numbers are the file's: SURF 0 is the object, the last SURF the image, s
 
 from math import inf
 
-from p2sf.lens import Lens
+from p2sf.lens.lens import Lens
 from p2sf.lensfile import zemaxwords
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
+from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.resolve import GlassSources
-from p2sf.lensfile.sourcetext import LensText
+from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.zemaxlines import IN_SYSTEM, ON_SURFACE, Reading, begin_surface
 
 

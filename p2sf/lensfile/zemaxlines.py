@@ -7,7 +7,7 @@ from p2sf.lensfile import zemaxwords
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.sourcetext import LensText, number, whole
+from p2sf.lensfile.source_text import LensText, number, whole
 
 UNITS_MM = {"MM": 1.0, "CM": 10.0, "M": 1000.0, "METER": 1000.0, "METERS": 1000.0, "IN": 25.4, "INCH": 25.4}
 APERTURES = {"ENPD": "entrance_pupil_diameter", "FNUM": "f_number", "OBNA": "object_na", "FLOA": "stop_semi_diameter"}

@@ -4,8 +4,8 @@ from math import ceil, isinf
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GlassError, SamplingError
-from p2sf.kernels.pixels import LARGEST_WINDOW, samples_across
-from p2sf.lens import Lens
+from p2sf.lens.lens import Lens
+from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
 from p2sf.scene.scene import Scene, depth_of
 from p2sf.scene.study import SAMPLINGS, Study
 

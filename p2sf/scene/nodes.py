@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from p2sf.kernels.nodes import nodes_along
+from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, Study, distance, widened
 
 TRIED = (0.5, 0.5), (0.5, 0.2), (0.5, 0.8), (0.2, 0.5), (0.8, 0.5)  # down and right in a cell

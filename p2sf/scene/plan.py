@@ -8,11 +8,11 @@ from math import hypot
 
 import numpy as np
 
-from p2sf.kernels import Colour, Kernels, Recipe, View, view
-from p2sf.kernels.channel import own_pupil
-from p2sf.kernels.pupilmap import dropped_terms
-from p2sf.kernels.pupiltable import PupilTable, few_nodes, pupil_table
-from p2sf.lens import Lens
+from p2sf.lens.lens import Lens
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, View, view
+from p2sf.pixel_kernels.channel import own_pupil
+from p2sf.pixel_kernels.frequency_grid import dropped_terms
+from p2sf.pixel_kernels.pupil_table import PupilTable, few_nodes, pupil_table
 from p2sf.scene.bounds import refuse_colours, refuse_wide
 from p2sf.scene.cost import Cost, predicted_cost
 from p2sf.scene.nodes import depth_error, depth_places, field_counts, field_error, field_places

@@ -4,8 +4,8 @@ from math import ceil
 
 import numpy as np
 
-from p2sf.kernels import Recipe
-from p2sf.kernels.pixels import samples_across
+from p2sf.pixel_kernels import Recipe
+from p2sf.pixel_kernels.pixels import samples_across
 from p2sf.scene.cost import Work, pupil_seconds
 from p2sf.scene.sharing import node_heights
 from p2sf.scene.study import RUNGS, Study

@@ -5,14 +5,14 @@ from math import ceil
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, centred_axis
-from p2sf.kernels import View
-from p2sf.quadrature import disc_nodes, gauss_legendre
-from p2sf.rayfit import ray_data, steepness
-from p2sf.raytrace import pencil
-from p2sf.rendering import counts_for, pupil_amplitude
+from p2sf.lens.source import Source
+from p2sf.pixel_kernels import View
+from p2sf.psf.plane_waves import counts_for, pupil_amplitude
+from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
+from p2sf.pupil.transform import sum_plane_waves
+from p2sf.raytrace.fit import ray_data, steepness
+from p2sf.raytrace.pencil import pencil
 from p2sf.scene.scene import Channel
-from p2sf.source import Source
-from p2sf.transform import sum_plane_waves
 
 PROBE = 12, 36
 LEAST_POINTS = 4

@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
-from p2sf.lens import Lens
+from p2sf.lens.lens import Lens
 from p2sf.request import Request, set_up
 from p2sf.scene.sensor import Sensor
 

@@ -4,9 +4,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from p2sf.kernels import Kernels
-from p2sf.kernels.nodes import nodes_along
-from p2sf.kernels.pupiltable import chebyshev, pupil_table
+from p2sf.pixel_kernels import Kernels
+from p2sf.pixel_kernels.nodes import nodes_along
+from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
 from p2sf.scene.sensor import Sensor
 from p2sf.scene.study import Study, distance, least, oblique
 

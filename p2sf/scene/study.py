@@ -9,13 +9,13 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from p2sf.kernels import Colour, Kernels, Recipe, View, view
-from p2sf.kernels.pupiltable import PupilTable
-from p2sf.lens import Lens
-from p2sf.rayfit import LEVELS, fit
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.seidel import coefficients
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, View, view
+from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.raytrace.fit import LEVELS, fit
 from p2sf.scene.scene import Scene, depth_of
 from p2sf.scene.spectrum import reduced
-from p2sf.seidel import coefficients
 
 RUNGS = (("seidel", None), *(("fitted", level.numbers) for level in LEVELS))
 # Fineness and margin of `Recipe`, cheapest first.

@@ -5,7 +5,7 @@ from time import process_time
 
 import numpy as np
 
-from p2sf.kernels.nodes import hats, nodes_along
+from p2sf.pixel_kernels.nodes import hats, nodes_along
 from p2sf.scene.plan import Plan
 from p2sf.scene.reference import reference_kernel
 from p2sf.scene.study import distance, widened

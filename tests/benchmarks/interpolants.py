@@ -12,9 +12,9 @@ from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
 from p2sf.database.departure import departures, largest
 from p2sf.database.parts import KINDS
-from p2sf.library import find_lens, shipped_lenses
-from p2sf.pupils import pupils
-from p2sf.seidel import coefficients
+from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.paraxial.pupils import pupils
+from p2sf.paraxial.seidel import coefficients
 
 POINTS = 20_000
 

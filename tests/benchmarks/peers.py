@@ -13,17 +13,17 @@ from dataclasses import asdict, dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from p2sf.accuracy import r_squared
 from p2sf.conventions import slope_from_degrees
-from p2sf.huygens import huygens_psf
-from p2sf.ladder import render
-from p2sf.library import find_lens
-from p2sf.opdpath import opd_intensity
-from p2sf.psf import seidel_psf
-from p2sf.quadrature import cell_areas
-from p2sf.raytrace import opd_map
-from p2sf.seidel import coefficients
-from p2sf.source import Source
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.compare import r_squared
+from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.methods import render
+from p2sf.psf.opd_array import opd_intensity
+from p2sf.psf.seidel import seidel_psf
+from p2sf.pupil.quadrature import cell_areas
+from p2sf.raytrace.pencil import opd_map
 from tests.benchmarks.timing import timed
 
 SIZE, PIXELS = 128, 64

@@ -17,9 +17,9 @@ from time import perf_counter, process_time
 import pytest
 from threadpoolctl import threadpool_limits
 
-from app.state import State
-from app.theme import configure_plots
-from app.window import Window
+from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.shell.window import Window
+from p2sf_explorer.state.state import State
 
 FRAMES = 200
 FRAME_MS, START_S = 16.0, 2.5
@@ -92,8 +92,8 @@ from time import perf_counter
 start = perf_counter()
 from PySide6.QtWidgets import QApplication
 application = QApplication([])
-from app.theme import configure_plots
-from app.window import Window
+from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.shell.window import Window
 configure_plots()
 window = Window()
 window.show()

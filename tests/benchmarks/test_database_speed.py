@@ -16,8 +16,8 @@ from p2sf.conventions import slope_from_degrees
 from p2sf.database import INTERPOLANTS, Space, build_database, depth_nodes
 from p2sf.database.departure import scattered
 from p2sf.database.render import Sampling, rendered
-from p2sf.databasefile import database_bytes
-from p2sf.library import find_lens
+from p2sf.database_files import database_bytes
+from p2sf.lensfile.library import find_lens
 
 FIELDS = slope_from_degrees(np.linspace(0, 14, 20))
 WIDE = Space(depth_nodes(500), FIELDS, np.linspace(0.4, 0.7, 31))

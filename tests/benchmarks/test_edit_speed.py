@@ -15,9 +15,9 @@ from time import perf_counter, process_time
 import pytest
 from threadpoolctl import threadpool_limits
 
-from app.state import State
-from app.theme import configure_plots
-from app.window import Window
+from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.shell.window import Window
+from p2sf_explorer.state.state import State
 
 EDITS, EDIT_MS = 60, 30.0
 

@@ -12,11 +12,11 @@ from time import perf_counter, process_time
 
 import pytest
 
-from p2sf.charts import draw_chart
 from p2sf.image import Forming, form_image, plan_lattice, preview
+from p2sf.image.charts import draw_chart
 from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.overlap import overlap_add
-from p2sf.library import find_lens
+from p2sf.lensfile.library import find_lens
 from p2sf.scene import Scene, Sensor, plan
 
 ROWS, COLUMNS, WIDTH_UM = 832, 1248, 36000.0

@@ -12,16 +12,16 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from p2sf.accuracy import r_squared
-from p2sf.fitted import fitted_psf
-from p2sf.huygens import huygens_psf
-from p2sf.ladder import choose, render
-from p2sf.psf import suitable_pixel_um
-from p2sf.raytrace import opd_map, trace
-from p2sf.seidel import coefficients
-from p2sf.traced import traced_psf
-from tests.reference import huygens_rows
-from tests.test_raytrace import case
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.compare import r_squared
+from p2sf.psf.fitted import fitted_psf
+from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.methods import choose, render
+from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.psf.traced import traced_psf
+from p2sf.raytrace.pencil import opd_map, trace
+from tests.raytrace.test_pencil import case
+from tests.support.reference import huygens_rows
 
 ROUNDS = 200
 ROW, STORED, _ = huygens_rows("double_gauss_28")[2]

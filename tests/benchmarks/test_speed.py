@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from p2sf.accuracy import r_squared, relative_l2
-from p2sf.fastpath import wave_number
-from p2sf.lens import with_sensor
-from p2sf.library import find_lens
-from p2sf.opdpath import opd_intensity
-from p2sf.psf import plain_intensity, seidel_psf
-from p2sf.quadrature import cell_areas
-from p2sf.seidel import Coefficients, coefficients
-from p2sf.wavefront import wavefront
+from p2sf.lens.lens import with_sensor
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.seidel import Coefficients, coefficients
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.psf._seidel_sum import wave_number
+from p2sf.psf.compare import r_squared, relative_l2
+from p2sf.psf.opd_array import opd_intensity
+from p2sf.psf.seidel import plain_intensity, seidel_psf
+from p2sf.pupil.quadrature import cell_areas
 from tests.benchmarks.timing import timed
 
 LENS = find_lens("double_gauss_28")
@@ -98,7 +98,7 @@ def grid(depth_mm=None):
 
 
 def test_coefficients_of_a_grid(report):
-    """20×20×31 points; the witness's 1e-12 holds as in tests/test_seidel.py."""
+    """20×20×31 points; the witness's 1e-12 holds as in tests/paraxial/test_seidel.py."""
     axes = grid()
     report(1.5, lambda: coefficients(LENS, *axes))
 

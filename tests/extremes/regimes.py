@@ -6,10 +6,10 @@ from math import inf, pi, tan
 
 import numpy as np
 
-from p2sf.gaussian import basis_rays, cardinal_points
-from p2sf.glass import ConstantIndex
-from p2sf.lens import Aperture, Lens, Surface
-from tests.reference import prescription_lens, reference
+from p2sf.glass.media import ConstantIndex
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.paraxial.first_order import basis_rays, cardinal_points
+from tests.support.reference import prescription_lens, reference
 
 WAVELENGTH = 0.5875618
 BASES = ("double_gauss_28", "achromat_f6", "eye_navarro", "asphere")

@@ -10,10 +10,10 @@ import pytest
 from scipy.special import jv
 
 from p2sf.conventions import centred_axis
-from p2sf.quadrature import chord_rows, disc_nodes
-from p2sf.rendering import pupil_amplitude
-from p2sf.rows import sum_rows
-from p2sf.transform import matrix_dft, padded_fft, sum_plane_waves
+from p2sf.psf.plane_waves import pupil_amplitude
+from p2sf.psf.separable_sum import sum_rows
+from p2sf.pupil.quadrature import chord_rows, disc_nodes
+from p2sf.pupil.transform import matrix_dft, padded_fft, sum_plane_waves
 
 SCALE = 0.3  # cycles per µm at the rim
 AXIS = centred_axis(33, 0.4)

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, GlassError
-from p2sf.gaussian import cardinal_points, image_distance, magnification
-from p2sf.glass import TabulatedIndex
-from p2sf.lens import Aperture, Lens, Surface
-from p2sf.psf import seidel_psf
-from p2sf.pupils import (
+from p2sf.glass.media import TabulatedIndex
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.paraxial.first_order import cardinal_points, image_distance, magnification
+from p2sf.paraxial.pupils import (
     f_number,
     field_from_object_height,
     find_stop,
@@ -21,8 +20,9 @@ from p2sf.pupils import (
     stop_rim,
     working_f_number,
 )
-from p2sf.raytrace import Status, trace
-from p2sf.seidel import coefficients
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.seidel import seidel_psf
+from p2sf.raytrace.pencil import Status, trace
 from tests.extremes.regimes import WAVELENGTH, base, random_lens, simple, telescope
 
 TELESCOPES = (telescope(-40.0, 3.0), telescope(25.0, 3.0), telescope(-33.3, 0.7), telescope(41.7, 0.3))

@@ -7,15 +7,22 @@ import pytest
 
 from p2sf.conventions import centred_axis
 from p2sf.errors import GeometryError, SamplingError
-from p2sf.fastpath import intensities, wave_number
-from p2sf.lens import with_f_number
-from p2sf.psf import energy_fraction, fft_intensity, fft_samples, plain_intensity, seidel_psf, suitable_pixel_um
-from p2sf.quadrature import chord_rows, even_count, grid_rows
-from p2sf.seidel import coefficients
-from p2sf.transform import padded_fft
-from tests.extremes.settled import PROMISE, error_of, random_case
-from tests.reference import prescription_lens
-from tests.waves import NA, WAVELENGTH_UM, relative_l2, waves
+from p2sf.lens.lens import with_f_number
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf._seidel_sum import intensities, wave_number
+from p2sf.psf.seidel import (
+    energy_fraction,
+    fft_intensity,
+    fft_samples,
+    plain_intensity,
+    seidel_psf,
+    suitable_pixel_um,
+)
+from p2sf.pupil.quadrature import chord_rows, even_count, grid_rows
+from p2sf.pupil.transform import padded_fft
+from tests.long.settled_sampling import PROMISE, error_of, random_case
+from tests.support.reference import prescription_lens
+from tests.support.waves import NA, WAVELENGTH_UM, relative_l2, waves
 
 LAMBDA_NA = WAVELENGTH_UM / NA
 RANDOM = np.random.default_rng(7)
@@ -23,7 +30,7 @@ RANDOM = np.random.default_rng(7)
 
 @pytest.mark.parametrize("seed", range(50))
 def test_settled_sampling_holds_its_promise(seed):
-    """The first fifty of the two thousand cases of ``python -m tests.extremes.settled``."""
+    """The first fifty of the two thousand cases of ``python -m tests.long.settled_sampling``."""
     words, *case = random_case(seed)
     assert error_of(*case) <= PROMISE, words
 

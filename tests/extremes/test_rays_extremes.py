@@ -6,11 +6,11 @@ from mpmath import mp, mpf
 from mpmath import sqrt as root
 
 from p2sf.errors import GeometryError
-from p2sf.glass import ConstantIndex
-from p2sf.lens import Aperture, Lens, Surface
-from p2sf.raytrace import Status, displayed_opd, opd_on_sphere, pencil, trace
-from p2sf.source import Source
-from tests.reference import LENSES, prescription_lens, reference
+from p2sf.glass.media import ConstantIndex
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.source import Source
+from p2sf.raytrace.pencil import Status, displayed_opd, opd_on_sphere, pencil, trace
+from tests.support.reference import LENSES, prescription_lens, reference
 
 mp.dps = 50
 GLASS = ConstantIndex(1.5)

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError
-from p2sf.gaussian import (
+from p2sf.glass.media import TabulatedIndex
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.paraxial.first_order import (
     ROUNDING,
     SUSPICIOUS,
     abcd,
@@ -16,8 +18,6 @@ from p2sf.gaussian import (
     magnification,
     settled_angle,
 )
-from p2sf.glass import TabulatedIndex
-from p2sf.lens import Aperture, Lens, Surface
 
 POWER, GAP = (0.5, -0.25, 0.125), (3.0, -2.0, 1e9)  # the gap behind the last surface never counts
 Y, NU = (8.0, 4.0, 2.0), (2.0, 4.0)  # heights; the angles between the surfaces

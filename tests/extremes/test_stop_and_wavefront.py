@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GlassError
-from p2sf.glass import catalogue_glass
-from p2sf.lens import Aperture, Lens, Surface
-from p2sf.pupils import find_stop
-from p2sf.seidel import coefficients
-from p2sf.wavefront import wavefront
+from p2sf.glass.media import catalogue_glass
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.paraxial.pupils import find_stop
+from p2sf.paraxial.seidel import coefficients
+from p2sf.paraxial.wavefront import wavefront
 from tests.extremes import witness
 from tests.extremes.regimes import (
     WAVELENGTH,

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError
-from p2sf.gaussian import abcd, cardinal_points, image_distance, magnification
-from p2sf.pupils import f_number, pupils
-from p2sf.seidel import coefficients
+from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, magnification
+from p2sf.paraxial.pupils import f_number, pupils
+from p2sf.paraxial.seidel import coefficients
 from tests.extremes import witness
 from tests.extremes.regimes import REGIMES, Case, cases_of, system_of
 

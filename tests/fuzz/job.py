@@ -6,7 +6,7 @@ from pathlib import Path
 
 import atheris
 
-with atheris.instrument_imports(include=["p2sf", "app", "tomllib"]):
+with atheris.instrument_imports(include=["p2sf", "p2sf_explorer", "tomllib"]):
     from tests.fuzz.seeds import seeds
     from tests.fuzz.targets import LAST, TARGETS
 

@@ -13,28 +13,28 @@ from functools import cache
 
 import numpy as np
 
-from app.embedded import text_inside
-from app.lesson import parse_lesson
-from app.link import state_of_link
-from app.state import state_from_json, state_to_json
 from p2sf.cli import main
 from p2sf.database import Space, build_database
-from p2sf.databasefile.npz import MARK, database_bytes, database_from_bytes
-from p2sf.databasefile.sealed import DIGITS, SEAL, opened, sealed
+from p2sf.database_files.npz import MARK, database_bytes, database_from_bytes
+from p2sf.database_files.sealed import DIGITS, SEAL, opened, sealed
 from p2sf.errors import P2SFError
-from p2sf.export import read_psf
-from p2sf.gaussian import cardinal_points
+from p2sf.io.photo_files import read_photo
+from p2sf.io.psf_files import read_psf
 from p2sf.lensfile.agf import read_agf_text
+from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
-from p2sf.lensfile.resolve import GlassSources
-from p2sf.lensfile.sourcetext import source_of
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.source_text import source_of
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
-from p2sf.library import find_lens
-from p2sf.photos import read_photo
-from p2sf.pupils import pupils
+from p2sf.paraxial.first_order import cardinal_points
+from p2sf.paraxial.pupils import pupils
+from p2sf.paraxial.seidel import coefficients
 from p2sf.request import Request, set_up
 from p2sf.scene.files import read_scene
-from p2sf.seidel import coefficients
+from p2sf_explorer.files.embedded_state import text_inside
+from p2sf_explorer.lessons.lesson import parse_lesson
+from p2sf_explorer.state.link import state_of_link
+from p2sf_explorer.state.state import state_from_json, state_to_json
 
 LAST = "last-input"  # the file with what a fuzzing process tried last, beside its folder of inputs
 ENDINGS = (".toml", ".zmx", ".seq", ".csv", ".json", ".txt", ".dat")

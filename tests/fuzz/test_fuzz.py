@@ -10,7 +10,7 @@ import pytest
 from tests.fuzz import run
 from tests.fuzz.seeds import seeds
 from tests.fuzz.targets import LAST, SECONDS, TARGETS
-from tests.mutations import damaged
+from tests.long.damaged_files import damaged
 
 CORPUS = sorted(path for path in (Path(__file__).parent / "corpus").iterdir() if path.name[0] != ".")
 COUNT = {"command_line": 60, "lens_file": 150}

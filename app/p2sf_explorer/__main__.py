@@ -1,0 +1,72 @@
+"""Start the explorer: ``p2sf explore [LENS|STATE.json|SNAPSHOT|LINK]`` or ``python -m app``."""
+
+import sys
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.compute.setup import default_state
+from p2sf_explorer.files.opening import is_file, opened
+from p2sf_explorer.files.session import last_session
+from p2sf_explorer.shell.display import display_problem
+from p2sf_explorer.state.link import is_link, state_of_link
+from p2sf_explorer.state.state import State
+
+
+def starting_state(argv: list[str]) -> State:
+    """Return the state to open: a saved one, one from a link, a lens by name or path, or the default."""
+    if not argv:
+        return State()
+    if is_link(argv[0]):
+        return state_of_link(argv[0])
+    return opened(State(), argv[0]) if is_file(argv[0]) else default_state(argv[0])
+
+
+def main(argv: list[str]) -> int:
+    """Open the window on ``argv`` (a lens, a state, a snapshot or a link), else as it was left; return Qt's exit code.
+
+    Raises P2SFError when it cannot open.
+    """
+    problem = display_problem()
+    if problem:
+        raise P2SFError(problem)
+    state, geometry = (starting_state(argv), {}) if argv else last_session()
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(limits=1):  # two BLAS threads double these small products
+        return _open(state, geometry)
+
+
+def run(argv: list[str]) -> int:
+    """Do what `main` does, but say a refusal in one sentence and return 2."""
+    try:
+        return main(argv)
+    except P2SFError as error:
+        print(f"Error: {error}", file=sys.stderr)
+        return 2
+
+
+def _open(state: State, geometry: dict[str, str]) -> int:
+    from PySide6.QtWidgets import QApplication
+
+    from p2sf_explorer.charts.theme import configure_plots
+    from p2sf_explorer.files.session_keeper import Keeping
+    from p2sf_explorer.shell.language_switch import Speaking
+    from p2sf_explorer.shell.window import Window
+
+    application = QApplication.instance() or QApplication(sys.argv[:1])
+    application.setApplicationName("P2SF Explorer")
+    application.setStyle("Fusion")
+    configure_plots()
+
+    def made(state: State) -> Window:
+        window = Window(state)
+        Keeping(window, geometry)
+        window.teaching.offer_once()
+        return window
+
+    speaking = Speaking(state, made, application)
+    speaking.window.show()
+    return application.exec()
+
+
+if __name__ == "__main__":
+    sys.exit(run(sys.argv[1:]))

@@ -1,0 +1,1 @@
+"""Charts and what paints them: axes, curves, heat maps, colours, text."""

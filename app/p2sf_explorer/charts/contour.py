@@ -1,0 +1,51 @@
+"""A wavefront as contours: bands of equal height with lines between them, on finer samples. No Qt in here."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf_explorer.state.scales import nice
+
+FINER = 3
+BANDS = 12  # at most, between the highest and the lowest wave
+
+
+def interval(peak_to_valley: float) -> float:
+    """Return the round step between two lines, waves; a hundredth at least."""
+    return nice(max(peak_to_valley / BANDS, 0.01)) if peak_to_valley > 0 else 0.01
+
+
+def contours(waves: np.ndarray, step: float) -> np.ndarray:
+    """Return the middle of each sample's band, NaN on the lines between bands and where there is no wavefront.
+
+    ``waves``: (n, n), NaN outside the pupil; the result is `FINER` times as fine, straight lines between samples.
+    """
+    fine = finer(waves)
+    band = np.floor(fine / step)
+    shown = (band + 0.5) * step
+    known = np.isfinite(fine)
+    every, later, earlier = slice(None), slice(1, None), slice(None, -1)
+    for last, first in (((later, every), (earlier, every)), ((every, later), (every, earlier))):
+        line = known[last] & known[first] & (band[last] != band[first])
+        shown[last][line] = np.nan
+    return shown
+
+
+def finer(waves: np.ndarray) -> np.ndarray:
+    """Return the map on finer samples, inside the unit disc and where samples are known nearby."""
+    matrix = _between(len(waves))
+    known = np.isfinite(waves)
+    weight = matrix @ known @ matrix.T
+    found = np.divide(matrix @ np.where(known, waves, 0.0) @ matrix.T, weight, out=weight * np.nan, where=weight > 0)
+    axis = (np.arange(len(matrix)) + 0.5) * 2 / len(matrix) - 1
+    return np.where(axis**2 + axis[:, None] ** 2 <= 1, found, np.nan)
+
+
+@lru_cache(maxsize=4)
+def _between(count: int) -> np.ndarray:
+    """Return the linear interpolation between cell centres, (FINER·count, count)."""
+    place = np.clip((np.arange(FINER * count) + 0.5) / FINER - 0.5, 0, count - 1)
+    left = np.minimum(place.astype(int), count - 2)
+    matrix, rows = np.zeros((FINER * count, count)), np.arange(FINER * count)
+    matrix[rows, left], matrix[rows, left + 1] = left + 1 - place, place - left
+    return matrix

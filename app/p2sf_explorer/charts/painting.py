@@ -1,0 +1,119 @@
+"""Words and lines on a QPainter, prepared once where they can be."""
+
+import re
+from functools import lru_cache
+
+import numpy as np
+from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText, QTransform
+
+from p2sf_explorer.i18n.tr import cached_per_language, tr
+
+FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
+SHORT, LONG = 5, 24  # letters
+DIGIT = re.compile(r"\d")
+
+
+@lru_cache(maxsize=8)
+def small_font(size: int = 11) -> QFont:
+    """Return the font of ticks and labels; one for everybody, so it is not to be changed."""
+    font = QFont()
+    font.setPixelSize(size)
+    return font
+
+
+@lru_cache(maxsize=8)
+def metrics(size: int = 11) -> QFontMetricsF:
+    """Return the measures of `small_font`."""
+    return QFontMetricsF(small_font(size))
+
+
+@lru_cache(maxsize=256)
+def pen(colour: str, alpha: int = 255, width: float = 1.0) -> QPen:
+    """Return a pen of a colour such as #3366cc; one for everybody, so it is not to be changed."""
+    ink = QColor(colour)
+    ink.setAlpha(alpha)
+    return QPen(ink, width)
+
+
+@cached_per_language(1024)
+def set_text(words: str, size: int = 11) -> QStaticText:
+    """Return words laid out once: most of them stand on every frame, and laying out is two thirds of painting."""
+    text = QStaticText(tr(words))
+    text.setTextFormat(Qt.TextFormat.PlainText)
+    text.prepare(QTransform(), small_font(size))
+    return text
+
+
+@lru_cache(maxsize=1024)
+def is_passing(words: str) -> bool:
+    """Return whether words are likely others on the next frame: a number, unless as short as an axis's."""
+    return len(words) > SHORT and DIGIT.search(words) is not None
+
+
+def width_of(words: str, size: int = 11) -> float:
+    """Return how wide words are, in pixels."""
+    return number_width(tr(words), size) if is_passing(words) else set_text(words, size).size().width()
+
+
+@lru_cache(maxsize=1024)
+def number_width(said: str, size: int) -> float:
+    """Return how wide a text with a number is, which is another on the next frame: letter by letter while it is short.
+
+    From `LONG` on Qt measures faster.
+    """
+    if len(said) > LONG:
+        return metrics(size).horizontalAdvance(said)
+    return sum([letter_width(letter, size) for letter in said])
+
+
+@lru_cache(maxsize=512)
+def letter_width(letter: str, size: int) -> float:
+    """Return how wide one letter is, in pixels."""
+    return metrics(size).horizontalAdvance(letter)
+
+
+def fitting(words: str, room: float, size: int = 11) -> str:
+    """Return a text as far as it fits: without what stands in brackets, else cut off."""
+    for text in (words, words.partition(" (")[0]):
+        if width_of(text, size) <= room:
+            return text
+    return metrics(size).elidedText(text, Qt.TextElideMode.ElideRight, room)
+
+
+def write(painter: QPainter, room: QRectF, words: str, side: int = 0, size: int = 11) -> None:
+    """Paint words in the middle of a room's height, at its left (side −1), middle (0) or right end (1).
+
+    A number is another on the next frame: laying it out to be kept costs twice what painting it does.
+    """
+    left = room.left() + (side + 1) / 2 * (room.width() - width_of(words, size)) if side >= 0 else room.left()
+    painter.setFont(small_font(size))
+    if is_passing(words):
+        measures = metrics(size)
+        base = room.center().y() - measures.height() / 2 + measures.ascent()
+        painter.drawText(QPointF(left, base), tr(words))
+    else:
+        text = set_text(words, size)
+        painter.drawStaticText(QPointF(left, room.center().y() - text.size().height() / 2), text)
+
+
+def polylines(x: np.ndarray, y: np.ndarray):
+    """Yield the unbroken parts of a line in pixels."""
+    if all(np.abs(part).max(initial=0.0) <= FARTHEST_PX for part in (x, y)):  # which no NaN is
+        yield polygon(x, y)
+        return
+    x, y = np.clip(x, -FARTHEST_PX, FARTHEST_PX), np.clip(y, -FARTHEST_PX, FARTHEST_PX)
+    start = 0
+    for end in (*np.flatnonzero(np.isnan(x + y)).tolist(), len(x)):
+        if end > start:
+            yield polygon(x[start:end], y[start:end])
+        start = end + 1
+
+
+def polygon(x: np.ndarray, y: np.ndarray) -> QPolygonF:
+    """Return points as Qt wants them, copied as one block: point by point takes ten times as long."""
+    made = create_qpolygonf(len(x))
+    points = ndarray_from_qpolygonf(made)
+    points[:, 0], points[:, 1] = x, y
+    return made

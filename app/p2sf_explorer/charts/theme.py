@@ -1,0 +1,225 @@
+"""Colours and shapes of the window, light and dark, as named tokens."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QGuiApplication, QPalette
+
+# Colours of brightness, told apart with every kind of colour blindness (tests/explorer/charts/test_theme.py).
+BRIGHTNESS = {"standard": "inferno", "viridis": "viridis", "cividis": "cividis", "grey": "CET-L1"}
+DONE = "#66"  # how opaque the done part of a bar is, AARRGGBB: per cent are read on either part
+SPACE = 8  # every gap of the window is this, or half or twice this, in pixels
+
+
+@dataclass(frozen=True)
+class Tokens:
+    """The colours of one theme; the data colours are Okabe and Ito's (2008), told apart by colour-blind eyes."""
+
+    dark: bool
+    window: str
+    card: str
+    raised: str
+    line: str
+    text: str
+    muted: str
+    faint: str
+    accent: str
+    accent_text: str
+    warning: str
+    warning_back: str
+    glass: str
+    glass_edge: str
+    marginal: str
+    chief: str
+    positive: str
+    negative: str
+    third: str
+    mark: str
+    brightness: str = BRIGHTNESS["standard"]
+
+
+LIGHT = Tokens(
+    dark=False,
+    window="#eef0f3",
+    card="#ffffff",
+    raised="#f6f7f9",
+    line="#d5d9e0",
+    text="#1b2430",
+    muted="#5a6675",
+    faint="#e4e8ed",
+    accent="#0b63b5",
+    accent_text="#ffffff",
+    warning="#7a4b00",
+    warning_back="#fdf1d8",
+    glass="#8fb8dc",
+    glass_edge="#4d7ba6",
+    marginal="#0072b2",
+    chief="#d55e00",
+    positive="#0072b2",
+    negative="#d55e00",
+    third="#009e73",
+    mark="#5a6675",
+)
+DARK = Tokens(
+    dark=True,
+    window="#14181e",
+    card="#1c222a",
+    raised="#262d37",
+    line="#343d49",
+    text="#e6ebf1",
+    muted="#9aa7b6",
+    faint="#2a323d",
+    accent="#5aa9f0",
+    accent_text="#0c1218",
+    warning="#f5cf86",
+    warning_back="#3a2f18",
+    glass="#5f8fbd",
+    glass_edge="#8fb8dc",
+    marginal="#56b4e9",
+    chief="#f0883e",
+    positive="#56b4e9",
+    negative="#f0883e",
+    third="#f0e442",
+    mark="#9aa7b6",
+)
+
+
+def tokens(choice: str, colours: str = "standard") -> Tokens:
+    """Return the tokens of "light", "dark" or "system", with the heat maps' colours by their State name."""
+    return _with_colours(_theme(choice), colours)
+
+
+@lru_cache(maxsize=8)
+def _with_colours(theme: Tokens, colours: str) -> Tokens:
+    return replace(theme, brightness=BRIGHTNESS[colours])
+
+
+def _theme(choice: str) -> Tokens:
+    if choice == "system":
+        return DARK if system_scheme() == Qt.ColorScheme.Dark else LIGHT
+    return DARK if choice == "dark" else LIGHT
+
+
+def system_scheme() -> Qt.ColorScheme:
+    """Return whether the system is light or dark just now."""
+    return QGuiApplication.styleHints().colorScheme()
+
+
+def configure_plots() -> None:
+    """Set what every plot has in common; call once before the first plot is made."""
+    pg.setConfigOptions(imageAxisOrder="row-major", antialias=True, background=None)
+
+
+def palette(theme: Tokens) -> QPalette:
+    """Return the palette for Qt's own widgets."""
+    roles = QPalette.ColorRole
+    colours = {
+        roles.Window: theme.window,
+        roles.WindowText: theme.text,
+        roles.Base: theme.card,
+        roles.AlternateBase: theme.raised,
+        roles.Text: theme.text,
+        roles.Button: theme.raised,
+        roles.ButtonText: theme.text,
+        roles.Highlight: theme.accent,
+        roles.HighlightedText: theme.accent_text,
+        roles.ToolTipBase: theme.raised,
+        roles.ToolTipText: theme.text,
+        roles.PlaceholderText: theme.muted,
+        roles.Mid: theme.line,
+    }
+    made = QPalette()
+    for role, colour in colours.items():
+        made.setColor(role, QColor(colour))
+    for role in (roles.WindowText, roles.Text, roles.ButtonText):
+        made.setColor(QPalette.ColorGroup.Disabled, role, QColor(theme.muted))
+    return made
+
+
+def stylesheet(theme: Tokens) -> str:
+    """Return the style sheet of the window."""
+    return _grounds(theme) + _inputs(theme) + _lists(theme)
+
+
+def _grounds(t: Tokens) -> str:
+    """Return the look of cards, labels and the banner."""
+    return f"""
+    QWidget {{ color: {t.text}; font-size: 13px; }}
+    QMainWindow, QWidget#window {{ background: {t.window}; }}
+    QFrame#card, QWidget#controls, QFrame#bar {{
+        background: {t.card}; border: 1px solid {t.line}; border-radius: 6px; }}
+    QLabel {{ background: transparent; border: none; }}
+    QLabel#title {{ font-weight: 600; }}
+    QLabel#muted, QLabel#readout {{ color: {t.muted}; font-size: 12px; }}
+    QLabel#fact {{ font-size: 12px; }}
+    QLabel#task {{ background: {t.faint}; border-radius: 5px; padding: 7px 9px; }}
+    QWidget#page {{ background: transparent; }}
+    QWidget[pointed="true"] QLabel {{ color: {t.accent}; font-weight: 600; }}
+    QLabel#sentence {{ font-size: 13px; font-weight: 600; }}
+    QLabel#badge {{ background: {t.faint}; color: {t.text}; border-radius: 4px; padding: 2px 7px; font-size: 12px; }}
+    QLabel#badge[stale="true"] {{ color: {t.muted}; }}
+    QLabel#warning {{ color: {t.warning}; font-size: 12px; }}
+    QFrame#banner {{ background: {t.warning_back}; border: 1px solid {t.warning}; border-radius: 6px; }}
+    QFrame#banner QLabel {{ color: {t.warning}; }}
+    QCheckBox {{ border: 1px solid transparent; border-radius: 4px; padding: 1px 3px; }}
+    QCheckBox::indicator {{ width: 12px; height: 12px; background: {t.raised};
+        border: 1px solid {t.muted}; border-radius: 3px; }}
+    QCheckBox::indicator:checked {{ background: {t.accent}; border: 1px solid {t.accent}; }}
+    QCheckBox:focus {{ border: 1px solid {t.accent}; }}
+    QScrollBar:vertical {{ background: transparent; width: 10px; }}
+    QScrollBar::handle:vertical {{ background: {t.line}; border-radius: 4px; min-height: 24px; }}
+    QScrollBar::add-line, QScrollBar::sub-line {{ height: 0; }}
+    """
+
+
+def _inputs(t: Tokens) -> str:
+    """Return the look of what is clicked, chosen and typed into."""
+    return f"""
+    QLineEdit, QComboBox, QPushButton, QToolButton {{
+        background: {t.raised}; border: 1px solid {t.line}; border-radius: 5px; padding: 3px 8px; min-height: 20px; }}
+    QComboBox#small {{ padding: 1px 6px; font-size: 12px; min-height: 18px; }}
+    QLineEdit#value {{ padding: 1px 6px; min-height: 18px; }}
+    QLineEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus {{ border: 1px solid {t.accent}; }}
+    QPushButton:hover, QToolButton:hover, QComboBox:hover {{ border: 1px solid {t.muted}; }}
+    QPushButton:disabled, QToolButton:disabled {{ color: {t.muted}; background: {t.card}; }}
+    QPushButton#small, QToolButton#small {{ padding: 1px 7px; font-size: 12px; min-height: 18px; }}
+    QPushButton#group {{ padding: 1px 9px; font-size: 12px; min-height: 17px; background: transparent;
+        border: 1px solid transparent; color: {t.muted}; }}
+    QPushButton#group:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}
+    QPushButton#group:hover, QPushButton#group:focus {{ border: 1px solid {t.accent}; }}
+    QToolButton#small:checked {{ background: {t.accent}; color: {t.accent_text}; border: 1px solid {t.accent}; }}
+    QToolButton#flat {{ background: transparent; border: 1px solid transparent; padding: 0; min-height: 18px;
+        font-size: 11px; color: {t.muted}; }}
+    QToolButton#flat:hover, QToolButton#flat:focus {{ border: 1px solid {t.accent}; color: {t.text}; }}
+    QProgressBar {{ background: {t.faint}; border: none; border-radius: 4px; max-height: 14px; text-align: center;
+        font-size: 11px; color: {t.text}; }}
+    QProgressBar::chunk {{ background: {DONE + t.accent[1:]}; border-radius: 4px; }}
+    QToolButton::menu-indicator {{ image: none; width: 0; }}
+    QComboBox {{ padding-right: 20px; }}
+    QComboBox#small {{ padding-right: 18px; }}
+    QComboBox::drop-down {{ border: none; width: 0; }}
+    QComboBox::down-arrow {{ image: none; }}
+    QComboBox QAbstractItemView {{ background: {t.card}; border: 1px solid {t.line};
+        selection-background-color: {t.accent}; selection-color: {t.accent_text}; outline: none; }}
+    """
+
+
+def _lists(t: Tokens) -> str:
+    """Return the look of menus, tabs and tips."""
+    return f"""
+    QMenu {{ background: {t.card}; border: 1px solid {t.line}; padding: 4px; }}
+    QMenu::item {{ padding: 4px 20px 4px 12px; border-radius: 4px; }}
+    QMenu::item:selected {{ background: {t.accent}; color: {t.accent_text}; }}
+    QTabWidget::pane {{ border: none; }}
+    QTabWidget::tab-bar {{ left: 4px; }}
+    QTabBar {{ background: transparent; qproperty-drawBase: 0; }}
+    QTabBar QToolButton {{ padding: 0; min-height: 0; border-radius: 3px; }}
+    QTabBar::tear {{ width: 0; }}
+    QTabBar::tab {{ padding: 4px 12px; color: {t.muted}; border: none; border-bottom: 2px solid transparent; }}
+    QTabBar::tab:selected {{ color: {t.text}; border-bottom: 2px solid {t.accent}; }}
+    QTabBar::tab:focus {{ color: {t.accent}; }}
+    QToolTip {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line}; padding: 4px; }}
+    QSplitter::handle {{ background: transparent; }}
+    """

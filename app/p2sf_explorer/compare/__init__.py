@@ -1,0 +1,1 @@
+"""Two setups A and B: what differs, A − B, and the bar that chooses what is shown."""

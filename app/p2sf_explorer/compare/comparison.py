@@ -1,0 +1,137 @@
+"""A and B side by side: both answers over one window, and what differs between them. No Qt in here."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from time import perf_counter
+
+import numpy as np
+
+from p2sf_explorer.compare.differences import WHY, subtracted
+from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.deferred_sums import Asked, Done
+from p2sf_explorer.compute.live import Live, View
+from p2sf_explorer.compute.pupil import PupilMap, pupil_map
+from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.state.pinning import side_b
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.terms import TERMS
+
+DIFFERENCE = "A − B"
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A − B: the PSFs (each of unit sum) over the larger peak, the wavefronts, the six coefficients in waves.
+
+    ``why``: by panel, a sentence on why it shows A in place of a difference.
+    """
+
+    psf: np.ndarray
+    pupil: PupilMap
+    coefficients: Mapping[str, float]
+    why: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Answers:
+    """A's answer, B's, and the one that is on screen; B is None while nothing is pinned."""
+
+    a: Live
+    b: Live | None
+    seen: Live
+
+    @property
+    def owed(self) -> Asked | None:
+        """Return the sum of waves that A's picture stands in for, else B's."""
+        return self.a.owed or (self.b and self.b.owed)
+
+
+def answers(
+    state: State, quality: str, views: Mapping[str, View], last: Answers | None = None, done: Done | None = None
+) -> Answers:
+    """Return the answers for a state. While a slider moves, ``last`` tells which rung ``auto`` had chosen for each.
+
+    ``done`` as for `compute.live`.
+
+    Raises P2SFError where there is no answer.
+    """
+    moving = quality == "preview"
+    if not state.pinned:
+        a = compute.live(state, quality, views, held(last.a if last and moving else None, state), done=done)
+        return Answers(a, None, a)
+    begun, other = perf_counter(), side_b(state)
+    a = compute.live(state, quality, {}, held(last.a if last and moving else None, state), done=done)
+    asks = _Asks(
+        quality, held(last.b if last and moving else None, other), width_um(a), done, done.version if done else 0
+    )
+    b = _b(other, asks, prescription(other))
+    if width_um(b) > width_um(a) * (1 + 1e-9):
+        a = compute.live(state, quality, {}, a.rung if state.method == "auto" else "", width_um(b), done)
+    return Answers(a, b, seen(state, a, b, views, begun))
+
+
+@dataclass(frozen=True)
+class _Asks:
+    """What B's answer depends on beside its state; ``version`` is that of ``done``."""
+
+    quality: str
+    kept: str
+    at_least_um: float
+    done: Done | None
+    version: int
+
+
+@lru_cache(maxsize=4)
+def _b(state: State, asks: _Asks, lens) -> Live:
+    """Return B's answer; it stands still while only A moves. ``lens`` tells of a file that has changed."""
+    return compute.live(state, asks.quality, {}, asks.kept, asks.at_least_um, asks.done)
+
+
+def held(last: Live | None, state: State) -> str:
+    """Return the rung that ``auto`` had chosen in the last answer, if it is still in charge."""
+    return last.rung if last and state.method == "auto" and not last.setting.altered else ""
+
+
+def width_um(live: Live) -> float:
+    """Return the width of an answer's window, µm."""
+    return live.psf.values.shape[-1] * live.psf.pixel_um
+
+
+def seen(state: State, a: Live, b: Live, views: Mapping[str, View], begun: float) -> Live:
+    """Return the answer on screen, its views computed."""
+    chosen = compute.with_views(b if state.shown == "b" else a, views, begun)
+    if state.shown != "difference":
+        return replace(chosen, side=state.shown.upper())
+    found = {name: subtracted(name, chosen.views[name], compute.attempted(view, b)) for name, view in views.items()}
+    why = WHY | {name: sentence for name, (_, sentence) in found.items() if sentence}
+    made = replace(difference(a, b), why=why)
+    return replace(chosen, views={name: view for name, (view, _) in found.items()}, side=DIFFERENCE, difference=made)
+
+
+def difference(a: Live, b: Live) -> Difference:
+    """Return what differs; B's wavefront on A's samples, straight lines between its own."""
+    peak = max(float(a.psf.values.max()), float(b.psf.values.max())) or 1.0
+    pupil = a.pupil.waves - resampled(b.pupil.waves, a.pupil.waves.shape[0])
+    six = {name: float(getattr(a.setting.coefficients, name) - getattr(b.setting.coefficients, name)) for name in TERMS}
+    return Difference((a.psf.values - b.psf.values) / peak, pupil_map(pupil, np.isfinite(pupil), DIFFERENCE), six)
+
+
+def resampled(values: np.ndarray, count: int) -> np.ndarray:
+    """Return a square map over the pupil at another number of samples; NaN where a neighbour is."""
+    if values.shape[0] == count:
+        return values
+    matrix = _between(values.shape[0], count)
+    empty = np.isnan(values)
+    found = matrix @ np.where(empty, 0.0, values) @ matrix.T
+    return np.where(matrix @ empty @ matrix.T > 0, np.nan, found)
+
+
+@lru_cache(maxsize=8)
+def _between(known: int, wanted: int) -> np.ndarray:
+    """Return the linear interpolation between the cell centres of two grids over one length, (wanted, known)."""
+    place = np.clip((np.arange(wanted) + 0.5) * known / wanted - 0.5, 0, known - 1)
+    left = np.minimum(place.astype(int), known - 2)
+    matrix, rows = np.zeros((wanted, known)), np.arange(wanted)
+    matrix[rows, left], matrix[rows, left + 1] = left + 1 - place, place - left
+    return matrix

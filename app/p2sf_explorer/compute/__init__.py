@@ -1,0 +1,1 @@
+"""From a state to everything the main panels show. No Qt."""

@@ -1,0 +1,50 @@
+"""Autofocus: the sensor shift at which the wavefront's RMS is smallest. No Qt in here."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.raytrace.pencil import displayed_opd
+from p2sf_explorer.compute.setup import Setting, setting
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.what_if import check_focusable, is_altered
+
+STEPS = 3  # the reference sphere turns a little with the sensor, so the projection is repeated
+
+
+def best_shift_um(state: State) -> float:
+    """Return the sensor shift of smallest RMS wavefront, µm: of W for seidel, of exact rays for every other method.
+
+    Raises GeometryError where no shift can focus: the image is at infinity, or the what-if sets Wd aside.
+    """
+    check_focusable(state)
+    by_coefficients = state.method == "seidel" or is_altered(state)
+    for _ in range(1 if by_coefficients else STEPS):
+        set_up = setting(state)
+        focus = seidel_focus(set_up.coefficients) if by_coefficients else traced_focus(set_up)
+        na = float(set_up.coefficients.na)
+        if not na:
+            raise GeometryError("the image is at infinity, so no sensor position is in focus; move the source")
+        index = float(set_up.coefficients.image_index)
+        shift = -focus * 2 * index * set_up.source.wavelength_um / na**2  # Wd = NA²Δz/(2n′λ)
+        state = replace(state, sensor_shift_um=state.sensor_shift_um + shift)
+    return round(state.sensor_shift_um, 3)
+
+
+def seidel_focus(c: Coefficients) -> float:
+    """Return the focus in W about which the variance splits: W40 + W20 + Wd + W22/2 (Mahajan 1991, table 2-1)."""
+    return float(c.w40 + c.w20 + c.wd + c.w22 / 2)
+
+
+def traced_focus(set_up: Setting) -> float:
+    """Return the ρ² part of the exact wavefront, tilt and piston set aside, in waves: its projection on 2ρ² − 1."""
+    nodes = disc_nodes(8, 16)
+    waves = displayed_opd(set_up.lens, set_up.source, nodes.xi, nodes.eta, stop=set_up.stop)
+    kept = np.isfinite(waves)
+    zernike = 2 * (nodes.xi**2 + nodes.eta**2) - 1
+    weight = nodes.weight * kept
+    share = (weight * zernike * np.where(kept, waves, 0.0)).sum() / (weight * zernike**2).sum()
+    return 2 * float(share)

@@ -1,0 +1,152 @@
+"""A lens edited surface by surface, each edit a new lens. No Qt in here."""
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from math import inf, isfinite
+
+from p2sf.errors import GeometryError, P2SFError
+from p2sf.glass.media import AIR, Medium, model_glass, parse_medium
+from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number
+from p2sf.lensfile.toml import lens_to_toml
+from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
+from p2sf_explorer.compute.setup import load, setting
+from p2sf_explorer.state.scales import INFINITE, MM_PER_UNIT, read_number
+from p2sf_explorer.state.state import State
+
+MODEL = re.compile(r"nd\s*=?\s*([\d.]+)[,\s]+vd\s*=?\s*([\d.]+)", re.IGNORECASE)
+
+
+def edited_state(state: State, lens: Lens) -> State:
+    """Return the state with this lens in place of its own, unedited if it is as its file has it.
+
+    Raises P2SFError where the lens has no picture at the state's source, so that a bad edit never becomes a state.
+    """
+    made = replace(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
+    setting(made)
+    return made
+
+
+def _as_filed(state: State, lens: Lens) -> bool:
+    try:
+        return load(state.lens) == lens
+    except P2SFError:  # the file is gone or broken; the edited lens stands for itself
+        return False
+
+
+def with_value(lens: Lens, number: int, column: str, text: str) -> Lens:
+    """Return the lens with one entry of surface ``number`` (from 1) as a person typed it; P2SFError names the surface.
+
+    ``column`` is a field of `Surface`: radius, thickness, medium, semi_diameter, conic or aspheric.
+    """
+    before = lens.surfaces[number - 1]
+    try:
+        after = replace(before, **{column: READERS[column](text)})
+    except P2SFError as error:
+        where = f"surface {number}"
+        raise type(error)(str(error) if where in str(error) else f"{where}: {error}") from None
+    changed = replace(lens, surfaces=(*lens.surfaces[: number - 1], after, *lens.surfaces[number:]))
+    return _opened_to(changed, number, after) if column == "semi_diameter" else changed
+
+
+def _opened_to(lens: Lens, number: int, surface: Surface) -> Lens:
+    """Return the lens whose aperture follows its stop's rim, where the aperture is stated as that rim."""
+    if number != lens.stop_surface or lens.aperture.kind != "stop_semi_diameter" or not isfinite(surface.semi_diameter):
+        return lens
+    return replace(lens, aperture=Aperture("stop_semi_diameter", surface.semi_diameter))
+
+
+def read_length(text: str, words: str) -> float:
+    """Return a length in mm as a person typed it, ∞ allowed; P2SFError otherwise."""
+    plain = text.strip().lower()
+    if plain in (*INFINITE, "plane", ""):
+        return inf
+    return -inf if plain in ("−∞", "-∞", "-inf") else read_number(text, words, MM_PER_UNIT)
+
+
+def read_medium(text: str) -> Medium:
+    """Return the medium a person typed: a glass, "air", an index, or "nd 1.5168 vd 64.17"; GlassError."""
+    numbers = MODEL.fullmatch(text.strip())
+    if not numbers:
+        return parse_medium(text)
+    nd, vd = (read_number(x, "glass's nd or vd") for x in numbers.groups())
+    return model_glass(nd, vd)
+
+
+def read_aspheric(text: str) -> tuple[float, ...]:
+    """Return A4, A6, … typed with spaces between them; P2SFError otherwise."""
+    return tuple(read_number(word, "aspheric coefficient") for word in text.replace(";", " ").split())
+
+
+READERS: dict[str, Callable[[str], object]] = {
+    "radius": lambda text: read_length(text, "radius"),
+    "thickness": lambda text: read_number(text, "thickness", MM_PER_UNIT),
+    "medium": read_medium,
+    "semi_diameter": lambda text: read_length(text, "semi-diameter"),
+    "conic": lambda text: read_number(text, "conic constant"),
+    "aspheric": read_aspheric,
+}
+
+
+def check_surface(lens: Lens, number: int) -> None:
+    """Raise GeometryError for a surface that a lens lacks: a table keeps the last lens that had a picture."""
+    if not 1 <= number <= len(lens.surfaces):
+        raise GeometryError(f"there is no surface {number} in a lens of {len(lens.surfaces)}; choose its row again")
+
+
+def with_stop(lens: Lens, number: int) -> Lens:
+    """Return the lens with its stop on surface ``number``, as fast as it was: the f-number stays, the rim follows.
+
+    Where there is no f-number to keep, the new stop is open to its own rim, and GeometryError if it has none.
+    """
+    moved = replace(lens, stop_surface=number)
+    if lens.aperture.kind != "stop_semi_diameter" or number == lens.stop_surface:
+        return moved
+    speed = float(f_number(lens, lens.reference_wavelength_um, find_stop(lens)))
+    rim = stop_rim(with_f_number(moved, speed)) if isfinite(speed) else lens.surfaces[number - 1].semi_diameter
+    if not isfinite(rim):
+        raise GeometryError(f"surface {number} has no rim to be the stop; give it a semi-diameter first")
+    return replace(moved, aperture=Aperture("stop_semi_diameter", rim))
+
+
+def inserted(lens: Lens, number: int) -> Lens:
+    """Return the lens with a plane in the middle of what follows surface ``number``: the same lens until edited."""
+    before = lens.surfaces[number - 1]
+    half = before.thickness / 2
+    plane = Surface(thickness=half, medium=before.medium)
+    surfaces = (*lens.surfaces[: number - 1], replace(before, thickness=half), plane, *lens.surfaces[number:])
+    stop = lens.stop_surface
+    return replace(lens, surfaces=surfaces, stop_surface=stop + 1 if stop and stop > number else stop)
+
+
+def deleted(lens: Lens, number: int) -> Lens:
+    """Return the lens without surface ``number``; all others stay where they are. GeometryError for stop and last one.
+
+    The medium before the surface reaches on to the next one.
+    """
+    stop, before = lens.stop_surface, lens.surfaces[: number - 1]
+    if len(lens.surfaces) == 1:
+        raise GeometryError("a lens needs at least one surface; insert another before deleting this one")
+    if stop == number:
+        raise GeometryError(f"surface {number} is the stop; put the stop on another surface before deleting it")
+    if before:
+        joined = before[-1].thickness + lens.surfaces[number - 1].thickness
+        before = (*before[:-1], replace(before[-1], thickness=joined))
+    surfaces = (*before, *lens.surfaces[number:])
+    return replace(lens, surfaces=surfaces, stop_surface=stop - 1 if stop and stop > number else stop)
+
+
+def written(surface: Surface, column: str, full: bool = False) -> str:
+    """Return one entry as a table shows it, or with every digit for editing."""
+    value = getattr(surface, column)
+    if column == "medium":
+        return "air" if value == AIR else value.label
+    numbers = value if column == "aspheric" else (value,)
+    return "  ".join(repr(x) if full and isfinite(x) else shown(x) for x in numbers)
+
+
+def shown(value: float) -> str:
+    """Return a number as a table shows it: ten digits, a true minus, ∞ for a plane or an unlimited rim."""
+    if not isfinite(value):
+        return "∞" if value > 0 else "−∞"
+    return f"{value:.10g}".replace("-", "−")

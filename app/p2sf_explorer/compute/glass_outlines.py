@@ -1,0 +1,160 @@
+"""The glass of a lens as closed outlines in mm, z from the first vertex: what no slider moves. No Qt in here."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import isfinite
+
+import numpy as np
+
+from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_sensor
+from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import find_stop, paraxial_rays
+from p2sf.raytrace.pencil import pupil_rays
+from p2sf_explorer.compute.meridional import path
+
+PROFILE_POINTS = 33
+GLASS_INDEX = 1.0001  # less than this is air
+FLANGE = 1.1  # how much wider than its neighbour's edge a cemented element is drawn
+
+
+@dataclass(frozen=True)
+class Outline:
+    """One closed region of glass: z and y in mm, its index, and the surfaces (from 1) before and behind it."""
+
+    z: np.ndarray
+    y: np.ndarray
+    index: float
+    surfaces: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Glass:
+    """Outlines of the elements, the last surface's profile, the index behind it, and the extent."""
+
+    outlines: tuple[Outline, ...]
+    last: tuple[np.ndarray, np.ndarray]
+    image_index: float
+    half_height: float
+    left: float
+
+
+@lru_cache(maxsize=8)
+def still(lens: Lens) -> Lens:
+    """Return the lens without what sliders change: its sensor at 1 mm, its aperture set aside where rims are known."""
+    placed = with_sensor(lens, 1.0)
+    if not all(isfinite(surface.semi_diameter) for surface in lens.surfaces):
+        return placed
+    return replace(placed, aperture=Aperture("stop_semi_diameter", 1.0))
+
+
+@lru_cache(maxsize=32)
+def glass_of(lens: Lens) -> Glass:
+    """Return the outlines of a `still` lens; real sag, to the clear rims."""
+    z, rims = vertices(lens), clear_rims(lens)
+    index = indices(lens, lens.reference_wavelength_um)
+    profiles = [profile(surface, at, rim) for surface, at, rim in zip(lens.surfaces, z, rims, strict=False)]
+    outlines = tuple(
+        element_outline(profiles[i], profiles[i + 1], float(index[i + 1]), (i + 1, i + 2))
+        for i in range(len(profiles) - 1)
+        if index[i + 1] > GLASS_INDEX and rims[i] > 0
+    )
+    return Glass(outlines, profiles[-1], float(index[-1]), float(max(rims)), min(float(p[0].min()) for p in profiles))
+
+
+def filling(glass: Glass, sensor_z: float) -> tuple[Outline, ...]:
+    """Return the outline of what fills the space between lens and sensor, none for air."""
+    if glass.image_index <= GLASS_INDEX:
+        return ()
+    wall = np.full(2, sensor_z), np.array([-glass.half_height, glass.half_height])
+    return (element_outline(glass.last, wall, glass.image_index, (len(glass.outlines) + 1,) * 2),)
+
+
+@lru_cache(maxsize=32)
+def widest_exit(lens: Lens) -> tuple[float, float]:
+    """Return height and slope behind the last surface of the file's widest field's chief ray; zeros where it fails."""
+    slope = float(np.tan(np.deg2rad(max(abs(angle) for angle in lens.fields_deg))))
+    rays = pupil_rays(lens, Source(np.inf, slope, lens.reference_wavelength_um), np.zeros(1), np.zeros(1))
+    start, direction = (a.reshape(-1, 3)[0, :0:-1].tolist() for a in (rays.origins, rays.directions))
+    z, y, passed = path(lens, indices(lens, lens.reference_wavelength_um).tolist(), start, direction)
+    if not passed:
+        return 0.0, 0.0
+    turned = (y[-1] - y[-2]) / (z[-1] - z[-2])
+    return y[-2] - turned * (z[-2] - vertices(lens)[-2]), turned
+
+
+def vertices(lens: Lens) -> list[float]:
+    """Return z of every vertex in mm, the first at 0, then the sensor's."""
+    return [0.0, *np.cumsum([surface.thickness for surface in lens.surfaces]).tolist()]
+
+
+@lru_cache(maxsize=32)
+def clear_rims(lens: Lens) -> tuple[float, ...]:
+    """Return a half-height to draw for each surface: its clear rim, or what the widest field's rays need."""
+    stop = find_stop(lens)
+    rays = paraxial_rays(lens, np.inf, lens.reference_wavelength_um, stop)
+    slope = np.tan(np.deg2rad(max(abs(angle) for angle in lens.fields_deg)))
+    needed = np.abs(rays.y) + np.abs(rays.chief_y) * slope
+    rims = [
+        s.semi_diameter if isfinite(s.semi_diameter) else 1.05 * n for s, n in zip(lens.surfaces, needed, strict=True)
+    ]
+    held = [float(_inside_surface(s, r)) for s, r in zip(lens.surfaces, rims, strict=True)]
+    return tuple(with_edges(lens, held))
+
+
+def with_edges(lens: Lens, rims: list[float]) -> list[float]:
+    """Return the rims, lower where an element would have no edge left; what is cemented to it is lowered with it."""
+    index = indices(lens, lens.reference_wavelength_um)[1:-1]
+    elements = [at for at, n in enumerate(index) if n > GLASS_INDEX]
+    held = list(rims)
+    for at in elements:
+        edge = sharp_edge(*lens.surfaces[at : at + 2], max(held[at : at + 2]))
+        held[at : at + 2] = (min(rim, edge) for rim in held[at : at + 2])
+    for at in (*elements, *elements[::-1]):
+        for low, other in ((at, at + 1), (at + 1, at)):
+            if held[low] < rims[low]:
+                held[other] = min(held[other], FLANGE * held[low])
+    return held
+
+
+def sharp_edge(front: Surface, back: Surface, rim: float) -> float:
+    """Return the height where an element of stated rims would have no thickness left; the rim if it has some there.
+
+    A file may state rims that no glass could have; drawn as they are, its surfaces would cross.
+    """
+    y = np.linspace(0.0, rim, 4 * PROFILE_POINTS)
+    reach = [np.minimum(y, _inside_surface(surface, rim)) for surface in (front, back)]
+    gone = np.flatnonzero(front.thickness + sag(back, reach[1]) - sag(front, reach[0]) < 0)
+    return float(y[gone[0]]) if gone.size else rim
+
+
+def _inside_surface(surface: Surface, rim: float) -> float:
+    """Return the rim, held inside the height where a closed conic ends: (1 + K)c²r² = 1."""
+    closing = (1 + surface.conic) * surface.curvature**2
+    return rim if closing <= 0 else min(rim, 0.999 / np.sqrt(closing))
+
+
+def profile(surface: Surface, vertex: float, rim: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return z and y of a surface's meridional section from −rim to rim."""
+    flat = surface.curvature == 0 and not surface.aspheric
+    y = np.linspace(-rim, rim, 2 if flat else PROFILE_POINTS)
+    return vertex + sag(surface, y), y
+
+
+def sag(surface: Surface, y):
+    """Sag of a conic with even polynomial terms (ISO 10110-12), mm."""
+    square = np.square(y)
+    c = surface.curvature
+    root = np.sqrt(np.maximum(0.0, 1 - (1 + surface.conic) * c * c * square))
+    depth = c * square / (1 + root)
+    for power, term in enumerate(surface.aspheric, 2):
+        depth = depth + term * square**power
+    return depth
+
+
+def element_outline(front, back, index: float, surfaces: tuple[int, int]) -> Outline:
+    """Return the closed outline between two profiles; the narrower one gets a flat rim up to the wider."""
+    (z1, y1), (z2, y2) = front, back
+    rim = max(y1[-1], y2[-1])
+    z = np.concatenate([z1, [z1[-1], z2[-1]], z2[::-1], [z2[0], z1[0], z1[0]]])
+    y = np.concatenate([y1, [rim, rim], y2[::-1], [-rim, -rim, y1[0]]])
+    return Outline(z, y, index, surfaces)

@@ -1,0 +1,163 @@
+"""The lens drawn to scale: outlines, rays and marks in mm, z from the first vertex. No Qt in here."""
+
+from dataclasses import dataclass, replace
+from math import isfinite
+
+import numpy as np
+
+from p2sf.lens.lens import Lens, indices
+from p2sf.raytrace.pencil import pupil_rays
+from p2sf_explorer.compute.glass_outlines import Glass, Outline, filling, glass_of, still, vertices, widest_exit
+from p2sf_explorer.compute.meridional import path
+from p2sf_explorer.compute.setup import Setting
+from p2sf_explorer.state.scales import nice
+
+HEIGHTS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
+REACH = 3.0  # rays from afar begin so many lens lengths before the lens, outside any window
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """The glass, which stays while anything but the lens changes, and stop and sensor, which need not; mm.
+
+    ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in an eye.
+    """
+
+    glass: Glass
+    outlines: tuple[Outline, ...]
+    stop_z: float
+    stop_rim: float
+    sensor_z: float
+    half_height: float
+    left: float
+    right: float
+
+
+@dataclass(frozen=True)
+class RayPath:
+    """One ray: z and y in mm; ``kind`` is "marginal", "chief" or "rim"; ``passed`` False where it was lost."""
+
+    kind: str
+    z: np.ndarray
+    y: np.ndarray
+    passed: bool = True
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A named point or pupil on the axis; ``radius`` 0 for a point."""
+
+    name: str
+    z: float
+    radius: float = 0.0
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The drawing, the rays of the present source, and the marks; ``source`` (z, y) is None at infinity.
+
+    ``sensor_half``: half the height of the drawn sensor, mm; it holds the chief ray of every field of the lens file.
+    """
+
+    drawing: Drawing
+    rays: tuple[RayPath, ...]
+    marks: tuple[Mark, ...]
+    source: tuple[float, float] | None
+    image: tuple[float, float] | None
+    entrance_z: float
+    slope: float
+    sensor_half: float
+
+
+def layout(setting: Setting) -> Layout:
+    """Return everything the layout panel draws."""
+    drawn = drawing(setting.lens, int(setting.stop.surface), float(setting.stop.semi_diameter))
+    depth, height = setting.source.depth_mm, setting.object_height_mm
+    rays = tuple(ray_paths(setting, drawn))
+    return Layout(
+        drawing=drawn,
+        rays=rays,
+        marks=tuple(marks(setting)),
+        source=None if height is None else (-depth, -height),
+        image=_image_point(setting),
+        entrance_z=float(setting.pupils.entrance_from_first),
+        slope=setting.source.field_slope,
+        sensor_half=sensor_half(setting.lens, rays),
+    )
+
+
+def sensor_half(lens: Lens, rays: tuple[RayPath, ...]) -> float:
+    """Return half the sensor's height, mm: a round number that holds this chief ray and the widest field's."""
+    now = max((abs(float(ray.y[-1])) for ray in rays if ray.kind == "chief" and ray.passed), default=0.0)
+    return nice(1.04 * max(now, widest_image(lens), 1e-3), HEIGHTS)
+
+
+def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
+    """Return glass, stop and sensor of a lens."""
+    glass, z = glass_of(still(lens)), vertices(lens)
+    return Drawing(
+        glass=glass,
+        outlines=glass.outlines + filling(glass, z[-1]),
+        stop_z=z[int(stop_surface) - 1],
+        stop_rim=stop_rim,
+        sensor_z=z[-1],
+        half_height=max(glass.half_height, stop_rim),
+        left=glass.left,
+        right=max(z[-1], z[-2]),
+    )
+
+
+def widest_image(lens: Lens) -> float:
+    """Return how high the chief ray of the file's widest field meets the sensor, mm; 0 where it does not."""
+    y, slope = widest_exit(still(lens))
+    return abs(y + slope * lens.sensor_mm)
+
+
+def _image_point(setting: Setting) -> tuple[float, float] | None:
+    distance = float(setting.coefficients.image_distance)
+    if not isfinite(distance):
+        return None
+    rays = setting.rays
+    unit = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * distance
+    return vertices(setting.lens)[-2] + distance, float(unit) * setting.source.field_slope
+
+
+RAYS = (("marginal", 0, 1.0), ("marginal", 0, -1.0), ("rim", 1, 1.0), ("rim", 1, -1.0), ("chief", 1, 0.0))
+"""The drawn rays: kind, which source (0 the axial point, 1 the field point), and η in the entrance pupil."""
+
+
+def ray_paths(setting: Setting, drawn: Drawing):
+    """Yield the exact meridional rays of `RAYS`."""
+    source, etas = setting.source, np.array([1.0, -1.0, 0.0])
+    both = replace(source, field_slope=np.array([0.0, source.field_slope]))
+    rays = pupil_rays(setting.lens, both, np.zeros(3), etas)
+    origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
+    starts = _start(origins, directions, min(source.depth_mm, REACH * (drawn.right - drawn.left)))
+    index = indices(setting.lens, source.wavelength_um).tolist()
+    for kind, row, eta in RAYS:
+        at = row, etas.tolist().index(eta)
+        start, direction = (a[at][:0:-1].tolist() for a in (starts, directions))  # z, y
+        z, y, passed = path(setting.lens, index, start, direction)
+        yield RayPath(kind, np.array([start[0], *z]), np.array([start[1], *y]), passed)
+
+
+def _start(origins: np.ndarray, directions: np.ndarray, reach: float) -> np.ndarray:
+    """Return the points of the rays in the plane ``reach`` mm before the first vertex."""
+    return origins - directions * ((origins[..., 2:] + reach) / directions[..., 2:])
+
+
+def marks(setting: Setting):
+    """Yield the pupils and the principal and focal points that lie at a finite place."""
+    last = vertices(setting.lens)[-2]
+    c, p = setting.cardinal, setting.pupils
+    places = (
+        ("EnP", p.entrance_from_first, p.entrance_diameter / 2),
+        ("ExP", last + p.exit_from_last, p.exit_diameter / 2),
+        ("H", c.front_principal_from_first, 0.0),
+        ("H′", last + c.rear_principal_from_last, 0.0),
+        ("F", c.front_focal_distance, 0.0),
+        ("F′", last + c.back_focal_distance, 0.0),
+    )
+    for name, z, radius in places:
+        if isfinite(float(z)) and isfinite(float(radius)):
+            yield Mark(name, float(z), float(radius))

@@ -1,0 +1,134 @@
+"""The picture while a slider moves: one trace of some eighty rays gives PSF, window and pupil map. No Qt in here."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import GeometryError
+from p2sf.psf.fitted import psf_of_fit
+from p2sf.psf.plane_waves import Made, psf_from_intensity
+from p2sf.psf.seidel import Psf
+from p2sf.psf.separable_sum import rows_for
+from p2sf.pupil.zernike import basis
+from p2sf.raytrace.fit import LEVELS, FittedPencil, fit, fit_rays, level_rays
+from p2sf.raytrace.pencil import Pencil, opd_on_sphere, pencil
+from p2sf.raytrace.ray_field import RayData, ray_data
+from p2sf.raytrace.vignetting import CLIPPED
+from p2sf_explorer.compute.pupil import PupilMap, disc, pupil_map
+from p2sf_explorer.compute.setup import Setting
+
+LEVEL = LEVELS[0]  # 26 numbers
+CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS waves a fit may miss: by the least numbers, by all of the same rays, at all
+SAMPLES = 64  # of the pupil map, across
+EDGE = 9  # rays along the rim and as many at 0.7 of it, for how far light reaches on the sensor
+
+
+@dataclass(frozen=True)
+class Quick:
+    """Rays that all reached the sensor, at the level's points and then along the rim; ``begun`` when they set out."""
+
+    rays: Pencil
+    set_up: Setting
+    begun: float
+
+
+def quick(set_up: Setting, clip: bool = False) -> Quick | None:
+    """Return the traced rays, None where one is lost: a fit knows no edge. Raises as `pencil` does."""
+    begun = perf_counter()
+    rays = pencil(set_up.lens, set_up.source, *points(), clip=clip)
+    return Quick(rays, set_up, begun) if rays.passed.all() else None
+
+
+@lru_cache(maxsize=1)
+def points() -> tuple[np.ndarray, np.ndarray]:
+    """Return ξ and η: of the level's rays, then of the edge's."""
+    xi, eta, _ = level_rays(LEVEL)
+    edge = edge_points()
+    return np.append(xi, edge[0]), np.append(eta, edge[1])
+
+
+def edge_points() -> np.ndarray:
+    """Return ξ and η of rays on the rim's right half and on 0.7 of it, (2, rays)."""
+    turn = np.linspace(0, np.pi, EDGE)
+    edge = np.stack([np.sin(turn), np.cos(turn)])
+    return np.concatenate([edge, 0.7 * edge], axis=1)
+
+
+def landing_um(rays: Pencil) -> float:
+    """Return how far from the chief ray the farthest of the last, the edge's, rays lands, in x or y, µm."""
+    reach = np.abs(np.stack([rays.dx, rays.dy])[:, -2 * EDGE :])
+    return UM_PER_MM * float(np.nanmax(reach)) if np.isfinite(reach).any() else 0.0
+
+
+def quick_psf(made: Quick, pixels: int, pixel_um: float, found: FittedPencil | None = None) -> Psf:
+    """Return the PSF of the fit, ``found`` if it is at hand, float32; of exact rays where it misses more than `FAR`."""
+    found, set_up = found or best_fit(made), made.set_up
+    if found.error_waves > FAR:
+        from p2sf.psf.methods import render
+
+        return render(set_up.lens, set_up.source, "traced", pixels, pixel_um, "preview")
+    return psf_of_fit(found, set_up.source.wavelength_um, (pixels, pixel_um), "preview", made.begun)
+
+
+def best_fit(made: Quick) -> FittedPencil:
+    """Return the fit of fewest numbers that misses little; more rays are traced only where the first do not do."""
+    data, count = ray_data(made.rays), level_rays(LEVEL)[0].size
+    own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
+    found = fit_rays(own, LEVEL, count)
+    if found.error_waves > CLOSE:
+        found = fit_rays(own, LEVELS[1], count, found.steepness)
+    if found.error_waves <= NEAR:
+        return found
+    try:
+        return fit(made.set_up.lens, made.set_up.source, residual_waves=NEAR)
+    except GeometryError:  # one of the rays more is lost
+        return found
+
+
+def clipped_psf(made: Quick, pixels: int, pixel_um: float) -> Psf | None:
+    """Return the PSF of the fit to all rays, summed over the nodes whose own rays pass the rims; None without rows.
+
+    A yes or no at each node makes a ragged edge, good for a picture that moves. Raises GeometryError where none passes.
+    """
+    found, set_up = best_fit(made), made.set_up
+    nodes = rows_for(found, pixels, pixel_um, "preview", every=True)
+    if nodes is None:
+        return None
+    rays = pencil(set_up.lens, set_up.source, nodes.xi.ravel(), nodes.eta.ravel(), clip=True)
+    weight = np.where(rays.passed.reshape(nodes.xi.shape), nodes.weight, 0.0)
+    if not weight.any():
+        raise GeometryError(CLIPPED)
+    clear = replace(nodes, weight=weight / weight.sum())
+    intensity = clear.intensity(*found.at_points(nodes.xi, nodes.eta), pixels, pixel_um, np.float32)
+    words = f"{nodes.words}, those that the rims let pass"
+    label = Made("fitted", found.numbers, found.rays + nodes.xi.size, words, made.begun)
+    return psf_from_intensity(intensity, pixel_um, set_up.source.wavelength_um, None, label)
+
+
+def quick_pupil(made: Quick) -> PupilMap:
+    """Return the displayed wavefront over the pupil: a polynomial through that of the level's rays."""
+    set_up, project = made.set_up, _projection()
+    back = set_up.lens.sensor_mm - set_up.pupils.exit_from_last
+    waves = opd_on_sphere(made.rays, back / made.rays.chief_kz)
+    shown = np.full(project.inside.shape, np.nan)
+    shown[project.inside] = project.matrix @ waves
+    return pupil_map(shown, project.inside, "exact rays")
+
+
+@dataclass(frozen=True)
+class Projection:
+    """What turns the rays' waves into a map: (samples inside, rays)."""
+
+    matrix: np.ndarray
+    inside: np.ndarray
+
+
+@lru_cache(maxsize=1)
+def _projection() -> Projection:
+    xi, eta, inside = disc(SAMPLES)
+    rays = basis(LEVELS[1].wave_order, *points())
+    shown = basis(LEVELS[1].wave_order, xi[inside], eta[inside])
+    return Projection(shown.T @ np.linalg.pinv(rays.T), inside)

@@ -1,0 +1,89 @@
+"""How near a source may come, where a lens is focused, and which light its glasses are known for. No Qt in here."""
+
+from functools import lru_cache
+from math import inf, isfinite
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.first_order import basis_rays, cardinal_points
+from p2sf.paraxial.seidel import coefficients
+from p2sf.paraxial.wavefront import steepest_slope
+from p2sf_explorer.state.scales import nice
+
+VISIBLE_NM = (400.0, 700.0)
+SHARES = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+TELLING_WAVES = 60.0  # of slope: a steeper wavefront is a blur of rays, and says nothing of waves
+AS_GOOD_AS_INFINITE_MM = 1e6  # a file's six digits cannot tell a focus at a kilometre from one at infinity
+
+
+def closest_distance(lens: Lens) -> float:
+    """Return the closest sensible source distance in mm: outside the front focus by a fifth of the focal length.
+
+    For a lens that is focused closer than that (a relay), half of the distance it is focused at.
+    """
+    cardinal = cardinal_points(lens, lens.reference_wavelength_um)
+    focal = abs(float(cardinal.effective_focal_length))
+    focus = -float(cardinal.front_focal_distance)
+    if not isfinite(focal):
+        return nice(2 * sum(surface.thickness for surface in lens.surfaces) + 10)
+    closest = nice(max(focus + 0.2 * focal, 0.5 * focal), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8))
+    focused = focused_distance(lens)
+    if focused > 1.5 * closest:
+        return closest
+    return 0.5 * (focus + focused) if 0 < focus < focused else 0.5 * focused
+
+
+def focused_distance(lens: Lens) -> float:
+    """Return the object distance in mm whose paraxial image lies on the file's sensor; inf at or beyond infinity."""
+    vergence = focused_vergence(lens)
+    return 1 / vergence if vergence > 1 / AS_GOOD_AS_INFINITE_MM else inf
+
+
+def file_focus(lens: Lens) -> float:
+    """Return `focused_distance`, but negative for a sensor nearer to the lens than the image of infinity is, mm."""
+    vergence = focused_vergence(lens)
+    return 1 / vergence if abs(vergence) > 1 / AS_GOOD_AS_INFINITE_MM else inf
+
+
+def focused_vergence(lens: Lens) -> float:
+    """Return the vergence in 1/mm of the object whose paraxial image lies on the file's sensor; 0 at infinity.
+
+    Solves the height of the axial ray on the sensor, linear in the vergence, for zero.
+    """
+    rays = basis_rays(lens, lens.reference_wavelength_um)
+    reach = lens.sensor_mm / rays.image_index
+    parallel, divergent = rays.a[-1] + reach * rays.c[-1], rays.b[-1] + reach * rays.d[-1]
+    return -float(parallel / (divergent * rays.object_index)) if divergent else 0.0
+
+
+@lru_cache(maxsize=32)
+def wavelength_range(lens: Lens) -> tuple[float, float]:
+    """Return the visible wavelengths every glass of the lens has data for, nm."""
+    low, high = VISIBLE_NM
+    for medium in lens.media:
+        limits = getattr(medium, "range_um", None) or _table_range(medium)
+        if limits:
+            low, high = max(low, NM_PER_UM * limits[0]), min(high, NM_PER_UM * limits[1])
+    return (low, high) if low < high else VISIBLE_NM
+
+
+def _table_range(medium) -> tuple[float, float] | None:
+    known = getattr(medium, "wavelengths_um", None)
+    return (known[0], known[-1]) if known else None
+
+
+def telling_field(lens: Lens, depth_mm: float) -> float:
+    """Return a field in degrees with something to say: the file's middle one; near by, the share that still has waves.
+
+    A relay's file may state fields for infinity that at its own depth are objects wider than its glass.
+    """
+    fields = sorted(abs(angle) for angle in lens.fields_deg)
+    middle = fields[len(fields) // 2] or fields[-1]
+    if not isfinite(depth_mm):
+        return middle
+    slopes = slope_from_degrees(middle * np.array(SHARES))
+    steep = steepest_slope(coefficients(lens, depth_mm, slopes, lens.reference_wavelength_um))
+    good = np.flatnonzero(steep <= TELLING_WAVES)
+    return middle * SHARES[good[0]] if good.size else middle

@@ -1,0 +1,142 @@
+"""The PSF where blur dwarfs diffraction: the density of rays on the sensor. No Qt in here.
+
+A wave sum over a blur of hundreds of wavelengths of slope takes seconds and shows, at 64 pixels, nothing but the
+density of rays; so the window shows that density at once and says so.
+"""
+
+from functools import lru_cache
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import GeometryError
+from p2sf.psf.seidel import Psf
+from p2sf.raytrace.pencil import pencil
+from p2sf_explorer.compute.ranges import focused_distance
+from p2sf_explorer.compute.setup import Setting
+
+GRIDS = {"preview": (64, 180), "settled": (128, 360)}  # radii, directions of the half disc
+TOO_FAR = 2.0  # times the distance a lens is focused at
+MOST_LIGHT, AROUND = 0.9, 1.25  # an even disc has nine tenths of its light within 1/1.18 of its half width
+TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated to the above
+
+
+def geometric_psf(
+    set_up: Setting, exact: bool, window: tuple[int, float], quality: str = "settled", clip: bool = False
+) -> Psf:
+    """Return the ray density over a window (pixels, µm per pixel): of exact rays, or of the Seidel wavefront's.
+
+    Raises GeometryError where no ray reaches the window.
+    """
+    begun, (pixels, pixel_um) = perf_counter(), window
+    x, y, weight = exact_landing(set_up, quality, clip) if exact else seidel_landing(set_up, quality)
+    values = density(x, y, weight, pixels, pixel_um)
+    energy = float(values.sum())
+    if not energy:
+        raise GeometryError(f"no ray reaches the sensor; {way_back(set_up, clip)}")
+    strehl = float(values.max()) / unaberrated(set_up, pixel_um)
+    words = "density of {} × {} rays; diffraction is too fine to see here".format(*GRIDS[quality])
+    seconds, wavelength = perf_counter() - begun, set_up.source.wavelength_um
+    rays = TRACED[quality][0] * TRACED[quality][1] if exact else 2
+    return Psf(values / energy, pixel_um, wavelength, "geometric", strehl, energy, 0, rays, words, seconds)
+
+
+def way_back(set_up: Setting, clip: bool) -> str:
+    """Return what lets light through again: for a source far beyond what a lens is made for, coming nearer."""
+    if set_up.source.depth_mm > TOO_FAR * focused_distance(set_up.lens):
+        return "this lens is for near objects, so choose a nearer depth"
+    return "choose a smaller field, stop down, or leave clipping off" if clip else "choose a smaller field or stop down"
+
+
+def main_reach_um(set_up: Setting, exact: bool, clip: bool = False) -> float:
+    """Return the half width of the square about the chief ray that holds most of the light, and some room, µm.
+
+    A fast lens throws a few rays ten times as far as the rest; a window as wide as they reach would show one dot.
+    """
+    x, y, weight = exact_landing(set_up, "preview", clip) if exact else seidel_landing(set_up, "preview")
+    out = np.maximum(np.abs(x), np.abs(y)).ravel()
+    order = np.argsort(out)
+    light = np.cumsum(np.where(np.isfinite(out), weight.ravel(), 0.0)[order])
+    if not light[-1]:
+        return 0.0
+    return AROUND * float(out[order][np.searchsorted(light, MOST_LIGHT * light[-1])])
+
+
+def seidel_landing(set_up: Setting, quality: str = "settled"):
+    """Return where the rays of W land, µm from the chief ray, and their weights: −∇W·λ/(n′u′) (Welford 1986, §7.2)."""
+    c = set_up.coefficients
+    xi, eta, weight = polar(*GRIDS[quality])
+    square, focus = xi * xi + eta * eta, float(c.w20 + c.wd)
+    along_xi = 4 * c.w40 * square * xi + 2 * c.w31 * xi * eta + 2 * focus * xi
+    along_eta = 4 * c.w40 * square * eta + c.w31 * (square + 2 * eta * eta) + 2 * c.w22 * eta + 2 * focus * eta
+    scale = set_up.source.wavelength_um / float(c.reduced_slope)
+    return scale * along_xi, scale * along_eta, weight
+
+
+def exact_landing(set_up: Setting, quality: str = "settled", clip: bool = False):
+    """Return where exact rays land, µm from the chief ray, and their weights, interpolated between traced ones.
+
+    A cell of the pupil with a lost ray at a corner is lost: its place is infinite.
+    """
+    xi, eta, _ = polar(*TRACED[quality])
+    rays = pencil(set_up.lens, set_up.source, xi.ravel(), eta.ravel(), clip=clip)
+    places = (UM_PER_MM * values.reshape(xi.shape) for values in (rays.dx, rays.dy))
+    return *(finely(values, GRIDS[quality]) for values in places), polar(*GRIDS[quality])[2]
+
+
+def polar(radii: int, directions: int):
+    """Return ξ, η and weights of cells even in ρ and θ of the half disc ξ > 0, (radii, directions); their sum is ½.
+
+    Rings of equal area would begin so far out that an evenly lit blur has a dark hole in its middle.
+    """
+    rho = ((np.arange(radii) + 0.5) / radii)[:, None]
+    theta = (np.arange(directions) + 0.5) * np.pi / directions
+    weight = np.broadcast_to(rho / (radii * directions), (radii, directions))
+    return rho * np.sin(theta), rho * np.cos(theta), weight
+
+
+def finely(values: np.ndarray, grid: tuple[int, int]) -> np.ndarray:
+    """Return values of coarse polar cells on the cells of a finer grid, straight lines in ρ and θ."""
+    radii, directions = (_between(coarse, fine) for coarse, fine in zip(values.shape, grid, strict=True))
+    lost = ~np.isfinite(values)
+    found = radii @ np.where(lost, 0.0, values) @ directions.T
+    return np.where(np.abs(radii) @ lost @ np.abs(directions).T > 0, np.inf, found) if lost.any() else found
+
+
+@lru_cache(maxsize=8)
+def _between(coarse: int, fine: int) -> np.ndarray:
+    """Return the linear interpolation from ``coarse`` cell centres to ``fine`` ones.
+
+    Beyond the outermost centres the lines go on straight: ρ reaches the rim, where the farthest rays are.
+    """
+    known, wanted = ((np.arange(n) + 0.5) / n for n in (coarse, fine))
+    left = np.clip(np.searchsorted(known, wanted) - 1, 0, coarse - 2)
+    part = (wanted - known[left]) / (known[left + 1] - known[left])
+    matrix = np.zeros((fine, coarse))
+    matrix[np.arange(fine), left], matrix[np.arange(fine), left + 1] = 1 - part, part
+    return matrix
+
+
+def density(x, y, weight, pixels: int, pixel_um: float) -> np.ndarray:
+    """Return the share of the light that falls on each pixel, mirror half included; (pixels, pixels).
+
+    Each ray is shared by the four pixels about its place, in proportion to how near it is to each, so that rays which
+    stand in a pattern of their own leave none in the picture (cloud in cell: Birdsall & Fuss 1969).
+    """
+    middle, side = pixels // 2, pixels + 4  # room at the edges for what hangs over, and for what lies beyond
+    column, row = (np.clip(v / pixel_um, -middle - 1, middle + 1) + (middle + 1) for v in (x, y))
+    left, low = column.astype(np.intp), row.astype(np.intp)
+    at, high = low * side + left, weight * (row - low)
+    counted = np.zeros(side * side)
+    for step, light in ((0, weight - high), (side, high)):
+        right = light * (column - left)
+        counted += np.bincount((at + step).ravel(), (light - right).ravel(), side * side)
+        counted += np.bincount((at + step + 1).ravel(), right.ravel(), side * side)
+    half = counted.reshape(side, side)[1 : pixels + 1, 1 : 2 * middle + 2]  # the chief ray's column in its middle
+    return (half + half[:, ::-1])[:, :pixels]
+
+
+def unaberrated(set_up: Setting, pixel_um: float) -> float:
+    """Return the share of light on one pixel at the peak of the unaberrated PSF, π(NA·pixel/λ)², by Parseval."""
+    return np.pi * (float(set_up.coefficients.na) * pixel_um / set_up.source.wavelength_um) ** 2

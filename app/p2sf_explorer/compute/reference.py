@@ -1,0 +1,106 @@
+"""How good the picture is: the Huygens reference at the same point, in one window for every method. No Qt in here."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from statistics import median
+from threading import Event
+
+from p2sf.errors import SamplingError
+from p2sf.psf.compare import r_squared, relative_l2
+from p2sf.psf.huygens import Filling, huygens_psf
+from p2sf.psf.seidel import Psf
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.method import PIXELS, window_um
+from p2sf_explorer.compute.warnings import remedy
+from p2sf_explorer.state.what_if import NO_REFERENCE
+
+REFERENCE_TOLERANCE = 1e-3  # relative L2: R² is then known to 1e-6 or better
+REPEATS = 3  # of each rung, for a median time
+RUNGS = ("gaussian", "seidel", "fitted", "traced", "huygens")
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One method at this point: R² and relative L2 against the reference, median time, numbers and rays used."""
+
+    method: str
+    r_squared: float
+    relative_l2: float
+    milliseconds: float
+    numbers: int
+    rays: int
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """The answer measured, its ``picture`` beside the ``reference``, its R², and the ladder when it was asked for.
+
+    All of them stand in the window that the rays of the point ask for, so that a method has one R² at a point, whatever
+    is on screen.
+    """
+
+    live: Live
+    picture: Psf
+    reference: Psf
+    r_squared: float
+    rungs: tuple[Rung, ...] = ()
+
+
+def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[float], None]) -> Accuracy:
+    """Return the accuracy of an answer; ``ladder`` renders every rung too. Raises P2SFError, Cancelled among them."""
+    if live.setting.altered:
+        raise SamplingError(NO_REFERENCE)
+    if live.psf.method == "geometric":
+        raise SamplingError(f"the blur is too large for a reference here; {remedy(live.setting)}")
+    share = 0.5 if ladder else 1.0
+    reference = huygens_psf(
+        live.setting.lens,
+        live.setting.source,
+        PIXELS["settled"],
+        window_um(live.setting, "huygens") / PIXELS["settled"],
+        REFERENCE_TOLERANCE,
+        lambda part: progress(share * part),
+        cancelled.is_set,
+        Filling(clip=live.state.clip),
+    )
+    shown = in_window(live, reference)
+    found = r_squared(shown.values, reference.values)
+    rungs = tuple(climb(live, reference, cancelled, lambda part: progress(0.5 + part / 2))) if ladder else ()
+    return Accuracy(live, shown, reference, found, rungs)
+
+
+def in_window(live: Live, reference: Psf) -> Psf:
+    """Return the picture if it stands in the reference's window, else the same method's PSF there."""
+    psf = live.psf
+    if (psf.values.shape, psf.pixel_um) == (reference.values.shape, reference.pixel_um):
+        return psf
+    return one(live, psf.method, reference)
+
+
+def climb(live: Live, reference: Psf, cancelled: Event, progress: Callable[[float], None]):
+    """Yield every rung's error and time at this point, until cancelled."""
+    for number, method in enumerate(RUNGS):
+        if cancelled.is_set():
+            return
+        psfs = [one(live, method, reference) for _ in range(REPEATS if method in ("seidel", "fitted") else 1)]
+        psf, milliseconds = psfs[-1], 1e3 * median(p.seconds for p in psfs)
+        error = relative_l2(psf.values, reference.values)
+        if method == "huygens":
+            error = reference.tolerance or error
+        yield Rung(method, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays)
+        progress((number + 1) / len(RUNGS))
+
+
+def one(live: Live, method: str, reference: Psf) -> Psf:
+    """Return this point's PSF by one method, in the reference's window."""
+    if method == "huygens":
+        return reference
+    if method == "gaussian":
+        from p2sf.psf.gaussian_fit import gaussian_psf
+
+        return gaussian_psf(reference)
+    from p2sf.psf.methods import render
+
+    pixels, pitch = reference.values.shape[-1], reference.pixel_um
+    made, state = live.setting, live.state
+    return render(made.lens, made.source, method, pixels, pitch, tolerance=state.tolerance, clip=state.clip)

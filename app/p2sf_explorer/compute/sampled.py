@@ -1,0 +1,49 @@
+"""One small PSF of the present setup with something changed, for panels that show many: no reference, no waiting."""
+
+from dataclasses import replace
+
+from p2sf.psf.seidel import Psf, seidel_psf
+from p2sf_explorer.compute.deferred_sums import asked, by_rays
+from p2sf_explorer.compute.method import too_blurred
+from p2sf_explorer.compute.preview import quick, quick_psf
+from p2sf_explorer.compute.ray_density import geometric_psf
+from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.state.state import State
+
+OPTICS = (
+    *("lens", "lens_text", "depth_mm", "focus_mm", "sensor_shift_um", "field_deg", "wavelength_nm", "f_number"),
+    *("stop", "clip", "added_waves", "muted", "solo", "free_pupil"),
+)
+
+
+def optics(state: State) -> State:
+    """Return a state that differs from another's only where the light does: not in looks, tabs or units."""
+    return replace(State(), **{name: getattr(state, name) for name in OPTICS})
+
+
+def by_coefficients(live) -> bool:
+    """Return whether the six coefficients make the present point's picture, and so what is shown of that point."""
+    return live.rung == "seidel" or live.setting.altered
+
+
+def everywhere_by_coefficients(live) -> bool:
+    """Return whether the six coefficients make every picture: asked for by name, or altered by hand.
+
+    What ``auto`` has chosen holds for the present point alone, and says nothing of other fields and sensor positions.
+    """
+    return live.state.method == "seidel" or live.setting.altered
+
+
+def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
+    """Return the PSF of a setup over (pixels, µm per pixel): of ``six`` coefficients, else of a fit to exact rays.
+
+    Where rays are lost they are summed one by one; where blur dwarfs diffraction their density is shown. Raises
+    P2SFError's kinds where there is no PSF.
+    """
+    set_up = setting(state)
+    if too_blurred(set_up):
+        return geometric_psf(set_up, not six, window, "preview", state.clip)
+    if six or set_up.altered:
+        return seidel_psf(set_up.coefficients, *window, "preview")
+    made = quick(set_up, state.clip)
+    return quick_psf(made, *window) if made else by_rays(asked(state, set_up, "traced", window), "preview")

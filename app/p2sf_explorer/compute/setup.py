@@ -1,0 +1,215 @@
+"""The lens as the state sets it, its first-order facts, and the ranges the controls may run over. No Qt in here."""
+
+import os
+import tomllib
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import inf, isfinite
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
+from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
+from p2sf.paraxial.seidel import Coefficients, coefficients
+from p2sf.request import Request, Setup, set_up
+from p2sf_explorer.compute.ranges import closest_distance, file_focus, focused_distance, telling_field, wavelength_range
+from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.what_if import altered
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One lens, opened and focused as the state says, and everything paraxial about it at this source.
+
+    ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand.
+    """
+
+    lens: Lens
+    source: Source
+    stop: Stop
+    pupils: Pupils
+    cardinal: CardinalPoints
+    rays: ParaxialRays
+    coefficients: Coefficients
+    own: Coefficients
+    object_height_mm: float | None
+    focal_length_mm: float
+
+    @property
+    def altered(self) -> bool:
+        """Return whether the coefficients are not the lens's own."""
+        return self.coefficients is not self.own
+
+
+@dataclass(frozen=True)
+class Ranges:
+    """Where each slider of this lens begins and ends."""
+
+    closest_mm: float
+    field_deg: float
+    wavelength_nm: tuple[float, float]
+    f_number: tuple[float, float]
+    file_f_number: float
+    focused_mm: float
+    shift_um: float
+
+
+def load(name: str) -> Lens:
+    """Return the lens of a shipped name or a path; read again when the file has changed."""
+    try:
+        changed = os.stat(name).st_mtime_ns  # four times as fast as a Path's, on every frame
+    except (OSError, ValueError):
+        changed = 0
+    return _load(name, changed)
+
+
+@lru_cache(maxsize=32)
+def _load(name: str, _changed: int) -> Lens:
+    from p2sf.lensfile.library import find_lens
+
+    return find_lens(name)
+
+
+def prescription(state: State) -> Lens:
+    """Return the state's lens before it is opened and focused: as edited, else as its file has it; LensFileError."""
+    return load(state.lens) if state.lens_text is None else _edited(state.lens_text)
+
+
+@lru_cache(maxsize=128)
+def _edited(text: str) -> Lens:
+    from p2sf.lensfile.toml import parse_toml
+
+    return parse_toml(text, "the edited lens")
+
+
+def title(name: str) -> str:
+    """Return how a chooser names a lens: its file's title, read without looking up its glasses; else its name."""
+    from p2sf.lensfile.library import lenses_folder
+
+    path = Path(name) if Path(name).is_file() else lenses_folder() / f"{name}.toml"
+    try:
+        return str(tomllib.loads(path.read_text(encoding="utf-8")).get("title", name))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
+        return name
+
+
+def shipped() -> tuple[str, ...]:
+    """Return the names of the lenses that come with the program."""
+    from p2sf.lensfile.library import shipped_lenses
+
+    return tuple(shipped_lenses())
+
+
+def setting(state: State) -> Setting:
+    """Return everything paraxial about the state; a P2SFError in a sentence where there is no answer."""
+    fixed = _fixed(prescription(state), _request(state))
+    slope = float(slope_from_degrees(state.field_deg))
+    source = replace(fixed["source"], field_slope=slope)
+    depth = source.depth_mm
+    gap = depth + float(fixed["pupils"].entrance_from_first)
+    own = coefficients(fixed["lens"], depth, slope, source.wavelength_um, fixed["stop"])
+    return Setting(
+        **fixed
+        | {
+            "source": source,
+            "coefficients": altered(own, state),
+            "own": own,
+            "object_height_mm": slope * gap if isfinite(depth) else None,
+        }
+    )
+
+
+@lru_cache(maxsize=16)
+def _fixed(prescription: Lens, request: Request) -> MappingProxyType:
+    """Return the entries of a Setting that do not depend on the field, so that dragging the field computes little."""
+    made = set_up(prescription, request)
+    lens, wavelength, stop = made.lens, made.source.wavelength_um, made.stop
+    cardinal = cardinal_points(lens, wavelength)
+    return MappingProxyType(
+        {
+            "lens": lens,
+            "source": made.source,
+            "stop": stop,
+            "pupils": pupils(lens, wavelength, stop),
+            "cardinal": cardinal,
+            "rays": paraxial_rays(lens, made.source.depth_mm, wavelength, stop),
+            "focal_length_mm": float(cardinal.effective_focal_length),
+        }
+    )
+
+
+def setup(state: State) -> Setup:
+    """Return the state as the library's own setup, field included: what a file says about where it comes from."""
+    return set_up(prescription(state), replace(_request(state), field_deg=state.field_deg))
+
+
+def _request(state: State) -> Request:
+    return Request(
+        depth_mm=state.depth_mm,
+        wavelength_nm=state.wavelength_nm,
+        focus_mm=state.focus_mm,
+        sensor_shift_um=state.sensor_shift_um,
+        f_number=state.f_number,
+        stop=state.stop,
+    )
+
+
+@lru_cache(maxsize=32)
+def ranges(lens: Lens) -> Ranges:
+    """Return the sliders' ranges for a lens as its file has it."""
+    wavelength = lens.reference_wavelength_um
+    cardinal = cardinal_points(lens, wavelength)
+    focal = abs(float(cardinal.effective_focal_length))
+    f_stop = float(f_number(lens, wavelength))
+    finite = isfinite(f_stop)
+    widest = max(abs(angle) for angle in lens.fields_deg)
+    return Ranges(
+        closest_mm=closest_distance(lens),
+        field_deg=min(75.0, max(5.0, nice(1.25 * widest, (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)) if widest else 5.0)),
+        wavelength_nm=wavelength_range(lens),
+        f_number=(f_stop / 1.4, max(32.0, 4 * f_stop)) if finite else (1.0, 32.0),
+        file_f_number=f_stop if finite else inf,
+        focused_mm=file_focus(lens),
+        shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,
+    )
+
+
+def default_state(name: str, lens_text: str | None = None) -> State:
+    """Return the state a lens is first shown in: its own focus, a field with something to say, its middle line."""
+    return _defaults(State(lens=name, lens_text=lens_text), prescription(State(lens=name, lens_text=lens_text)))
+
+
+@lru_cache(maxsize=32)
+def _defaults(state: State, lens: Lens) -> State:
+    focused = focused_distance(lens)
+    focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
+    depth = inf if focused > 30 * focal or not isfinite(focal) else float(np.round(focused, 3))
+    wavelength = lens.reference_wavelength_um * NM_PER_UM
+    return replace(state, depth_mm=depth, field_deg=telling_field(lens, depth), wavelength_nm=wavelength)
+
+
+def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
+    """Return the state moved to another lens: its defaults for the source, the person's choices for the rest."""
+    fresh = default_state(name, lens_text)
+    return replace(
+        state,
+        lens=name,
+        lens_text=lens_text,
+        depth_mm=fresh.depth_mm,
+        field_deg=fresh.field_deg,
+        wavelength_nm=fresh.wavelength_nm,
+        focus_mm=None,
+        sensor_shift_um=0.0,
+        f_number=None,
+    )
+
+
+def field_degrees(slope: float) -> float:
+    """Return the field angle in degrees of a chief-ray slope."""
+    return float(degrees_from_slope(slope))

@@ -1,0 +1,1 @@
+"""Opening and saving: states, snapshots, lenses, recent files and the session."""

@@ -1,0 +1,101 @@
+"""What a file a person gives turns out to be: a state, a snapshot, a lens, or a reason why not. No Qt in here."""
+
+import os
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+from p2sf.errors import LensFileError, P2SFError
+from p2sf.lensfile.importing import Import, import_lens
+from p2sf.lensfile.toml import lens_to_toml
+from p2sf_explorer.compute.setup import with_lens
+from p2sf_explorer.files.embedded_state import foreign, state_inside
+from p2sf_explorer.state.state import SCHEMA, State, read_state
+
+SNAPSHOTS = "*.png *.npz *.tiff *.fits *.csv"
+KINDS = (
+    f"Lenses, states, snapshots (*.toml *.zmx *.zip *.seq *.json *.dat *.txt {SNAPSHOTS});;P2SF lens (*.toml);;"
+    "Zemax (*.zmx *.zip);;CODE V (*.seq);;ISET lens, or a state (*.json *.dat);;Optical Bench or table (*.txt *.csv);;"
+    f"Snapshot ({SNAPSHOTS});;All files (*)"
+)
+HEAD = 4096  # a state names its schema in its first lines
+OWN_FORMAT = "P2SF lens (TOML)"
+REPORT_TAB = "import"
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """A file that is not opened: why, and how it reads with substitute glasses, None where that does not help."""
+
+    path: str
+    sentence: str
+    substituted: Import | None
+
+
+def opened(state: State, path: str) -> State:
+    """Return the state after opening a file, told by its content; a foreign lens brings its report to the front.
+
+    Raises P2SFError with the reason when it can be neither state nor lens.
+    """
+    path = os.path.abspath(path)
+    if is_state(path):
+        return read_state(path)
+    inside = state_inside(path)
+    if inside:
+        return inside
+    reason = foreign(path)
+    if reason:
+        raise LensFileError(reason, path)
+    fresh = with_lens(state, path)
+    return fresh if imported(path).report.format == OWN_FORMAT else replace(fresh, tab=REPORT_TAB)
+
+
+def is_state(path: str) -> bool:
+    """Return whether a file says that it is a state of the explorer."""
+    try:
+        with open(path, "rb") as stream:
+            head = stream.read(HEAD)
+    except OSError:
+        return False  # the reader of lenses says in its own sentence why it cannot be read
+    return head.lstrip().startswith(b"{") and SCHEMA.encode() in head
+
+
+def imported(path: str, accept_substitutes: bool = False) -> Import:
+    """Return a lens file's lens and report, read again when the file has changed; P2SFError."""
+    return _imported(path, stamp(path), accept_substitutes)
+
+
+@lru_cache(maxsize=16)
+def _imported(path: str, _stamp: tuple[int, int], accept_substitutes: bool) -> Import:
+    return import_lens(path, accept_substitutes)
+
+
+def stamp(path: str) -> tuple[int, int]:
+    """Return what changes when a file does: its time and size; zeros where there is none."""
+    try:
+        found = os.stat(path)
+    except (OSError, ValueError):
+        return 0, 0
+    return found.st_mtime_ns, found.st_size
+
+
+def refusal(path: str, sentence: str) -> Refusal:
+    """Return why a file is refused, and what consent to substitute glasses would give."""
+    try:
+        return Refusal(path, sentence, imported(os.path.abspath(path), True))
+    except P2SFError:
+        return Refusal(path, sentence, None)
+
+
+def with_substitutes(state: State, path: str) -> State:
+    """Return the state with a file's lens and its substitute glasses, which is then no longer the file's: edited."""
+    path = os.path.abspath(path)
+    return with_lens(state, path, lens_to_toml(imported(path, True).lens))
+
+
+def is_file(path: str) -> bool:
+    """Return whether there is such a file; a name no file can have is not."""
+    try:
+        return Path(path).is_file()
+    except (OSError, ValueError):
+        return False

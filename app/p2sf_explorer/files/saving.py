@@ -1,0 +1,38 @@
+"""Save the lens in hand as a file, by the ending of its name."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from p2sf.errors import P2SFError
+from p2sf.lensfile.writing import write_lens
+from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.store.store import Store
+
+KINDS = "P2SF lens (*.toml);;Zemax (*.zmx);;ISET lens (*.json)"
+
+
+def save_lens(store: Store, path: str) -> bool:
+    """Write the lens, told or refused in a sentence; return whether it went well.
+
+    A .toml holds the lens exactly, so the state then names that file; the other formats cannot promise it.
+    """
+    try:
+        write_lens(prescription(store.state), path)
+    except P2SFError as error:
+        store.refused.emit(str(error))
+        return False
+    if Path(path).suffix.lower() == ".toml":
+        store.replace(replace(store.state, lens=str(Path(path).resolve()), lens_text=None))
+    store.said.emit(tr("Saved {name}", name=Path(path).name))
+    return True
+
+
+def ask_save_lens(parent: QWidget, store: Store) -> None:
+    """Ask for a name and save the lens."""
+    first = f"{Path(store.state.lens).stem}.toml"
+    path, chosen = QFileDialog.getSaveFileName(parent, tr("Save the lens"), first, tr(KINDS))
+    if path:
+        save_lens(store, path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))

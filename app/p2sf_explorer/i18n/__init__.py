@@ -1,0 +1,1 @@
+"""The language of the window: translation, messages, and the language files."""

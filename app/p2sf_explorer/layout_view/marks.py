@@ -1,0 +1,126 @@
+"""Pupils, principal and focal points and the image point on the layout, with names that do not collide.
+
+The names of the pupils stand on one row above the glass, those of the points on one row under it, each tied to its
+mark by a fine line; a name that finds no room of its own is left out.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from PySide6.QtCore import QLineF, QPointF, QRectF
+from PySide6.QtGui import QColor, QPainter
+
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.painting import pen, set_text, write
+from p2sf_explorer.compute.layout import Layout, Mark
+
+LINE_PX = 13.0
+GAP_PX = 4.0
+ROW_PX = LINE_PX + GAP_PX  # what a row of names takes above or under the glass
+SHIFTS = (0.0, 0.5, -0.5, 1.0, -1.0)  # of a name's width, aside from its mark
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Where a mark and its name go, in pixels; no room and no leader where the name is left out."""
+
+    bar: QLineF
+    name: str
+    room: QRectF | None = None
+    leader: QLineF | None = None
+
+
+def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
+    """Paint ticks for points, bars for pupils, a disc for the image, and a name for each that has room."""
+    placed = places(layout.marks, Frame.of(chart, layout))
+    painter.setPen(pen(chart.theme.mark))
+    painter.drawLines([mark.bar for mark in placed])
+    named = [mark for mark in placed if mark.room]
+    painter.setPen(pen(chart.theme.mark, 90))
+    painter.drawLines([mark.leader for mark in named])
+    for mark in named:
+        paint_name(painter, chart, mark.room, mark.name)
+    if layout.image:
+        painter.setPen(pen(chart.theme.card))
+        painter.setBrush(QColor(chart.theme.chief))
+        painter.drawEllipse(QPointF(*(float(v) for v in chart.to_pixels(*layout.image))).toPoint(), 4, 4)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What places depend on, in pixels: the axis, pixels per mm, the picture's size, the glass's rim, the sensor."""
+
+    left: float
+    axis: float
+    scale: float
+    width: float
+    height: float
+    rim: float
+    sensor: tuple[float, float]
+
+    @classmethod
+    def of(cls, chart: Chart, layout: Layout) -> "Frame":
+        """Return the frame of a chart that shows this layout."""
+        drawing = layout.drawing
+        (left, axis), (right, rim) = chart.to_pixels(0.0, 0.0), chart.to_pixels(1.0, drawing.half_height)
+        sensor = drawing.sensor_z * (right - left) + left, layout.sensor_half * (right - left)
+        return cls(left, axis, right - left, chart.width(), chart.height(), axis - rim, sensor)
+
+
+@lru_cache(maxsize=4)
+def places(marks: tuple[Mark, ...], frame: Frame) -> tuple[Placed, ...]:
+    """Return where marks and names go; most sliders leave them where they are."""
+    x, half = frame.sensor
+    taken, found = [QRectF(x - 1, frame.axis - half, 2, 2 * half)], []
+    for mark in sorted(marks, key=lambda mark: (mark.radius > 0, mark.z)):
+        x, reach = frame.left + mark.z * frame.scale, max(mark.radius * frame.scale, 4.0)
+        if not -50 < x < frame.width + 50:
+            continue
+        bar = QLineF(x, frame.axis - reach, x, frame.axis + reach)
+        room = free_room(mark.name, x, row_of(mark, frame), taken, frame.width)
+        found.append(Placed(bar, mark.name, room, room and leader(bar, room)))
+        taken += [room] if room else []
+    return tuple(found)
+
+
+def paint_name(painter: QPainter, chart: Chart, room: QRectF, name: str) -> None:
+    """Paint a name on a ground of its own, which keeps rays from striking it through."""
+    ground = QColor(chart.theme.card)
+    ground.setAlpha(225)
+    painter.fillRect(room, ground)
+    painter.setPen(QColor(chart.theme.mark))
+    write(painter, room, name)
+
+
+def row_of(mark: Mark, frame: Frame) -> float:
+    """Return the top of a name's row in pixels: of pupils above glass and stop, of points under them."""
+    if mark.radius:
+        return max(0.0, frame.axis - frame.rim - LINE_PX - GAP_PX / 2)
+    return min(frame.height - LINE_PX, frame.axis + frame.rim + GAP_PX / 2)
+
+
+def leader(bar: QLineF, room: QRectF) -> QLineF:
+    """Return the line from the near end of a mark to its name."""
+    x, top, bottom = bar.x1(), bar.y1(), bar.y2()
+    foot = min(max(x, room.left() + GAP_PX), room.right() - GAP_PX)
+    if room.center().y() < top:
+        return QLineF(x, top, foot, room.bottom())
+    return QLineF(x, min(bottom, room.top()), foot, room.top())
+
+
+def free_room(name: str, x: float, top: float, taken: list[QRectF], width: float) -> QRectF | None:
+    """Return a name's rectangle near x on its row, aside if need be; None where it would touch another or the edge."""
+    wide = name_width(name)
+    for shift in SHIFTS:
+        aside = shift * (wide + GAP_PX)
+        room = QRectF(x + aside - wide / 2, top, wide, LINE_PX)
+        inside = room.left() >= 0 and room.right() <= width
+        if inside and not any(room.intersects(other) for other in taken):
+            return room
+    return None
+
+
+@lru_cache(maxsize=32)
+def name_width(name: str) -> float:
+    """Return how wide a name is, with air, in pixels."""
+    return set_text(name).size().width() + GAP_PX

@@ -1,0 +1,185 @@
+"""Lessons in the window: begin, go on, reveal, leave; the first start offers the first one."""
+
+from dataclasses import replace
+
+from PySide6.QtCore import QEvent, QObject, QTimer
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.files import recent
+from p2sf_explorer.i18n.language import spoken
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
+from p2sf_explorer.lessons.lesson_panel import LessonPanel, tool
+from p2sf_explorer.state.state import State
+from p2sf_explorer.widgets.command import Command
+
+BESIDE = (0.29, 0.32, 0.39)  # of the row of pupil, PSF and coefficients, beside a lesson
+OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
+
+NOTHING_BEFORE = "The window began with this lesson, so there is nothing to put back: its lens stays"
+UNTRANSLATED = "This lesson has not been translated and stands here as it was written"
+
+
+class Teaching(QObject):
+    """Owns the lesson's page, made when the first lesson begins; the state says which lesson and step are on."""
+
+    def __init__(self, window):
+        super().__init__(window)
+        self.window, self.store = window, window.store
+        self.panel: LessonPanel | None = None
+        self.offer: Offer | None = None
+        self._lessons: dict[str, Lesson] = {}
+        self._sizes: list[int] | None = None
+        self._owned_up = False
+        self.store.changed.connect(self.follow)
+        self.follow(self.store.state)
+
+    def commands(self) -> tuple[Command, ...]:
+        """Return what can be done with lessons."""
+        return (
+            Command("Begin or leave a lesson", self.toggle, ("F3",), "Lessons"),
+            Command("Next step of the lesson", lambda: self.move(1), ("Alt+Right",), "Lessons"),
+            Command("Previous step of the lesson", lambda: self.move(-1), ("Alt+Left",), "Lessons"),
+            Command("Show the answer", self.reveal, ("Alt+Down",), "Lessons"),
+        )
+
+    def lessons(self) -> dict[str, Lesson]:
+        """Return the lessons by name; a bad file is told in the banner and costs only itself."""
+        if not self._lessons:
+            self._lessons, faults = found_lessons((FOLDER, own_folder()), spoken())
+            if faults:  # after the picture of the step, which takes the banner away
+                QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
+        return self._lessons
+
+    def toggle(self) -> None:
+        """Begin the first lesson, or leave the one under way."""
+        if self.store.state.lesson:
+            self.leave()
+        elif self.lessons():
+            self.begin(next(iter(self.lessons())))
+
+    def begin(self, name: str) -> None:
+        """Begin a lesson; what was on screen before the first one comes back at the end."""
+        self._go(name, 0)
+
+    def move(self, step: int) -> None:
+        """Go a step on or back; from the last one on to the next lesson, and after the last lesson out."""
+        state, names = self.store.state, list(self.lessons())
+        if state.lesson not in names:
+            return
+        number = state.lesson_step + step
+        if 0 <= number < len(self.lessons()[state.lesson].steps):
+            self._go(state.lesson, number)
+        elif number > 0:
+            following = names[names.index(state.lesson) + 1 :]
+            self._go(following[0], 0) if following else self.leave()
+
+    def reveal(self) -> None:
+        """Show the answer of the present step."""
+        if self.store.state.lesson:
+            self.store.update(lesson_told=True)
+
+    def leave(self) -> None:
+        """End the lesson and put back what was on screen before it, which the steps of undo know."""
+        here = replace(self.store.state, lesson="", lesson_step=0, lesson_told=False)
+        kept = {name: getattr(here, name) for name in PERSONAL}
+        before = self.store.latest(lambda state: not state.lesson)
+        self.store.replace(replace(before, **kept) if before else here)
+        if not before:
+            self.store.said.emit(tr(NOTHING_BEFORE))
+
+    def _go(self, name: str, number: int) -> None:
+        if self.offer:
+            self.offer.hide()
+        try:
+            self.store.replace(self.lessons()[name].state(number, self.store.state))
+        except P2SFError as error:
+            self.store.refused.emit(str(error))
+
+    def follow(self, state: State) -> None:
+        """Show the page of the state's lesson and point to the slider it is about; hide it where there is none."""
+        lesson = self.lessons().get(state.lesson) if state.lesson else None
+        if lesson and not self.panel:
+            self._make_panel()
+        if lesson:
+            number = min(int(state.lesson_step), len(lesson.steps) - 1)
+            self.panel.show_step(lesson, number, state.lesson_told)
+            self._own_up(lesson)
+        if self.panel:
+            self.panel.setVisible(lesson is not None)
+            self._share_room(lesson is not None)
+        self._point(lesson.steps[number].move if lesson else "")
+
+    def _own_up(self, lesson: Lesson) -> None:
+        """Say once that a lesson is in another language than the window, after the picture of its step is there."""
+        if not self._owned_up and lesson.language != spoken():
+            self._owned_up = True
+            QTimer.singleShot(0, lambda: self.store.said.emit(tr(UNTRANSLATED)))
+
+    def _make_panel(self) -> None:
+        self.panel = LessonPanel(tuple(self.lessons().values()), self.window)
+        self.panel.chosen.connect(self.begin)
+        self.panel.moved.connect(self.move)
+        self.panel.asked.connect(self.reveal)
+        self.panel.left.connect(self.leave)
+        self.window.middle.addWidget(self.panel)
+        self.window.installEventFilter(self)
+        self.panel.fit(self.window.width())
+
+    def _share_room(self, shown: bool) -> None:
+        """Give the coefficients' bars, which most lessons are about, their room beside the page, and take it back."""
+        row = self.window.stack.widget(1)
+        if shown and self._sizes is None:
+            self._sizes = row.sizes()
+            row.setSizes([round(part * sum(self._sizes)) for part in BESIDE])
+        elif not shown and self._sizes is not None:
+            row.setSizes(self._sizes)
+            self._sizes = None
+
+    def eventFilter(self, watched, event) -> bool:
+        """Let the page follow the window's width."""
+        if event.type() == QEvent.Type.Resize:
+            self.panel.fit(event.size().width())
+        return False
+
+    def _point(self, key: str) -> None:
+        """Mark the row of one slider, by a line at its left and a bold name."""
+        for name, row in self.window.controls.rows.items():
+            wanted = name == key
+            if bool(row.property("pointed")) != wanted:
+                row.setProperty("pointed", wanted)
+                for part in (row, *row.findChildren(QLabel)):
+                    part.style().unpolish(part)
+                    part.style().polish(part)
+
+    def offer_once(self) -> None:
+        """Offer the first lesson in a line under the bar; a person is asked once in a lifetime."""
+        path = recent.recent_path().with_name("lesson_offered")
+        if path.exists() or self.store.state.lesson:
+            return
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+        except OSError:
+            return
+        self.offer = Offer(self.toggle, self.window)
+        self.window.centralWidget().layout().insertWidget(1, self.offer)
+        self.offer.show()
+
+
+class Offer(QFrame):
+    """One line with Start and No, thanks."""
+
+    def __init__(self, start, parent=None):
+        super().__init__(parent)
+        self.setObjectName("bar")
+        words = QLabel(tr(OFFER))
+        self.start, self.dismiss = tool("Start", "Begin the first lesson (F3)"), tool("No, thanks", "Do not ask again")
+        self.start.clicked.connect(start)
+        self.dismiss.clicked.connect(self.hide)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(12, 4, 8, 4)
+        row.addWidget(words, 1)
+        row.addWidget(self.start)
+        row.addWidget(self.dismiss)

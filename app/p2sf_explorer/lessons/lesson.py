@@ -1,0 +1,232 @@
+"""Lessons as files a teacher writes: Markdown with a small header, steps that set the window, claims that are checked.
+
+A lesson is one ``.md`` file; ``app/lessons/README.md`` tells its form. No Qt in here.
+"""
+
+import re
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.compute.setup import default_state
+from p2sf_explorer.lessons.changes import beside, changed, fault, read_changes
+from p2sf_explorer.lessons.claims import Claim, parse_claim
+from p2sf_explorer.state.limits import DRAGGED
+from p2sf_explorer.state.state import State
+
+FOLDER = Path(__file__).parent
+FENCE = "---"
+FIRST = State()
+PERSONAL = ("theme", "language", "colours")  # a lesson changes the optics and leaves these to whoever sits there
+HEADER = ("title", "about", "lens", "state")
+WORDS = ("try", "ask", "tell")
+STEP = ("set", "move", *WORDS, "claim")
+ENGLISH = "en"
+ENTRY = re.compile(r"([a-z]+):\s*(.*)")
+
+
+@dataclass(frozen=True)
+class Step:
+    """One page: what it sets, which slider to ``move``, its text, a question and its answer, and what it claims."""
+
+    title: str
+    changes: tuple[tuple[str, object], ...]
+    move: str
+    text: str
+    attempt: str
+    question: str
+    answer: str
+    claims: tuple[Claim, ...]
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """A lesson: its file's stem, title and one sentence about it, the lens and state it begins with, its steps."""
+
+    name: str
+    title: str
+    about: str
+    lens: str
+    changes: tuple[tuple[str, object], ...]
+    steps: tuple[Step, ...]
+    language: str = ENGLISH  # of its words
+
+    def state(self, number: int, like: State = FIRST) -> State:
+        """Return what the window shows at a step (from 0), with the PERSONAL entries of ``like``; P2SFError."""
+        made = replace(default_state(self.lens), **{name: getattr(like, name) for name in PERSONAL})
+        for step in (self, *self.steps[: number + 1]):
+            made = changed(made, step.changes)
+        return replace(made, lesson=self.name, lesson_step=number)
+
+
+@lru_cache(maxsize=1)
+def shipped_lessons() -> tuple[Lesson, ...]:
+    """Return the lessons of the program's folder in the order of their files' names; a bad one raises P2SFError."""
+    return tuple(read_lesson(path) for path in lesson_files())
+
+
+def own_folder() -> Path:
+    """Return where a person keeps lessons of their own beside an installed program."""
+    from platformdirs import user_data_path
+
+    return user_data_path("p2sf-explorer", appauthor=False) / "lessons"
+
+
+def found_lessons(folders: tuple[Path, ...], language: str = ENGLISH) -> tuple[dict[str, Lesson], tuple[str, ...]]:
+    """Return the lessons of these folders by name, in its order, and a sentence for every file that is none.
+
+    A lesson of a later folder takes the place of one of the same name. Its words are those of the file of the same name
+    in a folder ``language`` beside it, where there is one.
+    """
+    found, faults = {}, []
+    for path in (path for folder in folders for path in lesson_files(folder)):
+        try:
+            found[path.stem] = read_lesson(path)
+            words = path.parent / language / path.name
+            if language != ENGLISH and words.is_file():
+                found[path.stem] = with_words(found[path.stem], words, language)
+        except P2SFError as error:
+            faults.append(str(error))
+    return dict(sorted(found.items())), tuple(faults)
+
+
+def lesson_files(folder: Path = FOLDER) -> tuple[Path, ...]:
+    """Return the lesson files of a folder, in order."""
+    return tuple(sorted(path for path in folder.glob("*.md") if path.name != "README.md"))
+
+
+def read_lesson(path) -> Lesson:
+    """Return the lesson of a file; P2SFError says what is wrong and in which line."""
+    return parse_lesson(_text(path), Path(path).stem, str(path))
+
+
+def _text(path) -> str:
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise P2SFError(f"{path} cannot be read ({type(error).__name__}); give a lesson as UTF-8 text") from None
+
+
+def with_words(lesson: Lesson, path, language: str) -> Lesson:
+    """Return a lesson in the words of a file in another language; what it sets, moves and claims stays as it is.
+
+    P2SFError for a file of other steps, or with more than words in it.
+    """
+    where = str(path)
+    head, body = _halves(_text(path), where)
+    found = {name: text for name, (_, text) in _entries(head, where, HEADER[:2]).items()}
+    parts = _parts(body, where)
+    if len(parts) != len(lesson.steps):
+        there = "there is 1 step" if len(parts) == 1 else f"there are {len(parts)} steps"
+        raise fault(where, 1, f"{there} of words, and the lesson has {len(lesson.steps)}; say each in its place")
+    steps = tuple(_step(part, where, WORDS) for part in parts)
+    spoken = tuple(
+        replace(new, changes=old.changes, move=old.move, claims=old.claims)
+        for new, old in zip(steps, lesson.steps, strict=True)
+    )
+    return replace(lesson, **found, steps=spoken, language=language)
+
+
+def parse_lesson(text: str, name: str, where: str) -> Lesson:
+    """Return the lesson of a file's text; P2SFError names ``where`` and the line."""
+    head, body = _halves(text, where)
+    header = _header(head, where)
+    steps = tuple(_step(part, where) for part in _parts(body, where))
+    if not steps:
+        raise fault(
+            where, head[-1][0] + 1, "there is no step; begin one with a line such as ## A point becomes a patch"
+        )
+    return Lesson(name, *header, steps)
+
+
+def _halves(text: str, where: str):
+    """Return the numbered lines of the header, and those below it."""
+    lines = list(enumerate(text.splitlines(), 1))
+    if not lines or lines[0][1].strip() != FENCE:
+        raise fault(where, 1, f'a lesson begins with a line "{FENCE}"; put title, about and lens below it')
+    close = next((n for n, line in lines[1:] if line.strip() == FENCE), None)
+    if close is None:
+        raise fault(where, 1, f'the header has no end; close it with a line "{FENCE}"')
+    return lines[1 : close - 1], lines[close:]
+
+
+def _entries(lines, where: str, allowed: tuple[str, ...]) -> dict[str, tuple[int, str]]:
+    """Return the line number and text of every entry of a header."""
+    found = {}
+    for number, line in lines:
+        entry = ENTRY.fullmatch(line.strip())
+        if line.strip() and (not entry or entry[1] not in allowed):
+            raise fault(where, number, f'"{line.strip()}" is no entry of the header; give {", ".join(allowed)}')
+        if entry:
+            found[entry[1]] = number, entry[2]
+    for name in allowed[:3]:
+        if not found.get(name, (0, ""))[1]:
+            raise fault(where, 1, f'the header lacks "{name}"; add a line such as {name}: …')
+    return found
+
+
+def _header(lines, where: str):
+    found = _entries(lines, where, HEADER)
+    changes = read_changes(found["state"][1], found["state"][0], where) if "state" in found else ()
+    lens = beside(found["lens"][1], where)
+    _check_lens(lens, found["lens"][0], where)
+    return found["title"][1], found["about"][1], lens, changes
+
+
+def _parts(lines, where: str):
+    """Return the lines of every step, its heading first."""
+    parts: list[list[tuple[int, str]]] = []
+    for number, line in lines:
+        if line.startswith("## "):
+            parts.append([])
+        if parts:
+            parts[-1].append((number, line))
+        elif line.strip():
+            raise fault(where, number, "this stands before the first step; begin a step with a line ## and its title")
+    return parts
+
+
+def _step(lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
+    found: dict[str, list[tuple[int, str]]] = {name: [] for name in STEP}
+    text, last = [], None
+    for number, line in lines[1:]:
+        entry = ENTRY.fullmatch(line)
+        if entry and entry[1] not in allowed:
+            raise fault(where, number, f'"{entry[1]}:" is no entry of a step here; give {", ".join(allowed)}')
+        if entry:
+            last = found[entry[1]]
+            last.append((number, entry[2]))
+        elif last and line.startswith("  "):
+            last[-1] = last[-1][0], f"{last[-1][1]} {line.strip()}"
+        else:
+            last = None
+            text.append(line)
+    changes = tuple(change for number, value in found["set"] for change in read_changes(value, number, where))
+    words = {name: " ".join(value for _, value in found[name]) for name in WORDS}
+    if bool(words["ask"]) != bool(words["tell"]):
+        raise fault(where, lines[0][0], "a question and its answer go together; give both ask: and tell:")
+    move = _move(found["move"], where)
+    claims = tuple(_claim(value, number, where) for number, value in found["claim"])
+    return Step(lines[0][1][3:].strip(), changes, move, "\n".join(text).strip(), *words.values(), claims)
+
+
+def _move(found, where: str) -> str:
+    for number, value in found:
+        if value not in DRAGGED:
+            raise fault(where, number, f'"{value}" is no slider; move one of {", ".join(DRAGGED)}')
+    return found[-1][1] if found else ""
+
+
+def _claim(text: str, number: int, where: str) -> Claim:
+    try:
+        return parse_claim(text, lambda inner: read_changes(inner, number, where))
+    except P2SFError as error:
+        raise error if str(error).startswith(where) else fault(where, number, str(error)) from None
+
+
+def _check_lens(name: str, number: int, where: str) -> None:
+    try:
+        default_state(name)
+    except P2SFError as error:
+        raise fault(where, number, str(error)) from None

@@ -1,0 +1,148 @@
+"""The page of a lesson beside the panels: text, what to try, a question and its answer, Back and Next."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QTextDocument
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
+
+from p2sf_explorer.charts.theme import SPACE
+from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.lessons.lesson import Lesson
+from p2sf_explorer.widgets.card import chooser, select
+
+WIDTHS = 250, 330  # in a narrow window and in a wide one
+SHARE = 0.205  # of the window's width
+
+
+class LessonPanel(QFrame):
+    """Shows one step; tells what was pressed: ``chosen`` a lesson's name, ``moved`` −1 or +1, ``asked``, ``left``."""
+
+    chosen = Signal(str)
+    moved = Signal(int)
+    asked = Signal()
+    left = Signal()
+
+    def __init__(self, lessons: tuple[Lesson, ...], parent=None):
+        super().__init__(parent)
+        self.setObjectName("card")
+        self.setAccessibleName(tr("Lesson"))
+        numbered = tuple((lesson.name, f"{k}  {lesson.title}") for k, lesson in enumerate(lessons, 1))
+        self.choice = chooser(numbered, "Choose a lesson", self)
+        self.choice.setSizeAdjustPolicy(self.choice.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.exit = tool("Exit", "End the lesson and put everything back as it was before (F3)")
+        self.title, self.count = wrapped("title"), wrapped("muted")
+        self.about, self.text, self.attempt = (
+            wrapped("muted"),
+            wrapped("", Qt.TextFormat.RichText),
+            wrapped("task", Qt.TextFormat.RichText),
+        )
+        self.question, self.answer = wrapped("sentence"), wrapped("task", Qt.TextFormat.RichText)
+        self.reveal = QPushButton(tr("Show the answer"))
+        self.reveal.setToolTip(tr("Show the answer (Alt+Down)"))
+        self.back, self.next = QPushButton(tr("Back")), QPushButton(tr("Next"))
+        self.back.setToolTip(tr("The step before (Alt+Left)"))
+        self.next.setToolTip(tr("The next step (Alt+Right)"))
+        self._shown: tuple = ()
+        self._lay_out()
+        self._connect()
+        self.hide()
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.addWidget(self.count, 1)
+        head.addWidget(self.exit)
+        page = QWidget()
+        page.setObjectName("page")
+        inner = QVBoxLayout(page)
+        inner.setContentsMargins(0, 0, SPACE, 0)
+        inner.setSpacing(10)
+        for part in (self.about, self.title, self.text, self.attempt, self.question, self.reveal, self.answer):
+            inner.addWidget(part)
+        inner.addStretch(1)
+        self.scroll = QScrollArea()
+        self.scroll.setAccessibleName(tr("Text of the lesson"))
+        self.scroll.setWidgetResizable(True)
+        self.scroll.setFrameShape(QScrollArea.Shape.NoFrame)
+        self.scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.scroll.setWidget(page)
+        for part in (self.scroll.viewport(), page):
+            part.setAutoFillBackground(False)
+        foot = QHBoxLayout()
+        foot.addWidget(self.back)
+        foot.addStretch(1)
+        foot.addWidget(self.next)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(12, 10, 8, 12)
+        column.setSpacing(10)
+        column.addLayout(head)
+        column.addWidget(self.choice)
+        column.addWidget(self.scroll, 1)
+        column.addLayout(foot)
+
+    def _connect(self) -> None:
+        self.choice.activated.connect(lambda: self.chosen.emit(self.choice.currentData()))
+        self.exit.clicked.connect(self.left)
+        self.reveal.clicked.connect(self.asked)
+        self.back.clicked.connect(lambda: self.moved.emit(-1))
+        self.next.clicked.connect(lambda: self.moved.emit(1))
+
+    def fit(self, window_px: int) -> None:
+        """Take a share of the window's width."""
+        self.setFixedWidth(min(WIDTHS[1], max(WIDTHS[0], round(SHARE * window_px))))
+
+    def show_step(self, lesson: Lesson, number: int, told: bool) -> None:
+        """Show a step of a lesson, with its answer when it was ``told``."""
+        if (lesson, number, told) == self._shown:
+            return
+        new, self._shown = (lesson, number) != self._shown[:2], (lesson, number, told)
+        step, last = lesson.steps[number], len(lesson.steps) - 1
+        select(self.choice, lesson.name)
+        self.choice.setToolTip(lesson.title)  # the longest one is wider than the page
+        texts = (
+            (self.about, lesson.about if number == 0 else ""),
+            (self.title, step.title),
+            (self.text, rich(step.text)),
+            (self.attempt, rich(f"**{tr('Try')}** {step.attempt}" if step.attempt else "")),
+            (self.question, step.question),
+            (self.answer, rich(step.answer if told else "")),
+        )
+        for label, text in texts:
+            label.setText(unbroken(text))
+            label.setVisible(bool(text))
+        self.reveal.setVisible(bool(step.question) and not told)
+        self.count.setText(tr("step {k} of {n}", k=number + 1, n=last + 1))
+        self.back.setEnabled(number > 0)
+        self.next.setText(tr("Next") if number < last else tr("Next lesson"))
+        if new:
+            self.scroll.verticalScrollBar().setValue(0)
+
+
+def rich(text: str) -> str:
+    """Return Markdown as the HTML of a label, its paragraphs apart; a label's own Markdown runs them together."""
+    if not text:
+        return ""
+    document = QTextDocument()
+    document.setMarkdown(text)
+    body = document.toHtml().partition("<body")[2].partition(">")[2].partition("</body>")[0].strip()
+    return body.replace("margin-top:6px; margin-bottom:6px", "margin-top:0px; margin-bottom:0px", 1).replace(
+        "margin-top:6px; margin-bottom:6px", "margin-top:8px; margin-bottom:0px"
+    )
+
+
+def wrapped(name: str, form=Qt.TextFormat.PlainText) -> QLabel:
+    """Return a label of several lines that a screen reader and a mouse can read."""
+    made = QLabel()
+    made.setObjectName(name)
+    made.setWordWrap(True)
+    made.setTextFormat(form)
+    made.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+    return made
+
+
+def tool(text: str, tip: str) -> QToolButton:
+    """Return a small button that the keyboard reaches."""
+    made = QToolButton()
+    made.setObjectName("small")
+    made.setText(tr(text))
+    made.setToolTip(tr(tip))
+    made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    return made

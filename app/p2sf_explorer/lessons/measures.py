@@ -1,0 +1,193 @@
+"""Measures that a lesson may claim something about, by name: each a number of the window's state. No Qt in here."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache
+from threading import Event
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.lens.source import Source
+from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.pupils import find_stop
+from p2sf.psf.compare import r_squared as fidelity
+from p2sf.psf.methods import render
+from p2sf.psf.metrics import centroid, mtf, radius_of_energy
+from p2sf.studies.paper import PIXELS, WINDOW_UM
+from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.setup import Setting, setting
+from p2sf_explorer.state.state import State
+
+CONTRAST_PER_MM = 50.0  # the frequency at which contrast is quoted: a line pair of 20 µm
+BLUE_RED_NM = 486.1327, 656.2725  # Fraunhofer's F and C
+
+Measure = Callable[[State], float]
+
+
+def of_setting(value: Callable[[Setting], float]) -> Measure:
+    """Return a measure of the paraxial setting."""
+    return lambda state: float(value(setting(state)))
+
+
+def of_live(value: Callable[[Live], float]) -> Measure:
+    """Return a measure of the settled answer that the panels show."""
+    return lambda state: float(value(_live(state)))
+
+
+@lru_cache(maxsize=64)
+def _live(state: State) -> Live:
+    return compute.live(state)
+
+
+def coefficient(term: str) -> Measure:
+    """Return the measure of one coefficient as the window shows it, waves."""
+    return of_setting(lambda made: getattr(made.coefficients, term))
+
+
+ASTIGMATISM = {"petzval": -0.5, "sagittal": 0.0, "tangential": 1.0}  # of W22 in the ρ² term of each focus
+
+
+def focus_um(which: str) -> Measure:
+    """Return where a fan comes to focus, µm behind the sensor: Δz = −2n′λW/NA² (Welford 1986, ch. 8)."""
+
+    def shift(made: Setting) -> float:
+        c = made.coefficients
+        waves = c.w20 + c.wd + ASTIGMATISM[which] * c.w22
+        return -2 * c.image_index * c.wavelength_um * waves / c.na**2
+
+    return of_setting(shift)
+
+
+def ray_focus_um(which: str) -> Measure:
+    """Return where real rays close to the chief ray meet, µm behind the sensor."""
+
+    def shift(state: State) -> float:
+        from p2sf.raytrace.field_curves import real_foci
+
+        made = setting(state)
+        return UM_PER_MM * float(getattr(real_foci(made.lens, made.source, made.source.field_slope, made.stop), which))
+
+    return shift
+
+
+def distortion_percent(state: State) -> float:
+    """Return how much farther out than the paraxial image the real chief ray lands, %."""
+    from p2sf.pixel_kernels.sensor_points import chief_heights
+
+    made = setting(state)
+    real = float(chief_heights(made.lens, made.source))
+    return 100 * (real / float(made.coefficients.image_height) - 1)
+
+
+def axial_colour_um(state: State) -> float:
+    """Return how far red (C) comes to focus behind blue (F) on the axis, µm."""
+    made = setting(state)
+    blue, red = (float(image_distance(made.lens, state.depth_mm, nm / NM_PER_UM)) for nm in BLUE_RED_NM)
+    return UM_PER_MM * (red - blue)
+
+
+@lru_cache(maxsize=16)
+def r_squared(state: State) -> float:
+    """Return R² of the picture against the Huygens sum in the point's window, as the panel Accuracy says it."""
+    from p2sf_explorer.compute.reference import measure
+
+    return measure(_live(state), False, Event(), lambda part: None).r_squared
+
+
+def r_squared_narrow(state: State) -> float:
+    """Return R² of the state's method against the Huygens sum, in the paper's window of 32² samples over 22.12 µm."""
+    made = setting(state)
+    window = {"pixels": PIXELS, "pixel_um": WINDOW_UM / PIXELS}
+    shown = render(made.lens, made.source, method=state.method, **window)
+    return float(fidelity(shown.values, _reference(made.lens, made.source).values))
+
+
+@lru_cache(maxsize=8)
+def _reference(lens, source: Source):
+    return render(lens, source, method="huygens", pixels=PIXELS, pixel_um=WINDOW_UM / PIXELS)
+
+
+def database_error(rule: str) -> Measure:
+    """Return the largest error of a database's rule in W31, waves, on the database panel's nodes."""
+
+    def error(state: State) -> float:
+        from p2sf_explorer.results.database import answer, question
+
+        return answer(question(_live(state))).largest[rule]["w31"]
+
+    return error
+
+
+def photo_psfs(state: State) -> float:
+    """Return how many places on the sensor the coarse picture takes PSFs at."""
+    rows, columns = _coarse(state).plan.counts
+    return float(rows * columns)
+
+
+def sharpening_db(state: State) -> float:
+    """Return what sharpening gains over the blurred photo, dB; ``photo_show axis`` takes the PSF of the axis for it."""
+    from p2sf.image.deblur import psnr
+    from p2sf_explorer.results.image import COLUMNS, ROWS
+    from p2sf_explorer.results.photos import scene_values
+
+    found = _coarse(state)
+    truth = scene_values(state.photo, (ROWS, COLUMNS))
+    return psnr(found.after, truth) - psnr(found.before, truth)
+
+
+@lru_cache(maxsize=8)
+def _coarse(state: State):
+    from p2sf_explorer.results.image import coarse, question
+
+    return coarse(question(_live(replace(state, method="seidel"))))
+
+
+def _spread(axis: str) -> Measure:
+    """Return the measure of the PSF's standard deviation along an axis, µm, in the window shown."""
+
+    def spread(live: Live) -> float:
+        values = live.psf.values.sum(0 if axis == "x" else 1, dtype=float)
+        place = live.psf.x_um if axis == "x" else live.psf.y_um
+        share = values / values.sum()
+        return np.sqrt(share @ place**2 - (share @ place) ** 2)
+
+    return of_live(spread)
+
+
+def _contrast(direction: str) -> Measure:
+    return of_live(lambda live: getattr(mtf(live.psf, np.array([CONTRAST_PER_MM])), direction)[0])
+
+
+MEASURES: dict[str, Measure] = {
+    "airy_radius_um": of_live(lambda live: live.airy_radius_um),
+    "numerical_aperture": of_setting(lambda made: made.coefficients.na),
+    "focal_length_mm": of_setting(lambda made: made.focal_length_mm),
+    "image_height_mm": of_setting(lambda made: made.coefficients.image_height),
+    "stop_surface": of_setting(lambda made: find_stop(made.lens).surface),
+    **{f"{term}_waves": coefficient(term) for term in ("w40", "w31", "w22", "w20", "wd", "w11")},
+    "rms_waves": of_live(lambda live: live.pupil.rms),
+    "strehl": of_live(lambda live: live.psf.strehl),
+    "centre_over_peak": of_live(lambda live: live.psf.values[tuple(n // 2 for n in live.psf.values.shape)]
+                                / live.psf.values.max()),
+    "radius_80_um": of_live(lambda live: radius_of_energy(live.psf, 0.8)),
+    "centroid_y_um": of_live(lambda live: centroid(live.psf)[1]),
+    "spread_x_um": _spread("x"),
+    "spread_y_um": _spread("y"),
+    "contrast_tangential": _contrast("tangential"),
+    "contrast_sagittal": _contrast("sagittal"),
+    **{f"{which}_focus_um": focus_um(which) for which in ASTIGMATISM},
+    **{f"real_{which}_focus_um": ray_focus_um(which) for which in ("sagittal", "tangential")},
+    "distortion_percent": distortion_percent,
+    "axial_colour_um": axial_colour_um,
+    "r_squared": r_squared,
+    "r_squared_narrow": r_squared_narrow,
+    "numbers": of_live(lambda live: live.psf.numbers),
+    "rays": of_live(lambda live: live.psf.rays),
+    "exact_database_error_waves": database_error("exact"),
+    "table1_error_waves": database_error("table1"),
+    "linear_error_waves": database_error("linear"),
+    "photo_psfs": photo_psfs,
+    "sharpening_db": sharpening_db,
+}  # fmt: skip

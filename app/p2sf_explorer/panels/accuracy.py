@@ -1,0 +1,158 @@
+"""How good the picture is: the Huygens reference, the difference, and the ladder's time against error."""
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+
+from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.charts.painting import set_text, small_font
+from p2sf_explorer.charts.plots import HeatMap, plot_widget, restyle_plot
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.reference import Accuracy, Rung
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.panels.psf import PSF_MAP
+from p2sf_explorer.state.scales import nice, significant, written_r_squared
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.readout import Readout
+
+TIP = "Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens)."
+DIFFERENCE_MAP = "CET-D1A"
+EMPTY = (
+    "When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the "
+    "difference, and what every method costs in time and error appear here."
+)
+SMALLEST_ERROR = 1e-9
+LADDER_SHARE = 6 / 14  # of the card's width
+
+
+class AccuracyPanel:
+    """Reference and difference maps at the left, the ladder at the right; filled by the background worker."""
+
+    wants_ladder = True
+
+    def __init__(self, store: Store):
+        self.widget = Card("Accuracy", TIP)
+        self.reference = HeatMap("reference, µm", "y, µm", self.widget)
+        self.difference = HeatMap("picture − reference, µm", "y, µm", self.widget)
+        self.reference.set_map(PSF_MAP)
+        self.difference.set_map(DIFFERENCE_MAP)
+        self.ladder = plot_widget("time of one PSF, ms", "relative L2 error")
+        self.ladder.getPlotItem().setLogMode(True, True)
+        self.ladder.getPlotItem().getViewBox().setDefaultPadding(0.15)
+        self.points = pg.ScatterPlotItem(size=9)
+        self.ladder.addItem(self.points)
+        self.names: list[pg.TextItem] = []
+        self.message = Readout(self.widget, pill=True, colour="text")
+        self.body = QWidget(self.widget)
+        self.body.setVisible(False)
+        self.empty = QLabel(tr(EMPTY), self.widget)
+        self.empty.setObjectName("muted")
+        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.empty.setWordWrap(True)
+        row = QHBoxLayout(self.body)
+        row.setContentsMargins(0, 0, 0, 0)
+        for part, share in ((self.reference, 4), (self.difference, 4), (self.ladder, 6)):
+            row.addWidget(part, share)
+        self.widget.set_body(self.body)
+        self.widget.set_body(self.empty)
+        self.widget.add_footer(self.message)
+        self.message.set_text("the reference is summed when the sliders rest", "muted")
+        self._theme = LIGHT
+
+    def show(self, live: Live) -> None:
+        """Mark what is shown as belonging to an earlier picture until the worker answers."""
+        text = self.message.text().removesuffix(" · earlier picture")
+        if " vs " in text:
+            self.message.set_text(f"{text} · earlier picture", "muted")
+
+    def show_progress(self, part: float) -> None:
+        """Tell how far the reference is."""
+        self.message.set_text(f"summing the reference: {100 * part:.0f} %", "muted")
+
+    def show_failure(self, sentence: str) -> None:
+        """Say why there is no reference."""
+        self.message.set_text(sentence, "warning")
+
+    def show_accuracy(self, accuracy: Accuracy, stale: bool) -> None:
+        """Paint reference, difference and ladder."""
+        self.body.setVisible(True)
+        self.empty.setVisible(False)
+        psf, reference = accuracy.picture, accuracy.reference
+        count, step = reference.values.shape[-1], reference.pixel_um
+        start = -(count // 2 + 0.5) * step
+        rect, peak = (start, start, count * step, count * step), float(reference.values.max())
+        scale = accuracy.live.state.psf_scale
+        self.reference.show_values(stretched(reference.values / peak, scale), (0.0, 1.0), rect)
+        self.reference.means(reference.values / peak, "PSF, peak = 1")
+        self.reference.bar.show_scale(PSF_MAP, "peak = 1", ((0.0, "0"), (1.0, "1")))
+        delta = (psf.values - reference.values) / peak
+        limit = nice(max(1e-6, float(np.abs(delta).max())))
+        self.difference.show_values(delta, (-limit, limit), rect)
+        self.difference.means(delta, "difference, share of the reference's peak")
+        labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
+        self.difference.bar.show_scale(DIFFERENCE_MAP, "of peak", labels)
+        for chart in (self.reference, self.difference):
+            chart.set_extent(count * step / 2)
+        self._show_ladder(accuracy.rungs, psf.method)
+        r2 = written_r_squared(accuracy.r_squared)
+        text = f"{psf.method} vs Huygens: R² {r2} in {significant(count * step, 3)} µm"
+        text += f" · reference from {reference.rays} rays, {reference.seconds:.2f} s"
+        self.message.set_text(text + (" · earlier picture" if stale else ""), "muted" if stale else "text")
+
+    def _show_ladder(self, rungs: tuple[Rung, ...], shown: str) -> None:
+        for name in self.names:
+            self.ladder.removeItem(name)
+        self.names = []
+        brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in rungs]
+        places = [(np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in rungs]
+        self.points.setData([x for x, _ in places], [y for _, y in places], brush=brushes, pen=None)  # in decades
+        if not places:
+            return
+        x, y = zip(*places, strict=True)
+        left, right = min(x) - 0.3, max(x) + 0.3
+        self.ladder.setRange(xRange=(left, right), yRange=(min(y) - 0.5, max(y) + 0.5), padding=0)
+        box = QRectF(left, min(y) - 0.5, right - left, max(y) - min(y) + 1)
+        size = self.widget.width() * LADDER_SHARE - 70, max(60.0, self.widget.height() - 100.0)  # of its area, pixels
+        dots = [((a - box.x()) / box.width() * size[0], (box.bottom() - b) / box.height() * size[1]) for a, b in places]
+        words = [rung_words(rung) for rung in rungs]
+        for text, place, anchor in zip(words, places, anchors(words, dots, size), strict=True):
+            label = pg.TextItem(text, self._theme.muted, anchor=anchor)
+            label.setFont(small_font())
+            label.setPos(*place)
+            self.ladder.addItem(label, ignoreBounds=True)
+            self.names.append(label)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        for part in (self.reference, self.difference, self.message):
+            part.restyle(theme)
+        restyle_plot(self.ladder, theme)
+        for name in self.names:
+            name.setColor(theme.muted)
+
+
+def rung_words(rung: Rung) -> str:
+    """Return a method's name and R²; the reference has no R² against itself."""
+    return rung.method if rung.method == "huygens" else f"{rung.method}  R² {written_r_squared(rung.r_squared)}"
+
+
+def anchors(words: list[str], dots: list[tuple[float, float]], size: tuple[float, float]) -> list[tuple[float, float]]:
+    """Return where each text hangs on its dot (pixels, y down): at a side, level, under or over, clear of others."""
+    taken, found = [QRectF(x - 5, y - 5, 10, 10) for x, y in dots], []
+    for text, (x, y) in zip(words, dots, strict=True):
+        wide, tall = set_text(text).size().width() + 10, set_text(text).size().height()
+        rooms = {(over, down): QRectF(x + 5 - over * (wide + 5), y - down * tall, wide, tall) for over, down in SIDES}
+        inside = [at for at, room in rooms.items() if QRectF(0, -4, size[0], size[1] + 8).contains(room)]
+        free = [at for at in inside if not any(rooms[at].intersects(other) for other in taken)]
+        chosen = (free or inside or list(SIDES))[0]
+        taken.append(rooms[chosen])
+        found.append((chosen[0] + (0.06 if chosen[0] else -0.06), chosen[1]))
+    return found
+
+
+LEVELS = (0.5, 0.0, 1.0, -0.6, 1.6)  # level, under, over, and clear of a neighbour that hangs level
+SIDES = tuple((over, down) for down in LEVELS for over in (0.0, 1.0))  # right or left

@@ -1,0 +1,61 @@
+"""Longitudinal colour: where each wavelength comes to focus on the axis."""
+
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.quantities import C_NM, D_NM, F_NM
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.chromatic import Chromatic
+from p2sf_explorer.state.scales import signed
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.chart_card import NotedChart, around, legend
+
+TIP = (
+    "Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and "
+    "exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it."
+)
+LOOKS = {"paraxial": "text", "0.7 of the pupil": "marginal", "rim": "chief"}
+LINES = ((F_NM, "F"), (D_NM, "d"), (C_NM, "C"))
+
+
+class ChromaticPanel:
+    """Three curves over the spectrum, the depth of focus, and the present wavelength."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Chromatic shift", TIP)
+        self.chart: Chart = NotedChart("wavelength, nm", "focus, µm")
+        self.band = [self.chart.add_curve("line") for _ in range(2)]
+        self.curves = {name: self.chart.add_curve(token, 1 if token == "text" else 2) for name, token in LOOKS.items()}
+        for name, curve in self.curves.items():
+            curve.name = tr(name)
+        self.widget.set_body(self.chart)
+        self._theme: Tokens | None = None
+
+    def show(self, live: Live) -> None:
+        """Paint the curves."""
+        view: Chromatic = live.views["chromatic"]
+        for curve, shift in zip(self.curves.values(), view.shift_um, strict=True):
+            curve.set_data(view.wavelength_nm, shift)
+        ends = view.wavelength_nm[[0, -1]]
+        for side, curve in zip((-1, 1), self.band, strict=True):
+            curve.set_data(ends, (side * view.depth_of_focus_um,) * 2)
+        low, high = around(view.shift_um, least=1.0)
+        self.chart.set_range((float(ends[0]), float(ends[1])), (low, high))
+        here = live.state.wavelength_nm
+        names = [(nm, high - 0.07 * (high - low), name, "muted", 0) for nm, name in LINES if ends[0] <= nm <= ends[1]]
+        self.chart.show_notes(names, ((here, "muted"),))
+        self._say(view)
+
+    def _say(self, view: Chromatic) -> None:
+        paraxial = view.shift_um[0]
+        spread = signed(float(paraxial.max() - paraxial.min()), 1)
+        looks = legend(LOOKS, self._theme)
+        self.widget.set_readout(
+            f"{looks} &nbsp; {spread} µm over the spectrum · ±{view.depth_of_focus_um:.3g} µm depth of focus"
+        )
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.chart.restyle(theme)

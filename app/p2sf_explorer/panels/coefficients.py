@@ -1,0 +1,110 @@
+"""The six coefficients as numbers and bars, in waves, and what they would do if they were others."""
+
+from PySide6.QtWidgets import QMenu, QSizePolicy, QToolButton
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.state.scales import read_number
+from p2sf_explorer.state.terms import TERMS
+from p2sf_explorer.state.what_if import PRESETS, SHORT_NOTE, UNTOUCHED, of_preset, toggled, with_added
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.coefficient_mixer import Mixer
+from p2sf_explorer.widgets.coefficient_mixer_parts import NAMES
+
+TIP = "Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves."
+FREE_TIP = "Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients."
+PRESETS_TIP = "Textbook wavefronts, in a free pupil"
+LEAST = 250, 186  # pixels: names, numbers and buttons, some forty for the bars, and three buttons below
+RESET_TIP = "Back to the lens's own coefficients: nothing added, muted or solo"
+
+
+class CoefficientsPanel:
+    """Six rows of bars and sliders; below, free pupil, presets and reset."""
+
+    def __init__(self, store: Store):
+        self._store, self._theme, self._note = store, LIGHT, ""
+        self.widget = Card("Coefficients", TIP)
+        self.bars = Mixer(self.widget)
+        self.widget.setMinimumSize(*LEAST)
+        self.widget.set_body(self.bars)
+        self.free = self._button("Free pupil", FREE_TIP)
+        self.free.setCheckable(True)
+        self.free.clicked.connect(lambda on: store.update(free_pupil=on))
+        self.presets = self._button("Presets", PRESETS_TIP)
+        self.presets.setMenu(self._preset_menu())
+        self.presets.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.reset = self._button("Reset", RESET_TIP)
+        self.reset.clicked.connect(lambda: store.update(**UNTOUCHED))
+        self.widget.add_footer(self.free, self.presets, self.reset)
+        self._connect()
+
+    def _connect(self) -> None:
+        store, bars = self._store, self.bars
+        bars.pressed.connect(store.begin)
+        bars.released.connect(store.end)
+        bars.added.connect(lambda term, waves: store.update(added_waves=with_added(store.state, term, waves)))
+        bars.typed.connect(self._type)
+        bars.toggled.connect(lambda kind, term: store.update(**{kind: toggled(getattr(store.state, kind), term)}))
+
+    def _type(self, term: str, text: str) -> None:
+        """Bring a coefficient to a typed number of waves: what is added makes up the rest."""
+        try:
+            waves = read_number(text, NAMES[term], {"": 1.0, "λ": 1.0})
+        except P2SFError as error:
+            self._store.refused.emit(str(error))
+            return
+        added = round(waves - self.bars.own[term], 6)
+        self._store.update(added_waves=with_added(self._store.state, term, added))
+
+    def _button(self, text: str, tip: str) -> QToolButton:
+        button = QToolButton(self.widget)
+        button.setObjectName("small")
+        button.setText(tr(text))
+        button.setToolTip(tr(tip))
+        button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        button.setStyleSheet("padding: 1px 2px")  # three of them share the card's width, narrow beside a lesson
+        return button
+
+    def _preset_menu(self) -> QMenu:
+        menu = QMenu(self.widget)
+        menu.setToolTipsVisible(True)
+        for preset in PRESETS:
+            action = menu.addAction(tr(preset.title), lambda preset=preset: self._store.update(**of_preset(preset)))
+            action.setToolTip(tr(preset.shows))
+        return menu
+
+    def show(self, live: Live) -> None:
+        """Paint the coefficients."""
+        state, altered = live.state, live.setting.altered
+        values, own = (as_numbers(found) for found in (live.setting.coefficients, live.setting.own))
+        own = dict.fromkeys(TERMS, 0.0) if state.free_pupil else own
+        if live.difference:
+            values = own = dict(live.difference.coefficients)
+        self.bars.show_values(
+            values, own, dict(zip(TERMS, state.added_waves, strict=True)), muted=state.muted, solo=state.solo
+        )
+        self.bars.setEnabled(live.side != "B")  # the sliders move A
+        self.free.setChecked(state.free_pupil)
+        self.reset.setEnabled(altered)
+        note = "what-if" if live.side else SHORT_NOTE  # beside a side's name there is less room
+        words = "" if live.difference else tr("at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
+        self._note = tr(note) if altered else ""  # "A − B" needs the room, and λ stand at the numbers
+        self.widget.set_readout(self._coloured() or words)
+
+    def _coloured(self) -> str:
+        return self._note and f'<span style="color:{self._theme.warning}">{self._note}</span>'
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.bars.restyle(theme)
+        if self._note:
+            self.widget.set_readout(self._coloured())
+
+
+def as_numbers(coefficients) -> dict[str, float]:
+    """Return the six coefficients by name, waves."""
+    return {name: float(getattr(coefficients, name)) for name in TERMS}

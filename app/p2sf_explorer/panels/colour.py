@@ -1,0 +1,132 @@
+"""The colour PSF: a point of a chosen spectrum as the eye would see its image on a screen."""
+
+import numpy as np
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QColor, QPainter
+
+from p2sf.conventions import NM_PER_UM
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.colour import CHOICES, ColourQuestion, Colours, answer, pixels
+from p2sf_explorer.state.scales import signed
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import chooser, select
+from p2sf_explorer.widgets.chart_card import ChartsCard
+from p2sf_explorer.widgets.value_edit import ValueEdit
+from p2sf_explorer.workers.panel_jobs import Asking
+
+TIP = (
+    "Colour PSF: a PSF for each wavelength where its own chief ray lands, weighted by the spectrum and the CIE 1931 "
+    "observer, as linear sRGB. Right: the luminance of the spectrum, and where each colour's chief ray lands."
+)
+SPECTRUM_TIP = "The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)"
+
+
+class SpectrumChart(Chart):
+    """Bars of luminance in their colours; a curve of lateral colour is drawn over them on the same wavelengths."""
+
+    def __init__(self):
+        super().__init__("wavelength, nm", "chief ray, µm")
+        self.shift = self.add_curve("text", 2)
+        self.found: Colours | None = None
+
+    def show_found(self, found: Colours) -> None:
+        """Show an answer."""
+        self.found = found
+        nm, shift = NM_PER_UM * found.psf.wavelengths_um, found.psf.shift_um
+        order = np.argsort(nm)
+        self.shift.set_data(nm[order], shift[order])
+        reach = max(1.0, float(np.abs(shift).max()))
+        low, high = min(400.0, float(found.wavelength_nm.min())), max(700.0, float(found.wavelength_nm.max()))
+        self.set_range((low, high), (-1.15 * reach, 1.15 * reach))
+        self.update()
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the bars along the foot."""
+        if not self.found:
+            return
+        top = float(self.found.luminance.max())
+        wide = self.area.width() / 58
+        for nm, light, hue in zip(self.found.wavelength_nm, self.found.luminance, self.found.hues, strict=True):
+            x, tall = float(self.to_pixels(nm, 0.0)[0]), 0.4 * self.area.height() * light / top
+            box = QRectF(x - wide / 2, self.area.bottom() - tall, wide, tall)
+            painter.fillRect(box, QColor.fromRgbF(*map(float, hue)))
+
+
+EMPTY_NM = (400.0, 700.0)  # what the spectrum's axis shows before there is one
+
+
+class ColourPanel:
+    """The picture and its spectrum; filled in the background."""
+
+    def __init__(self, store: Store):
+        self._store = store
+        self.picture = Chart("x, µm", "y, µm", aspect=True)
+        self.spectrum = SpectrumChart()
+        self.airy = self.picture.add_curve("#ffffff", 1, 150)
+        self.spectrum.set_range(EMPTY_NM, (-1.0, 1.0))
+        self.widget = ChartsCard("Colour PSF", TIP, (self.picture, self.spectrum), (3, 4))
+        self.choice = chooser((*CHOICES, ("", "typed")), SPECTRUM_TIP, self.widget)
+        self.typed = ValueEdit(self.widget)
+        self.typed.setFixedWidth(170)
+        self.typed.setToolTip(tr(SPECTRUM_TIP))
+        self.typed.setAccessibleName(tr("Spectrum"))
+        self.widget.add_tool(self.choice)
+        self.widget.add_tool(self.typed)
+        self.choice.activated.connect(self._choose)
+        self.typed.committed.connect(self._type)
+        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.found: tuple[ColourQuestion, Colours] | None = None
+        self._scale = "sqrt"
+
+    def show(self, live: Live) -> None:
+        """Ask for the picture of the present point."""
+        name, scale = live.state.spectrum, live.state.psf_scale
+        select(self.choice, name if self.choice.findData(name) >= 0 else "")
+        self.typed.set_text(name)
+        turn = np.linspace(0, 2 * np.pi, 73)
+        self.airy.set_data(live.airy_radius_um * np.cos(turn), live.airy_radius_um * np.sin(turn))
+        changed, self._scale = scale != self._scale, scale
+        asked = live.views["colour"]
+        if isinstance(asked, str):
+            self.asking.refuse(asked)
+            return
+        if self.found is None:
+            half = asked.window[0] * asked.window[1] / 2
+            self.picture.set_range((-half, half), (-half, half))
+        self.asking.ask(asked)
+        if changed:
+            self.asking.again()
+
+    def _paint(self, asked: ColourQuestion, found: Colours) -> str:
+        self.found = asked, found
+        count, step = asked.window
+        start = -(count // 2 + 0.5) * step
+        self.picture.show_pixels(pixels(found.psf, self._scale), (start, start, count * step, count * step))
+        half = count * step / 2
+        self.picture.set_range((-half, half), (-half, half))
+        self.spectrum.show_found(found)
+        spread = float(np.ptp(found.psf.shift_um))
+        return (
+            f"{len(found.psf.wavelengths_um)} wavelengths · lateral colour {signed(spread, 2)} µm · "
+            f"{1e3 * found.psf.seconds:.0f} ms"
+        )
+
+    def _choose(self) -> None:
+        if self.choice.currentData():
+            self._store.update(spectrum=self.choice.currentData())
+
+    def _type(self, text: str) -> None:
+        self._store.update(spectrum=text.strip().lower())
+        self.typed.set_text(self._store.state.spectrum)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        for chart in (self.picture, self.spectrum):
+            chart.restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.asking.worker.stop()

@@ -1,0 +1,180 @@
+"""The whole depth-and-field space of the lens: a coefficient's map, what interpolation loses, an atlas of PSFs."""
+
+import numpy as np
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from p2sf.conventions import degrees_from_slope
+from p2sf.database.parts import KINDS
+from p2sf_explorer.charts.plots import ColourBar, as_indices
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.messages import spoken
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.database import LOSSY, NODES, Answer, Question, answer
+from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.terms import WORDS
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card, chooser
+from p2sf_explorer.widgets.depth_field_chart import PER_METRE, AtlasView, DepthFieldMap
+from p2sf_explorer.workers.worker import LatestWins
+
+TIP = (
+    "Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; "
+    "drag on a map or the atlas, or use the arrow keys and Enter, to set the source."
+)
+VALUE_MAP, ERROR_MAP = "CET-D1A", "viridis"
+DECADES = 6  # of the error map below its largest value
+RULES = {"table1": "table 1 of the paper", "linear": "linear"}
+
+
+class DatabasePanel:
+    """Map, error map and atlas; filled by its own worker, the present point follows at once."""
+
+    def __init__(self, store: Store):
+        self._store = store
+        self.widget = Card("Database", TIP)
+        names = tuple((k, "Wd defocus" if k == "wd" else f"W{k[1:]} {WORDS[k]}") for k in KINDS)
+        self.term = chooser(names, "Which coefficient", self.widget)
+        self.term.setCurrentIndex(KINDS.index("w22"))
+        self.rule = chooser(tuple((r, RULES[r]) for r in LOSSY), "Which interpolation the error is of", self.widget)
+        self.map, self.error, self.atlas = DepthFieldMap(), DepthFieldMap(), AtlasView()
+        self.bars = ColourBar(), ColourBar()
+        self.note = QLabel()
+        self._lay_out()
+        for box in (self.term, self.rule):
+            box.activated.connect(self._paint)
+        for chart in (self.map, self.error, self.atlas):
+            chart.taken.connect(store.begin)
+            chart.released.connect(store.end)
+            chart.picked.connect(lambda depth, angle: store.update(depth_mm=depth, field_deg=angle))
+        self._asked: Question | None = None
+        self._answer: Answer | None = None
+        self.worker = LatestWins(self.widget)
+        self.worker.finished.connect(self._on_answer)
+        self.worker.failed.connect(self._on_failure)
+
+    def _lay_out(self) -> None:
+        self.widget.add_tool(self.term)
+        self.widget.add_tool(self.rule)
+        self.note.setObjectName("muted")
+        self.heads = [QLabel() for _ in range(3)]
+        body = QWidget()
+        row = QHBoxLayout(body)
+        row.setContentsMargins(0, 0, 0, 0)
+        parts = ((self.map, self.bars[0]), (self.error, self.bars[1]), (self.atlas,))
+        for head, part, share in zip(self.heads, parts, (5, 5, 6), strict=True):
+            row.addWidget(headed(head, part), share)
+        self.widget.set_body(body)
+        self.widget.add_footer(self.note)
+
+    def show(self, live: Live) -> None:
+        """Mark the present point, and ask the worker when more than the point has changed."""
+        asked, state = live.views["database"], live.state
+        for chart in (self.map, self.error, self.atlas):
+            chart.show_point(state.depth_mm, state.field_deg)
+        if asked != self._asked:
+            self._asked = asked
+            self.worker.submit(asked, lambda cancelled, progress: answer(asked, cancelled.is_set))
+        self.widget.set_readout(f"at {state.wavelength_nm:.1f} nm" + (" · working" if self._stale() else ""))
+
+    def _stale(self) -> bool:
+        return self._answer is None or self._answer.question != self._asked
+
+    def _on_answer(self, key: Question, found: Answer) -> None:
+        self._answer = found
+        self._paint()
+        if not self._stale():
+            self.widget.set_readout(f"at {1000 * key.wavelength_um:.1f} nm")
+
+    def _on_failure(self, key: Question, sentence: str) -> None:
+        self.note.setText(tr(spoken(sentence)))
+
+    def _paint(self) -> None:
+        if not self._answer:
+            return
+        found, term, rule = self._answer, self.term.currentData(), self.rule.currentData()
+        self._paint_map(found, term)
+        self._paint_error(found, term, rule)
+        self.atlas.show_atlas(found.atlas)
+        wide = f", {short(found.atlas.psfs.shape[-1] * found.atlas.pixel_um)} µm wide" if found.atlas else ""
+        heads = name(term), f"error of {RULES[rule]}", f"PSFs{wide}, √ of peak = 1"
+        for head, words in zip(self.heads, heads, strict=True):
+            head.setText(tr(words))
+        losses = " · ".join(f"{r} {found.largest[r][term]:.2g} λ" for r in ("exact", *LOSSY))
+        depths, fields, colours = NODES
+        text = f"largest error in {name(term)}: {losses}, on {depths} depths × {fields} fields × {colours} wavelengths"
+        self.note.setText(tr(" · ".join(part for part in (text, found.why_no_atlas) if part)))
+        self.note.setToolTip(self.note.text())
+
+    def _paint_map(self, found: Answer, term: str) -> None:
+        """Paint signed square roots: near and far differ by a thousand waves."""
+        values = found.maps[term]
+        limit = nice(max(1e-6, float(np.nanmax(np.abs(values)))))
+        scaled = np.sign(values) * np.sqrt(np.abs(values) / limit)
+        self.map.show_map(as_indices(scaled, -1.0, 1.0), VALUE_MAP, *places(found))
+        self.map.grids = (grid_of(found, f"{name(term)}, λ", values),)
+        parts = (-1, -0.5, 0.5, 1)
+        labels = tuple(((1 + p) / 2, short(p * abs(p) * limit, "+")) for p in parts)
+        self.bars[0].show_scale(VALUE_MAP, "λ", (*labels, (0.5, "0")))
+
+    def _paint_error(self, found: Answer, term: str, rule: str) -> None:
+        """Paint decades of the error."""
+        values = found.errors[rule][term]
+        top = np.log10(nice(max(1e-9, float(np.nanmax(values)))))
+        scaled = (np.log10(np.maximum(values, 1e-30)) - top) / DECADES + 1
+        self.error.show_map(as_indices(scaled, 0.0, 1.0), ERROR_MAP, *places(found))
+        self.error.grids = (grid_of(found, tr(f"error of {RULES[rule]}") + f", {name(term)}, λ", values),)
+        labels = tuple((part, short(10 ** (top + DECADES * (part - 1)))) for part in (0, 0.5, 1))
+        self.bars[1].show_scale(ERROR_MAP, "λ", labels)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        for part in (self.map, self.error, self.atlas, *self.bars):
+            part.restyle(theme)
+        self._paint()
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.worker.stop()
+
+
+def headed(head: QLabel, parts: tuple[QWidget, ...]) -> QWidget:
+    """Return widgets beside one another under a heading."""
+    head.setObjectName("muted")
+    made, row = QWidget(), QHBoxLayout()
+    column = QVBoxLayout(made)
+    for layout in (row, column):
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+    for k, part in enumerate(parts):
+        row.addWidget(part, 0 if k else 1)
+    column.addWidget(head)
+    column.addLayout(row, 1)
+    return made
+
+
+def short(value: float, sign: str = "-") -> str:
+    """Return a number as short as a colour bar wants it."""
+    return f"{value:{sign}.3g}".replace("e+0", "e").replace("e-0", "e−").replace("-", "−")
+
+
+def name(term: str) -> str:
+    """Return a coefficient's symbol."""
+    return "Wd" if term == "wd" else f"W{term[1:]}"
+
+
+def grid_of(found: Answer, head: str, values: np.ndarray):
+    """Return a map as the clipboard takes it: its head, 1/depth in 1/m, fields in degrees, and values."""
+    return (
+        f"{head}: {tr('field, °')} \\ {tr('1/depth, 1/m (0 is ∞)')}",
+        PER_METRE * found.near,
+        found.fields_deg,
+        values,
+    )
+
+
+def places(found: Answer):
+    """Return the map's ends and its nodes: 1/depth in 1/m, field in degrees."""
+    near, fields = PER_METRE * found.near, found.fields_deg
+    nodes = PER_METRE / found.nodes.depths_mm, degrees_from_slope(found.nodes.field_slopes)
+    return ((float(near[0]), float(near[-1])), (float(fields[0]), float(fields[-1]))), nodes

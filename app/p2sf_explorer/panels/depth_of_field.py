@@ -1,0 +1,96 @@
+"""Depth of field: the blur at every depth, and what is sharp for a stated blur."""
+
+from math import inf
+
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QColor, QPainter
+
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.depth_of_field import DepthOfField, highest
+from p2sf_explorer.state.scales import told_apart, written_distance
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.chart_card import NotedChart, legend
+from p2sf_explorer.widgets.quantity_edit import MicronEdit
+
+TIP = (
+    "Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's "
+    "cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field."
+)
+BLUR_TIP = "Largest blur diameter on the sensor that is still called sharp."
+LOOKS = {"paraxial, axis": "marginal", "exact rays, this field": "chief"}
+TICKS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+
+
+class DepthChart(NotedChart):
+    """Blur over 1/depth, written as depths; the sharp depths shaded."""
+
+    def __init__(self):
+        super().__init__("depth, even in 1/depth", "blur, µm")
+        self.sharp: tuple[float, float] | None = None
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the shade, then lines and words."""
+        if self.sharp:
+            left, right = (float(self.to_pixels(near, 0.0)[0]) for near in self.sharp)
+            colour = QColor(self.theme.positive)
+            colour.setAlpha(40)
+            box = QRectF(left, self.area.top(), max(2.0, right - left), self.area.height())
+            painter.fillRect(box.intersected(self.area), colour)
+        super().paint_over(painter)
+
+
+class DepthOfFieldPanel:
+    """Two curves of blur, the tolerated one, and the sentence that says what is sharp."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Depth of field", TIP)
+        self.blur = MicronEdit(store, "blur_um", "Tolerated blur", BLUR_TIP, self.widget)
+        self.widget.add_tool(self.blur)
+        self.chart = DepthChart()
+        self.tolerated = self.chart.add_curve("muted")
+        self.curves = {name: self.chart.add_curve(token, 2) for name, token in LOOKS.items()}
+        for name, curve in self.curves.items():
+            curve.name = tr(name)
+        self.chart.columns = "1/depth, 1/mm", "blur, µm"
+        self.widget.set_body(self.chart)
+        self._theme: Tokens | None = None
+
+    def show(self, live: Live) -> None:
+        """Paint the curves and what is sharp."""
+        view: DepthOfField = live.views["depth_of_field"]
+        self.blur.show_value(view.tolerated_um)
+        edges = float(view.near[0]), float(view.near[-1])
+        for curve, blur in zip(self.curves.values(), (view.paraxial, view.real), strict=True):
+            curve.set_data(view.near, blur)
+        self.tolerated.set_data(edges, (view.tolerated_um,) * 2)
+        self._frame(view, edges)
+        ends = (1 / mm if mm else edges[1] for mm in (view.sharp_mm or ())[::-1])
+        self.chart.sharp = tuple(ends) or None
+        self.chart.show_notes((), ((1 / live.state.depth_mm, "chief"),))
+        self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {sentence(view)}")
+
+    def _frame(self, view: DepthOfField, edges: tuple[float, float]) -> None:
+        """Show the ranges, and depths for ticks."""
+        self.chart.set_range(edges, (0.0, highest(view)))
+        places = [edges[0] + part * (edges[1] - edges[0]) for part in TICKS]
+        ticks = tuple(zip(places, told_apart([1 / near if near else inf for near in places]), strict=True))
+        if ticks != self.chart.bottom_ticks:
+            self.chart.bottom_ticks = ticks
+            self.chart.forget_ground()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.chart.restyle(theme)
+
+
+def sentence(view: DepthOfField) -> str:
+    """Return in words which depths are sharp."""
+    if not view.sharp_mm:
+        return tr("no depth before the lens is sharp")
+    near, far = (written_distance(mm) if mm else tr("the lens itself") for mm in view.sharp_mm)
+    focus = written_distance(view.hyperfocal_mm)
+    return tr("sharp from {near} to {far} · hyperfocal distance {focus}", near=near, far=far, focus=focus)

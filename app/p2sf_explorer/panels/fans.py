@@ -1,0 +1,44 @@
+"""Ray fan and OPD fan: exact rays along the two axes of the pupil."""
+
+import numpy as np
+
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.state.scales import nice
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.curves import CurvesPanel
+
+LOOKS = {"sagittal, along ξ": ("marginal", 2), "tangential, along η": ("chief", 2)}
+RAY_TIP = "Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil."
+OPD_TIP = "OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included."
+
+
+class FanPanel(CurvesPanel):
+    """A quantity along the two axes of the pupil, about zero."""
+
+    def __init__(self, key: str, title: str, tip: str, unit: str):
+        super().__init__(title, tip, ("place in the entrance pupil, pupil radii", unit), LOOKS)
+        self._key = key
+
+    def show(self, live: Live) -> None:
+        """Paint the fan; lost rays leave gaps."""
+        fan = live.views[self._key]
+        lines = (np.asarray(fan.sagittal), np.asarray(fan.tangential))
+        self.show_curves(fan.pupil, dict(zip(LOOKS, lines, strict=True)))
+        both = np.abs(np.concatenate(lines))
+        peak = float(np.nanmax(both)) if np.isfinite(both).any() else 0.0
+        limit = nice(max(peak, 1e-3), (1, 1.5, 2, 3, 5, 7))
+        self.set_range((-1.02, 1.02), (-limit, limit))
+
+
+class RayFanPanel(FanPanel):
+    """Transverse ray errors in µm."""
+
+    def __init__(self, store: Store):
+        super().__init__("ray_fan", "Ray fan", RAY_TIP, "landing point, µm")
+
+
+class OpdFanPanel(FanPanel):
+    """Optical path differences in waves."""
+
+    def __init__(self, store: Store):
+        super().__init__("opd_fan", "OPD fan", OPD_TIP, "OPD, waves")

@@ -1,0 +1,134 @@
+"""The field map: PSFs over the picture."""
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+
+from p2sf.conventions import degrees_from_slope
+from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.charts.cursor import Cursor, paint_cursor
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.field_map import SHAPE, FieldMap, answer, places
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.tiles import TilesChart, tile
+from p2sf_explorer.workers.panel_jobs import Asking
+
+TIP = (
+    "Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as "
+    "its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the "
+    "present one."
+)
+
+SAME_DEG = 1e-3  # pictures whose fields differ by less stand equally far from the axis
+
+
+class MapChart(TilesChart):
+    """Pictures in rows and columns; a click on one goes to its field."""
+
+    def __init__(self, store: Store):
+        super().__init__(framed=False)
+        self._store = store
+        self.fields_deg = np.zeros(0)
+        self.cursor = Cursor()
+        self._taken, self._field = 0, 0.0
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(tr("Field map"))
+
+    def mousePressEvent(self, event) -> None:
+        """Go to the field of the picture under the pointer."""
+        number = self.tile_at(event.position())
+        if event.button() == Qt.MouseButton.LeftButton and number is not None:
+            self._take(number)
+
+    def keyPressEvent(self, event) -> None:
+        """Choose a picture with the arrow keys, from that of the present field on, and go to its field with Enter."""
+        points = np.array([(room.center().x(), room.center().y()) for room in map(self.room, self.tiles)])
+        taken = self.cursor.taken(event.key(), len(points))
+        if taken is not None:
+            self._take(taken)
+        elif self.cursor.moved(event.key(), points, self.present() if self.tiles else 0):
+            self.update()
+        else:
+            super().keyPressEvent(event)
+
+    def show_field(self, field_deg: float) -> None:
+        """Mark the picture of the present field; the keys choose from there on."""
+        if abs(field_deg) != self._field:
+            self._field = abs(field_deg)
+            self.cursor.forget()
+            self.update()
+
+    def present(self) -> int:
+        """Return the picture of the present field; of those as far from the axis the one last taken, else the first."""
+        apart = np.abs(self.fields_deg - self._field)
+        least = apart.min() + SAME_DEG
+        return self._taken if self._taken < len(apart) and apart[self._taken] < least else int(apart.argmin())
+
+    def _take(self, number: int) -> None:
+        self._taken = number
+        self.cursor.forget()
+        self.update()
+        self._store.update(field_deg=round(float(self.fields_deg[number]), 4))
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the pictures, and frames about the present one and the one that the keys have chosen."""
+        super().paint_over(painter)
+        if self.tiles:
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(self.theme.accent), 2))
+            painter.drawRect(self.room(self.tiles[self.present()]))
+        number = self.cursor.number
+        if self.hasFocus() and number is not None and number < len(self.tiles):
+            paint_cursor(painter, self.room(self.tiles[number]))
+
+
+class FieldMapPanel:
+    """A grid that fills in the background, from the axis outwards."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Field map", TIP)
+        self.chart = MapChart(store)
+        self.widget.set_body(self.chart)
+        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.found: tuple[FieldMap, np.ndarray] | None = None
+        self._scale = "sqrt"
+
+    def show(self, live: Live) -> None:
+        """Ask for the map where more than the field has changed; mark the present field."""
+        self.chart.show_field(live.state.field_deg)
+        changed, self._scale = live.state.psf_scale != self._scale, live.state.psf_scale
+        self.asking.ask(live.views["field_map"])
+        if changed:
+            self.asking.again()
+
+    def _paint(self, asked: FieldMap, found: np.ndarray) -> str:
+        self.found = asked, found
+        where = places()
+        spacing = float(where[0, 1, 0] - where[0, 0, 0])
+        edge = float(where[0, -1, 0]) + 0.55 * spacing
+        top = float(where[0, 0, 1])
+        self.chart.set_range((-edge, edge), (-top * SHAPE[0] / (SHAPE[0] - 1), top * SHAPE[0] / (SHAPE[0] - 1)))
+        at = [(row, column) for row in range(SHAPE[0]) for column in range(SHAPE[1])]
+        kept = [place for place in at if np.isfinite(found[place]).any()]
+        slopes = [np.hypot(*where[place]) * asked.corner_slope for place in kept]
+        self.chart.fields_deg = degrees_from_slope(np.array(slopes))
+        shown = (tile(stretched(found[place], self._scale), *map(float, where[place])) for place in kept)
+        self.chart.show_tiles(shown, spacing, SHAPE[0])
+        heads = (
+            tr("at ({x}, {y}) of the corner: share of the peak", x=f"{x:.3g}", y=f"{y:.3g}")
+            for x, y in (where[place] for place in kept)
+        )
+        self.chart.means(zip(heads, (found[place] for place in kept), strict=True), asked.window[1])
+        corner, wide = float(degrees_from_slope(asked.corner_slope)), asked.window[0] * asked.window[1]
+        return f"corner {corner:.3g}° · pictures {wide:.3g} µm wide, each over its own peak"
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.chart.restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.asking.worker.stop()

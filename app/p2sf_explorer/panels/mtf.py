@@ -1,0 +1,41 @@
+"""The modulation transfer function of the PSF on screen."""
+
+from p2sf.conventions import UM_PER_MM
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.curves import CurvesPanel
+from p2sf_explorer.widgets.differences import signed_range
+from p2sf_explorer.widgets.quantity_edit import MicronEdit
+
+TIP = "MTF: contrast left of a sine pattern, |FT of the PSF|; grey: a perfect lens, (2/π)(acos ν − ν√(1−ν²))."
+PIXEL_TIP = "Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch)."
+LOOKS = {"perfect lens": ("muted", 1), "sagittal": ("marginal", 2), "tangential": ("chief", 2)}
+
+
+class MtfPanel(CurvesPanel):
+    """Tangential and sagittal contrast and the diffraction limit."""
+
+    def __init__(self, store: Store):
+        super().__init__("MTF", TIP, ("cycles per mm on the sensor", "contrast"), LOOKS)
+        self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
+        self.widget.add_tool(self.pixel)
+
+    def show(self, live: Live) -> None:
+        """Paint the contrasts."""
+        view = live.views["mtf"]
+        curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
+        self.show_curves(view.frequency_per_mm, curves)
+        low, high = signed_range(live, curves, (0.0, 1.04))
+        self.set_range((0.0, float(view.frequency_per_mm[-1])), (low, high))
+        self._mark(live.state.pixel_um, low + 0.91 * (high - low))
+
+    def _mark(self, pixel_um: float, height: float) -> None:
+        """Mark the sensor's Nyquist frequency, its name at a height of the contrast."""
+        self.pixel.show_value(pixel_um)
+        nyquist = nyquist_per_mm(pixel_um)
+        self.chart.show_notes(((nyquist, height, f" Nyquist {nyquist:.3g}", "text", -1),), ((nyquist, "text"),))
+
+
+def nyquist_per_mm(pixel_um: float) -> float:
+    """Return the highest frequency that pixels of this pitch can tell, 1/(2 pitch), cycles per mm."""
+    return UM_PER_MM / (2 * pixel_um)

@@ -1,0 +1,64 @@
+"""The real PSF, a perfect lens's, and what the sensor's pixels see, side by side."""
+
+import numpy as np
+
+from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.pixels import Beside
+from p2sf_explorer.state.scales import significant
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.chart_card import ChartsCard
+from p2sf_explorer.widgets.quantity_edit import MicronEdit
+
+TIP = (
+    "The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated "
+    "over square pixels, the middle one centred on the chief ray."
+)
+NAMES = ("this lens, µm", "perfect lens, µm", "on the pixels, µm")
+MEANINGS = ("PSF, peak = 1", "PSF, peak = 1", "share of the light in a pixel")
+PIXEL_TIP = "Pixel pitch of the sensor."
+
+
+class BesidePanel:
+    """Three maps on one scale of lengths."""
+
+    def __init__(self, store: Store):
+        self.maps = tuple(HeatMap(words, "y, µm") for words in NAMES)
+        for heat in self.maps:
+            heat.set_map(BRIGHTNESS)
+        self.widget = ChartsCard("Perfect lens and pixels", TIP, self.maps, (1, 1, 1))
+        self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
+        self.widget.add_tool(self.pixel)
+
+    def show(self, live: Live) -> None:
+        """Paint the three maps."""
+        view: Beside = live.views["beside"]
+        self.pixel.show_value(view.pixel_um)
+        half = view.real.shape[0] * view.sample_um / 2
+        top = float(view.pixels.max()) or 1.0
+        shown = ((view.real, view.sample_um), (view.perfect, view.sample_um), (view.pixels / top, view.pixel_um))
+        for heat, (values, step), means in zip(self.maps, shown, MEANINGS, strict=True):
+            start = -(values.shape[0] // 2 + 0.5) * step
+            rect = (start, start, values.shape[0] * step, values.shape[0] * step)
+            heat.show_values(stretched(np.asarray(values, float), live.state.psf_scale), (0.0, 1.0), rect)
+            heat.means(values, means)
+            heat.set_extent(half)
+        self.maps[2].means(view.pixels, MEANINGS[2])
+        for heat in self.maps[:2]:
+            heat.bar.show_scale(BRIGHTNESS, tr("peak"), ((0.0, "0"), (1.0, "1")))
+        self.maps[2].bar.show_scale(BRIGHTNESS, tr("of light"), ((0.0, "0"), (1.0, f"{100 * top:.3g} %")))
+        self._say(live, view)
+
+    def _say(self, live: Live, view: Beside) -> None:
+        middle = 100 * float(view.pixels[view.pixels.shape[0] // 2, view.pixels.shape[1] // 2])
+        words = "Strehl {strehl} · the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %"
+        real, perfect = f"{middle:.3g}", f"{100 * view.perfect_share:.3g}"
+        self.widget.set_readout(tr(words, strehl=significant(float(live.psf.strehl), 2), real=real, perfect=perfect))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        for heat in self.maps:
+            heat.restyle(theme)

@@ -1,0 +1,87 @@
+"""The wavefront over the pupil: W in waves as a picture, contours or a surface, or the phase it leaves."""
+
+import numpy as np
+
+from p2sf_explorer.charts.contour import contours, interval
+from p2sf_explorer.charts.plots import HeatMap
+from p2sf_explorer.charts.surface_view import ReliefView
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.state.camera import Eye
+from p2sf_explorer.state.scales import nice, significant
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card, chooser, select
+from p2sf_explorer.widgets.readout import Readout
+
+WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-CBC1"
+MODES = (("waves", "W, waves"), ("contour", "contours"), ("surface", "surface"), ("wrapped", "wrapped"))
+SIGNED = ("waves", "contour", "surface")  # where a difference can be shown too
+TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
+
+
+class PupilPanel:
+    """A heat map or a surface of W with RMS and peak-to-valley; the chooser switches between them."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Pupil phase", TIP)
+        self.mode = chooser(MODES, "How the phase is shown", self.widget)
+        self.mode.activated.connect(lambda: store.update(phase=self.mode.currentData()))
+        self.widget.add_tool(self.mode)
+        self.map = HeatMap("ξ, pupil radii", "η, towards the field", self.widget)
+        turn = np.linspace(0, 2 * np.pi, 121)
+        self.map.chart.add_curve("muted").set_data(np.cos(turn), np.sin(turn))
+        self.map.set_extent(1.0)
+        self.surface = ReliefView(self.map)
+        self.surface.turned.connect(lambda turn, tilt: store.update(relief_turn_deg=turn, relief_tilt_deg=tilt))
+        self.surface.taken.connect(store.begin)
+        self.surface.released.connect(store.end)
+        self.map.layout().insertWidget(0, self.surface, 1)
+        self.numbers = Readout(self.widget, pill=True, colour="text")
+        self.widget.set_body(self.map)
+        self.widget.add_footer(self.numbers)
+        self._map = ""
+
+    def show(self, live: Live) -> None:
+        """Paint the wavefront."""
+        pupil = live.difference.pupil if live.difference else live.pupil
+        mode = live.state.phase if live.state.phase in SIGNED or not live.difference else "waves"
+        select(self.mode, mode)
+        self.surface.setVisible(mode == "surface")
+        self.map.chart.setVisible(mode != "surface")
+        self._use_map(WRAPPED_MAP if mode == "wrapped" else WAVES_MAP)
+        if mode == "wrapped":
+            self._paint(np.mod(pupil.waves, 1.0), (0.0, 1.0), ((0.0, "0"), (0.5, "½"), (1.0, "1")))
+            self.map.means(self.map.values, "W modulo 1, waves")
+        else:
+            limit = self._limit(pupil.waves)
+            labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
+            step = interval(pupil.peak_to_valley)
+            shown = contours(pupil.waves, step) if mode == "contour" else pupil.waves
+            self._paint(shown, (-limit, limit), labels)
+            self.map.means(pupil.waves, "W, waves")
+            if mode == "surface":
+                eye = Eye(live.state.relief_turn_deg, live.state.relief_tilt_deg)
+                self.surface.show_waves(pupil.waves, limit, live.quality, eye)
+        numbers = f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ"
+        lines = f"line every {step:g} λ" if mode == "contour" else pupil.kind
+        self.numbers.set_text(f"{numbers} · {lines}", short=numbers)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.map.restyle(theme)
+        self.surface.restyle(theme)
+        self.numbers.restyle(theme)
+
+    @staticmethod
+    def _limit(waves: np.ndarray) -> float:
+        peak = np.nanmax(np.abs(waves)) if np.isfinite(waves).any() else 0.0
+        return nice(max(float(peak), 0.05), (1, 1.5, 2, 3, 5, 7))
+
+    def _use_map(self, name: str) -> None:
+        if name != self._map:
+            self._map = name
+            self.map.set_map(name)
+
+    def _paint(self, values: np.ndarray, levels: tuple[float, float], labels) -> None:
+        self.map.show_values(values, levels, (-1.0, -1.0, 2.0, 2.0))
+        self.map.bar.show_scale(self._map, "λ", labels)

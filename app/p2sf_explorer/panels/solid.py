@@ -1,0 +1,118 @@
+"""The set-up in space: glass with a quarter cut away, rays, the wavefront exaggerated, the PSF as relief."""
+
+import sys
+from pathlib import Path
+
+from PySide6.QtCore import QProcess, QTimer
+from PySide6.QtWidgets import QFileDialog, QPushButton
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.scene3d import opengl_probe as probe
+from p2sf_explorer.scene3d.widget import StageView
+from p2sf_explorer.state.scales import significant
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.readout import Readout
+
+TIP = "3D: elements of revolution to their clear rims; the wavefront is W·λ ahead of the sphere about the image point."
+FILES = "Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)"
+PREPARING = "Preparing the 3D view: loading it takes some seconds, once."
+WORDS = "W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm"
+SCALES = {"linear": "brightness", "sqrt": "root of brightness", "log": "logarithm of brightness"}
+
+
+class SolidPanel:
+    """Asks first, in a process of its own, whether OpenGL works; loads the renderer only then."""
+
+    def __init__(self, store: Store):
+        self.widget, self._store = Card("3D", TIP), store
+        self.view = StageView(store, self.widget)
+        self.words = Readout(self.widget, pill=True, colour="text")
+        self.save_button = QPushButton(tr("Save…"), self.widget)
+        self.save_button.setObjectName("small")
+        self.save_button.setToolTip(tr("Save the view as a picture, or the scene as glTF or OBJ"))
+        self.save_button.clicked.connect(self._ask_save)
+        self.save_button.setEnabled(False)
+        self.widget.add_tool(self.save_button)
+        self.widget.set_body(self.view)
+        self.widget.add_footer(self.words)
+        self.process: QProcess | None = None
+        self.stage = None
+
+    @property
+    def busy(self) -> bool:
+        """Return whether the view is still being prepared."""
+        return self.stage is None and self.process is not None and not self.view.message_is_final
+
+    def show(self, live: Live) -> None:
+        """Show an answer, as soon as there is a renderer."""
+        self.view.show_live(live)
+        view = live.views["solid"]
+        words = tr(
+            WORDS,
+            front=f"{view.front.factor:g}",
+            psf=f"{view.relief.factor:g}",
+            scale=tr(SCALES[live.state.psf_scale]),
+            wavelength=significant(live.state.wavelength_nm, 4),
+        )
+        self.words.set_text(words)
+        if self.process is None:
+            self._probe()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.view.restyle(theme)
+        self.words.restyle(theme)
+
+    def save(self, path: str) -> bool:
+        """Write the view (.png) or the scene (.gltf, .obj); a refusal goes to the banner."""
+        try:
+            self.view.save_picture(path) if Path(path).suffix.lower() == ".png" else self.stage.save(path)
+        except P2SFError as error:
+            self._store.refused.emit(str(error))
+            return False
+        self._store.said.emit(tr("Saved {name}", name=Path(path).name))
+        return True
+
+    def stop(self) -> None:
+        """Give the graphics memory back with the window."""
+        if self.process:
+            self.process.kill()
+            self.process.waitForFinished()
+        if self.stage:
+            self.view.set_stage(None)
+            self.stage.close()
+
+    def _probe(self) -> None:
+        self.view.say(tr(PREPARING))
+        self.process = QProcess(self.widget)
+        self.process.finished.connect(self._probed)
+        self.process.errorOccurred.connect(lambda _: self._probed(probe.NO_CONTEXT))
+        self.process.start(sys.executable, [probe.__file__])
+
+    def _probed(self, code: int, status: QProcess.ExitStatus = QProcess.ExitStatus.NormalExit) -> None:
+        crashed = status == QProcess.ExitStatus.CrashExit
+        sentence = probe.sentence(probe.NO_CONTEXT if crashed else code)
+        if sentence:
+            self.view.say(tr(sentence), final=True)
+        else:
+            QTimer.singleShot(0, self._load)
+
+    def _load(self) -> None:
+        try:
+            from p2sf_explorer.scene3d.renderer import Stage
+        except ImportError:
+            self.view.say(tr(probe.NOT_INSTALLED), final=True)
+            return
+        self.stage = Stage(self.view.pixels())
+        self.view.set_stage(self.stage)
+        self.save_button.setEnabled(True)
+
+    def _ask_save(self) -> None:
+        first = f"{Path(self._store.state.lens).stem}.png"
+        path, chosen = QFileDialog.getSaveFileName(self.widget, tr("Save the 3D view"), first, tr(FILES))
+        if path:
+            self.save(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))

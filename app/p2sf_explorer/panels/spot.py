@@ -1,0 +1,101 @@
+"""The spot diagram: where exact rays meet the sensor."""
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.painting import polygon
+from p2sf_explorer.charts.theme import SPACE, Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.state.scales import nice, signed, significant
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.readout import FactTable
+
+TIP = "Spot diagram: where exact rays, evenly spread over the entrance pupil, meet the sensor; no diffraction."
+SIDE = 60  # pixels that axis and label take beside the square
+
+
+class SpotChart(Chart):
+    """Points over a square; it takes no more of the width than that."""
+
+    def __init__(self):
+        super().__init__("x, µm from the chief ray", "y, µm", aspect=True)
+        self.airy = self.add_curve("chief", 2)
+        self.points = np.zeros((0, 2))
+
+    def show_points(self, points: np.ndarray) -> None:
+        """Show (rays, 2) x and y in µm."""
+        self.points = points
+        self.update()
+
+    def rows_of_data(self) -> list[list]:
+        """Return the points as rows: x and y in µm."""
+        return [[*self.labels], *([f"{x:.9g}", f"{y:.9g}"] for x, y in self.points)] if len(self.points) else []
+
+    def resizeEvent(self, event) -> None:
+        """Keep the room about square."""
+        self.setMaximumWidth(max(200, event.size().height() + SIDE))
+        super().resizeEvent(event)
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the points."""
+        pen = QPen(QColor(self.theme.marginal), 3)
+        pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+        painter.setPen(pen)
+        painter.drawPoints(polygon(*self.to_pixels(*self.points.T)))
+
+
+class SpotPanel:
+    """Points with the Airy circle for scale, and their figures beside them."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Spot diagram", TIP)
+        self.chart, self.facts = SpotChart(), FactTable()
+        self.facts.setMaximumWidth(300)
+        body = QWidget(self.widget)
+        row, column = QHBoxLayout(body), QVBoxLayout()
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(3 * SPACE)
+        column.addWidget(self.facts)
+        column.addStretch(1)
+        row.addWidget(self.chart, 3)
+        row.addLayout(column, 2)
+        row.addStretch(1)
+        self.widget.set_body(body)
+
+    def show(self, live: Live) -> None:
+        """Paint the points."""
+        spot = live.views["spot"]
+        points = np.stack([spot.x_um, spot.y_um], axis=-1)
+        kept = points[np.isfinite(points).all(axis=-1)]
+        self.chart.show_points(kept)
+        turn = np.linspace(0, 2 * np.pi, 73)
+        self.chart.airy.set_data(live.airy_radius_um * np.cos(turn), live.airy_radius_um * np.sin(turn))
+        reach = max(float(np.abs(kept).max()), 2 * live.airy_radius_um)
+        half = nice(1.1 * reach, (1, 1.5, 2, 3, 4, 5, 6, 8))
+        self.chart.set_range((-half, half), (-half, half))
+        self.facts.show_rows(figures(spot, kept, len(points), live.airy_radius_um))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.chart.restyle(theme)
+        self.facts.restyle(theme)
+
+
+def figures(spot, kept: np.ndarray, traced: int, airy_um: float) -> tuple[tuple[str, str, str], ...]:
+    """Return name, value and definition of the spot's figures."""
+    centre = kept.mean(axis=0)
+    across, up = (significant(float(value), 3) for value in (kept - centre).std(axis=0))
+    farthest = significant(float(np.hypot(*(kept - centre).T).max()), 3)
+    return (
+        ("RMS radius", f"{significant(float(spot.rms_um), 3)} µm", "Root mean square distance from the centroid."),
+        ("RMS in x", f"{across} µm", "Root mean square of x about the centroid."),
+        ("RMS in y", f"{up} µm", "Root mean square of y about the centroid."),
+        ("Farthest ray", f"{farthest} µm", "Largest distance of a ray from the centroid."),
+        ("Centroid y", f"{signed(float(spot.centroid_y_um), 2)} µm", "Of the centroid, from the chief ray."),
+        ("Airy radius, the circle", f"{significant(airy_um, 3)} µm", "First dark ring of a perfect lens, 0.61 λ/NA."),
+        ("Rays", f"{len(kept)} / {traced}", "That arrive, of those traced."),
+    )

@@ -1,0 +1,149 @@
+"""Through focus: PSFs at several sensor positions, and the sensor to take hold of."""
+
+import numpy as np
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+
+from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.charts.plots import BRIGHTNESS
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.setup import prescription, ranges
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.through_focus import Focused, Strip, answer
+from p2sf_explorer.state.scales import signed
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.differences import DIFFERENCE_MAP
+from p2sf_explorer.widgets.tiles import TilesChart, tile
+from p2sf_explorer.workers.panel_jobs import Asking
+
+TIP = (
+    "Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or "
+    "click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront."
+)
+STRIP_TIP = "Drag the line or click, or use the left and right arrow keys: the sensor follows."
+NEAR_PX = 9.0
+
+
+class StripChart(TilesChart):
+    """The strip, and the sensor's line with a handle at its foot."""
+
+    def __init__(self, store: Store):
+        super().__init__("sensor shift, µm", "")
+        self._store = store
+        self.left_axis = False
+        self.sensor_um = 0.0
+        self._held = False
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(tr("Sensor position"))
+        self.setToolTip(tr(STRIP_TIP))
+
+    def show_sensor(self, shift_um: float) -> None:
+        """Show where the sensor stands."""
+        self.sensor_um = shift_um
+        self.update()
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the strip, then the sensor's line and handle."""
+        super().paint_over(painter)
+        x, bottom = float(self.to_pixels(self.sensor_um, 0.0)[0]), self.area.bottom()
+        colour = QColor(self.theme.chief)
+        painter.setPen(colour)
+        painter.drawLine(QPointF(x, self.area.top()), QPointF(x, bottom))
+        painter.setBrush(colour)
+        painter.drawEllipse(QPointF(x, bottom - 6), 5, 5)
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(self.theme.accent), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawEllipse(QPointF(x, bottom - 6), 8, 8)
+
+    def mousePressEvent(self, event) -> None:
+        """Take hold of the sensor, or bring it under the pointer."""
+        if event.button() == Qt.MouseButton.LeftButton and self.area.contains(event.position()):
+            self._held = True
+            self._store.begin()
+            self._follow(event.position())
+
+    def mouseMoveEvent(self, event) -> None:
+        """Let the sensor follow while held."""
+        if self._held:
+            self._follow(event.position())
+        over = abs(event.position().x() - float(self.to_pixels(self.sensor_um, 0.0)[0])) < NEAR_PX
+        self.setCursor(Qt.CursorShape.SizeHorCursor if over or self._held else Qt.CursorShape.ArrowCursor)
+
+    def mouseReleaseEvent(self, event) -> None:
+        """Let go."""
+        if self._held:
+            self._held = False
+            self._store.end()
+
+    def keyPressEvent(self, event) -> None:
+        """Move the sensor by a fiftieth of the strip with the arrow keys."""
+        side = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
+        if side is None:
+            return super().keyPressEvent(event)
+        (low, high), _ = self.ranges()
+        return self._store.update(sensor_shift_um=round(self.sensor_um + side * (high - low) / 50, 3))
+
+    def _follow(self, point: QPointF) -> None:
+        (low, high), _ = self.ranges()
+        self._store.update(sensor_shift_um=round(float(np.clip(self.from_pixels(point)[0], low, high)), 2))
+
+
+class ThroughFocusPanel:
+    """A strip that fills in the background while the sensor's line follows at once."""
+
+    def __init__(self, store: Store):
+        self.widget = Card("Through focus", TIP)
+        self.chart = StripChart(store)
+        self.widget.set_body(self.chart)
+        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.found: tuple[Strip, Focused] | None = None
+        self._scale = "sqrt"
+
+    def show(self, live: Live) -> None:
+        """Show the sensor, and ask for the strip where more than the sensor has moved."""
+        asked, scale = live.views["through_focus"], live.state.psf_scale
+        if scale != self._scale:
+            self._scale = scale
+            self.asking.again()
+        self.chart.show_sensor(live.state.sensor_shift_um)
+        if isinstance(asked, str):
+            half = ranges(prescription(live.state)).shift_um
+            self.chart.set_range((-half, half), (0.0, 1.0))
+            self.chart.show_tiles((), 1.0)
+            self.chart.show_notes([])
+            self.asking.refuse(asked)
+            return
+        self.asking.ask(asked)
+
+    def _paint(self, asked: Strip, found: Focused) -> str:
+        self.found = asked, found
+        shifts = np.array(asked.shifts_um)
+        step = shifts[1] - shifts[0]
+        self.chart.set_range((float(shifts[0] - 0.6 * step), float(shifts[-1] + 0.6 * step)), (0.0, 1.0))
+        top = np.nanmax(np.abs(found.light)) if np.isfinite(found.light).any() else 1.0
+        light = np.sign(found.light) * stretched(np.abs(found.light) / (top or 1.0), self._scale)
+        low, self.chart.colours = (-1.0, DIFFERENCE_MAP) if asked.less else (0.0, BRIGHTNESS)
+        shown = zip(light, shifts, strict=True)
+        self.chart.show_tiles((tile(values, float(at), 0.46, low) for values, at in shown), step)
+        heads = (tr("sensor shift {shift} µm: share of the perfect peak", shift=signed(float(at), 1)) for at in shifts)
+        self.chart.means(zip(heads, found.light, strict=True), asked.window[1])
+        foci = (("S", found.sagittal, "marginal"), ("T", found.tangential, "positive"), ("best", found.best, "text"))
+        notes = [(x, 0.93, f"▾ {name}", token, 0) for name, x, token in foci if np.isfinite(x)]
+        self.chart.show_notes(notes)
+        wide = asked.window[0] * asked.window[1]
+        return (
+            f"S {signed(found.sagittal, 1)} · T {signed(found.tangential, 1)} · best {signed(found.best, 1)} µm · "
+            f"pictures {wide:.3g} µm wide"
+        )
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.chart.restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.asking.worker.stop()

@@ -1,0 +1,1 @@
+"""Playing a slider, and filming it."""

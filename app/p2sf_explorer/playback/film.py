@@ -1,0 +1,107 @@
+"""Frames to an animated GIF or to numbered PNG files: written beside, then renamed. No Qt in here."""
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from queue import Empty, Queue
+from threading import Event
+
+from p2sf.errors import ExportError
+from p2sf.files.writing import check_place, write_beside
+
+ENDINGS = (".gif", ".png")
+WAITING = 3  # frames between who grabs and who writes
+PATIENCE_S = 0.1
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One picture: width, height, and rows of RGB bytes."""
+
+    width: int
+    height: int
+    rgb: bytes
+
+
+class Reel:
+    """The frames on their way from the window to the writer, a few at a time."""
+
+    def __init__(self):
+        self._frames: Queue[Frame | None] = Queue(WAITING)
+
+    @property
+    def full(self) -> bool:
+        """Return whether the writer is behind."""
+        return self._frames.full()
+
+    def put(self, frame: Frame | None) -> None:
+        """Hand over a frame, None after the last; call only while not `full`."""
+        self._frames.put_nowait(frame)
+
+    def frames(self, cancelled: Event) -> Iterator[Frame]:
+        """Yield the frames as they come, until the last; ExportError once ``cancelled``."""
+        while True:
+            if cancelled.is_set():
+                raise ExportError("the export was cancelled; nothing was written")
+            try:
+                frame = self._frames.get(timeout=PATIENCE_S)
+            except Empty:
+                continue
+            if frame is None:
+                return
+            yield frame
+
+
+def check_film(path) -> None:
+    """Raise ExportError where a film cannot be written: an unknown ending, or no such folder."""
+    if Path(path).suffix.lower() not in ENDINGS:
+        raise ExportError(f'{path}: a film has no ending "{Path(path).suffix}"; choose {" or ".join(ENDINGS)}')
+    check_place(path)
+
+
+def write_film(frames: Iterator[Frame], path, frame_ms: int) -> tuple[Path, ...]:
+    """Write frames as one .gif, or as numbered .png files, whole or not at all; return the paths. ExportError."""
+    check_film(path)
+    if Path(path).suffix.lower() == ".gif":
+        return (write_beside(path, lambda handle: _write_gif(frames, handle, frame_ms)),)
+    return _write_pngs(frames, Path(path))
+
+
+def _picture(frame: Frame):
+    from PIL import Image
+
+    return Image.frombytes("RGB", (frame.width, frame.height), frame.rgb)
+
+
+def _write_gif(frames: Iterator[Frame], handle, frame_ms: int) -> None:
+    """Write a GIF that repeats for ever; each frame has its own 256 colours."""
+    from PIL import Image
+
+    pictures = (_picture(frame).quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE) for frame in frames)
+    first = next(pictures, None)
+    if first is None:
+        raise ExportError("there is no frame to write; choose a longer sweep")
+    first.save(handle, "GIF", save_all=True, append_images=pictures, duration=frame_ms, loop=0)
+
+
+def _write_pngs(frames: Iterator[Frame], path: Path) -> tuple[Path, ...]:
+    folder = path.resolve().with_name(f".{secrets.token_hex(6)}.part")
+    made = []
+    try:
+        folder.mkdir()
+        for number, frame in enumerate(frames, 1):
+            made.append(path.with_name(f"{path.stem}_{number:04d}.png"))
+            _picture(frame).save(folder / made[-1].name)
+        for target in made:
+            os.replace(folder / target.name, target)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise ExportError(f"{path} cannot be written, {reason}; choose another place") from error
+    finally:
+        with suppress(OSError):
+            shutil.rmtree(folder)
+    return tuple(made)

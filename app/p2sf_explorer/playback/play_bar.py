@@ -1,0 +1,181 @@
+"""The strip of a sweep: which slider, from where to where, how fast, and the film of it."""
+
+from pathlib import Path
+
+from PySide6.QtWidgets import QFileDialog, QFrame, QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QToolButton
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.playback.filming import Filming
+from p2sf_explorer.playback.player import Player
+from p2sf_explorer.playback.sweep import TITLES, sweep
+from p2sf_explorer.state.scales import read_number
+from p2sf_explorer.widgets.card import chooser, select
+from p2sf_explorer.widgets.command import Command
+from p2sf_explorer.widgets.value_edit import ValueEdit
+
+FILMS = "Animated GIF (*.gif);;Numbered PNG frames (*.png)"
+SUBJECTS = (
+    ("stack", "all panels"),
+    ("psf", "the PSF"),
+    ("pupil", "the pupil"),
+    ("layout", "the layout"),
+    ("coefficients", "the coefficients"),
+    ("tabs", "the open tab"),
+)
+EDIT_WIDTH = 82
+TURN_WIDTH = 44  # holds ❚❚ beside the button's air
+
+
+class PlayBar(QFrame):
+    """Visible while the state names a slider to sweep."""
+
+    def __init__(self, window):
+        super().__init__(window)
+        self.setObjectName("bar")
+        self._window, self._store = window, window.store
+        self.player, self.filming = Player(window.store, self), Filming(window)
+        self.turn = self._button("▶", "Play or pause (Space on a slider)", self.toggle)
+        self.key = chooser(tuple(TITLES.items()), "Which slider moves", self)
+        self.first, self.last, self.seconds = (self._edit(name) for name in ("from", "to", "seconds one way"))
+        self.subject = chooser(SUBJECTS, "What the film shows", self)
+        self.export = self._button("Film…", "Save the way from the first value to the last as a film", self.ask_film)
+        self.progress = QProgressBar(self)
+        self.stop_film = self._button("Cancel", "Stop filming and leave no file", self.filming.cancel)
+        self.close_bar = self._button("Close", "Put the sweep away", self.put_away)
+        self._lay_out()
+        self._connect()
+        self.hide()
+
+    def _button(self, text: str, tip: str, action) -> QToolButton:
+        button = QToolButton(self)
+        button.setObjectName("small")
+        button.setText(tr(text))
+        button.setToolTip(tr(tip))
+        button.clicked.connect(lambda: action())
+        return button
+
+    def _edit(self, name: str) -> ValueEdit:
+        edit = ValueEdit(self)
+        edit.setFixedWidth(EDIT_WIDTH)
+        edit.setAccessibleName(tr(name))
+        edit.setToolTip(tr(name))
+        return edit
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(10, 4, 10, 4)
+        row.setSpacing(6)
+        self.turn.setFixedWidth(TURN_WIDTH)
+        self.progress.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        for part in (self.turn, self.key, self.first, QLabel("→"), self.last, QLabel(tr("in")), self.seconds):
+            row.addWidget(part)
+        row.addWidget(self.progress, 1)
+        row.addWidget(self.stop_film)
+        row.addStretch(1)
+        for part in (self.subject, self.export, self.close_bar):
+            row.addWidget(part)
+        self._show_filming(False)
+
+    def _connect(self) -> None:
+        store = self._store
+        self.key.activated.connect(lambda: store.update(play=self.key.currentData(), play_range=None))
+        self.first.committed.connect(lambda text: self._set_range(first=text))
+        self.last.committed.connect(lambda text: self._set_range(last=text))
+        for edit in (self.first, self.last):
+            edit.reset.connect(lambda: store.update(play_range=None))
+        self.seconds.committed.connect(self._set_seconds)
+        self.seconds.reset.connect(lambda: store.update(play_seconds=4.0))
+        self.player.turned.connect(lambda on: self.turn.setText("❚❚" if on else "▶"))
+        self.filming.progressed.connect(lambda part: self.progress.setValue(round(100 * part)))
+        self.filming.ended.connect(self._ended)
+
+    def commands(self) -> tuple[Command, ...]:
+        """Return what can be done by name or key."""
+        return (
+            Command("Play or pause the last slider", self.toggle, ("Ctrl+Space",), "Sweep"),
+            Command("Save the sweep as a film…", self.ask_film, ("Ctrl+Shift+E",), "Sweep"),
+        )
+
+    def toggle(self) -> None:
+        """Play or pause the state's slider, the field if it names none."""
+        self.player.toggle(self._store.state.play or "field_deg")
+
+    def put_away(self) -> None:
+        """Pause, and name no slider any more."""
+        self.player.pause()
+        self._store.update(play="", play_range=None)
+
+    def show_state(self, state) -> None:
+        """Follow a state."""
+        self.setVisible(bool(state.play))
+        if not state.play:
+            return
+        select(self.key, state.play)
+        found = sweep(state)
+        for edit, value in ((self.first, found.first), (self.last, found.last)):
+            edit.set_text(found.write(value))
+        self.seconds.set_text(f"{state.play_seconds:g} s")
+
+    def _set_range(self, first: str | None = None, last: str | None = None) -> None:
+        found = sweep(self._store.state)
+
+        def ends() -> dict:
+            pairs = ((first, found.first), (last, found.last))
+            return {"play_range": tuple(old if text is None else found.read(text) for text, old in pairs)}
+
+        self._try(ends)
+
+    def _set_seconds(self, text: str) -> None:
+        self._try(lambda: {"play_seconds": seconds(text)})
+
+    def _try(self, read) -> None:
+        """Change what was typed, or say why not and show what holds."""
+        try:
+            self._store.update(**read())
+        except P2SFError as error:
+            self._store.refused.emit(str(error))
+        for edit in (self.first, self.last, self.seconds):
+            edit.set_text("")
+        self.show_state(self._store.state)
+
+    def ask_film(self) -> None:
+        """Ask for a name and film the sweep."""
+        if not self._store.state.play:
+            self._store.update(play="field_deg")
+        first = f"{Path(self._store.state.lens).stem}_{self._store.state.play}.gif"
+        path, chosen = QFileDialog.getSaveFileName(self._window, tr("Save a film"), first, tr(FILMS))
+        if path:
+            self.film(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))
+
+    def film(self, path: str) -> bool:
+        """Film the sweep to a file; return whether it began."""
+        self.player.pause()
+        began = not self.filming.busy and self.filming.start(path, self._shown(self.subject.currentData()))
+        self._show_filming(began or self.filming.busy)
+        return began
+
+    def _shown(self, key: str):
+        """Return the widget of a subject."""
+        return getattr(self._window, key, None) or self._window.panels[key].widget
+
+    def _show_filming(self, on: bool) -> None:
+        for part in (self.progress, self.stop_film):
+            part.setVisible(on)
+        for part in (self.subject, self.export, self.turn, self.key, self.close_bar):
+            part.setEnabled(not on)
+        self.progress.setValue(0)
+
+    def _ended(self, sentence: str) -> None:
+        self._show_filming(False)
+        self._store.said.emit(sentence)
+
+    def stop(self) -> None:
+        """End playing and filming with the window."""
+        self.player.pause()
+        self.filming.stop()
+
+
+def seconds(text: str) -> float:
+    """Return the seconds a person typed; P2SFError otherwise."""
+    return read_number(text.replace("s", " "), "duration")

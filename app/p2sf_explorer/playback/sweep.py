@@ -1,0 +1,90 @@
+"""A slider on its way from one value to another and back: where it is at which moment. No Qt in here."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf, log
+
+from p2sf_explorer.compare.contrasts import LINK_WORDS
+from p2sf_explorer.compute.quantities import QUANTITIES
+from p2sf_explorer.compute.setup import prescription, ranges
+from p2sf_explorer.state.limits import ADDED, DRAGGED
+from p2sf_explorer.state.scales import read_number, signed
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.terms import TERMS
+from p2sf_explorer.state.what_if import with_added
+from p2sf_explorer.widgets.coefficient_mixer_parts import NAMES
+
+RATIOS, VERGENCES = ("f_number",), ("depth_mm", "focus_mm")
+USUAL_WAVES = (-2.0, 2.0)
+TITLES = {key: LINK_WORDS[key] for key in DRAGGED} | {ADDED + term: f"{NAMES[term]} added" for term in TERMS}
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """The slider ``key`` from ``first`` to ``last`` in ``seconds``; ``write`` and ``read`` are its number's."""
+
+    key: str
+    first: float
+    last: float
+    seconds: float
+    write: Callable[[float], str]
+    read: Callable[[str], float]
+
+    def value(self, part: float) -> float:
+        """Return the value at a part (0 to 1) of the way: even in 1/distance, in ratios of f-numbers, or plainly."""
+        if self.key in VERGENCES:
+            vergence = (1 - part) / self.first + part / self.last
+            return 1 / vergence if vergence else inf
+        if self.key in RATIOS:
+            return self.first * (self.last / self.first) ** part
+        return self.first + part * (self.last - self.first)
+
+    def part(self, value: float) -> float:
+        """Return at which part of the way a value is, held inside 0 to 1."""
+        ends = [self._even(x) for x in (self.first, self.last)]
+        found = (self._even(value) - ends[0]) / (ends[1] - ends[0]) if ends[0] != ends[1] else 0.0
+        return min(1.0, max(0.0, found))
+
+    def _even(self, value: float) -> float:
+        return 1 / value if self.key in VERGENCES else log(value) if self.key in RATIOS else value
+
+    def at(self, seconds: float) -> float:
+        """Return the value so many seconds after the start: there, back, there again."""
+        turns = seconds / self.seconds % 2
+        return self.value(turns if turns <= 1 else 2 - turns)
+
+
+def sweep(state: State) -> Sweep:
+    """Return the sweep that the state describes, over all of the slider's travel where it names no range."""
+    key = state.play
+    if key.startswith(ADDED):
+        first, last = state.play_range or USUAL_WAVES
+        return Sweep(key, first, last, state.play_seconds, waves, lambda text: read_number(text, "waves", LAMBDAS))
+    quantity = next(quantity for quantity in QUANTITIES if quantity.key == key)
+    scale = quantity.scale(ranges(prescription(state)))
+    first, last = state.play_range or (scale.low, scale.high)
+    return Sweep(key, first, last, state.play_seconds, quantity.write, quantity.read)
+
+
+LAMBDAS = {"": 1.0, "λ": 1.0}
+
+
+def waves(value: float) -> str:
+    """Return a number of waves as people write it."""
+    return f"{signed(value, 2)} λ"
+
+
+def present(state: State) -> float:
+    """Return where the swept slider stands."""
+    key = state.play
+    if key.startswith(ADDED):
+        return state.added_waves[TERMS.index(key.removeprefix(ADDED))]
+    quantity = next(quantity for quantity in QUANTITIES if quantity.key == key)
+    return quantity.shown(state, ranges(prescription(state)))
+
+
+def changes(state: State, value: float) -> dict:
+    """Return the entries of the state that put its swept slider at a value."""
+    if state.play.startswith(ADDED):
+        return {"added_waves": with_added(state, state.play.removeprefix(ADDED), value)}
+    return {state.play: value}

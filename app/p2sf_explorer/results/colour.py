@@ -1,0 +1,96 @@
+"""The colour PSF of the present point: what is asked, and the answer with the colours of a screen."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from p2sf.colour.colorimetry import displayable, linear_rgb, matching, srgb_from_linear
+from p2sf.colour.spectrum import relative_power, spectrum_of
+from p2sf.conventions import NM_PER_UM
+from p2sf.errors import P2SFError
+from p2sf.psf.polychromatic import ColourPsf, colour_psf, faint_rgb, suitable_pitch_um
+from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.compute.method import WINDOWS
+from p2sf_explorer.compute.sampled import by_coefficients, in_window, optics
+from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.state import State
+
+COUNT = {"preview": 7, "settled": 15}
+FINE_UM = np.arange(0.4, 0.7001, 0.005)
+PIXELS = {"preview": 48, "settled": 96}
+CHOICES = (
+    ("d65", "daylight D65"),
+    ("equal", "equal energy"),
+    ("planck:2856", "tungsten 2856 K"),
+    ("planck:5600", "black body 5600 K"),
+    ("lines:486.13,587.56,656.27", "lines F d C"),
+    ("lines:435.83,546.07", "mercury g e"),
+)
+
+
+@dataclass(frozen=True)
+class ColourQuestion:
+    """What is asked: the setup, the spectrum, (pixels, µm per pixel), how many wavelengths, and by what."""
+
+    state: State
+    spectrum: str
+    window: tuple[int, float]
+    count: int
+    six: bool
+
+
+@dataclass(frozen=True)
+class Colours:
+    """The colour PSF, and for its spectrum: wavelengths in nm, relative luminance and sRGB 0 to 1 of each."""
+
+    psf: ColourPsf
+    wavelength_nm: np.ndarray
+    luminance: np.ndarray
+    hues: np.ndarray
+
+
+def question(live) -> ColourQuestion | str:
+    """Return what to show for the present point, or why there is nothing, in a sentence."""
+    s, pixels = live.setting, PIXELS[live.quality]
+    spectrum = spectrum_of(live.state.spectrum)
+    try:
+        pitch = suitable_pitch_um(s.lens, s.source, spectrum, pixels, s.stop)
+    except P2SFError as error:  # a line outside the glasses' data: the rest of the window has its answer
+        return str(error)
+    window = pixels, nice(pixels * pitch, WINDOWS) / pixels
+    return ColourQuestion(optics(live.state), spectrum.name, window, COUNT[live.quality], by_coefficients(live))
+
+
+def answer(asked: ColourQuestion, stopped, tell) -> Colours:
+    """Return the colour PSF; P2SFError where a wavelength has no PSF."""
+    set_up, spectrum = setting(asked.state), spectrum_of(asked.spectrum)
+
+    def one(lens, source, pixels, pixel_um):
+        return in_window(at_wavelength(asked.state, NM_PER_UM * source.wavelength_um), (pixels, pixel_um), asked.six)
+
+    # A free pupil has no glass: the axis of the lens, where no colour lands beside another, stands for it.
+    source = replace(set_up.source, field_slope=0.0) if asked.state.free_pupil else set_up.source
+    found = colour_psf(set_up.lens, source, spectrum, asked.window, one, asked.count)
+    waves = np.array(spectrum.numbers) / NM_PER_UM if spectrum.kind == "lines" else FINE_UM
+    power = np.ones(waves.size) if spectrum.kind == "lines" else relative_power(spectrum, waves)
+    return Colours(found, NM_PER_UM * waves, power * matching(waves)[:, 1], hues(waves))
+
+
+def at_wavelength(state: State, wavelength_nm: float) -> State:
+    """Return the setup at another wavelength; what is added by hand is a path, and so more waves of a shorter one."""
+    ratio = state.wavelength_nm / wavelength_nm
+    return replace(state, wavelength_nm=wavelength_nm, added_waves=tuple(ratio * waves for waves in state.added_waves))
+
+
+def hues(wavelength_um: np.ndarray) -> np.ndarray:
+    """Return the screen's colour of each wavelength, sRGB 0 to 1 with its brightest channel 1, (n, 3)."""
+    rgb = displayable(linear_rgb(matching(wavelength_um)))
+    return srgb_from_linear(rgb / np.maximum(rgb.max(-1, keepdims=True), 1e-12))
+
+
+def pixels(found: ColourPsf, scale: str) -> np.ndarray:
+    """Return the picture as 0xffRRGGBB, rows +y, brightness stretched on a scale, hue kept."""
+    rgb = srgb_from_linear(np.clip(faint_rgb(found, lambda top: stretched(top, scale)), 0.0, 1.0))
+    red, green, blue = np.moveaxis(np.rint(255 * rgb).astype(np.uint32), -1, 0)
+    return 0xFF000000 | red << 16 | green << 8 | blue

@@ -1,0 +1,187 @@
+"""How large the blur is at every depth, and between which depths it stays below what is tolerated."""
+
+from dataclasses import dataclass
+from math import inf, isfinite, nan
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import P2SFError
+from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import paraxial_rays
+from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf_explorer.compute.ranges import closest_distance
+from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.state.scales import nice
+
+ELSEWHERE_MM = 1000.0  # any depth but infinity: two points make the line
+DEPTHS = {"preview": 17, "settled": 49}
+RINGS = {"preview": 3, "settled": 6}
+PROBE_RINGS = 3
+FEWEST = 3  # rays: fewer are no spot
+FOCUS_UM = 1e-3  # a blur so small is none
+SEEN = 3  # times what is tolerated: what is sharp with as much again on either side
+FAR_OFF = 2.0  # widths of the range: a least blur farther off is left out
+AIR = 0.1  # of the range, beyond a least blur
+
+
+@dataclass(frozen=True)
+class DepthOfField:
+    """Blur against depth: ``near`` is 1/depth in 1/mm, rising; diameters in µm.
+
+    ``paraxial``: of the axial point's geometric blur; ``real``: twice the RMS radius of exact rays at the present
+    field, NaN where they are lost. ``sharp_mm``: nearest and farthest depth whose paraxial blur is within
+    ``tolerated_um``, None if there is none; ``hyperfocal_mm``: focus here and infinity is just sharp.
+    """
+
+    near: np.ndarray
+    paraxial: np.ndarray
+    real: np.ndarray
+    tolerated_um: float
+    sharp_mm: tuple[float, float] | None
+    hyperfocal_mm: float
+
+
+def depth_of_field(live) -> DepthOfField:
+    """Return the blur at every depth with the sensor where it stands."""
+    s, tolerated = live.setting, live.state.blur_um
+    clear = sharp(s, tolerated)
+    near = np.linspace(*shown(live, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
+    if focus := sharp(s, FOCUS_UM):
+        near = np.sort(np.append(near, 1 / focus[1]))  # so that the V of the blur is drawn to its tip
+    depths = np.divide(1.0, near, out=np.full(near.shape, inf), where=near > 0)
+    heights = axial_heights(s, depths)
+    return DepthOfField(
+        near,
+        2 * UM_PER_MM * np.abs(heights),
+        real_blur(live, depths, RINGS[live.quality]),
+        tolerated,
+        clear,
+        hyperfocal(s, tolerated),
+    )
+
+
+def shown(live, closest: float) -> tuple[float, float]:
+    """Return the 1/depth to show, 1/mm, up to ``closest``: about what is sharp, wider where there is more to see.
+
+    As wide as the paraxial blur stays below three times what is tolerated, or twice the least there is; where the
+    exact rays' least blur is larger, up to that; and out to where they have it, unless that is too far off.
+    """
+    blur = max(SEEN * live.state.blur_um, 2 * least_axial(live, closest))
+    ends = within(live.setting, blur, closest)
+    least = np.nanmin(probed(live, ends)[1], initial=inf)
+    if blur < least < inf:
+        ends = within(live.setting, least, closest)
+    vertex, air = vertex_of(*probed(live, ends)), AIR * (ends[1] - ends[0])
+    if not -FAR_OFF < (vertex - ends[0]) / (ends[1] - ends[0]) < 1 + FAR_OFF:
+        return ends
+    return max(0.0, min(ends[0], vertex - air)), min(max(closest, ends[1]), max(ends[1], vertex + air))
+
+
+def highest(view: DepthOfField) -> float:
+    """Return how much blur to show, µm: what is tolerated and the least of either curve, with air above."""
+    least = max(
+        float(np.nanmin(blur, initial=0.0 if np.isnan(blur).all() else inf)) for blur in (view.paraxial, view.real)
+    )
+    return nice(max(SEEN * view.tolerated_um, 2 * least), (1, 1.5, 2, 3, 4, 6, 8))
+
+
+def within(setting, blur_um: float, closest: float) -> tuple[float, float]:
+    """Return between which 1/depth, 1/mm, the paraxial blur is below this, up to ``closest`` or just beyond its own."""
+    clear = sharp(setting, blur_um)
+    if clear is None or not clear[0]:
+        return 0.0, closest
+    low, high = (1 / depth for depth in clear[::-1])
+    return low, high if low < closest else 1.01 * high
+
+
+def least_axial(live, closest: float) -> float:
+    """Return the least paraxial blur from infinity to 1/``closest``, µm; 0 where any depth is sharp."""
+    if sharp(live.setting, live.state.blur_um):
+        return 0.0
+    return 2 * UM_PER_MM * float(np.abs(axial_heights(live.setting, np.array([inf, 1 / closest]))).min())
+
+
+def probed(live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Return three 1/depth over a range and the exact rays' blur there, µm."""
+    near = np.linspace(*ends, 3)
+    return near, real_blur(live, np.divide(1.0, near, out=np.full(3, inf), where=near > 0), PROBE_RINGS)
+
+
+def vertex_of(near: np.ndarray, blur: np.ndarray) -> float:
+    """Return where a blur of three equal steps is least, its square being quadratic; NaN where it is least nowhere.
+
+    The spot of rays that all move linearly with the defocus has a variance quadratic in it.
+    """
+    first, middle, last = blur**2
+    bend = first - 2 * middle + last
+    return float(near[1] + (near[1] - near[0]) * (first - last) / (2 * bend)) if bend > 0 else nan
+
+
+def axial_heights(setting, depths, sensor_mm: float | None = None) -> np.ndarray:
+    """Return where the marginal ray of each depth meets the sensor, mm; its double is the blur's diameter."""
+    sensor_mm = setting.lens.sensor_mm if sensor_mm is None else sensor_mm
+    rays = paraxial_rays(setting.lens, np.asarray(depths), setting.source.wavelength_um, setting.stop)
+    return rays.y[-1] + rays.nu[-1] / rays.index[-1] * sensor_mm
+
+
+def real_blur(live, depths, rings: int) -> np.ndarray:
+    """Return twice the RMS radius of the exact rays' spot at the present field, µm, per depth."""
+    s = live.setting
+    source = Source(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
+    try:
+        rays = pencil(s.lens, source, *hexapolar(rings), clip=live.state.clip)
+    except P2SFError:  # a chief ray is lost at some depth: the paraxial curve says what can be said
+        return np.full(len(depths), np.nan)
+    lost = rays.passed.sum(-1) < FEWEST
+    x, y = (np.where(np.isfinite(v), v, 0.0) for v in (rays.dx, rays.dy))
+    count = np.maximum(rays.passed.sum(-1), 1)
+    square = (x * x + y * y).sum(-1) / count - (x.sum(-1) / count) ** 2 - (y.sum(-1) / count) ** 2
+    return np.where(lost, np.nan, 2 * UM_PER_MM * np.sqrt(np.maximum(square, 0.0)))
+
+
+def sharp(setting, tolerated_um: float) -> tuple[float, float] | None:
+    """Return nearest and farthest depth in mm with a blur within ``tolerated_um``; None if no real depth has one.
+
+    In s = 1/(object to entrance pupil) the marginal ray is linear (DESIGN.md section 2): h = h∞ + k·s. The nearest is
+    0 where an object on the first surface is still sharp.
+    """
+    pupil, half_mm = float(setting.pupils.entrance_from_first), tolerated_um / 2 / UM_PER_MM
+    roots = linear_roots(setting, pupil, half_mm)
+    if not roots:  # the same blur everywhere
+        return (0.0, inf) if abs(float(axial_heights(setting, np.array([inf]))[0])) <= half_mm else None
+    for low, high in real_depths(pupil):
+        far, near = max(low, min(roots)), min(high, max(roots))
+        if far < near:
+            return _depth(near, pupil), _depth(far, pupil)
+    return None
+
+
+def real_depths(pupil: float) -> list[tuple[float, float]]:
+    """Return the ranges of s in which the depth 1/s − pupil is positive, the one that ends at infinity first."""
+    return [(0.0, 1 / pupil)] if pupil > 0 else [(0.0, inf), *([(-inf, 1 / pupil)] if pupil else [])]
+
+
+def _depth(s: float, pupil: float) -> float:
+    return max(0.0, 1 / s - pupil) if s else inf
+
+
+def linear_roots(setting, pupil: float, half_mm: float, sensor_mm: float | None = None) -> list[float]:
+    """Return the two s at which |h| is ``half_mm``; none where the blur is the same at every depth."""
+    far, one = axial_heights(setting, np.array([inf, ELSEWHERE_MM]), sensor_mm)
+    slope = (one - far) * (ELSEWHERE_MM + pupil)
+    return [float((side * half_mm - far) / slope) for side in (-1, 1)] if slope else []
+
+
+def hyperfocal(setting, tolerated_um: float) -> float:
+    """Return the depth to focus on so that infinity has just the tolerated blur, mm; infinite for an afocal lens.
+
+    The sensor then stands blur/(2|u′|) behind the rear focus.
+    """
+    pupil, focus = (float(v) for v in (setting.pupils.entrance_from_first, setting.cardinal.back_focal_distance))
+    at_focus, behind = (float(axial_heights(setting, np.array([inf]), focus + step)[0]) for step in (0.0, 1.0))
+    if not isfinite(focus) or behind == at_focus:
+        return inf
+    sensor = focus + tolerated_um / 2 / UM_PER_MM / abs(behind - at_focus)
+    roots = linear_roots(setting, pupil, 0.0, sensor)
+    return 1 / roots[0] - pupil if roots and roots[0] else inf

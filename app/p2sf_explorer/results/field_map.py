@@ -1,0 +1,100 @@
+"""The PSF over the picture: a grid of places on the sensor, each PSF turned as its field is."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from p2sf.conventions import degrees_from_slope
+from p2sf.errors import P2SFError
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.seidel import suitable_pixel_um
+from p2sf_explorer.compute.method import WINDOWS
+from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
+from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.results.field import widest_slope
+from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.state import State
+
+SHAPE = 3, 9  # rows, columns
+ASPECT = 1.5  # of the sensor, whose corner is the field's edge
+PIXELS = {"preview": 24, "settled": 40}
+MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
+
+
+@dataclass(frozen=True)
+class FieldMap:
+    """What is asked: ``state`` of any field, the slope at the corner, and each picture's window."""
+
+    state: State
+    corner_slope: float
+    window: tuple[int, float]
+    six: bool
+
+
+def field_map(live) -> FieldMap:
+    """Return what to show; it does not depend on the present field, so it stands still while that is dragged."""
+    corner, pixels = widest_slope(live), PIXELS[live.quality]
+    s = live.setting
+    slopes = np.array([0.0, 0.5, 1.0]) * corner
+    c = coefficients(s.lens, s.source.depth_mm, slopes, s.source.wavelength_um, s.stop)
+    wide = nice(MOST_OF * pixels * float(np.max(suitable_pixel_um(c, pixels))), WINDOWS)
+    return FieldMap(
+        replace(optics(live.state), field_deg=0.0), corner, (pixels, wide / pixels), everywhere_by_coefficients(live)
+    )
+
+
+def places() -> np.ndarray:
+    """Return where the pictures stand, (rows, columns, 2): x and y, 1 from the middle to the corner."""
+    corner = np.hypot(ASPECT, 1.0)
+    x = np.linspace(-1, 1, SHAPE[1]) * ASPECT / corner
+    y = np.linspace(1, -1, SHAPE[0]) / corner
+    return np.stack(np.meshgrid(x, y), axis=-1)
+
+
+def answer(asked: FieldMap, stopped, tell) -> np.ndarray:
+    """Return the pictures, (rows, columns, pixels, pixels), each over its own peak; ``tell`` of every field made.
+
+    Fields of one distance from the axis share a PSF, mirrored or turned about the axis (the lens is round).
+    """
+    found = np.full((*SHAPE, asked.window[0], asked.window[0]), np.nan, np.float32)
+    where = places()
+    radius = np.round(np.hypot(where[..., 0], where[..., 1]), 9)
+    rings = np.unique(radius)
+    for number, ring in enumerate(rings, 1):
+        if stopped():
+            break
+        values = one(asked, float(ring))
+        for at in zip(*np.nonzero(radius == ring), strict=True):
+            found[at] = turned(values, float(np.arctan2(where[at][0], where[at][1])))
+        tell(number / len(rings), found)
+    return found
+
+
+def one(asked: FieldMap, ring: float) -> np.ndarray:
+    """Return the PSF at a share of the corner's field over its peak, +y away from the axis, NaN where there is none."""
+    state = replace(asked.state, field_deg=float(degrees_from_slope(ring * asked.corner_slope)))
+    try:
+        values = in_window(state, asked.window, asked.six).values
+    except P2SFError:  # rays lost at the edge of the field: an empty place says so
+        return np.full((asked.window[0],) * 2, np.nan)
+    outward = values if float(setting(state).coefficients.image_height) >= 0 else turned(values, np.pi)
+    return outward / (float(values.max()) or 1.0)
+
+
+def turned(values: np.ndarray, angle: float) -> np.ndarray:
+    """Return a picture whose +y points ``angle`` radians from +y towards +x, straight lines between samples."""
+    if not angle:
+        return values
+    count = len(values)
+    axis = np.arange(count) - count // 2
+    x, y = np.meshgrid(axis, axis)
+    column = np.cos(angle) * x - np.sin(angle) * y + count // 2
+    row = np.sin(angle) * x + np.cos(angle) * y + count // 2
+    left, low = np.floor(column).astype(int), np.floor(row).astype(int)
+    right, up = column - left, row - low
+    padded = np.pad(values, ((0, 1), (0, 1)))
+    inside = (left >= 0) & (left < count) & (low >= 0) & (low < count)
+    left, low = np.where(inside, left, 0), np.where(inside, low, 0)
+    below = (1 - right) * padded[low, left] + right * padded[low, left + 1]
+    above = (1 - right) * padded[low + 1, left] + right * padded[low + 1, left + 1]
+    return np.where(inside, (1 - up) * below + up * above, 0.0)

@@ -1,0 +1,112 @@
+"""Everything the first order says about the lens as it is set, in three columns of (name, value, definition)."""
+
+from math import isfinite
+
+import numpy as np
+
+from p2sf.paraxial.first_order import magnification
+from p2sf.paraxial.pupils import f_number
+from p2sf_explorer.results.facts import ENTRANCE_TIP, EXIT_TIP, STOP_TIP, length, pupil
+from p2sf_explorer.state.scales import signed, significant, written_distance
+
+Row = tuple[str, str, str]
+
+
+def first_order(live) -> tuple[tuple[Row, ...], ...]:
+    """Return the columns: the lens by itself, its pupils and rays, this source."""
+    return lens_rows(live), pupil_rows(live), source_rows(live)
+
+
+def lens_rows(live) -> tuple[Row, ...]:
+    """Return focal, principal and nodal points, Petzval radius and track of the lens."""
+    s, p = live.setting, live.setting.cardinal
+    return (
+        ("Focal length f′", length(s.focal_length_mm), "f′ = −1/C of the system matrix."),
+        (
+            "Back focus F′",
+            length(float(p.back_focal_distance)),
+            "Rear focal point, where light from a far axial point meets, from the last vertex: f′·A.",
+        ),
+        (
+            "Front focus F",
+            length(float(p.front_focal_distance)),
+            "Front focal point, whose light leaves as a parallel beam, from the first vertex: D/C.",
+        ),
+        (
+            "Principal point H",
+            length(float(p.front_principal_from_first)),
+            "Front principal plane, imaged onto H′ at magnification 1; from the first vertex.",
+        ),
+        (
+            "Principal point H′",
+            length(float(p.rear_principal_from_last)),
+            "Rear principal plane, from which f′ is measured to F′; from the last vertex.",
+        ),
+        (
+            "Nodal point N",
+            length(float(p.front_nodal_from_first)),
+            "A ray aimed at N leaves from N′ in its old direction; from the first vertex.",
+        ),
+        (
+            "Nodal point N′",
+            length(float(p.rear_nodal_from_last)),
+            "A ray aimed at N leaves from N′ in its old direction; from the last vertex.",
+        ),
+        ("Petzval radius", length(petzval_radius(s)), "1/(n′ΣcΔ(1/n)): the image's curvature without astigmatism."),
+        ("Track", length(track(s)), "Length of the lens with its air: from the first vertex to the sensor."),
+    )
+
+
+def pupil_rows(live) -> tuple[Row, ...]:
+    """Return stop, pupils, apertures and the invariant."""
+    s = live.setting
+    p, na = s.pupils, float(s.own.na)
+    number = float(f_number(s.lens, s.source.wavelength_um, s.stop))
+    invariant = float(s.rays.invariant) * s.source.field_slope
+    return (
+        ("Stop", f"surface {int(s.stop.surface)} ({s.stop.chosen_by})", STOP_TIP),
+        ("Stop radius", length(float(s.stop.semi_diameter)), "Half the free diameter of the stop."),
+        ("Entrance pupil", pupil(p.entrance_from_first, p.entrance_diameter), ENTRANCE_TIP),
+        ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), EXIT_TIP),
+        ("f-number", f"f/{significant(number, 3)}" if isfinite(number) else "∞", "f′ over the entrance pupil."),
+        ("Working f-number", f"f/{significant(0.5 / na, 3)}" if na else "∞", "1/(2 NA) at this depth."),
+        ("Numerical aperture", f"{na:.4f}", "NA = n′|u′| of the marginal ray."),
+        ("Lagrange invariant", f"{signed(invariant, 4)} mm", "H = n(ūy − uȳ), the same at every surface."),
+        ("Airy radius", f"{significant(live.airy_radius_um, 3)} µm", "First dark ring of a perfect lens, 0.61 λ/NA."),
+    )
+
+
+def source_rows(live) -> tuple[Row, ...]:
+    """Return what the lens makes of this source."""
+    s = live.setting
+    c, height = s.own, s.object_height_mm
+    gap = s.lens.sensor_mm - float(c.image_distance)
+    ratio = float(magnification(s.lens, s.source.depth_mm, s.source.wavelength_um))
+    return (
+        ("Wavelength", f"{live.state.wavelength_nm:.1f} nm", "In vacuum."),
+        ("Depth", written_distance(s.source.depth_mm), "Source to first vertex."),
+        ("Field", f"{signed(live.state.field_deg, 2)}°", "Angle of the chief ray at the entrance pupil."),
+        ("Object height", "–" if height is None else length(height), "Of the source; none at infinity."),
+        ("Magnification", f"{signed(ratio, 5)}", "Image over object height; 0 from infinity."),
+        ("Paraxial image", length(float(c.image_distance)), "From the last vertex."),
+        ("Sensor", length(s.lens.sensor_mm), "From the last vertex."),
+        (
+            "Sensor − image",
+            "∞" if not isfinite(gap) else f"{signed(1e3 * gap, 1)} µm",
+            "Δz: what Wd = NA²Δz/(2n′λ) has.",
+        ),
+        ("Image height", length(float(c.image_height)), "Paraxial chief ray on the sensor."),
+    )
+
+
+def petzval_radius(setting) -> float:
+    """Return the Petzval radius in mm, negative when it bends towards the lens (Welford 1986, eq. 8.47)."""
+    index = setting.rays.index
+    curvature = np.array([surface.curvature for surface in setting.lens.surfaces])
+    total = float((curvature * (1 / index[1:] - 1 / index[:-1])).sum()) * float(index[-1])
+    return 1 / total if total else np.inf
+
+
+def track(setting) -> float:
+    """Return first vertex to sensor, mm."""
+    return sum(surface.thickness for surface in setting.lens.surfaces)

@@ -1,0 +1,28 @@
+"""Contrast against spatial frequency."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.psf.metrics import diffraction_mtf, mtf
+
+INTERVALS = 512  # eight between two frequencies that a window of 128 samples tells apart: lobes are no zigzag
+
+
+@dataclass(frozen=True)
+class Contrast:
+    """Cycles per mm on the sensor; contrast of patterns along y and along x, and of a perfect lens."""
+
+    frequency_per_mm: np.ndarray
+    tangential: np.ndarray
+    sagittal: np.ndarray
+    perfect: np.ndarray
+
+
+def contrast(live) -> Contrast:
+    """Return the MTF of the PSF on screen up to its pitch's Nyquist frequency or the lens's cut-off."""
+    c, wavelength = live.setting.coefficients, live.setting.source.wavelength_um
+    nyquist, cut_off = 500 / live.psf.pixel_um, 2000 * float(c.na) / wavelength
+    found = mtf(live.psf, np.linspace(0, min(nyquist, cut_off), INTERVALS + 1))
+    perfect = diffraction_mtf(found.frequency_per_mm, float(c.na), wavelength)
+    return Contrast(found.frequency_per_mm, found.tangential, found.sagittal, perfect)

@@ -1,0 +1,82 @@
+"""What stands before the lens: built-in charts and a person's photos, fitted to the picture's frame. No Qt in here."""
+
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.image.charts import CHARTS, draw_chart
+from p2sf.io.photo_files import read_photo
+from p2sf.lens.lens import Lens
+from p2sf.scene.scene import RGB, Channel
+from p2sf_explorer.compute.setup import wavelength_range
+
+NOISE = 0.005  # of white: what a small camera has in good light
+CHART_WORDS = {
+    "landscape": "Landscape",
+    "text": "Print",
+    "point_grid": "Points",
+    "siemens_star": "Siemens star",
+    "slanted_edge": "Slanted edge",
+    "checkerboard": "Checkerboard",
+}
+
+
+def scene_values(photo: str, shape: tuple[int, int]) -> np.ndarray:
+    """Return a chart by name or a photo by path in linear light, (rows, columns, 3) float32; RequestError."""
+    return _chart(photo, shape) if photo in CHARTS else _photo(photo, changed(photo), shape)[0]
+
+
+def cut_away(photo: str, shape: tuple[int, int]) -> tuple[float, float]:
+    """Return what share of a photo's height and of its width does not fit the frame; RequestError."""
+    if photo in CHARTS:
+        return 0.0, 0.0
+    rows, columns = _photo(photo, changed(photo), shape)[1]
+    tall, wide = middle(rows, columns, shape)
+    return 1 - tall / rows, 1 - wide / columns
+
+
+def changed(photo: str) -> int:
+    """Return when a photo's file was changed, ns; 0 where there is none."""
+    path = Path(photo)
+    return path.stat().st_mtime_ns if path.is_file() else 0
+
+
+@lru_cache(maxsize=8)
+def _chart(name: str, shape: tuple[int, int]) -> np.ndarray:
+    return draw_chart(name, *shape)
+
+
+@lru_cache(maxsize=4)
+def _photo(path: str, _changed: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
+    values = read_photo(path).values
+    colours = np.repeat(values, 3, axis=-1) if values.shape[-1] == 1 else values
+    return fitted(colours, shape), values.shape[:2]
+
+
+def middle(rows: int, columns: int, shape: tuple[int, int]) -> tuple[float, float]:
+    """Return the height and width of the largest part of a picture that has a frame's proportions."""
+    return min(rows, columns * shape[0] / shape[1]), min(columns, rows * shape[1] / shape[0])
+
+
+def fitted(values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+    """Return the middle of a picture in another size, (rows, columns, 3): its sides cut to the frame's, averaged."""
+    from PIL import Image
+
+    rows, columns = values.shape[:2]
+    tall, wide = middle(rows, columns, shape)
+    box = (columns - wide) / 2, (rows - tall) / 2, (columns + wide) / 2, (rows + tall) / 2
+    planes = (Image.fromarray(np.ascontiguousarray(plane)) for plane in np.moveaxis(values, -1, 0))
+    size, smooth = (shape[1], shape[0]), Image.Resampling.BILINEAR
+    return np.stack([np.asarray(plane.resize(size, smooth, box)) for plane in planes], axis=-1)
+
+
+def channels_of(lens: Lens) -> tuple[Channel, ...]:
+    """Return red, green and blue, as far as the lens's glasses have data for them."""
+    low, high = wavelength_range(lens)
+
+    def within(channel: Channel) -> Channel:
+        waves = tuple(float(np.clip(w, low, high)) for w in channel.wavelengths_nm)
+        return Channel(channel.name, waves, channel.weights)
+
+    return tuple(map(within, RGB))

@@ -1,0 +1,159 @@
+"""Sections of the PSF through the chief ray, and its encircled energy."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.errors import P2SFError
+from p2sf.paraxial.wavefront import steepest_polar, wavefront
+from p2sf.psf.fitted import fit
+from p2sf.psf.metrics import centroid, encircled_energy
+from p2sf.psf.plane_waves import counts_for, pupil_amplitude
+from p2sf.psf.seidel import Psf, corner_reach
+from p2sf.pupil.quadrature import disc_nodes, nodes_for
+from p2sf.pupil.transform import sum_on_line
+from p2sf_explorer.compute.sampled import by_coefficients
+
+POINTS = {"preview": 257, "settled": 513}
+FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # where the two ways to a Bessel function meet: each is exact to 1e-12 there
+MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
+
+
+@dataclass(frozen=True)
+class Profiles:
+    """Positions in µm from the chief ray; PSF along x and along y over its peak, and the Airy pattern.
+
+    ``energy`` and ``perfect_energy``: share of the light within |position| of the centroid, of the window's light and
+    of all a perfect lens has.
+    """
+
+    position_um: np.ndarray
+    along_x: np.ndarray
+    along_y: np.ndarray
+    airy: np.ndarray
+    energy: np.ndarray
+    perfect_energy: np.ndarray
+
+
+def profiles(live) -> Profiles:
+    """Return sections finer than the picture's samples: summed at the points themselves once the sliders rest."""
+    psf = live.psf
+    half = (psf.values.shape[-1] // 2) * psf.pixel_um
+    position, airy, perfect = airy_curves(POINTS[live.quality], half, live.airy_radius_um)
+    lines = fine_lines(live, position) if live.quality == "settled" else None
+    along_x, along_y = lines or between_samples(psf, position)
+    peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl)) or 1.0
+    return Profiles(position, along_x / peak, along_y / peak, airy, energy(live, position), perfect)
+
+
+def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the samples through the chief ray in units of the unaberrated peak, straight lines between them."""
+    rows, columns = psf.values.shape
+    scale = float(psf.strehl) / (float(psf.values.max()) or 1.0)
+    row, column = psf.values[rows // 2], psf.values[:, columns // 2]
+    return tuple(scale * np.interp(position, psf.x_um, line) for line in (row, column))
+
+
+def fine_lines(live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return |field|² along x and along y in units of the unaberrated peak; None where no sum describes the picture.
+
+    That is where rays are lost, where the picture is a density of rays, and where a sum would take too long.
+    """
+    if live.psf.method == "geometric" or live.state.clip:
+        return None
+    try:
+        nodes = seidel_nodes(live) if by_coefficients(live) else fitted_nodes(live)
+    except P2SFError:  # rays are lost: the picture's own samples are what there is
+        return None
+    if nodes is None:
+        return None
+    amplitude, kx, ky = nodes
+    window = position.size, float(position[1] - position[0])
+    across, along_y = sum_on_line(amplitude, kx, *window), sum_on_line(amplitude, ky, *window)
+    along_x = (across + across[::-1]) / 2  # the nodes are one half of a pupil that is even in ξ
+    return tuple(line.real**2 + line.imag**2 for line in (along_x, along_y))
+
+
+def seidel_nodes(live):
+    """Return amplitude and spatial frequencies (cycles per µm) of the six coefficients' pupil."""
+    c, psf = live.setting.coefficients, live.psf
+    slope, twist = (float(x) for x in steepest_polar(c))
+    scale = -float(c.reduced_slope) / float(c.wavelength_um)
+    counts = nodes_for(slope, corner_reach(abs(scale), on_axes(psf), psf.pixel_um), twist)
+    if counts[0] * counts[1] > MOST_NODES:
+        return None
+    nodes = disc_nodes(*counts)
+    return pupil_amplitude(nodes.weight, wavefront(c, nodes.xi, nodes.eta)), scale * nodes.xi, scale * nodes.eta
+
+
+def fitted_nodes(live):
+    """Return amplitude and spatial frequencies of a fit to exact rays; P2SFError where rays are lost."""
+    found, psf = fit(live.setting.lens, live.setting.source), live.psf
+    counts = counts_for(found.steepness, on_axes(psf), psf.pixel_um)
+    if counts[0] * counts[1] > MOST_NODES:
+        return None
+    nodes = disc_nodes(*counts)
+    phase, fx, fy = found.at(nodes.xi, nodes.eta)
+    return pupil_amplitude(nodes.weight, phase), fx, fy
+
+
+def on_axes(psf: Psf) -> int:
+    """Return the samples across a window whose corner lies where this one's axes end: lines have no corners."""
+    return round(psf.values.shape[-1] / np.sqrt(2))
+
+
+def energy(live, position: np.ndarray) -> np.ndarray:
+    """Return the share of the window's light within |position| of the centroid; from rings of samples while moving."""
+    psf, radius = live.psf, np.abs(position)
+    if live.quality == "settled":
+        return encircled_energy(psf, radius_um=radius).fraction
+    x, y = centroid(psf)
+    distance = np.hypot(psf.x_um - x, (psf.y_um - y)[:, None]).ravel() / psf.pixel_um
+    rings = np.bincount(np.rint(distance).astype(int), psf.values.ravel()).cumsum()
+    return np.interp(radius / psf.pixel_um, np.arange(rings.size) + 0.5, rings / (rings[-1] or 1.0), left=0.0)
+
+
+@lru_cache(maxsize=8)
+def airy_curves(count: int, half_um: float, radius_um: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return positions from −half to half, the Airy pattern there, and its energy 1 − J₀²(v) − J₁²(v) (Rayleigh 1881).
+
+    ``radius_um`` is the first dark ring's; ``count`` is odd, so that one half mirrors the other.
+    """
+    outward = np.linspace(0.0, half_um, count // 2 + 1)
+    v = 3.8317059702 * outward / radius_um
+    zeroth, first = bessel(v)
+    pattern = np.where(v < 1e-9, 1.0, (2 * first / np.where(v < 1e-9, 1.0, v)) ** 2)
+    return mirrored(outward, -1), mirrored(pattern), mirrored(1 - zeroth**2 - first**2)
+
+
+def mirrored(half: np.ndarray, sign: int = 1) -> np.ndarray:
+    """Return a curve on both sides of its first point, odd with the sign −1."""
+    return np.append(sign * half[:0:-1], half)
+
+
+def bessel(v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return J₀ and J₁ of v ≥ 0 to 1e-12: near zero by their integrals, far out by Hankel's series.
+
+    J₀ = (2/π)∫cos(v sin τ)dτ and J₁ = (2/π)∫sin(v sin τ) sin τ dτ over a quarter turn (DLMF 10.9.1, 10.9.2).
+    """
+    found, near = np.empty((2, v.size)), v <= FAR
+    sine = np.sin((np.arange(NODES) + 0.5) * np.pi / (2 * NODES))
+    phase = v[near, None] * sine
+    found[:, near] = np.cos(phase).mean(axis=1), np.sin(phase) @ sine / NODES
+    found[:, ~near] = far_bessel(v[~near])
+    return found[0], found[1]
+
+
+def far_bessel(v: np.ndarray) -> np.ndarray:
+    """Return J₀ and J₁ of v by Hankel's series √(2/πv)·Re Σ iᵏaₖ/vᵏ·exp(iω), ω = v − nπ/2 − π/4 (DLMF 10.17.3)."""
+    series = np.vander(1 / v, HANKEL_TERMS, increasing=True) @ hankel_terms()
+    turn = np.exp(1j * (v[:, None] - np.array([1, 3]) * np.pi / 4))
+    return np.sqrt(2 / (np.pi * v)) * (series * turn).real.T
+
+
+@lru_cache(maxsize=1)
+def hankel_terms() -> np.ndarray:
+    """Return iᵏaₖ of J₀ and J₁, aₖ = Π (4n² − (2j − 1)²)/8j over j ≤ k (DLMF 10.17.1), (terms, 2)."""
+    k, square = np.arange(1, HANKEL_TERMS)[:, None], np.array([0.0, 4.0])
+    return np.cumprod(np.concatenate([np.ones((1, 2)), 1j * (square - (2 * k - 1) ** 2) / (8 * k)]), axis=0)

@@ -1,0 +1,22 @@
+"""Exact rays of the present source: spot diagram, ray fan, OPD fan."""
+
+from p2sf.raytrace.pencil import Fan, Spot, opd_fan, ray_fan, spot
+
+RINGS = {"preview": 6, "settled": 10}
+FAN_RAYS = 41
+
+
+def spots(live) -> Spot:
+    """Return where hexapolar rays meet the sensor, µm from the chief ray; fewer rays while a slider moves."""
+    setting = live.setting
+    return spot(setting.lens, setting.source, RINGS[live.quality], clip=live.state.clip)
+
+
+def ray_errors(live) -> Fan:
+    """Return transverse ray errors along the two axes of the pupil, µm."""
+    return ray_fan(live.setting.lens, live.setting.source, FAN_RAYS)
+
+
+def path_errors(live) -> Fan:
+    """Return optical path differences along the two axes of the pupil, waves."""
+    return opd_fan(live.setting.lens, live.setting.source, FAN_RAYS)

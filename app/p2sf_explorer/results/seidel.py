@@ -1,0 +1,31 @@
+"""How much each surface adds to each coefficient."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.paraxial.seidel import seidel_sums
+
+
+@dataclass(frozen=True)
+class PerSurface:
+    """Contribution to each coefficient in waves, (surfaces,) each; the sum over surfaces is the coefficient."""
+
+    waves: dict[str, np.ndarray]
+    stop_surface: int
+
+
+def per_surface(live) -> PerSurface:
+    """Return W40, W31, W22, W20 and W11 split over the surfaces (DESIGN.md section 3)."""
+    setting = live.setting
+    sums = seidel_sums(setting.lens, setting.rays, setting.source.field_slope)
+    waves = UM_PER_MM / setting.source.wavelength_um
+    split = {
+        "w40": sums.spherical / 8,
+        "w31": sums.coma / 2,
+        "w22": sums.astigmatism / 2,
+        "w20": (sums.astigmatism + sums.petzval) / 4,
+        "w11": sums.distortion / 2,
+    }
+    return PerSurface({name: column * waves for name, column in split.items()}, int(setting.stop.surface))

@@ -1,0 +1,120 @@
+"""The PSF at several sensor positions: which of them, how wide a window, and the pictures."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from p2sf.errors import GeometryError, P2SFError
+from p2sf.psf.metrics import airy_radius_um
+from p2sf.raytrace.field_curves import real_foci, seidel_foci
+from p2sf_explorer.compute.autofocus import best_shift_um
+from p2sf_explorer.compute.method import WINDOWS
+from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
+from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.what_if import check_focusable
+
+COUNT = {"preview": 7, "settled": 11}
+PIXELS = {"preview": 24, "settled": 40}
+AIR = 3.0  # depths of focus beyond the outermost focus
+ROOM = 4.0  # Airy radii around the blur
+
+
+@dataclass(frozen=True)
+class Strip:
+    """What is asked: ``state`` with the sensor unshifted, the shifts in µm to show, and each picture's window.
+
+    ``less`` is what is to be taken from it, picture by picture.
+    """
+
+    state: State
+    shifts_um: tuple[float, ...]
+    window: tuple[int, float]
+    six: bool
+    less: "Strip | None" = None
+
+
+@dataclass(frozen=True)
+class Focused:
+    """What is shown: (count, pixels, pixels) light per sample over the unaberrated peak; foci as sensor shifts, µm.
+
+    ``light`` is NaN where there is no PSF. ``best``: of smallest RMS wavefront, NaN where there is none.
+    """
+
+    light: np.ndarray
+    sagittal: float
+    tangential: float
+    best: float
+
+
+def strip(live) -> Strip | str:
+    """Return what to show for the present lens and source; the sensor shift has no part in it, so it stands still.
+
+    A sentence in its place where moving the sensor does not focus: every picture would be the same.
+    """
+    try:
+        check_focusable(live.state)
+    except GeometryError as error:
+        return str(error)
+    state = replace(optics(live.state), sensor_shift_um=0.0)
+    set_up = setting(state)
+    low, high, half = reach(set_up)
+    shifts = tuple(np.linspace(low, high, COUNT[live.quality]).tolist())
+    pixels = PIXELS[live.quality]
+    return Strip(state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), everywhere_by_coefficients(live))
+
+
+def reach(set_up) -> tuple[float, float, float]:
+    """Return the shifts to show, µm, around sensor and foci, and half the width of a window that holds the blur, µm."""
+    c = set_up.coefficients
+    na, index = float(c.na), float(c.image_index)
+    unit = 1e3 * index * set_up.source.wavelength_um / 1e3 / na**2  # n′λ/NA², the depth of focus, µm
+    sagittal, tangential = (1e3 * float(place) for place in seidel_foci(c))
+    balanced = (sagittal + tangential) / 2 - 2 * unit * float(c.w40)
+    low, high = (side(0.0, sagittal, tangential, balanced) for side in (min, max))
+    step = nice((high - low + 2 * AIR * unit) / 8)
+    low, high = step * np.floor((low - AIR * unit) / step), step * np.ceil((high + AIR * unit) / step)
+    blur = 0.35 * (high - low) * na / index
+    return float(low), float(high), blur + ROOM * float(airy_radius_um(set_up.source.wavelength_um, na))
+
+
+def answer(asked: Strip, stopped, tell) -> Focused:
+    """Return the strip, ``tell`` of every picture as it is made (share done, the strip so far)."""
+    found = Focused(np.full((len(asked.shifts_um), asked.window[0], asked.window[0]), np.nan), *foci(asked))
+    for number in outwards(len(asked.shifts_um)):
+        if stopped():
+            break
+        shift = asked.shifts_um[number]
+        found.light[number] = light(shift, asked) - (light(shift, asked.less) if asked.less else 0.0)
+        tell((number + 1) / len(asked.shifts_um), found)
+    return found
+
+
+def light(shift_um: float, asked: Strip) -> np.ndarray:
+    """Return the light per sample of one position, in units of the unaberrated peak; NaN where there is no PSF."""
+    try:
+        psf = in_window(replace(asked.state, sensor_shift_um=shift_um), asked.window, asked.six)
+    except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip says as much
+        return np.full((asked.window[0],) * 2, np.nan)
+    peak = float(psf.values.max()) or 1.0
+    return psf.values * (float(psf.strehl) / peak)
+
+
+def outwards(count: int) -> list[int]:
+    """Return the numbers from the middle outwards, so that what matters is there first."""
+    return sorted(range(count), key=lambda number: abs(number - count // 2))
+
+
+def foci(asked: Strip) -> tuple[float, float, float]:
+    """Return sagittal, tangential and best focus as sensor shifts, µm: of the six coefficients or of exact rays."""
+    set_up = setting(asked.state)
+    if asked.six:
+        near = seidel_foci(set_up.coefficients)
+    else:
+        near = real_foci(set_up.lens, set_up.source, set_up.source.field_slope, set_up.stop)
+    try:
+        best = best_shift_um(replace(asked.state, method="seidel" if asked.six else "fitted"))
+    except P2SFError:
+        best = np.nan
+    return 1e3 * float(near.sagittal), 1e3 * float(near.tangential), best

@@ -1,0 +1,1 @@
+"""The lens in space: meshes, rays, the renderer and its widget."""

@@ -1,0 +1,137 @@
+"""Solids as triangles: elements of revolution with a quarter cut away, stop, sensor. No Qt and no pyvista in here."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.lens.lens import Lens, Surface, indices
+from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, clear_rims, sag, vertices
+
+CUT = (np.pi, 2.5 * np.pi)  # the sweep that is left, from −x over −y and +x to +y: a quarter is cut away
+STEPS = 48  # of the sweep
+RINGS = 12  # of a sheet, from axis to rim
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles: ``points`` (point, 3) in mm, x, y, z; ``faces`` (face, 3) point numbers, counter-clockwise outside."""
+
+    points: np.ndarray
+    faces: np.ndarray
+
+
+@dataclass(frozen=True)
+class Element:
+    """One piece of glass and its index."""
+
+    mesh: Mesh
+    index: float
+
+
+@lru_cache(maxsize=16)
+def elements(lens: Lens) -> tuple[Element, ...]:
+    """Return the glass of a `glass.still` lens, real sag to the clear rims, a quarter cut away."""
+    z, rims = vertices(lens), clear_rims(lens)
+    index = indices(lens, lens.reference_wavelength_um)
+    pairs = zip(lens.surfaces[:-1], lens.surfaces[1:], strict=True)
+    return tuple(
+        Element(element((front, z[i], rims[i]), (back, z[i + 1], rims[i + 1])), float(index[i + 1]))
+        for i, (front, back) in enumerate(pairs)
+        if index[i + 1] > GLASS_INDEX and rims[i] > 0
+    )
+
+
+def filling(lens: Lens, sensor_z: float) -> tuple[Element, ...]:
+    """Return the medium between a lens's last surface and the sensor where it is not air, else nothing."""
+    index = float(indices(lens, lens.reference_wavelength_um)[-1])
+    if index <= GLASS_INDEX:
+        return ()
+    rim, wide = clear_rims(lens)[-1], max(clear_rims(lens))
+    return (Element(element((lens.surfaces[-1], vertices(lens)[-2], rim), (None, sensor_z, wide)), index),)
+
+
+Side = tuple[Surface | None, float, float]
+"""A surface (None for a plane), its vertex's z and its rim, mm."""
+
+
+def element(front: Side, back: Side) -> Mesh:
+    """Return the solid between two sides; the narrower one goes on flat to the rim of the wider."""
+    wide = max(front[2], back[2])
+    radii = np.union1d(np.linspace(0, wide, RINGS), [min(front[2], back[2])])
+    z = np.stack([_heights(front, radii), _heights(back, radii)])
+    crossed = np.flatnonzero(z[0] >= z[1])  # a drawn rim may reach beyond the edge where the two sides meet
+    kept = slice(0, max(2, crossed[0]) if crossed.size else None)
+    return revolved(radii[kept], *z[:, kept])
+
+
+def _heights(side: Side, radii: np.ndarray) -> np.ndarray:
+    surface, vertex, rim = side
+    return np.full(radii.size, vertex) if surface is None else vertex + sag(surface, np.minimum(radii, rim))
+
+
+def revolved(radii: np.ndarray, front: np.ndarray, back: np.ndarray, sweep=CUT, steps: int = STEPS) -> Mesh:
+    """Return the solid swept by the strip between two profiles z(r); ``radii`` (r,) rise from 0 or any inner rim."""
+    count, turns = radii.size, steps + 1
+    front_ids = np.arange(count * turns).reshape(turns, count)
+    back_ids = front_ids + count * turns
+    parts = [
+        _strip(front_ids[:-1], front_ids[1:]),
+        _strip(back_ids[1:], back_ids[:-1]),
+        _wall(back_ids[:, -1], front_ids[:, -1]),
+        _wall(back_ids[0], front_ids[0]),
+        _wall(front_ids[-1], back_ids[-1]),
+    ]
+    if radii[0] > 0:
+        parts.append(_wall(front_ids[:, 0], back_ids[:, 0]))
+    sheets = [_sheet(radii, z, sweep, steps) for z in (front, back)]
+    return Mesh(np.concatenate(sheets), np.concatenate(parts))
+
+
+def _sheet(radii: np.ndarray, z: np.ndarray, sweep: tuple[float, float], steps: int) -> np.ndarray:
+    """Return the points of a surface of revolution, turn by turn; turning goes from +x over +y."""
+    turn = np.linspace(*sweep, steps + 1)[:, None]
+    return np.stack(np.broadcast_arrays(radii * np.cos(turn), radii * np.sin(turn), z), -1).reshape(-1, 3)
+
+
+def _strip(low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """Return the triangles between two rows of point numbers, (rows, columns) each."""
+    a, b, c, d = low[..., :-1], high[..., :-1], high[..., 1:], low[..., 1:]
+    return np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
+
+
+def _wall(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    return _strip(first[None], second[None])
+
+
+def ring(inner: float, outer: float, z: float, thick: float) -> Mesh:
+    """Return a flat ring about the axis, a quarter cut away: the stop."""
+    radii = np.array([inner, outer])
+    return revolved(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2))
+
+
+def plate(half: float, z: float, thick: float) -> Mesh:
+    """Return a square plate whose front lies at z: the sensor."""
+    corners = half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    points = np.concatenate([np.c_[corners, np.full(4, depth)] for depth in (z, z + thick)])
+    sides = [_wall(np.array([k, (k + 1) % 4]), np.array([k + 4, (k + 1) % 4 + 4])) for k in range(4)]
+    faces = [np.array([[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7]]), *(side[:, ::-1] for side in sides)]
+    return Mesh(points, np.concatenate(faces))
+
+
+def grid_faces(rows: int, columns: int) -> np.ndarray:
+    """Return the triangles of a grid of points, row by row."""
+    ids = np.arange(rows * columns).reshape(rows, columns)
+    return _strip(ids[:-1], ids[1:])
+
+
+def volume(mesh: Mesh) -> float:
+    """Return the volume a closed mesh holds, mm³: Σ a·(b × c)/6 over its triangles, by Gauss's theorem."""
+    a, b, c = np.moveaxis(mesh.points[mesh.faces], 1, 0)
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def area(mesh: Mesh, faces: slice = slice(None)) -> float:
+    """Return the area of a mesh's triangles, or of some of them, mm²."""
+    a, b, c = np.moveaxis(mesh.points[mesh.faces[faces]], 1, 0)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

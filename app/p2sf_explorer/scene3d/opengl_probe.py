@@ -1,0 +1,43 @@
+"""Whether OpenGL works here, asked in a process of its own: where it is missing, the renderer ends its process.
+
+``python -m p2sf_explorer.scene3d.opengl_probe`` renders eight pixels and returns 0, or something else. No Qt in here.
+"""
+
+import os
+import sys
+
+MISSING = (
+    "3D needs OpenGL, and none works here; install a driver or Mesa's software renderer "
+    "(apt-get install libegl1 libgl1-mesa-dri), then open this panel again"
+)
+NOT_INSTALLED = "3D needs pyvista, which is not installed; run pip install pyvista, then open this panel again"
+COMMAND = ("-m", "p2sf_explorer.scene3d.opengl_probe")
+WORKS, NO_LIBRARY, NO_CONTEXT = 0, 3, 4
+
+
+def main() -> int:
+    """Render a small picture off screen; return 0, or why not."""
+    try:
+        import vtkmodules.vtkRenderingOpenGL2 as gl
+        from vtkmodules.vtkRenderingCore import vtkRenderWindow
+    except ImportError:
+        return NO_LIBRARY
+    window = vtkRenderWindow()
+    if not isinstance(window, gl.vtkOpenGLRenderWindow):
+        return NO_CONTEXT
+    window.SetOffScreenRendering(1)
+    window.SetSize(8, 8)
+    window.Render()
+    # Without a context there are no capabilities to report, and taking the window down would end the process.
+    works = "OpenGL" in window.ReportCapabilities()
+    sys.stdout.flush()
+    os._exit(WORKS if works else NO_CONTEXT)
+
+
+def sentence(code: int) -> str:
+    """Return what the probe's exit code means, nothing where all is well."""
+    return {WORKS: "", NO_LIBRARY: NOT_INSTALLED}.get(code, MISSING)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

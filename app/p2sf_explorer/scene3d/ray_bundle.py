@@ -1,0 +1,135 @@
+"""What light does in space: rays, the wavefront on its way, the PSF as relief. No Qt and no pyvista in here."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import isfinite
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.psf.seidel import Psf
+from p2sf.raytrace.pencil import Pencil, hexapolar, opd_on_sphere, pencil, pupil_rays, trace
+from p2sf_explorer.compute.layout import Drawing
+from p2sf_explorer.compute.setup import Setting
+from p2sf_explorer.scene3d.meshes import Mesh, grid_faces
+from p2sf_explorer.state.scales import nice
+
+RINGS = 2  # of rays in the bundle: 19 of them
+FRONT = (10, 48)  # rings and directions of the wavefront
+RELIEF = 64  # samples of the relief, across
+BEFORE = 0.45  # of the drawing's length: where rays from afar begin
+SWING, RIM = 0.3, 0.96  # the exaggerated wavefront's depth over its radius; how much of the way it may take
+LEAST = 0.05  # and what it takes at least, of the picture's half height
+SPREAD, HEIGHT = 0.9, 0.6  # the relief's width over half the sensor, its height over its width
+
+
+@dataclass(frozen=True)
+class Front:
+    """The wavefront's surface, W in waves at its points, and how often W is exaggerated along the rays."""
+
+    mesh: Mesh
+    waves: np.ndarray
+    factor: float
+
+
+@dataclass(frozen=True)
+class Relief:
+    """The PSF as a surface on the sensor, brightness 0 to 1 at its points, and how often its width is magnified."""
+
+    mesh: Mesh
+    values: np.ndarray
+    factor: float
+
+
+def bundle(setting: Setting, drawn: Drawing) -> np.ndarray:
+    """Return the source's rays, (ray, place, 3) mm, the chief ray first: origin, every surface, sensor.
+
+    A lost ray stays where it last was. Raises GeometryError.
+    """
+    xi, eta = hexapolar(RINGS)
+    rays = pupil_rays(setting.lens, setting.source, xi, eta)
+    reach = min(setting.source.depth_mm, BEFORE * (drawn.right - drawn.left) - drawn.left)
+    origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
+    starts = origins - directions * ((origins[..., 2:] + reach) / directions[..., 2:])
+    points = trace(setting.lens, starts, directions, setting.source.wavelength_um).points
+    for number in range(1, len(points)):
+        points[number] = np.where(np.isnan(points[number]), points[number - 1], points[number])
+    return points.swapaxes(0, 1)
+
+
+def front(setting: Setting, drawn: Drawing, last_z: float) -> Front:
+    """Return the wavefront behind the lens: the sphere about the image point, W·λ·factor ahead of it along the rays.
+
+    A positive W is a shorter path, so the light is ahead. ``last_z``: where the last surface ends, mm; the wavefront
+    is drawn as it leaves the exit pupil, or the lens where the pupil lies inside. What is altered by hand has no rays:
+    W is then that of the six coefficients. Raises GeometryError.
+    """
+    rays = pencil(setting.lens, setting.source, *_polar())
+    exact = None if setting.altered else opd_on_sphere(rays, _exit_radius(setting, rays))
+    waves = np.asarray(wavefront(setting.coefficients, *_polar())) if exact is None else np.nan_to_num(exact)
+    kx, ky, kz = (np.where(rays.passed, k, chief) for k, chief in _cosines(rays))
+    radius = _drawn_radius(setting, drawn, last_z, float(rays.chief_kz[0]))
+    swing = SWING * radius * float(np.hypot(kx, ky - rays.chief_ky).max())
+    wave_mm = setting.source.wavelength_um / UM_PER_MM
+    factor = _round_down(swing / max(float(np.ptp(waves)) * wave_mm, 1e-9)) if swing else 1.0  # else no ray has passed
+    along = (radius - factor * wave_mm * waves)[:, None]
+    image = np.array([0.0, float(rays.chief_y[0]), drawn.sensor_z])
+    return Front(Mesh(image - along * np.stack([kx, ky, kz], -1), grid_faces(*FRONT_GRID)), waves, factor)
+
+
+FRONT_GRID = FRONT[0] + 1, FRONT[1] + 1
+
+
+@lru_cache(maxsize=1)
+def _polar() -> tuple[np.ndarray, np.ndarray]:
+    radius, turn = np.linspace(0, 1, FRONT_GRID[0])[:, None], np.linspace(0, 2 * np.pi, FRONT_GRID[1])
+    return (radius * np.sin(turn)).ravel(), (radius * np.cos(turn)).ravel()
+
+
+def _cosines(rays: Pencil):
+    return (rays.kx, 0.0), (rays.ky, rays.chief_ky[0]), (rays.kz, rays.chief_kz[0])
+
+
+def _exit_radius(setting: Setting, rays: Pencil) -> float:
+    return float((setting.lens.sensor_mm - setting.pupils.exit_from_last) / rays.chief_kz[0])
+
+
+def _drawn_radius(setting: Setting, drawn: Drawing, last_z: float, chief_kz: float) -> float:
+    """Return how far from the image the wavefront is drawn, mm: at the exit pupil, or just behind the lens.
+
+    The sensor may touch the last glass or stand within: then just before the image.
+    """
+    room = max(RIM * (drawn.sensor_z - last_z), LEAST * drawn.half_height) / chief_kz
+    pupil = (setting.lens.sensor_mm - float(setting.pupils.exit_from_last)) / chief_kz
+    return min(room, pupil) if isfinite(pupil) and pupil > 0 else room
+
+
+def relief(psf: Psf, brightness: np.ndarray, drawn: Drawing, sensor_half: float, image_y: float) -> Relief:
+    """Return the PSF as a surface that rises from the sensor towards the lens about the chief ray's point.
+
+    ``brightness``: of the PSF's samples, 0 to 1, (y, x); ``image_y``: of the chief ray on the sensor, mm.
+    """
+    count = brightness.shape[0]
+    width = count * psf.pixel_um / UM_PER_MM
+    factor = _round_down(SPREAD * sensor_half / width)
+    weight = _resampling(count)
+    values = np.clip(weight @ brightness @ weight.T, 0.0, 1.0)
+    axis = (np.arange(RELIEF) - RELIEF // 2) * (width * factor / RELIEF)
+    x, y = np.meshgrid(axis, axis + image_y)
+    z = drawn.sensor_z - HEIGHT * width * factor * values - 2e-3 * sensor_half
+    return Relief(Mesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(RELIEF, RELIEF)), values.ravel(), factor)
+
+
+@lru_cache(maxsize=16)
+def _resampling(count: int) -> np.ndarray:
+    """Return the linear map (RELIEF, count) that keeps sample N/2 in its place: means where there are many samples."""
+    wide = max(1.0, count / RELIEF)
+    at = (np.arange(RELIEF) - RELIEF // 2) * (count / RELIEF) + count // 2
+    weight = np.maximum(0.0, 1 - np.abs(at[:, None] - np.arange(count)) / wide)
+    return weight / weight.sum(axis=1, keepdims=True)
+
+
+def _round_down(value: float) -> float:
+    """Return the largest 1, 2 or 5 times a power of ten that is not above a value."""
+    return 1 / nice(1 / value)

@@ -1,0 +1,50 @@
+"""The whole set-up in space: glass, stop, sensor, rays, wavefront, PSF. No Qt, no pyvista in here."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.compute.glass_outlines import still
+from p2sf_explorer.compute.quantities import visible_colour
+from p2sf_explorer.scene3d.meshes import Element, Mesh, elements, filling, plate, ring
+from p2sf_explorer.scene3d.ray_bundle import Front, Relief, bundle, front, relief
+
+THIN = 0.012  # of the lens's half height: how thick stop and sensor are drawn
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Everything the 3D view shows, mm; ``rays`` (ray, place, 3); ``colour`` of the light, #rrggbb."""
+
+    glass: tuple[Element, ...]
+    stop: Mesh
+    sensor: Mesh
+    rays: np.ndarray
+    colour: str
+    front: Front
+    relief: Relief
+
+
+def scene(live) -> Scene:
+    """Return the scene of an answer. Raises GeometryError where the chief ray does not reach the sensor."""
+    set_up, drawn = live.setting, live.layout.drawing
+    standing = still(set_up.lens)
+    wedge, thick = 0.18 * drawn.half_height + 0.25 * drawn.stop_rim, THIN * drawn.half_height
+    rays = bundle(set_up, drawn)
+    half = live.layout.sensor_half
+    return Scene(
+        glass=elements(standing) + filling(standing, drawn.sensor_z),
+        stop=ring(drawn.stop_rim, drawn.stop_rim + wedge, drawn.stop_z, thick),
+        sensor=plate(half, drawn.sensor_z, thick),
+        rays=rays,
+        colour=visible_colour(live.state.wavelength_nm),
+        front=front(set_up, drawn, float(drawn.glass.last[0].max())),
+        relief=relief(live.psf, brightness(live), drawn, half, float(rays[0, -1, 1])),
+    )
+
+
+def brightness(live) -> np.ndarray:
+    """Return the PSF's samples on the scale the window shows, 0 to 1."""
+    peak = float(live.psf.values.max()) or 1.0
+    return stretched(live.psf.values / peak, live.state.psf_scale)

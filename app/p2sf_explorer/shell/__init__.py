@@ -1,0 +1,1 @@
+"""The window around the panels: bars, controls, tabs, actions, command palette, help, lens chooser."""

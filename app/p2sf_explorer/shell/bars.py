@@ -1,0 +1,221 @@
+"""The bar above (lens, method, steps, snapshot, theme), the line below (warnings, facts), the banner for refusals."""
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
+
+from p2sf_explorer.charts.theme import DARK, LIGHT, Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.messages import spoken
+from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.shell.lens_cards import shown_title
+from p2sf_explorer.shell.lens_chooser import LensChooser
+from p2sf_explorer.shell.show import UNKNOWN
+from p2sf_explorer.state.limits import CHOICES
+from p2sf_explorer.state.scales import signed
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import chooser, described, select
+from p2sf_explorer.widgets.readout import Readout
+
+METHOD_WORDS = {
+    "auto": "auto",
+    "seidel": "seidel: six coefficients",
+    "fitted": "fitted: polynomial from real rays",
+    "traced": "traced: exact wavefront",
+    "huygens": "huygens: the reference sum",
+}
+NARROW = 1100  # pixels: below, as on a small screen at twice the size, some words are left out
+TOLERANCES = (0.9, 0.95, 0.99, 0.999, 0.9999)
+METHOD_TIP = "Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough."
+TOLERANCE_TIP = "Tolerance: the R² against the Huygens reference that auto must promise."
+
+
+class TopBar(QFrame):
+    """Everything that is chosen rather than dragged."""
+
+    open_file = Signal()
+    lens_chosen = Signal(str)
+    recent_chosen = Signal(str)
+    help_asked = Signal()
+
+    def __init__(self, store: Store, parent=None):
+        super().__init__(parent)
+        self.setObjectName("bar")
+        self._store = store
+        self.lens = LensChooser(self)
+        self.lens.chosen.connect(self.lens_chosen)
+        self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or one of the latest", None)
+        self.open.setMenu(QMenu(self))
+        self.open.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.edited = QLabel(tr("edited"), self)
+        self.edited.setObjectName("badge")
+        self.edited.setToolTip(tr("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)"))
+        self.method = described({name: METHOD_WORDS[name] for name in CHOICES["method"]}, METHOD_TIP, self)
+        tolerances = tuple((str(t), f"R² ≥ {t:g}") for t in TOLERANCES)
+        self.tolerance = chooser(tolerances, TOLERANCE_TIP, self)
+        for box in (self.method, self.tolerance):
+            box.setObjectName("")
+            box.setMinimumWidth(96)  # a narrow window cuts their words rather than grow
+        self.named = QLabel(tr("Method"), self)
+        self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
+        self.tolerance.activated.connect(lambda: store.update(tolerance=float(self.tolerance.currentData())))
+        self.undo = self._tool("Undo", "Take back one step (Ctrl+Z)", store.undo)
+        self.redo = self._tool("Redo", "Take the step again (Ctrl+Shift+Z)", store.redo)
+        self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it (Ctrl+B)", None)
+        self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
+        self.lessons = self._tool(
+            "Lessons", "Lessons, from a point of light to a photograph: begin or leave (F3)", None
+        )
+        self.theme = self._tool("Light", "Light or dark", self._turn_theme)
+        self.more = self._tool("More", "Report, command palette, colours, theme, language", None)
+        self.more.setMenu(QMenu(self))
+        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.help = self._tool("?", "Shortcuts and terms (F1 or ?)", self.help_asked.emit)
+        self._lay_out()
+        self._write(False)
+
+    def resizeEvent(self, event) -> None:
+        """Write less in a narrow window."""
+        super().resizeEvent(event)
+        self._write(event.size().width() < NARROW)
+
+    def _write(self, narrow: bool) -> None:
+        """Write Undo and Redo, in a narrow window as arrows and without the word before the methods."""
+        self.named.setVisible(not narrow)
+        for button, arrow, words in ((self.undo, "↶", "Undo"), (self.redo, "↷", "Redo")):
+            button.setText(arrow if narrow else tr(words))
+            button.setAccessibleName(tr(words))
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(10, 6, 10, 6)
+        row.setSpacing(6)
+        row.addWidget(self.lens)
+        row.addWidget(self.open)
+        row.addWidget(self.edited)
+        row.addSpacing(6)
+        row.addWidget(self.named)
+        row.addWidget(self.method)
+        row.addWidget(self.tolerance)
+        row.addStretch(1)
+        for tool in (self.undo, self.redo, self.pin, self.snapshot, self.lessons, self.theme, self.more, self.help):
+            row.addWidget(tool)
+
+    def _tool(self, text: str, tip: str, action) -> QToolButton:
+        button = QToolButton(self)
+        button.setText(tr(text))
+        button.setToolTip(tr(tip))
+        button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        if action:
+            button.clicked.connect(action)
+        return button
+
+    def set_snapshot_menu(self, menu: QMenu) -> None:
+        """Give the snapshot button its choices."""
+        self.snapshot.setMenu(menu)
+        self.snapshot.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+
+    def show_recent(self, paths: tuple[str, ...]) -> None:
+        """List the way to a file, and the files opened lately."""
+        menu = self.open.menu()
+        menu.clear()
+        menu.addAction(tr("Open a file…") + "\tCtrl+O", self.open_file.emit)
+        menu.addSeparator()
+        for number, path in enumerate(paths, 1):
+            action = menu.addAction(
+                f"&{number % 10}  {Path(path).name}", lambda path=path: self.recent_chosen.emit(path)
+            )
+            action.setToolTip(path)
+        menu.setToolTipsVisible(True)
+
+    def show_state(self, state, dark: bool) -> None:
+        """Follow a state."""
+        self.lens.show_lens(state.lens, shown_title(state), DARK if dark else LIGHT)
+        self.edited.setVisible(state.lens_text is not None)
+        select(self.method, state.method)
+        if self.tolerance.findData(str(state.tolerance)) < 0:
+            self.tolerance.addItem(f"R² ≥ {state.tolerance:g}", str(state.tolerance))
+        select(self.tolerance, str(state.tolerance))
+        self.tolerance.setVisible(state.method == "auto")
+        self.undo.setEnabled(self._store.can_undo)
+        self.redo.setEnabled(self._store.can_redo)
+        self.pin.setVisible(state.pinned is None)
+        self.theme.setText(tr("Light") if dark else tr("Dark"))
+        self._dark = dark
+
+    def _turn_theme(self) -> None:
+        self._store.update(theme="light" if self._dark else "dark")
+
+
+class StatusLine(QWidget):
+    """Warnings at the left, facts at the right."""
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.warning = Readout(self, colour="warning")
+        self.facts = Readout(self, align=Qt.AlignmentFlag.AlignRight)
+        self.facts.setFixedWidth(470)
+        self.warning.ground = self.facts.ground = "window"
+        row = QHBoxLayout(self)
+        row.setContentsMargins(4, 0, 4, 0)
+        row.addWidget(self.warning, 1)
+        row.addWidget(self.facts)
+
+    def show_live(self, live: Live, frame_ms: float | None) -> None:
+        """Show the sentences and figures of an answer."""
+        text = "   ".join(f"⚠ {sentence}" for sentence in live.warnings)
+        if self.warning.text() != text:
+            short = (tr(sentence).partition("; ")[0].rstrip(".") for sentence in live.warnings)
+            self.warning.set_text(text, short="   ".join(f"⚠ {words} …" for words in short))
+            self.warning.setToolTip(tr("\n".join(live.warnings)))
+        self.facts.set_text(facts(live, frame_ms))
+
+    def show_none(self, sentence: str) -> None:
+        """Keep the sentence on why there is no answer, which outlasts the banner; no figures."""
+        words = tr(spoken(sentence))
+        self.warning.set_text(f"⚠ {words}")
+        self.warning.setToolTip(words)
+        self.facts.set_text(UNKNOWN)
+
+    def say(self, text: str) -> None:
+        """Show a passing message until the next answer."""
+        self.warning.set_text(text)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.warning.restyle(theme)
+        self.facts.restyle(theme)
+
+
+def facts(live: Live, frame_ms: float | None) -> str:
+    """Return the line of figures at the right."""
+    c = live.setting.coefficients
+    parts = [tr("image height {h} mm", h=signed(float(c.image_height), 3)), f"NA {float(c.na):.4f}"]
+    parts.append(tr("{ms} ms computing", ms=f"{live.milliseconds['all']:.1f}"))
+    if frame_ms is not None:
+        parts.append(tr("{ms} ms/frame", ms=f"{frame_ms:.1f}"))
+    return " · ".join(parts)
+
+
+class Banner(QFrame):
+    """A refusal in one calm sentence; it goes by itself when the next answer comes, or by its button."""
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.setObjectName("banner")
+        self.text = QLabel(self)
+        self.text.setWordWrap(True)
+        close = QToolButton(self)
+        close.setText(tr("Dismiss"))
+        close.clicked.connect(self.hide)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(12, 6, 8, 6)
+        row.addWidget(self.text, 1)
+        row.addWidget(close)
+        self.hide()
+
+    def say(self, sentence: str) -> None:
+        """Show a sentence."""
+        self.text.setText(unbroken(tr(spoken(sentence))))
+        self.show()

@@ -1,0 +1,89 @@
+"""The command palette: every action, panel, lens and preset by a few letters of its name."""
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.shell.fuzzy import ranked
+from p2sf_explorer.widgets.command import Command
+
+WIDE, MOST = 520, 60
+HINT = "Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back."
+STEPS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
+
+
+class Palette(QFrame):
+    """A line to type into and what fits it, the best first."""
+
+    def __init__(self, parent: QWidget):
+        super().__init__(parent, Qt.WindowType.Popup)
+        self.setObjectName("card")
+        self.sought, self.found = QLineEdit(self), QListWidget(self)
+        self.sought.setPlaceholderText(tr("What do you want to do?"))
+        self.sought.setAccessibleName(tr("Find a command, a panel, a lens or a preset"))
+        self.sought.textChanged.connect(self._find)
+        self.sought.installEventFilter(self)
+        self.found.setFrameShape(QListWidget.Shape.NoFrame)
+        self.found.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.found.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.found.itemClicked.connect(lambda _: self.take())
+        hint = QLabel(tr(HINT), self)
+        hint.setObjectName("muted")
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 8, 8, 8)
+        for widget in (self.sought, self.found, hint):
+            column.addWidget(widget)
+        self._commands: tuple[Command, ...] = ()
+
+    def open_with(self, commands: tuple[Command, ...]) -> None:
+        """Show all commands, ready to type."""
+        self._commands = commands
+        parent = self.parentWidget()
+        self.resize(min(WIDE, parent.width() - 40), min(460, parent.height() - 120))
+        corner = parent.mapToGlobal(parent.rect().topLeft())
+        self.move(corner.x() + (parent.width() - self.width()) // 2, corner.y() + 70)
+        self.sought.clear()
+        self._find("")
+        self.show()
+        self.sought.setFocus()
+
+    def _find(self, sought: str) -> None:
+        names = [named(command) for command in self._commands]
+        self.found.clear()
+        for number in ranked(sought, names)[:MOST]:
+            keys = self._commands[number].keys
+            item = QListWidgetItem(names[number] + (f"    {keys[0]}" if keys else ""))
+            item.setData(Qt.ItemDataRole.UserRole, number)
+            self.found.addItem(item)
+        if self.found.count():
+            self.found.setCurrentRow(0)
+        else:
+            self.found.addItem(QListWidgetItem(tr("Nothing fits; try fewer letters.")))
+
+    def take(self) -> None:
+        """Do what is chosen."""
+        item = self.found.currentItem()
+        number = item.data(Qt.ItemDataRole.UserRole) if item else None
+        if number is not None:
+            self.hide()
+            self._commands[number].run()
+
+    def eventFilter(self, watched, event) -> bool:
+        """Hand the keys that choose on to the list."""
+        if event.type() != QEvent.Type.KeyPress:
+            return False
+        if event.key() in STEPS:
+            self.found.event(event)
+            return True
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.take()
+            return True
+        if event.key() == Qt.Key.Key_Escape:
+            self.hide()
+            return True
+        return False
+
+
+def named(command: Command) -> str:
+    """Return a command's name with its group, in the present language."""
+    return f"{tr(command.group)}: {tr(command.title)}"

@@ -1,0 +1,223 @@
+"""The column of controls: one row per quantity, each a name, an editable number, a slider."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.charts.theme import SPACE, Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
+from p2sf_explorer.compute.setup import Ranges, default_state, prescription, ranges
+from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.results.facts import OF_A, rows
+from p2sf_explorer.shell.show import UNKNOWN
+from p2sf_explorer.shell.stop_row import StopRow
+from p2sf_explorer.state.scales import Vergence, short_distance, signed
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.readout import FactTable, Readout, scrolled
+from p2sf_explorer.widgets.slider import STEPS, Slider
+from p2sf_explorer.widgets.value_edit import PlayButton, ValueEdit
+
+WIDTH = 292
+
+
+class Row(QWidget):
+    """One quantity: name and number above, slider below; tells the store, follows the state."""
+
+    swept, grasped = Signal(str), Signal(str)
+
+    def __init__(self, quantity: Quantity, store: Store, parent=None):
+        super().__init__(parent)
+        self.quantity, self._store = quantity, store
+        self.setToolTip(tr(quantity.tip))
+        self.slider, self.edit, self.note = Slider(self), ValueEdit(self), Readout(self)
+        self.slider.setAccessibleName(tr(quantity.title))
+        self.edit.setAccessibleName(tr(quantity.title))
+        self.play = PlayButton(self)
+        self.buttons = [self._button(*button) for button in quantity.buttons]
+        self._scale = self._shown = None
+        self._lay_out()
+        self._connect()
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.setSpacing(SPACE // 2)
+        head.addWidget(QLabel(tr(self.quantity.title)))
+        head.addStretch(1)
+        for button in self.buttons:
+            head.addWidget(button)
+        head.addWidget(self.edit)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(head)
+        line = QHBoxLayout()
+        line.setSpacing(0)
+        line.addWidget(self.slider, 1)
+        line.addWidget(self.play, 0, Qt.AlignmentFlag.AlignTop)
+        column.addLayout(line)
+        column.addWidget(self.note)
+        self.note.setVisible(self.quantity is FIELD)
+
+    def _connect(self) -> None:
+        self.slider.sliderPressed.connect(lambda: self.grasped.emit(self.quantity.key))  # first: it may end a drag
+        self.slider.sliderPressed.connect(self._store.begin)
+        self.slider.sliderReleased.connect(self._store.end)
+        self.slider.valueChanged.connect(self._on_slider)
+        self.slider.reset.connect(self.reset)
+        self.slider.swept.connect(lambda: self.swept.emit(self.quantity.key))
+        self.play.clicked.connect(lambda: self.swept.emit(self.quantity.key))
+        self.edit.committed.connect(self._on_text)
+        self.edit.reset.connect(self.reset)
+
+    def _button(self, label: str, value: float | None, tip: str) -> QPushButton:
+        button = QPushButton(tr(label), self)
+        button.setObjectName("small")
+        button.setToolTip(tr(tip))
+        button.clicked.connect(lambda: self._store.update(**{self.quantity.key: value}))
+        return button
+
+    def reset(self) -> None:
+        """Go back to the lens's own value."""
+        fresh = default_state(self._store.state.lens, self._store.state.lens_text)
+        self._store.update(**{self.quantity.key: getattr(fresh, self.quantity.key)})
+
+    def show_state(self, state, limits: Ranges) -> None:
+        """Follow a state: slider, number, ticks; no signal goes back."""
+        scale = self.quantity.scale(limits)
+        if scale != self._scale:
+            self._scale = scale
+            self._set_marks(scale)
+        value = self.quantity.shown(state, limits)
+        if (value, scale) == self._shown and self.edit.text() == self.edit.last:
+            return
+        self._shown = value, scale
+        self.slider.blockSignals(True)
+        self.slider.setValue(round(STEPS * scale.travel(value)))
+        self.slider.blockSignals(False)
+        self.edit.set_text(tr(self.quantity.write(value)) if value < 0 else self.quantity.write(value))
+
+    def _set_marks(self, scale) -> None:
+        inside = [(v, name) for v, name in self.quantity.ticks if scale.low <= v <= scale.high]
+        self.slider.set_ticks(tuple((scale.travel(v), name) for v, name in inside))
+        if isinstance(scale, Vergence):
+            self.slider.set_ticks(tuple((part, short_distance(scale.value(part))) for part in (0.0, 0.5, 0.8, 1.0)))
+        if self.quantity is WAVELENGTH:
+            steps = [k / 24 for k in range(25)]
+            self.slider.set_spectrum(tuple((t, visible_colour(scale.value(t))) for t in steps))
+
+    def show_note(self, text: str) -> None:
+        """Show a line of consequences under the slider."""
+        self.note.set_text(text)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.slider.restyle(theme)
+        self.note.restyle(theme)
+
+    def _on_slider(self, step: int) -> None:
+        self._store.update(**{self.quantity.key: self._scale.value(step / STEPS)})
+
+    def _on_text(self, text: str) -> None:
+        try:
+            value = self.quantity.read(text)
+        except P2SFError as error:
+            self._store.refused.emit(str(error))
+            self.edit.set_text(self.edit.last)
+        else:
+            self._store.update(**{self.quantity.key: value})
+            if getattr(self._store.state, self.quantity.key) != value:
+                self.edit.set_text(self.edit.last)  # refused: the number shown stays the picture's
+
+
+class Controls(QWidget):
+    """All rows, the autofocus button, and the sentence that names the dominant term."""
+
+    autofocus = Signal()
+    swept, grasped = Signal(str), Signal(str)
+
+    def __init__(self, store: Store, parent=None):
+        super().__init__(parent)
+        self.setObjectName("controls")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setFixedWidth(WIDTH)
+        self.rows = {quantity.key: Row(quantity, store, self) for quantity in QUANTITIES}
+        for row in self.rows.values():
+            row.swept.connect(self.swept)
+            row.grasped.connect(self.grasped)
+        self.focus_button = QPushButton(tr("Autofocus: best RMS wavefront"), self)
+        self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
+        self.focus_button.clicked.connect(self.autofocus)
+        self.stopping = StopRow(store, self)
+        self.sentence, self.detail, self.facts = QLabel(self), QLabel(self), FactTable(self)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        self.sentence.setObjectName("sentence")
+        self.detail.setObjectName("muted")
+        for label in (self.sentence, self.detail):
+            label.setWordWrap(True)
+        column = self._column()
+        for row in self.rows.values():
+            column.addWidget(row)
+        column.addWidget(self.stopping)
+        column.addWidget(self.focus_button)
+        column.addSpacing(4)
+        column.addWidget(self.sentence)
+        column.addWidget(self.detail)
+        column.addWidget(scrolled(self.facts), 1)
+
+    def _column(self) -> QVBoxLayout:
+        """Return the column of everything, which scrolls where a screen is too low for it."""
+        page, area, whole = QWidget(), QScrollArea(self), QVBoxLayout(self)
+        column = QVBoxLayout(page)
+        column.setContentsMargins(12, 10, 12, 12)
+        column.setSpacing(SPACE - 1)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.addWidget(area)
+        area.setWidgetResizable(True)
+        area.setFrameShape(QScrollArea.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        area.setWidget(page)
+        for part in (area, area.viewport(), page):
+            part.setAutoFillBackground(False)
+        return column
+
+    def show_state(self, state) -> None:
+        """Follow a state."""
+        limits = ranges(prescription(state))
+        for row in self.rows.values():
+            row.show_state(state, limits)
+        self.stopping.show_state(state)
+
+    def show_live(self, live: Live) -> None:
+        """Show what follows from the state: heights, sensor position, the dominant term."""
+        height = live.setting.object_height_mm
+        image = float(live.setting.coefficients.image_height)
+        object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
+        self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
+        apart = live.state.shown != "a"  # B or A − B is on screen, and this column stays A's
+        self.sentence.setText(unbroken(f"A: {tr(live.dominant)}" if apart else tr(live.dominant)))
+        self.detail.setText(unbroken(tr(live.why)))
+        self.facts.show_rows((OF_A, *rows(live)) if apart else rows(live))
+
+    def show_none(self) -> None:
+        """Show that nothing follows from the state: no figure, no dominant term."""
+        self.rows["field_deg"].show_note(UNKNOWN)
+        self.sentence.clear()
+        self.detail.clear()
+        self.facts.show_rows(tuple((name, UNKNOWN, tip) for name, _, tip in self.facts.rows))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.facts.restyle(theme)
+        for row in self.rows.values():
+            row.restyle(theme)

@@ -1,0 +1,91 @@
+"""Pictures of the window for whoever changes a panel: ``python -m p2sf_explorer.shell.gallery FOLDER``."""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtWidgets import QApplication
+
+from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.i18n.language import ENGLISH, speak
+from p2sf_explorer.lessons.lesson import shipped_lessons
+from p2sf_explorer.panels import REGISTRY
+from p2sf_explorer.shell.window import Window
+from p2sf_explorer.state.limits import CHOICES
+from p2sf_explorer.state.state import State
+
+SIZES = {"small": (1280, 800), "large": (1920, 1080)}
+LONGEST_MS = 20_000  # for the background measurement of one picture
+LOOK_MS = 50
+
+
+def states() -> dict[str, State]:
+    """Return the states to show: the first picture in both themes, and every other tab."""
+    tabs = [entry.key for entry in REGISTRY if entry.place != "main" and entry.key != State().tab]
+    shown = {"first_light": State(theme="light"), "first_dark": State(theme="dark")}
+    shown["close_up"] = State(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
+    shown["eye"] = State(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")
+    shown["surface"] = State(phase="surface", theme="dark")
+    by_hand = {"added_waves": (0.0, 1.5, 0.0, 0.0, -2.0, 0.0), "muted": ("w22",)}
+    shown["what_if"] = State(theme="light", **by_hand)
+    shown["free_pupil"] = State(theme="dark", added_waves=(0.0, 3.0, 0.0, 0.0, 0.0, 0.0), free_pupil=True, tab="mtf")
+    pair = State(theme="light", pinned=State(f_number=8.0), linked=("field_deg",), play="field_deg")
+    for side in CHOICES["shown"]:
+        shown[f"compare_{side}"] = replace(pair, shown=side)
+    shown["lesson"] = replace(shipped_lessons()[4].state(1, State(theme="light")), lesson_told=True)
+    shown["german"] = State(theme="light", language="de", tab="first_order")
+    return shown | {f"tab_{tab}": State(tab=tab, theme="light") for tab in tabs}
+
+
+def settle(window: Window) -> None:
+    """Let the window paint, and its background measurement end."""
+    loop, looking, longest = QEventLoop(), QTimer(), QTimer()
+    looking.timeout.connect(lambda: None if working(window) else loop.quit())
+    longest.setSingleShot(True)
+    longest.timeout.connect(loop.quit)
+    looking.start(LOOK_MS)
+    longest.start(LONGEST_MS)
+    loop.exec()
+
+
+def working(window: Window) -> bool:
+    """Return whether anything is still computed in the background."""
+    panels = tuple(window.panels.values())
+    owners = (window.measuring, *panels, *(getattr(panel, "asking", None) for panel in panels))
+    workers = (getattr(owner, name, None) for owner in owners for name in ("worker", "quick", "fine"))
+    preparing = any(getattr(panel, "busy", False) for panel in panels)
+    return preparing or any(worker is not None and worker.busy for worker in workers)
+
+
+def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
+    """Save a picture of the window in a state, its accuracy ``measured`` or not."""
+    speak(ENGLISH if state.language == "system" else state.language)  # the same pictures on every machine
+    window = Window(state, measured)
+    window.resize(*size)
+    window.show()
+    settle(window)
+    window.grab().save(str(path))
+    window.close()
+
+
+def main(arguments: list[str]) -> int:
+    """Write every picture into the folder named by the one argument."""
+    if len(arguments) != 1:
+        print("usage: python -m p2sf_explorer.shell.gallery FOLDER", file=sys.stderr)
+        return 2
+    folder = Path(arguments[0])
+    folder.mkdir(parents=True, exist_ok=True)
+    application = QApplication.instance() or QApplication(sys.argv[:1])
+    application.setStyle("Fusion")
+    configure_plots()
+    for name, state in states().items():
+        for size, pixels in SIZES.items():
+            if size == "small" or not name.startswith("tab_"):
+                picture(state, pixels, folder / f"{name}_{size}.png")
+                print(folder / f"{name}_{size}.png")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

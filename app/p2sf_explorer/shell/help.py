@@ -1,0 +1,35 @@
+"""The page of shortcuts, made from the commands themselves. No Qt in here."""
+
+from html import escape
+
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.widgets.command import Command
+
+HANDS = (
+    ("← → ↑ ↓, Page Up/Down", "move the slider that has the focus"),
+    ("double-click", "back to the lens's own value"),
+    ("Tab, Shift+Tab", "to the next or the previous control"),
+    ("drop a file", "open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, "
+     ".csv with named columns, .toml, or a saved state"),
+)  # fmt: skip
+POINT = (
+    "Numbers have a decimal point, in every language, as in files and on the command line; "
+    "a comma that is typed is read as one too."
+)
+LEAD = "Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition."
+
+
+def help_text(commands: tuple[Command, ...]) -> str:
+    """Return the page as HTML: what hands do, then every command with keys, group by group."""
+    rows = [_row(tr(keys), tr(words)) for keys, words in HANDS]
+    for group in dict.fromkeys(command.group for command in commands):
+        known = [command for command in commands if command.group == group and command.keys]
+        if known:
+            rows.append(f'<tr><td colspan="2"><b>{escape(tr(group))}</b></td></tr>')
+            rows += [_row(", ".join(command.keys), tr(command.title)) for command in known]
+    lead, point = escape(tr(LEAD)), escape(tr(POINT))
+    return f'<h3>P2SF Explorer</h3><p>{lead}</p><table cellpadding="2">{"".join(rows)}</table><p>{point}</p>'
+
+
+def _row(keys: str, words: str) -> str:
+    return f"<tr><td><code>{escape(keys)}</code>&nbsp;&nbsp;</td><td>{escape(words)}</td></tr>"

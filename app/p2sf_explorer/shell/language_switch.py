@@ -1,0 +1,42 @@
+"""Opens the window, and opens it anew when its language changes: what is built says what it says."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, QTimer
+
+from p2sf_explorer.i18n.language import chosen, speak, spoken
+from p2sf_explorer.state.state import State
+
+
+class Speaking(QObject):
+    """Holds the one window; ``make`` builds a window for a state, shown or not."""
+
+    def __init__(self, state: State, make: Callable, parent: QObject | None = None):
+        super().__init__(parent)
+        self._make = make
+        speak(state.language)
+        self.window = self._made(state)
+
+    def _made(self, state: State):
+        window = self._make(state)
+        window.store.changed.connect(self._listen)
+        return window
+
+    def _listen(self, state: State) -> None:
+        if chosen(state.language) != spoken():
+            QTimer.singleShot(0, self.reopen)
+
+    def reopen(self) -> None:
+        """Put a window in the state's language in the place of the old one; undo still goes back all the way."""
+        old = self.window
+        if chosen(old.store.state.language) == spoken():
+            return
+        speak(old.store.state.language)
+        self.window = self._made(old.store.state)
+        self.window.store.take_over(old.store)
+        self.window.restoreGeometry(old.saveGeometry())
+        self.window.stack.restoreState(old.stack.saveState())
+        self.window.setVisible(old.isVisible())
+        self.window.refresh(self.window.store.state)
+        old.close()
+        old.deleteLater()

@@ -1,0 +1,197 @@
+"""The tabs: five groups, the panels of one of them at a time, and panels that stand in windows of their own."""
+
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QShortcut
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QPushButton,
+    QTabWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from p2sf_explorer.charts.theme import SPACE
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.panels import GROUPS, Entry
+
+OWN_WINDOW = "Open in its own window (double-click the tab or drag it out, or Ctrl+D)"
+OUT_PX = 40  # so far off the bar a dragged tab is out
+APART = (("Pop out", OWN_WINDOW), ("Put back", "Close the panel's own window and have it back under its tab (Ctrl+D)"))
+ALL = "Every panel by its group (Alt+0)"
+SIZE = 720, 480
+
+
+class Tabs(QTabWidget):
+    """Every panel has a page; the bar shows those of one group, the buttons before it the groups, the menu all."""
+
+    detach_asked = Signal(str)
+    chosen = Signal(str)
+
+    def __init__(self, entries: tuple[Entry, ...], parent=None):
+        super().__init__(parent)
+        self._groups = {entry.key: entry.group for entry in entries}
+        self._last: dict[str, str] = {}
+        self._out, self._apart = False, APART[False]
+        self._pages = {entry.key: page(entry.key) for entry in entries}
+        for entry in entries:
+            self.addTab(self._pages[entry.key], tr(entry.title))
+        self.buttons = GroupButtons(tuple(g for g in GROUPS if g in self._groups.values()), self)
+        self.buttons.chosen.connect(self.open_group)
+        self.setCornerWidget(self.buttons, Qt.Corner.TopLeftCorner)
+        self.menu = self._all_panels(entries)
+        self.setCornerWidget(self._tools(), Qt.Corner.TopRightCorner)
+        self.setUsesScrollButtons(True)
+        self.tabBar().setElideMode(Qt.TextElideMode.ElideNone)
+        self.tabBarDoubleClicked.connect(lambda at: self.detach_asked.emit(self.widget(at).objectName()))
+        self.currentChanged.connect(self._show_group)
+        self.tabBar().installEventFilter(self)
+        self._show_group()
+
+    def eventFilter(self, watched, event) -> bool:
+        """Let a tab that is dragged off the bar have its own window."""
+        if event.type() == QEvent.Type.MouseMove and event.buttons() & Qt.MouseButton.LeftButton:
+            bar, place = self.tabBar(), event.position().toPoint()
+            if not bar.rect().adjusted(-OUT_PX, -OUT_PX, OUT_PX, OUT_PX).contains(place) and not self._out:
+                self._out = True
+                self.detach()
+        elif event.type() == QEvent.Type.MouseButtonRelease:
+            self._out = False
+        return False
+
+    def pages(self) -> dict[str, QWidget]:
+        """Return the page of every panel."""
+        return self._pages
+
+    def current(self) -> str:
+        """Return the panel at the front."""
+        return self.currentWidget().objectName()
+
+    def bring_up(self, key: str) -> None:
+        """Bring a panel to the front, and its group with it, without telling anybody."""
+        if self.current() != key:
+            self.blockSignals(True)
+            self.setTabVisible(self.indexOf(self.pages()[key]), True)
+            self.setCurrentWidget(self.pages()[key])
+            self.blockSignals(False)
+            self._show_group()
+
+    def detach(self) -> None:
+        """Ask for the panel in front in a window of its own, or back."""
+        self.detach_asked.emit(self.current())
+
+    def show_apart(self, keys: tuple[str, ...]) -> None:
+        """Say what the button does to the panel in front, ``keys`` being those in windows of their own."""
+        if (words := APART[self.current() in keys]) != self._apart:  # this is on a slider's way
+            self._apart = words
+            _name(self.apart, *words)
+
+    def open_group(self, group: str) -> None:
+        """Open the panel of a group that was last in front, else its first."""
+        first = next(key for key, own in self._groups.items() if own == group)
+        self.chosen.emit(self._last.get(group, first))
+
+    def _show_group(self) -> None:
+        """Show the tabs of the group in front and hide the others."""
+        group = self._groups[self.current()]
+        self._last[group] = self.current()
+        self.buttons.mark(group)
+        for k in range(self.count()):
+            self.setTabVisible(k, self._groups[self.widget(k).objectName()] == group)
+
+    def _all_panels(self, entries: tuple[Entry, ...]) -> QMenu:
+        menu = QMenu(self)
+        for group in GROUPS:
+            menu.addSection(tr(group))
+            for entry in (entry for entry in entries if entry.group == group):
+                menu.addAction(tr(entry.title), lambda key=entry.key: self.chosen.emit(key))
+        return menu
+
+    def _tools(self) -> QWidget:
+        holder = QWidget(self)
+        row = QHBoxLayout(holder)
+        row.setContentsMargins(0, 1, 0, 3)
+        row.setSpacing(SPACE // 2)
+        self.apart, everything = QToolButton(holder), QToolButton(holder)
+        for button, words in ((self.apart, APART[False]), (everything, ("All", ALL))):
+            button.setObjectName("small")
+            _name(button, *words)
+            row.addWidget(button)
+        everything.setShortcut("Alt+0")
+        self.apart.clicked.connect(self.detach)
+        everything.setMenu(self.menu)
+        everything.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        return holder
+
+
+def _name(button: QToolButton, text: str, tip: str) -> None:
+    button.setText(tr(text))
+    button.setToolTip(tr(tip))
+    button.setAccessibleName(tr(tip))
+
+
+class GroupButtons(QWidget):
+    """One button a group, one of them down; Alt+1, Alt+2 … press them."""
+
+    chosen = Signal(str)
+
+    def __init__(self, groups: tuple[str, ...], parent=None):
+        super().__init__(parent)
+        self._group, self.named = QButtonGroup(self), {}
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 1, SPACE, 3)
+        row.setSpacing(2)
+        for number, group in enumerate(groups, 1):
+            button = QPushButton(tr(group), self)
+            button.setObjectName("group")
+            button.setCheckable(True)
+            button.setShortcut(f"Alt+{number}")
+            button.setToolTip(tr("Panels of the group {group} (Alt+{number})", group=tr(group), number=number))
+            button.clicked.connect(lambda _, group=group: self.chosen.emit(group))
+            self._group.addButton(button)
+            self.named[group] = button
+            row.addWidget(button)
+
+    def mark(self, group: str) -> None:
+        """Show which group is in front."""
+        self.named[group].setChecked(True)
+
+
+class OwnWindow(QWidget):
+    """A panel in a window of its own; closing it asks to have the panel back."""
+
+    closed = Signal(str)
+
+    def __init__(self, key: str, title: str, parent: QWidget):
+        super().__init__(parent, Qt.WindowType.Window)
+        self.setObjectName("window")
+        self.setWindowTitle(f"{tr(title)} · P2SF Explorer")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.key = key
+        QVBoxLayout(self).setContentsMargins(SPACE, SPACE, SPACE, SPACE)
+        self.resize(*SIZE)
+        for keys in ("Ctrl+D", "Ctrl+W"):
+            QShortcut(keys, self, self.close)
+
+    def closeEvent(self, event) -> None:
+        """Give the panel back to its tab."""
+        self.closed.emit(self.key)
+        event.accept()
+
+
+def page(key: str) -> QWidget:
+    """Return a tab's page: a note for when its panel stands elsewhere, to be covered by the panel."""
+    made = QWidget()
+    made.setObjectName(key)
+    column = QVBoxLayout(made)
+    column.setContentsMargins(0, 0, 0, 0)
+    note = QLabel(tr("This panel stands in its own window; close that window to have it back here."), made)
+    note.setObjectName("muted")
+    note.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    note.setWordWrap(True)  # a narrow place in the grid stays as narrow
+    note.hide()
+    column.addWidget(note)
+    return made

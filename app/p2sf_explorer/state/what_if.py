@@ -1,0 +1,79 @@
+"""What if a coefficient were another: waves added by hand, terms muted or heard alone, a pupil without lens. No Qt."""
+
+from dataclasses import dataclass, replace
+
+from p2sf.errors import GeometryError
+from p2sf.paraxial.seidel import Coefficients
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.terms import TERMS
+
+NOTE = "what-if: coefficients altered by hand"
+SHORT_NOTE = "what-if: altered by hand"
+NO_REFERENCE = f"{NOTE}, so the lens's Huygens reference does not apply; reset them to measure again"
+UNTOUCHED = {"added_waves": (0.0,) * len(TERMS), "muted": (), "solo": (), "free_pupil": False}
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A textbook wavefront: its name, what it shows, and the waves of its terms."""
+
+    title: str
+    shows: str
+    waves: dict[str, float]
+
+
+# Balancing after Mahajan 1991, tables 2-1 and 3-1 (best focus Wd = −W40, medial focus Wd = −W22/2).
+PRESETS = (
+    Preset("No aberration", "the Airy pattern", {}),
+    Preset("Defocus, 1 λ", "a dark centre: Wd of a whole wave cancels on the axis", {"wd": 1.0}),
+    Preset("Spherical, 1 λ, paraxial focus", "a sharp core in a wide halo", {"w40": 1.0}),
+    Preset("Spherical, 1 λ, best focus", "Wd = −W40 leaves a sixteenth of the variance", {"w40": 1.0, "wd": -1.0}),
+    Preset("Spherical, 1 λ, marginal focus", "Wd = −2 W40: rim rays meet on the axis", {"w40": 1.0, "wd": -2.0}),
+    Preset("Coma, ½ λ", "one-sided rings and a moved peak", {"w31": 0.5}),
+    Preset("Coma, 3 λ", "the comet: rays fill a cone of 60°", {"w31": 3.0}),
+    Preset("Astigmatism, 1 λ, medial focus", "Wd = −W22/2: a cross", {"w22": 1.0, "wd": -0.5}),
+    Preset("Astigmatism, 2 λ, sagittal focus", "Wd = 0: a line towards the field", {"w22": 2.0}),
+    Preset("Astigmatism, 2 λ, tangential focus", "Wd = −W22: a line across the field", {"w22": 2.0, "wd": -2.0}),
+    Preset("All at once", "what no single term shows", {"w40": 0.5, "w31": 1.0, "w22": 0.7, "wd": -0.6}),
+)
+
+
+def is_altered(state: State) -> bool:
+    """Return whether any coefficient is not the lens's own."""
+    return any(getattr(state, name) != value for name, value in UNTOUCHED.items())
+
+
+def is_heard(state: State, term: str) -> bool:
+    """Return whether a term counts: not muted, and among the solo ones where there are any."""
+    return term not in state.muted and (not state.solo or term in state.solo)
+
+
+def altered(own: Coefficients, state: State) -> Coefficients:
+    """Return the coefficients as the state alters the lens's ``own``: (own + added) where heard, else 0."""
+    if not is_altered(state):
+        return own
+    added = dict(zip(TERMS, state.added_waves, strict=True))
+    base = 0.0 if state.free_pupil else 1.0
+    return replace(own, **{t: (base * getattr(own, t) + added[t]) * is_heard(state, t) for t in TERMS})
+
+
+def with_added(state: State, term: str, waves: float) -> tuple[float, ...]:
+    """Return the added waves with one term's changed."""
+    return tuple(waves if name == term else old for name, old in zip(TERMS, state.added_waves, strict=True))
+
+
+def toggled(names: tuple[str, ...], term: str) -> tuple[str, ...]:
+    """Return the names with one put in or taken out, in the order of `TERMS`."""
+    return tuple(name for name in TERMS if (name in names) != (name == term))
+
+
+def of_preset(preset: Preset) -> dict:
+    """Return the entries of the State that show a preset."""
+    return UNTOUCHED | {"added_waves": tuple(preset.waves.get(term, 0.0) for term in TERMS), "free_pupil": True}
+
+
+def check_focusable(state: State) -> None:
+    """Raise GeometryError where moving the sensor does not change the wavefront: Wd is not the lens's own."""
+    if state.free_pupil or not is_heard(state, "wd"):
+        why = "the free pupil has no lens" if state.free_pupil else "Wd is muted"
+        raise GeometryError(f"{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if")

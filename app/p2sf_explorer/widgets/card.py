@@ -1,0 +1,178 @@
+"""The frame every panel sits in: a title, tools, a readout, and the picture."""
+
+from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtGui import QPainter, QPalette, QPen, QPolygonF
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QStyledItemDelegate,
+    QVBoxLayout,
+    QWidget,
+)
+
+from p2sf_explorer.charts.overlay import Veil
+from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.widgets.copying import copy_menu
+
+LIST_AIR = 24  # beside the longest line of an open list
+
+
+class Card(QFrame):
+    """A titled frame; ``readout`` is a line of numbers at the right of the title.
+
+    ``apart_asked``: the panel is wanted in a window of its own, or back.
+    """
+
+    apart_asked = Signal()
+
+    def __init__(self, title: str, tip: str = "", parent=None):
+        super().__init__(parent)
+        self.setObjectName("card")
+        self.setMinimumSize(180, 120)
+        self._title = tr(title)
+        self.title, self.readout = QLabel(self._title, self), QLabel(self)
+        self.note = QLabel(self)
+        self.note.setObjectName("muted")
+        self.note.setWordWrap(True)
+        self.note.hide()
+        self.title.setObjectName("title")
+        self.title.setToolTip(tr(tip))
+        self.readout.setObjectName("readout")
+        self.readout.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.head = QHBoxLayout()
+        self.head.setSpacing(8)
+        self.head.addWidget(self.title)
+        self.head.addWidget(self.readout, 1)
+        self.under = QHBoxLayout()  # the tools' line where they do not fit beside the title
+        self.tools: list[QWidget] = []
+        self.column = QVBoxLayout(self)
+        self.column.setContentsMargins(10, 7, 10, 8)
+        self.column.setSpacing(5)
+        self.column.addLayout(self.head)
+        self.column.addLayout(self.under)
+        self.column.addWidget(self.note)
+        self.veil = Veil(self)
+
+    def resizeEvent(self, event) -> None:
+        """Put the tools on a line of their own where they do not fit beside the title, and back where they do."""
+        super().resizeEvent(event)
+        parts = [self.title, *(tool for tool in self.tools if not tool.isHidden())]
+        needed = sum(part.sizeHint().width() + self.head.spacing() for part in parts)
+        margins = self.column.contentsMargins()
+        fits = needed <= self.width() - margins.left() - margins.right()
+        before, after = (self.under, self.head) if fits else (self.head, self.under)
+        for tool in self.tools:
+            if before.indexOf(tool) >= 0:
+                before.removeWidget(tool)
+                after.addWidget(tool)
+
+    def contextMenuEvent(self, event) -> None:
+        """Offer the panel's picture, its data, and a window of its own."""
+        menu = copy_menu(self)
+        menu.addSeparator()
+        menu.addAction(tr("In its own window, or back") + "\tCtrl+D", self.apart_asked.emit)
+        menu.popup(event.globalPos())
+
+    def mouseDoubleClickEvent(self, event) -> None:
+        """Ask for a window of its own, or back, on the title line."""
+        if event.position().y() < self.head.geometry().bottom():
+            self.apart_asked.emit()
+
+    def add_footer(self, *widgets: QWidget) -> None:
+        """Put a line of small widgets under the picture, from the left."""
+        line = QHBoxLayout()
+        line.setSpacing(8)
+        for widget in widgets:
+            line.addWidget(widget)
+        self.column.addLayout(line)
+
+    def add_tool(self, widget: QWidget) -> None:
+        """Put a small control at the right end of the title line."""
+        self.tools.append(widget)
+        self.head.addWidget(widget)
+
+    def show_side(self, side: str, why: str = "") -> None:
+        """Say behind the title which side of a comparison this is, and under it why a difference is not shown."""
+        words = " · ".join(filter(None, (self._title, tr(side))))
+        note = unbroken(tr(why))
+        if (self.title.text(), self.note.text()) != (words, note):
+            self.title.setText(words)
+            self.note.setText(note)
+            self.note.setVisible(bool(why))
+
+    def show_veil(self, sentence: str) -> None:
+        """Cover everything but the title with a sentence on why there is nothing to show; uncover it for ""."""
+        if unbroken(tr(sentence)) != self.veil.text:
+            self.readout.setVisible(not sentence)
+            self.veil.say(sentence, self.head.geometry().bottom() + 1)
+
+    def set_body(self, widget: QWidget) -> None:
+        """Put the picture under the title line."""
+        self.column.addWidget(widget, 1)
+
+    def set_readout(self, text: str) -> None:
+        """Show a line of numbers; the whole of it as a tooltip, should it not fit."""
+        text = tr(text)
+        if self.readout.text() != text:
+            self.readout.setText(text)
+            self.readout.setToolTip(text)
+
+
+def paint_chevron(widget: QWidget) -> None:
+    """Paint the small arrow of a box that opens at its right end."""
+    painter = QPainter(widget)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(QPen(widget.palette().color(QPalette.ColorRole.PlaceholderText), 1.6))
+    x, y = widget.width() - 13.0, widget.height() / 2 - 1.5
+    painter.drawPolyline(QPolygonF([QPointF(x - 3.5, y), QPointF(x, y + 3.5), QPointF(x + 3.5, y)]))
+
+
+class Chooser(QComboBox):
+    """A combo box with a plain chevron: a style sheet takes the native arrow away."""
+
+    def paintEvent(self, event) -> None:
+        """Paint the box, then the chevron."""
+        super().paintEvent(event)
+        paint_chevron(self)
+
+
+def chooser(choices: tuple[tuple[str, str], ...], tip: str, parent=None) -> QComboBox:
+    """Return a small combo box of (value, words)."""
+    box = Chooser(parent)
+    box.setObjectName("small")
+    box.setToolTip(tr(tip))
+    box.setAccessibleName(tr(tip))
+    for value, words in choices:
+        box.addItem(tr(words), value)
+    return box
+
+
+class Describing(QStyledItemDelegate):
+    """Writes in the open list what a choice means; the closed box shows its name alone."""
+
+    def initStyleOption(self, option, index) -> None:
+        """Put the meaning in place of the name."""
+        super().initStyleOption(option, index)
+        option.text = index.data(Qt.ItemDataRole.ToolTipRole) or option.text
+
+
+def described(choices: dict[str, str], tip: str, parent=None) -> QComboBox:
+    """Return a combo box of names that its open list explains."""
+    box = chooser(tuple((name, name) for name in choices), tip, parent)
+    box.setItemDelegate(Describing(box))
+    for k, words in enumerate(choices.values()):
+        box.setItemData(k, tr(words), Qt.ItemDataRole.ToolTipRole)
+    box.view().setMinimumWidth(box.view().sizeHintForColumn(0) + LIST_AIR)
+    return box
+
+
+def select(box: QComboBox, value: str) -> None:
+    """Show a value without telling anybody."""
+    if box.currentData() != value:
+        box.blockSignals(True)
+        box.setCurrentIndex(box.findData(value))
+        box.blockSignals(False)

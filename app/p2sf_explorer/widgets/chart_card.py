@@ -1,0 +1,75 @@
+"""A card of several charts side by side, and the legend they share."""
+
+import numpy as np
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QColor, QPainter
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.painting import write
+from p2sf_explorer.charts.theme import SPACE, Tokens
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.state.scales import nice
+from p2sf_explorer.widgets.card import Card
+
+
+class ChartsCard(Card):
+    """A card with charts in a row; ``shares`` are their parts of the width."""
+
+    def __init__(self, title: str, tip: str, charts: tuple[QWidget, ...], shares: tuple[int, ...]):
+        super().__init__(title, tip)
+        body = QWidget(self)
+        row = QHBoxLayout(body)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(2 * SPACE)
+        for chart, share in zip(charts, shares, strict=True):
+            row.addWidget(chart, share)
+        self.set_body(body)
+
+
+def legend(looks: dict[str, str], theme: Tokens) -> str:
+    """Return names in the colours of their tokens."""
+    marks = (f'<span style="color:{getattr(theme, token)}">━</span> {tr(name)}' for name, token in looks.items())
+    return " &nbsp; ".join(marks)
+
+
+class NotedChart(Chart):
+    """A chart with words at places in its data, in the colours of tokens, and upright lines across it."""
+
+    def __init__(self, bottom: str = "", left: str = "", aspect: bool = False, framed: bool = True):
+        super().__init__(bottom, left, aspect, framed)
+        self.notes: tuple[tuple[float, float, str, str, int], ...] = ()
+        self.uprights: tuple[tuple[float, str], ...] = ()
+
+    def show_notes(self, notes=(), uprights=()) -> None:
+        """Show (x, y, words, token, side −1 left, 0 middle, 1 right end) and (x, token); ask for a repaint."""
+        self.notes, self.uprights = tuple(notes), tuple(uprights)
+        self.update()
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint lines and words above the curves."""
+        for x, token in self.uprights:
+            at = float(self.to_pixels(x, 0.0)[0])
+            painter.fillRect(QRectF(at - 0.5, self.area.top(), 1, self.area.height()), self._colour(token))
+        for x, y, words, token, side in self.notes:
+            left, top = (float(v) for v in self.to_pixels(x, y))
+            painter.setPen(self._colour(token))
+            write(painter, QRectF(left - 60 * (side + 1), top - 8, 120, 16), words, side)
+
+    def _colour(self, token: str) -> QColor:
+        return QColor(getattr(self.theme, token))
+
+
+def around(*parts: np.ndarray, least: float) -> tuple[float, float]:
+    """Return a range with round ends and air around all numbers in arrays, zero in it unless it is far away.
+
+    ``least`` is the smallest span; what is no number is left out.
+    """
+    both = np.concatenate([np.ravel(part) for part in parts])
+    both = both[np.isfinite(both)]
+    low, high = (float(both.min()), float(both.max())) if both.size else (0.0, 0.0)
+    wide = max(high - low, least)
+    if low - 2 * wide < 0 < high + 2 * wide:
+        low, high = min(low, 0.0), max(high, 0.0)
+    step = nice(max(high - low, least) / 8)
+    return step * (np.floor(low / step) - 1), step * (np.ceil(high / step) + 1)

@@ -1,0 +1,237 @@
+"""The six coefficients as a mixing desk: bar, number, mute, solo, and a slider that adds waves."""
+
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPen, QPixmap
+from PySide6.QtWidgets import QLineEdit, QToolTip, QWidget
+
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.terms import FORMULAS, TERMS, WORDS
+from p2sf_explorer.widgets import coefficient_mixer_parts as parts
+from p2sf_explorer.widgets.coefficient_mixer_parts import LETTERS, NAMES, Places, held
+
+STEPS = {Qt.Key.Key_Left: -0.02, Qt.Key.Key_Right: 0.02, Qt.Key.Key_PageDown: -0.2, Qt.Key.Key_PageUp: 0.2}
+BACK = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)
+BUTTON_TIPS = {"muted": "Mute: this term counts as zero (M)", "solo": "Solo: only this term counts (S)"}
+HOLDS = 0.02  # of the travel: so near to zero a slider stays there
+ROW_TIP = (
+    "The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; "
+    "click the number, or press Return, to type it."
+)
+SMALLEST_LIMIT = 0.5  # waves of a full bar: below, a lens is as good as perfect
+
+
+class NumberEdit(QLineEdit):
+    """A number typed over the desk; it goes with Return, Escape or the focus."""
+
+    def __init__(self, parent: QWidget):
+        super().__init__(parent)
+        self.setObjectName("value")
+        self.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.editingFinished.connect(self.hide)
+        self.hide()
+
+    def keyPressEvent(self, event) -> None:
+        """Keep every key from the desk behind; Escape goes back to it."""
+        super().keyPressEvent(event)
+        event.accept()
+        if event.key() == Qt.Key.Key_Escape:
+            self.parentWidget().setFocus()
+
+
+class Mixer(QWidget):
+    """Six painted rows. ``limit`` is the value of a full bar and of a slider's end: a round number of waves.
+
+    The rows take the keyboard as one widget: ↑ ↓ choose one, ← → and Page keys add waves, M mutes, S solos, Delete
+    goes back to the lens's own value, Space sweeps, Return takes a number.
+    """
+
+    pressed, released = Signal(), Signal()
+    added = Signal(str, float)
+    typed = Signal(str, str)
+    toggled = Signal(str, str)
+    swept = Signal(str)
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.values: dict[str, float] = dict.fromkeys(TERMS, 0.0)
+        self.own, self.waves = dict(self.values), dict(self.values)
+        self.on: dict[str, tuple[str, ...]] = {"muted": (), "solo": ()}
+        self.limit, self.row = 1.0, 0
+        self._theme, self._ground, self._dragged = LIGHT, None, False
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(tr("What-if: waves added to the six coefficients"))
+        self.setMinimumHeight(120)
+        self.edit = NumberEdit(self)
+        self.edit.returnPressed.connect(self._take)
+
+    def sizeHint(self) -> QSize:
+        """Return a size with room for six rows."""
+        return QSize(260, 220)
+
+    @property
+    def places(self) -> Places:
+        """Return where everything lies now."""
+        return Places(self.width(), self.height())
+
+    def rows_of_data(self) -> list[list[str]]:
+        """Return the coefficients as they count, the lens's own and what is added, waves, for the clipboard."""
+        kept = zip(self.values, self.values.values(), self.own.values(), self.waves.values(), strict=True)
+        return [["", "λ", tr("the lens's own"), tr("Added waves")], *([name, *map(str, row)] for name, *row in kept)]
+
+    def show_values(self, values: dict[str, float], own: dict[str, float], added: dict[str, float], **on) -> None:
+        """Show coefficients as they count, the lens's own, and what is added to each, waves; ``on``: muted, solo."""
+        before = self.limit, self.waves, self.on
+        moved = [n for n, k in enumerate(TERMS) if (values[k], own[k]) != (self.values[k], self.own[k])]
+        self.values, self.own, self.waves, self.on = values, own, added, on
+        if not self._dragged:
+            everything = [abs(v) for kind in (values, own, added) for name, v in kind.items() if name != "w11"]
+            self.limit = nice(max(SMALLEST_LIMIT, abs(added["w11"]), *everything))
+        if before != (self.limit, self.waves, self.on):
+            self._ground = None
+            self.update()
+        for number in moved:
+            self.update(self.places.row(number).toAlignedRect())
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme, self._ground = theme, None
+        self.update()
+
+    def choose(self, row: int) -> None:
+        """Give a row the keyboard."""
+        self.row, self._ground = min(len(TERMS) - 1, max(0, row)), None
+        self.update()
+
+    def paintEvent(self, event) -> None:
+        """Paint what stands still, then bars and numbers."""
+        if self._ground is None or self._ground.size() != self.size() * self.devicePixelRatioF():
+            self._ground = self._painted_ground()
+        painter, places = QPainter(self), self.places
+        painter.drawPixmap(0, 0, self._ground)
+        for number, name in enumerate(TERMS):
+            if not event.region().intersects(places.row(number).toAlignedRect()):
+                continue
+            value, part = self.values[name], held(self.values[name], self.limit)
+            parts.paint_value(painter, places, self._theme, number, part, parts.waves(value))
+            if abs(value) > self.limit:
+                parts.paint_overflow(painter, places.bar(number, part), self._theme, value > 0)
+            if self.own[name] != value:
+                painter.setPen(QPen(QColor(self._theme.muted), 1, Qt.PenStyle.DotLine))
+                painter.setBrush(Qt.BrushStyle.NoBrush)
+                painter.drawRect(places.bar(number, held(self.own[name], self.limit)))
+
+    def _painted_ground(self) -> QPixmap:
+        ratio, theme, places = self.devicePixelRatioF(), self._theme, self.places
+        ground = QPixmap(self.size() * ratio)
+        ground.setDevicePixelRatio(ratio)
+        ground.fill(QColor(theme.card))
+        painter = QPainter(ground)
+        parts.paint_scale(painter, places, theme, self.limit)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for number, name in enumerate(TERMS):
+            focused = self.hasFocus() and number == self.row
+            parts.paint_names(painter, places, theme, number)
+            parts.paint_slider(painter, places, theme, number, held(self.waves[name], self.limit), focused)
+            for kind, letter, colour in LETTERS:
+                on = name in self.on.get(kind, ())
+                parts.paint_button(painter, places.button(number, kind), theme, letter, colour, on)
+        painter.end()
+        return ground
+
+    def mousePressEvent(self, event) -> None:
+        """Press a button, or take hold of a slider."""
+        if event.button() != Qt.MouseButton.LeftButton:
+            return
+        point, places = event.position(), self.places
+        self.choose(places.row_at(point.y()))
+        for kind, *_ in LETTERS:
+            if places.button(self.row, kind).contains(point):
+                self.toggled.emit(kind, TERMS[self.row])
+                return
+        if point.x() > places.ends[1] + 8:
+            self._ask()
+        elif point.x() >= places.ends[0] - 8:
+            self._dragged = True
+            self.pressed.emit()
+            self._follow(point)
+
+    def mouseMoveEvent(self, event) -> None:
+        """Follow the pointer while held."""
+        if self._dragged:
+            self._follow(event.position())
+
+    def mouseReleaseEvent(self, event) -> None:
+        """Let go."""
+        if self._dragged:
+            self._dragged = False
+            self.released.emit()
+
+    def mouseDoubleClickEvent(self, event) -> None:
+        """Go back to the lens's own value; a quick second click on a button is a click."""
+        if event.position().x() > self.places.ends[1] + 8:
+            self.mousePressEvent(event)
+            return
+        self.added.emit(TERMS[self.places.row_at(event.position().y())], 0.0)
+
+    def _follow(self, point) -> None:
+        part = self.places.part_at(point.x())
+        waves = 0.0 if abs(part) < HOLDS else round(part * self.limit, 4)
+        self.added.emit(TERMS[self.row], waves)
+
+    def _ask(self) -> None:
+        """Let a number be typed over the row's own."""
+        room = self.places.number(self.row).toRect()
+        self.edit.setGeometry(room.left(), room.center().y() - 13, room.width(), 26)
+        self.edit.setText(parts.waves(self.values[TERMS[self.row]]).removesuffix(" λ"))
+        self.edit.show()
+        self.edit.setFocus()
+        self.edit.selectAll()
+
+    def _take(self) -> None:
+        text = self.edit.text()
+        self.setFocus()
+        self.typed.emit(TERMS[self.row], text)
+
+    def keyPressEvent(self, event) -> None:
+        """Choose a row, add waves, mute, solo, go back, sweep."""
+        key, name = event.key(), TERMS[self.row]
+        if key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
+            self.choose(self.row + (1 if key == Qt.Key.Key_Down else -1))
+        elif key in STEPS:
+            self.added.emit(name, round(self.waves[name] + STEPS[key] * self.limit, 4))
+        elif key in BACK:
+            self.added.emit(name, 0.0)
+        elif key in (Qt.Key.Key_M, Qt.Key.Key_S):
+            self.toggled.emit("muted" if key == Qt.Key.Key_M else "solo", name)
+        elif key == Qt.Key.Key_Space:
+            self.swept.emit(name)
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self._ask()
+        else:
+            super().keyPressEvent(event)
+
+    def focusInEvent(self, event) -> None:
+        """Show which row has the keyboard."""
+        self.choose(self.row)
+
+    focusOutEvent = focusInEvent
+
+    def event(self, event) -> bool:
+        """Define the part under the pointer."""
+        if event.type() == QEvent.Type.ToolTip:
+            QToolTip.showText(event.globalPos(), self._tip(event.pos()), self)
+            return True
+        return super().event(event)
+
+    def _tip(self, point) -> str:
+        row = self.places.row_at(point.y())
+        name = TERMS[row]
+        for kind, *_ in LETTERS:
+            if self.places.button(row, kind).contains(point):
+                return tr(BUTTON_TIPS[kind])
+        moves = " " + tr("It only moves the image.") if name == "w11" else ""
+        numbers = {"own": parts.waves(self.own[name]), "added": parts.waves(self.waves[name])}
+        return f"{NAMES[name]}, {tr(WORDS[name])}: {NAMES[name]}·{FORMULAS[name]}.{moves} {tr(ROW_TIP, **numbers)}"

@@ -1,0 +1,157 @@
+"""A panel's picture and its data, to the clipboard or into a file."""
+
+import csv
+import io
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QBuffer, QIODevice, QMimeData, Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QApplication, QMenu, QTableView, QWidget
+
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.overlay import Veil
+from p2sf_explorer.charts.plots import HeatMap
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.widgets.readout import FactTable
+
+QUICKLY = 85  # Qt's word for the fastest compression of a PNG there is: a tenth more bytes, two thirds of the time
+Rows = list[list]
+
+
+def copy_menu(card: QWidget) -> QMenu:
+    """Return the menu of a panel: copy its picture, copy its data where it has any."""
+    menu = QMenu(card)
+    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    menu.addAction(tr("Copy picture"), lambda: copy_picture(card))
+    action = menu.addAction(tr("Copy data as CSV") + "\tCtrl+Shift+D", lambda: copy_data(card))
+    action.setEnabled(bool(data_of(card)))
+    return menu
+
+
+def card_in_hand(window: QWidget) -> QWidget | None:
+    """Return the panel that has the focus, else the one under the pointer, else the one in the open tab."""
+    for widget in (QApplication.focusWidget(), QApplication.widgetAt(window.cursor().pos())):
+        while widget is not None and widget.objectName() != "card":
+            widget = widget.parentWidget()
+        if widget is not None:
+            return widget
+    return window.panels[window.tabs.current()].widget
+
+
+def png_of(widget: QWidget) -> bytes:
+    """Return a widget's picture as PNG."""
+    buffer = QBuffer()
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    widget.grab().save(buffer, "PNG", QUICKLY)
+    return bytes(buffer.data())
+
+
+def copy_picture(widget: QWidget) -> None:
+    """Put a widget's picture on the clipboard."""
+    QGuiApplication.clipboard().setPixmap(widget.grab())
+
+
+def copy_data(widget: QWidget) -> bool:
+    """Put a panel's data on the clipboard as CSV; return whether it has any."""
+    text = data_of(widget)
+    if text:
+        data = QMimeData()
+        data.setText(text)
+        data.setData("text/csv", text.encode())
+        QGuiApplication.clipboard().setMimeData(data)
+    return bool(text)
+
+
+def data_of(widget: QWidget) -> str:
+    """Return what a panel shows as CSV (RFC 4180), one table behind the other.
+
+    Nothing where there are no numbers, and where a veil covers those of an earlier set-up.
+    """
+    veil = widget.findChild(Veil, options=Qt.FindChildOption.FindDirectChildrenOnly)
+    if veil and veil.text:
+        return ""
+    tables = [rows for rows in map(table, [widget, *widget.findChildren(QWidget)]) if rows]
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\r\n")
+    for number, rows in enumerate(tables):
+        if number:
+            writer.writerow([])
+        writer.writerows(rows)
+    return out.getvalue()
+
+
+def table(widget: QWidget) -> Rows:
+    """Return the rows of one widget, its heads first; a widget of another kind gives its own by ``rows_of_data``."""
+    if hasattr(widget, "rows_of_data"):
+        return widget.rows_of_data()
+    if getattr(widget, "grids", ()):
+        return [row for number, one in enumerate(widget.grids) for row in ([[]] if number else []) + grid(*one)]
+    if isinstance(widget, HeatMap):
+        return _of_heat_map(widget)
+    if isinstance(widget, Chart) and not isinstance(widget.parentWidget(), HeatMap):
+        return _of_chart(widget)
+    if isinstance(widget, FactTable):
+        return [[name, value] for name, value, _ in widget.rows]
+    if isinstance(widget, pg.PlotWidget):
+        return _of_plot(widget)
+    return _of_view(widget) if isinstance(widget, QTableView) else []
+
+
+def _of_plot(plot: pg.PlotWidget) -> Rows:
+    """Return bars, points and lines of a plot as columns x and y, one kind of item behind the other."""
+    item = plot.getPlotItem()
+    head = [item.getAxis(side).labelText for side in ("bottom", "left")]
+    rows = []
+    for part in item.items:
+        if isinstance(part, pg.BarGraphItem):
+            rows += [[_number(x), _number(y)] for x, y in zip(part.opts["x"], part.opts["height"], strict=True)]
+        elif isinstance(part, pg.ScatterPlotItem | pg.PlotDataItem | pg.PlotCurveItem):
+            x, y = (() if values is None else values for values in part.getData())
+            rows += [[_number(a), _number(b)] for a, b in zip(x, y, strict=True)]
+    return [head, *rows] if rows else []
+
+
+def _of_heat_map(heat: HeatMap) -> Rows:
+    """Return a grid of what the map means: x along the first row, y down the first column, rows +y."""
+    if heat.values is None:
+        return []
+    rows, columns = heat.values.shape
+    left, bottom, width, height = heat.rect_shown
+    x = left + (np.arange(columns) + 0.5) * width / columns
+    y = bottom + (np.arange(rows) + 0.5) * height / rows
+    bottom_label, left_label = heat.chart.labels
+    quantity = f"{tr(heat.quantity)}: " if heat.quantity else ""
+    return grid(f"{quantity}{left_label} \\ {bottom_label}", x, y, heat.values)
+
+
+def grid(head: str, x, y, values) -> Rows:
+    """Return (y, x) values with their places: x along the first row behind the head, y down the first column."""
+    return [[head, *map(_number, x)], *([_number(at), *map(_number, row)] for at, row in zip(y, values, strict=True))]
+
+
+def _of_chart(chart: Chart) -> Rows:
+    """Return every curve that has points as two columns, its name in the head; where some have names, those alone."""
+    shown = [curve for curve in chart.curves if curve.x.size and curve.token != "line"]
+    shown = [curve for curve in shown if curve.name] or shown
+    bottom, left = map(tr, chart.columns) if chart.columns else chart.labels
+    names = [curve.name or f"{number}" for number, curve in enumerate(shown, 1)]
+    head = [f"{name}: {label}" for name in names for label in (bottom, left)]
+    columns = [values for curve in shown for values in (curve.x, curve.y)]
+    longest = max((column.size for column in columns), default=0)
+    body = [[_number(c[k]) if k < c.size else "" for c in columns] for k in range(longest)]
+    return [head, *body] if columns else []
+
+
+def _of_view(view: QTableView) -> Rows:
+    """Return the cells of a table as they are shown."""
+    model = view.model()
+    if model is None:
+        return []
+    heads = [str(model.headerData(k, Qt.Orientation.Horizontal) or "") for k in range(model.columnCount())]
+    cells = [[str(model.index(r, k).data() or "") for k in range(model.columnCount())] for r in range(model.rowCount())]
+    return [heads, *cells]
+
+
+def _number(value) -> str:
+    return "" if np.isnan(value) else f"{float(value):.9g}"

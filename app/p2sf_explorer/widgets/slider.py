@@ -1,0 +1,178 @@
+"""A slider painted by hand: travel 0 to 1, ticks, and for wavelengths the spectrum itself."""
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen, QPixmap
+from PySide6.QtWidgets import QAbstractSlider, QSizePolicy
+
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+
+STEPS = 1000
+HANDLE = 7.0
+MARGIN = 9.0
+MIDDLE = 11.0  # of groove and handle, from the top
+KEYS = Qt.Key
+MOVES = (KEYS.Key_Left, KEYS.Key_Right, KEYS.Key_Up, KEYS.Key_Down, KEYS.Key_PageUp, KEYS.Key_PageDown)
+MOVES += (KEYS.Key_Home, KEYS.Key_End)
+
+
+class Slider(QAbstractSlider):
+    """A horizontal slider over 0 to STEPS by arrow and Page keys; double-click asks for reset, Space for a sweep."""
+
+    reset = Signal()
+    swept = Signal()
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setRange(0, STEPS)
+        self.setSingleStep(STEPS // 200)
+        self.setPageStep(STEPS // 20)
+        self.setOrientation(Qt.Orientation.Horizontal)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self._theme, self._ticks, self._spectrum = LIGHT, (), ()
+        self._ground: QPixmap | None = None
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self._forget_ground()
+
+    def set_ticks(self, ticks: tuple[tuple[float, str], ...]) -> None:
+        """Mark travels (0 to 1) with a short label under the groove."""
+        self._ticks = ticks
+        self.updateGeometry()
+        self._forget_ground()
+
+    def set_spectrum(self, colours: tuple[tuple[float, str], ...]) -> None:
+        """Paint the groove as a gradient of (travel, colour)."""
+        self._spectrum = colours
+        self._forget_ground()
+
+    def sizeHint(self) -> QSize:
+        """Return a height that has room for the tick labels when there are any."""
+        return QSize(160, 32 if self._ticks else 22)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the smallest useful size."""
+        return QSize(80, self.sizeHint().height())
+
+    def mousePressEvent(self, event) -> None:
+        """Take hold of the handle, or bring it under the pointer."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.setSliderDown(True)
+            self._follow(event.position())
+
+    def mouseMoveEvent(self, event) -> None:
+        """Follow the pointer while held."""
+        if self.isSliderDown():
+            self._follow(event.position())
+
+    def mouseReleaseEvent(self, event) -> None:
+        """Let go."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.setSliderDown(False)
+
+    def keyPressEvent(self, event) -> None:
+        """Ask for a sweep on Space; a key that moves takes hold, so that holding it down is one step of undo."""
+        if event.key() == Qt.Key.Key_Space:
+            self.swept.emit()
+            return
+        if event.key() in MOVES and not self.isSliderDown():
+            self.setSliderDown(True)
+        super().keyPressEvent(event)
+
+    def keyReleaseEvent(self, event) -> None:
+        """Let go when the key is up, which a key that repeats itself is not."""
+        if event.key() in MOVES and not event.isAutoRepeat():
+            self.setSliderDown(False)
+        super().keyReleaseEvent(event)
+
+    def focusOutEvent(self, event) -> None:
+        """Let go: the key's release goes to another."""
+        self.setSliderDown(False)
+        super().focusOutEvent(event)
+
+    def mouseDoubleClickEvent(self, event) -> None:
+        """Ask for the reset."""
+        self.setSliderDown(False)
+        self.reset.emit()
+
+    def handle_x(self) -> float:
+        """Return where the handle stands, in pixels."""
+        return self._x(self.value() / STEPS)
+
+    def _x(self, travel: float) -> float:
+        return MARGIN + travel * (self.width() - 2 * MARGIN)
+
+    def _follow(self, point: QPointF) -> None:
+        travel = (point.x() - MARGIN) / max(1.0, self.width() - 2 * MARGIN)
+        self.setValue(round(STEPS * travel))
+
+    def _forget_ground(self) -> None:
+        self._ground = None
+        self.update()
+
+    def paintEvent(self, event) -> None:
+        """Paint groove and ticks, which stand still, then how far the handle has come and the handle."""
+        if self._ground is None or self._ground.size() != self.size() * self.devicePixelRatioF():
+            self._ground = self._painted_ground()
+        painter = QPainter(self)
+        painter.drawPixmap(0, 0, self._ground)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if not self._spectrum:
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(self._theme.accent if self.isEnabled() else self._theme.muted))
+            painter.drawRoundedRect(QRectF(MARGIN, MIDDLE - 2, self.handle_x() - MARGIN, 4), 2, 2)
+        self._paint_handle(painter, MIDDLE)
+
+    def _painted_ground(self) -> QPixmap:
+        ratio = self.devicePixelRatioF()
+        ground = QPixmap(self.size() * ratio)
+        ground.setDevicePixelRatio(ratio)
+        ground.fill(QColor(self._theme.card))
+        painter = QPainter(ground)
+        painter.setFont(self.font())
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._paint_groove(painter, MIDDLE)
+        self._paint_ticks(painter, MIDDLE)
+        painter.end()
+        return ground
+
+    def _paint_groove(self, painter: QPainter, middle: float) -> None:
+        half = 5.0 if self._spectrum else 2.0
+        groove = QRectF(MARGIN, middle - half, self.width() - 2 * MARGIN, 2 * half)
+        painter.setPen(Qt.PenStyle.NoPen)
+        if not self._spectrum:
+            painter.setBrush(QColor(self._theme.line))
+            painter.drawRoundedRect(groove, half, half)
+            return
+        gradient = QLinearGradient(groove.topLeft(), groove.topRight())
+        for travel, colour in self._spectrum:
+            gradient.setColorAt(travel, QColor(colour))
+        painter.setBrush(gradient)
+        painter.drawRoundedRect(groove, 2, 2)
+
+    def _paint_ticks(self, painter: QPainter, middle: float) -> None:
+        font = painter.font()
+        font.setPixelSize(10)
+        painter.setFont(font)
+        for travel, label in self._ticks:
+            x = self._x(travel)
+            painter.setPen(QPen(QColor(self._theme.muted), 1))
+            painter.drawLine(QPointF(x, middle + 6), QPointF(x, middle + 9))
+            wide = painter.fontMetrics().horizontalAdvance(label)
+            left = min(max(x - wide / 2, 1.0), self.width() - wide - 1.0)
+            painter.drawText(QPointF(left, middle + 19), label)
+
+    def _paint_handle(self, painter: QPainter, middle: float) -> None:
+        theme, centre = self._theme, QPointF(self.handle_x(), middle)
+        if self.hasFocus():
+            halo = QColor(theme.accent)
+            halo.setAlpha(70)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(halo)
+            painter.drawEllipse(centre, HANDLE + 2.5, HANDLE + 2.5)
+        painter.setPen(QPen(QColor(theme.accent if self.isEnabled() else theme.muted), 2))
+        painter.setBrush(QColor(theme.card))
+        painter.drawEllipse(centre, HANDLE - 1, HANDLE - 1)

@@ -1,0 +1,100 @@
+"""The surfaces of a lens as a Qt table model: it shows texts and passes on what was typed."""
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
+
+from p2sf_explorer.compute.editing import written
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.lens_table import COLUMNS, Rows
+
+STOP = COLUMNS.index("conic") + 1
+HEADS = {
+    "radius": ("Radius, mm", "Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane."),
+    "thickness": ("Thickness, mm", "Distance to the next vertex, mm; the last one to the sensor."),
+    "medium": (
+        "Glass or index",
+        'What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".',
+    ),
+    "semi_diameter": ("Semi-diameter, mm", "Clear rim, mm; ∞ is unlimited. On the stop it is the aperture."),
+    "conic": ("Conic K", "Conic constant K = −e²: 0 a sphere, −1 a paraboloid."),
+    "stop": ("Stop", "Click or press Enter to make this surface the stop; the f-number stays."),
+    "aspheric": ("A4 A6 … (mm⁻³ mm⁻⁵ …)", "Aspheric terms A4·r⁴ + A6·r⁶ + …, with spaces between."),
+}
+KEYS = (*COLUMNS[:STOP], "stop", *COLUMNS[STOP:])
+NUMBERS = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+WORDS = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+
+
+class SurfaceModel(QAbstractTableModel):
+    """Shows `Rows`; ``typed(surface, column, text)`` tells of an edit, the model itself changes nothing."""
+
+    typed = Signal(int, str, str)
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self._rows: Rows | None = None
+
+    def show_rows(self, rows: Rows) -> None:
+        """Follow a lens; a view keeps its place when the number of surfaces is the same."""
+        before = self._rows
+        if before is None or len(before.texts) != len(rows.texts):
+            self.beginResetModel()
+            self._rows = rows
+            self.endResetModel()
+            return
+        self._rows = rows
+        for row in range(len(rows.texts)):  # a view paints a cell slowly, and an edit changes one
+            for column, (old, new) in enumerate(zip(entries(before, row), entries(rows, row), strict=True)):
+                if old != new:
+                    self.dataChanged.emit(self.index(row, column), self.index(row, column))
+
+    def rowCount(self, parent=None) -> int:
+        """Return the number of surfaces."""
+        return len(self._rows.texts) if self._rows and not (parent and parent.isValid()) else 0
+
+    def columnCount(self, parent=None) -> int:
+        """Return the number of columns."""
+        return 0 if parent and parent.isValid() else len(KEYS)
+
+    def headerData(self, section, orientation, role=Qt.ItemDataRole.DisplayRole):
+        """Return headings with units, their definitions, and surface numbers."""
+        if orientation == Qt.Orientation.Vertical:
+            return str(section + 1) if role == Qt.ItemDataRole.DisplayRole else None
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return self._alignment(section)
+        part = {Qt.ItemDataRole.DisplayRole: 0, Qt.ItemDataRole.ToolTipRole: 1}.get(role)
+        return None if part is None else tr(HEADS[KEYS[section]][part])
+
+    def flags(self, index: QModelIndex):
+        """Return that every entry but the stop is typed into."""
+        plain = super().flags(index)
+        return plain if index.column() == STOP else plain | Qt.ItemFlag.ItemIsEditable
+
+    def data(self, index: QModelIndex, role=Qt.ItemDataRole.DisplayRole):
+        """Return an entry's text, with every digit where it is edited."""
+        row, key = index.row(), KEYS[index.column()]
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return self._alignment(index.column())
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
+            return entries(self._rows, row)[index.column()]
+        if role == Qt.ItemDataRole.EditRole and key != "stop":
+            return written(self._rows.lens.surfaces[row], key, full=True)
+        return HEADS[key][1] if role == Qt.ItemDataRole.ToolTipRole else None
+
+    def setData(self, index: QModelIndex, value, role=Qt.ItemDataRole.EditRole) -> bool:
+        """Tell what was typed, unless it is what stood there."""
+        if value.strip() == self.data(index, Qt.ItemDataRole.EditRole):
+            return False
+        self.typed.emit(index.row() + 1, KEYS[index.column()], value)
+        return True
+
+    @staticmethod
+    def _alignment(column: int):
+        if KEYS[column] == "stop":
+            return Qt.AlignmentFlag.AlignCenter
+        return WORDS if KEYS[column] in ("medium", "aspheric") else NUMBERS
+
+
+def entries(rows: Rows, row: int) -> tuple[str, ...]:
+    """Return a surface's entries in the order of the columns, the stop as a mark among them."""
+    texts = rows.texts[row]
+    return (*texts[:STOP], "●" if row + 1 == rows.stop else "○", *texts[STOP:])

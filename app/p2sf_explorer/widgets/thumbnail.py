@@ -1,0 +1,38 @@
+"""A lens drawn small: its glass, stop and sensor."""
+
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.layout import Drawing
+
+
+def paint_lens(painter: QPainter, drawn: Drawing, room: QRectF, theme: Tokens) -> None:
+    """Paint a lens to scale in the middle of a rectangle."""
+    tall, length = 2 * max(drawn.half_height, drawn.stop_rim), drawn.right - drawn.left
+    scale = min(room.width() / length, room.height() / tall)
+    zero = QPointF(room.center().x() - scale * (drawn.left + drawn.right) / 2, room.center().y())
+
+    def at(z: float, y: float) -> QPointF:
+        return QPointF(zero.x() + scale * float(z), zero.y() - scale * float(y))
+
+    painter.setPen(QPen(QColor(theme.line), 1))
+    painter.drawLine(QLineF(at(drawn.left, 0), at(drawn.right, 0)))
+    painter.setPen(QPen(QColor(theme.glass_edge), 1))
+    for outline in drawn.outlines:
+        painter.setBrush(glass(outline.index, theme))
+        painter.drawPolygon(QPolygonF([at(z, y) for z, y in zip(outline.z, outline.y, strict=True)]))
+    painter.setPen(QPen(QColor(theme.text), 2, c=Qt.PenCapStyle.FlatCap))
+    wedge = 0.2 * drawn.half_height
+    for side in (-1, 1):
+        rim = side * drawn.stop_rim
+        painter.drawLine(QLineF(at(drawn.stop_z, rim), at(drawn.stop_z, rim + side * wedge)))
+    painter.setPen(QPen(QColor(theme.text), 1))
+    painter.drawLine(QLineF(at(drawn.sensor_z, -drawn.half_height / 2), at(drawn.sensor_z, drawn.half_height / 2)))
+
+
+def glass(index: float, theme: Tokens) -> QColor:
+    """Return the fill of a glass; denser glass is drawn denser."""
+    fill = QColor(theme.glass)
+    fill.setAlphaF(min(0.75, max(0.12, 0.9 * (index - 1.2))))
+    return fill

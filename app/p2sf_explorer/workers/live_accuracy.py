@@ -1,0 +1,93 @@
+"""Measures every settled picture against the Huygens reference in the background, and tells the panels."""
+
+from PySide6.QtCore import QObject
+
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.reference import Accuracy, measure
+from p2sf_explorer.i18n.messages import spoken
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.what_if import NO_REFERENCE
+from p2sf_explorer.workers.worker import LatestWins
+
+
+class Measuring(QObject):
+    """Owns the worker; ``watch`` is told every answer, results go to the panels that show accuracy."""
+
+    def __init__(self, window, enabled: bool = True):
+        super().__init__(window)
+        self._enabled, self._resting = enabled, False
+        self._window = window
+        self._last: Accuracy | None = None
+        self.worker = LatestWins(self)
+        self.worker.finished.connect(self._on_finished)
+        self.worker.failed.connect(self._on_failed)
+        self.worker.progressed.connect(self._on_progress)
+
+    def rest(self, resting: bool) -> None:
+        """Measure nothing for a while: the pictures are for a film."""
+        self._resting = resting
+
+    def watch(self, live: Live) -> None:
+        """Measure a settled answer that stands in for no other; show an earlier figure in grey meanwhile."""
+        if not self._enabled or self._resting or live.quality != "settled" or live.owed:
+            return
+        if live.setting.altered:
+            self._refuse_altered(live)
+            return
+        ladder = asked_for(live.state)
+        if self._last and fits(self._last, live, ladder):
+            self._tell(self._last)
+            return
+        self.worker.submit(live, lambda cancelled, progress: measure(live, ladder, cancelled, progress))
+
+    def _refuse_altered(self, live: Live) -> None:
+        """Show no figure: what was measured is the lens, and this picture is not the lens's."""
+        self.worker.cancel()
+        self._window.panels["psf"].show_badge(live, None, False)
+        self._each("show_failure", NO_REFERENCE)
+
+    def _on_finished(self, key: Live, accuracy: Accuracy) -> None:
+        self._last = accuracy
+        self._tell(accuracy)
+
+    def _tell(self, accuracy: Accuracy) -> None:
+        live = self._window.live
+        if live is None or live.setting.altered:
+            return
+        stale = not fits(accuracy, live, False) or live.quality != "settled" or live.owed is not None
+        self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
+        self._each("show_accuracy", accuracy, stale)
+
+    def _on_failed(self, key: Live, sentence: str) -> None:
+        self._each("show_failure", spoken(sentence))
+
+    def _on_progress(self, key: Live, part: float) -> None:
+        self._each("show_progress", part)
+
+    def _each(self, method: str, *arguments) -> None:
+        panel = self._window.panels.get("accuracy")
+        if panel and self._window.live and asked_for(self._window.live.state):
+            getattr(panel, method)(*arguments)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.worker.stop()
+
+
+def asked_for(state: State) -> bool:
+    """Return whether the accuracy has its panel on show, in front of the tabs or in a window of its own."""
+    return "accuracy" in (state.tab, *state.windows)
+
+
+def fits(known: Accuracy, live: Live, ladder: bool) -> bool:
+    """Return whether a known figure answers for this picture: it may differ in looks but neither in light nor window.
+
+    Two fits of one method differ in their ``numbers``, which the tolerance decides.
+    """
+    return picture(known.live) == picture(live) and bool(known.rungs or not ladder)
+
+
+def picture(live: Live) -> tuple:
+    """Return everything that R² of a settled picture depends on."""
+    made, psf = live.setting, live.psf
+    return made.lens, made.source, psf.method, psf.numbers, live.state.clip, psf.values.shape, psf.pixel_um

@@ -1,0 +1,99 @@
+"""Colorimetry: what the eye makes of a spectrum, and what a screen shows of that."""
+
+import numpy as np
+
+from p2sf.colour.spectrum import Spectrum, relative_power
+from p2sf.conventions import NM_PER_UM
+from p2sf.errors import RequestError
+
+VISIBLE_UM = (0.36, 0.83)
+STEP_UM = 0.001
+# Lobes a·exp(−(s(λ − µ))²/2), s one of two values on either side of µ: a, µ (nm), s below and above (1/nm).
+# Wyman, Sloan, Shirley, "Simple analytic approximations to the CIE XYZ color matching functions",
+# Journal of Computer Graphics Techniques 2(2), 2013, listing 1.
+LOBES = (
+    ((0.362, 442.0, 0.0624, 0.0374), (1.056, 599.8, 0.0264, 0.0323), (-0.065, 501.1, 0.0490, 0.0382)),
+    ((0.821, 568.8, 0.0213, 0.0247), (0.286, 530.9, 0.0613, 0.0322)),
+    ((1.217, 437.0, 0.0845, 0.0278), (0.681, 459.0, 0.0385, 0.0725)),
+)
+# Linear sRGB of XYZ (IEC 61966-2-1:1999, eq. 7).
+RGB_OF_XYZ = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]])
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # Y of linear sRGB (IEC 61966-2-1:1999)
+
+
+def matching(wavelength_um) -> np.ndarray:
+    """Return x̄, ȳ, z̄ of the CIE 1931 observer as Wyman, Sloan and Shirley (2013) fit them, (…, 3)."""
+    nm = np.asarray(wavelength_um, dtype=float) * NM_PER_UM
+    return np.stack([sum(_lobe(nm, *lobe) for lobe in lobes) for lobes in LOBES], axis=-1)
+
+
+def _lobe(nm, height, centre, below, above):
+    slope = np.where(nm < centre, below, above)
+    return height * np.exp(-0.5 * (slope * (nm - centre)) ** 2)
+
+
+def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIBLE_UM):
+    """Return ``count`` wavelengths (µm) and the X, Y, Z each stands for, (count,) and (count, 3), ΣY = 1.
+
+    Each is the centre of gravity of its band and carries all the band's light, summed every nm, so that the colour of
+    the whole does not depend on the count. Lines are taken as they are. RequestError where the eye sees nothing.
+    """
+    if spectrum.kind == "lines":
+        wavelength = np.array(spectrum.numbers) / NM_PER_UM
+        return wavelength, _normalised(matching(wavelength), spectrum)
+    low, high = max(limits_um[0], VISIBLE_UM[0]), min(limits_um[1], VISIBLE_UM[1])
+    fine = low + (np.arange(max(1, round((high - low) / STEP_UM))) + 0.5) * STEP_UM
+    light = relative_power(spectrum, fine)[:, None] * matching(fine)
+    # Bands of equal Y + (X + Z)/2 put the wavelengths where the eye is, and let violet and red speak too.
+    order = np.cumsum(light @ (0.5, 1.0, 0.5))
+    edges = np.searchsorted(order, order[-1] * np.arange(1, count) / count)
+    parts = [part for part in np.split(np.arange(fine.size), edges) if part.size]
+    sums = np.array([light[part].sum(0) for part in parts])
+    centres = np.array([np.average(fine[part], weights=light[part].sum(1)) for part in parts])
+    return centres, _normalised(sums, spectrum)
+
+
+def _normalised(light: np.ndarray, spectrum: Spectrum) -> np.ndarray:
+    total = light[:, 1].sum()
+    if not total > 1e-6:
+        raise RequestError(f"the spectrum {spectrum.name} has no light that the eye sees; choose one with some")
+    return light / total
+
+
+def tristimulus(spectrum: Spectrum) -> np.ndarray:
+    """Return X, Y, Z of a spectrum, Y = 1."""
+    return bands(spectrum, 1)[1].sum(0)
+
+
+def chromaticity(xyz) -> np.ndarray:
+    """Return x and y, (…, 2), of X, Y, Z, (…, 3) (ISO/CIE 11664-3)."""
+    xyz = np.asarray(xyz, dtype=float)
+    return xyz[..., :2] / xyz.sum(-1, keepdims=True)
+
+
+def linear_rgb(xyz) -> np.ndarray:
+    """Return linear sRGB, (…, 3), of X, Y, Z; negative where the screen has no such colour."""
+    return np.asarray(xyz, dtype=float) @ RGB_OF_XYZ.T
+
+
+def displayable(rgb) -> np.ndarray:
+    """Return linear sRGB, (…, 3), paled towards its own grey until no channel is negative: hue and luminance stay."""
+    rgb = np.asarray(rgb, dtype=float)
+    grey = np.maximum(rgb @ LUMINANCE, 0.0)[..., None]
+    lowest = rgb.min(-1, keepdims=True)
+    share = np.divide(grey, grey - lowest, out=np.ones_like(grey), where=lowest < 0)
+    return np.maximum(grey + share * (rgb - grey), 0.0)
+
+
+def linear_from_srgb(values) -> np.ndarray:
+    """Return linear light of sRGB values, both 0…1, shape kept (IEC 61966-2-1); float32 stays float32."""
+    values = np.asarray(values)
+    low = np.maximum(values, 0) / 12.92 + np.minimum(values, 0)
+    return np.where(values <= 0.04045, low, ((np.maximum(values, 0) + 0.055) / 1.055) ** 2.4).astype(values.dtype)
+
+
+def srgb_from_linear(values) -> np.ndarray:
+    """Return sRGB values of linear light, shape kept (IEC 61966-2-1); negative light stays as it is."""
+    values = np.asarray(values)
+    low = 12.92 * np.maximum(values, 0) + np.minimum(values, 0)
+    return np.where(values <= 0.0031308, low, 1.055 * np.maximum(values, 0) ** (1 / 2.4) - 0.055).astype(values.dtype)

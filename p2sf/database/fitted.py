@@ -1,0 +1,161 @@
+"""The `fitted` rung over a whole (depth, field, wavelength) space: a tensor of Chebyshev series.
+
+The coefficients of a fit run smoothly with s = 1/(object to entrance pupil), with h² and with wavelength, h
+the field slope: under h → −h, η → −η nothing changes, so each coefficient is even or odd in h and an odd one
+is h times a function of h². They are kept as optical path (times λ), which is smoother than waves.
+"""
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.conventions import vergence
+from p2sf.database.exact import ExactDatabase, chebyshev_terms
+from p2sf.database.render import Sampling, critical_pixel_um
+from p2sf.database.space import Space
+from p2sf.lens.source import Source
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.psf.fitted import summed
+from p2sf.psf.plane_waves import Made, psf_from_intensity
+from p2sf.psf.seidel import Psf, suitable_pixel_um
+from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.pupil.zernike import basis, gradient, terms
+from p2sf.raytrace.fit import FittedPencil, Level, Steepness, level_rays
+
+
+@dataclass(frozen=True, eq=False)
+class FittedDatabase:
+    """Chebyshev series (s, h², wavelength, number) of a fit's coefficients, and the Seidel database of the same lens.
+
+    ``series``: path in µm for the phase, pure numbers for fx and fy, the chief ray's height (mm) last.
+    ``errors``: RMS phase in waves where the rays land, the largest found at points held out; ``residual_waves``:
+    what the fits themselves leave.
+    """
+
+    seidel: ExactDatabase
+    series: np.ndarray
+    level: Level
+    errors: dict[str, float]
+    residual_waves: float
+    interpolant: str = "exact"
+    method: str = "fitted"
+
+    @property
+    def space(self) -> Space:
+        """Return what is covered."""
+        return self.seidel.space
+
+    def coefficients(self, depth_mm, field_slope, wavelength_um) -> Coefficients:
+        """Return the six Seidel coefficients and scales of the same lens; DatabaseError outside the space."""
+        return self.seidel.coefficients(depth_mm, field_slope, wavelength_um)
+
+    def numbers_at(self, source: Source) -> np.ndarray:
+        """Return the coefficients of one source's fit, (numbers + 1,): waves, cycles/µm, and chief-ray height, mm."""
+        self.space.check_one(source.depth_mm, source.field_slope, source.wavelength_um)
+        weights = (
+            chebyshev_terms(np.array(np.clip(x, -1, 1)), count)
+            for x, count in zip(self._axes.reduced(source), self.series.shape[:3], strict=True)
+        )
+        path = np.einsum("i,j,k,ijkn->n", *weights, self.series, optimize=True)
+        return path * powers(self.level, source)
+
+    def fit_at(self, source: Source) -> FittedPencil:
+        """Return the fitted pencil of one source, looked up and not traced; DatabaseError outside the space."""
+        phase, fx, fy, _ = split(self.level, self.numbers_at(source))
+        steep = steepness(self.level, phase, fx, fy)
+        known = {"level": self.level, "phase": phase, "fx": fx, "fy": fy, "steepness": steep, "rays": 0}
+        known["residual_waves"] = self.residual_waves
+        return FittedPencil(**{field.name: known.get(field.name, np.nan) for field in fields(FittedPencil)})
+
+    def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:
+        """Return the PSF of one source, from looked-up numbers; DatabaseError, SamplingError."""
+        started = perf_counter()
+        found = self.fit_at(source)
+        six = self.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
+        pixel_um = pixel_um or float(suitable_pixel_um(six, pixels))
+        intensity, words = summed(found, pixels, pixel_um)
+        made = Made("fitted", found.numbers, 0, words, started, SETTLED_TOLERANCE)
+        return psf_from_intensity(intensity, pixel_um, source.wavelength_um, None, made)
+
+    def rendered(self, points, sampling: Sampling, dtype=np.float32) -> np.ndarray:
+        """Return unit-sum PSFs, (*points' broadcast shape, pixels, pixels), as `database.render.rendered`."""
+        pixels, pixel_um = sampling.pixels, sampling.pixel_um or critical_pixel_um(self)
+        axes = np.broadcast_arrays(*points)
+        out = np.empty((axes[0].size, pixels, pixels), dtype)
+        for k, point in enumerate(zip(*(x.ravel().tolist() for x in axes), strict=True)):
+            values, _ = summed(self.fit_at(Source(*point)), pixels, pixel_um, sampling.quality)
+            out[k] = values / values.sum(dtype=float)
+        return out.reshape(*axes[0].shape, pixels, pixels)
+
+    @cached_property
+    def _axes(self) -> "Axes":
+        return axes_of(self.space, self.seidel)
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Middle and half-width of s (per mm), h² and wavelength (µm), and the pupil's place that turns a depth into s.
+
+    ``spread`` says which of the three vary at all.
+    """
+
+    middle: np.ndarray
+    half: np.ndarray
+    spread: tuple[bool, ...]
+    pupil_mm: float
+
+    def reduced(self, source: Source) -> np.ndarray:
+        """Return (s, h², λ) of a source mapped to −1…1."""
+        near = float(vergence(source.depth_mm))
+        s = near / (1 + self.pupil_mm * near)
+        return (np.array([s, source.field_slope**2, source.wavelength_um]) - self.middle) / self.half
+
+    def source(self, reduced) -> Source:
+        """Return the source at a place in −1…1 along s, h² and λ."""
+        s, square, wavelength = self.middle + self.half * np.asarray(reduced)
+        with np.errstate(divide="ignore"):
+            depth = np.divide(1.0, s) - self.pupil_mm
+        return Source(float(depth), float(np.sqrt(max(square, 0.0))), float(wavelength))
+
+
+def axes_of(space: Space, seidel: ExactDatabase) -> Axes:
+    """Return the Chebyshev axes of a space; ``seidel`` knows where the entrance pupil is."""
+    colours, slopes = space.wavelengths_um, space.field_slopes
+    pupil = seidel.pupil_mm(float(colours[0] + colours[-1]) / 2)
+    near = vergence(space.depths_mm[[0, -1]])
+    ends = np.array([near / (1 + pupil * near), slopes[[0, -1]] ** 2, colours[[0, -1]]])
+    half = np.abs(np.diff(ends)[:, 0]) / 2
+    return Axes(ends.mean(1), np.where(half > 0, half, 1.0), tuple((half > 0).tolist()), pupil)
+
+
+def powers(level: Level, source: Source) -> np.ndarray:
+    """Return h^(0 or 1)/λ of every number: parity in h from that of its polynomial in η, path from waves."""
+    even_phase = [m % 2 for _, m in terms(level.wave_order)]
+    odd_map = [(m + 1) % 2 for _, m in terms(level.map_order, True)]
+    even_map = [(m + 1) % 2 for _, m in terms(level.map_order)]
+    parity = np.array([*even_phase, *odd_map, *even_map, 1])
+    wavelength = np.full(parity.size, source.wavelength_um)
+    wavelength[-1] = 1.0
+    return np.where(parity == 1, source.field_slope, 1.0) / wavelength
+
+
+def split(level: Level, numbers: np.ndarray):
+    """Return phase, fx, fy and the chief ray's height out of one row of numbers."""
+    waves, odd = len(terms(level.wave_order)), len(terms(level.map_order, True))
+    return numbers[:waves], numbers[waves : waves + odd], numbers[waves + odd : -1], float(numbers[-1])
+
+
+def steepness(level: Level, phase, fx, fy) -> Steepness:
+    """Return how steep looked-up polynomials are, at the points of the level's rays."""
+    xi, eta, _ = level_rays(level)
+    across, along = (phase @ part[: phase.size] for part in gradient(level.wave_order, xi, eta))
+    odd, even = basis(level.map_order, xi, eta, odd=True), basis(level.map_order, xi, eta)
+    return Steepness(
+        radial=float(np.abs((xi * across + eta * along) / np.hypot(xi, eta)).max()),
+        angular=float(np.abs(eta * across - xi * along).max()),
+        across=float(np.abs(across).max()),
+        along=float(np.abs(along).max()),
+        spread=float(np.hypot(fx @ odd, fy @ even).max()),
+    )

@@ -1,0 +1,100 @@
+"""Building a fitted database: fits at Chebyshev nodes, more of them until points held out agree."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from p2sf.database.build import build_database
+from p2sf.database.departure import scattered
+from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
+from p2sf.database.space import Space
+from p2sf.errors import DatabaseError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import Stop, find_stop
+from p2sf.pupil.zernike import terms
+from p2sf.raytrace.fit import LEVELS, FittedPencil, Level, fit, level_rays, ray_data
+from p2sf.raytrace.pencil import pencil
+
+START = (4, 4, 4)  # nodes along s, h² and wavelength
+MOST_NODES = 24
+TOLERANCE_WAVES = 1e-3  # RMS phase where the rays land; the fit itself is allowed three times that
+HELD_OUT = 12
+
+
+def build_fitted(lens: Lens, space: Space, stop: Stop | None = None, tolerance_waves: float = TOLERANCE_WAVES):
+    """Return the fitted database of a lens: nodes are added until points held out agree to the tolerance.
+
+    Raises DatabaseError when they never do, GeometryError where rays do not reach the sensor.
+    """
+    stop = stop or find_stop(lens)
+    seidel = build_database(lens, space, stop=stop)
+    axes = axes_of(space, seidel)
+    level, left = _level_for(lens, axes, stop)
+    held = list(held_out(lens, space, level, stop))
+    counts = [count if spread else 1 for count, spread in zip(START, axes.spread, strict=True)]
+    while max(counts) <= MOST_NODES:
+        series = traced_series(lens, axes, level, counts, stop)
+        database = FittedDatabase(seidel, series, level, {}, left)
+        worst = max(ray_error(database, *point) for point in held)
+        if worst <= tolerance_waves:
+            return replace(database, errors={"phase": worst})
+        counts[_least_settled(series, level)] += 2
+    raise DatabaseError(
+        f"the fits are still {worst:.2g} waves off between {' × '.join(map(str, counts))} nodes; narrow the depths, "
+        "the fields or the wavelengths, or use the seidel method"
+    )
+
+
+def _level_for(lens: Lens, axes: Axes, stop: Stop) -> tuple[Level, float]:
+    """Return the highest level that a corner of the space asks for, and the largest residual it then leaves."""
+    corners = [axes.source(place) for place in product(*([-1.0, 1.0] if spread else [0.0] for spread in axes.spread))]
+    level = max((fit(lens, corner, stop=stop).level for corner in corners), key=LEVELS.index)
+    return level, max(fit(lens, corner, level.numbers, stop=stop).residual_waves for corner in corners)
+
+
+def traced_series(lens: Lens, axes: Axes, level: Level, counts, stop: Stop) -> np.ndarray:
+    """Return the Chebyshev series from fits at the tensor of Chebyshev nodes, (*counts, numbers + 1)."""
+    nodes = [np.cos(np.pi * (np.arange(count) + 0.5) / count) for count in counts]
+    rows = [_row(lens, axes.source(place), level, stop) for place in product(*nodes)]
+    series = np.array(rows).reshape(*counts, -1)
+    for axis, (points, count) in enumerate(zip(nodes, counts, strict=True)):
+        kernel = np.cos(np.outer(np.arange(count), np.arccos(points))) * (2 / count)
+        kernel[0] /= 2
+        series = np.moveaxis(np.tensordot(kernel, series, (1, axis)), 0, axis)
+    return series
+
+
+def _row(lens: Lens, source: Source, level: Level, stop: Stop) -> np.ndarray:
+    """Return one source's numbers, freed of what `powers` puts back."""
+    found = fit(lens, source, level.numbers, stop=stop)
+    chief = pencil(lens, source, np.zeros(1), np.zeros(1), stop=stop).chief_y
+    numbers = np.concatenate([found.phase, found.fx, found.fy, np.ravel(chief)])
+    scale = powers(level, source)
+    return np.divide(numbers, scale, out=np.zeros_like(numbers), where=scale != 0)
+
+
+def held_out(lens: Lens, space: Space, level: Level, stop: Stop):
+    """Return (source, fit, landing x, landing y in µm) at points between the nodes."""
+    xi, eta, _ = level_rays(level)
+    for point in zip(*(x.tolist() for x in scattered(space, HELD_OUT)), strict=True):
+        source = Source(*point)
+        rays = ray_data(pencil(lens, source, xi, eta, stop=stop))
+        yield source, fit(lens, source, level.numbers, stop=stop), rays.x_um, rays.y_um
+
+
+def ray_error(database: FittedDatabase, source: Source, direct: FittedPencil, x_um, y_um) -> float:
+    """Return the RMS phase error in waves where the rays land, of looked-up numbers against the fit itself."""
+    level = database.level
+    phase, fx, fy, _ = split(level, database.numbers_at(source))
+    difference = replace(direct, phase=phase - direct.phase, fx=fx - direct.fx, fy=fy - direct.fy)
+    wave, across, along = difference.at(*level_rays(level)[:2])
+    return float(np.sqrt(np.mean((wave + across * x_um + along * y_um) ** 2)))
+
+
+def _least_settled(series: np.ndarray, level: Level) -> int:
+    """Return the axis whose highest Chebyshev terms of the phase are the largest."""
+    phase = np.abs(series[..., : len(terms(level.wave_order))])
+    tails = [phase.take([-1], axis).max() if phase.shape[axis] > 1 else 0.0 for axis in range(3)]
+    return int(np.argmax(tails))

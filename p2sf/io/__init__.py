@@ -1,0 +1,1 @@
+"""Readers and writers of PSFs and photos, and the plot of a PSF."""

@@ -1,0 +1,41 @@
+"""One colour PSF to a .npz or to a .png picture."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from p2sf import __version__
+from p2sf.errors import ExportError
+from p2sf.files.writing import plain, write_beside
+from p2sf.psf.polychromatic import ColourPsf, record
+
+
+def write_colour_psf(found: ColourPsf, path, meta: dict) -> Path:
+    """Write a colour PSF as .npz (CIE X, Y, Z, linear) or .png (sRGB) by the ending of ``path``; return the path.
+
+    ``meta`` (see `describe`) is stored with it. Raises ExportError for another ending or a place that refuses it.
+    """
+    write = COLOUR_WRITERS.get(Path(path).suffix.lower())
+    if write is None:
+        raise ExportError(
+            f'{path}: a colour PSF has no ending "{Path(path).suffix}"; choose {", ".join(COLOUR_WRITERS)}'
+        )
+    full = {**plain(meta), "colour_psf": plain(record(found))}
+    return write_beside(path, lambda handle: write(handle, found, full))
+
+
+def _write_npz(handle, found: ColourPsf, meta: dict) -> None:
+    axes = {"x_um": found.x_um, "y_um": found.y_um}
+    np.savez_compressed(handle, xyz=found.xyz, **axes, meta=np.array(json.dumps(meta)))
+
+
+def _write_png(handle, found: ColourPsf, meta: dict) -> None:
+    from p2sf.io.psf_plot import draw_colour_psf
+
+    title = f"{meta.get('lens', {}).get('title', 'point spread function')}\n{found.spectrum}, square root of the light"
+    draw_colour_psf(handle, found, title, {"Description": json.dumps(meta), "Software": f"p2sf {__version__}"})
+
+
+COLOUR_WRITERS = {".npz": _write_npz, ".png": _write_png}
+COLOUR_ENDINGS = tuple(COLOUR_WRITERS)

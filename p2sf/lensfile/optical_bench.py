@@ -1,0 +1,189 @@
+"""Optical Bench text (photonstophotos.net): sections of tab-separated rows.
+
+[lens data] rows are number, radius (or AS, CG, FS), distance, nd, diameter, vd, glass, maker; distances may
+be names of [variable distances], whose first column is read; [aspherical data] rows are number, radius,
+conic constant, A4, A6, … (from A2 where [constants] says AsphericalA2).
+"""
+
+import re
+from dataclasses import dataclass, field
+from math import inf
+
+from p2sf.errors import GlassError
+from p2sf.lens.lens import Lens
+from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.conjugates import FAR
+from p2sf.lensfile.glass_lookup import GlassSources, Resolution, resolve
+from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
+from p2sf.lensfile.report import Notebook
+from p2sf.lensfile.source_text import LensText, number
+
+PLANES = ("AS", "CG", "FS", "INFINITY", "INF", "0", "PLANO")
+FIELD_FRACTIONS = (0.0, 0.7, 1.0)
+
+
+@dataclass
+class Reading:
+    """What has been read so far; ``rows`` finds a surface by the number the file gives it."""
+
+    source: LensText
+    notes: Notebook
+    sources: GlassSources
+    raw: RawLens = field(default_factory=RawLens)
+    section: str = ""
+    constants: set[str] = field(default_factory=set)
+    variables: dict[str, tuple[str, int]] = field(default_factory=dict)
+    rows: dict[str, RawSurface] = field(default_factory=dict)
+
+
+def read_optical_bench(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
+    """Return the lens of an Optical Bench text; LensFileError with its line. Zooms: the first position, and said."""
+    reading = Reading(source, notes, sources)
+    for line, text in enumerate(source.lines, 1):
+        words = _cells(text)
+        if words[0].startswith("["):
+            reading.section = text.strip().lower().partition("]")[0] + "]"
+        elif any(words) and not words[0].startswith("#"):
+            READERS.get(reading.section, _skip)(reading, words, line)
+    _finish(reading)
+    return assemble(reading.raw, sources, notes, source)
+
+
+def _cells(text: str) -> list[str]:
+    """Return the cells of a row; a row without tabs is cut at spaces, an index left out stays left out."""
+    if "\t" in text:
+        return [cell.strip() for cell in text.split("\t")]
+    words = text.split() or [""]
+    surface = re.fullmatch(r"\d+[A-Za-z]?", words[0]) and 3 <= len(words)
+    return [*words[:3], "", *words[3:]] if surface and len(words) <= 4 else words
+
+
+def _skip(reading: Reading, words: list[str], line: int) -> None:
+    """Leave out a row of a section that describes no lens."""
+
+
+def _describe(reading: Reading, words: list[str], line: int) -> None:
+    if words[0].lower() == "title":
+        reading.raw.title = " ".join(words[1:]).strip()[:200]
+
+
+def _constant(reading: Reading, words: list[str], line: int) -> None:
+    reading.constants.add(words[0].lower())
+    if words[0].lower() == "asphericaloddcount":
+        raise reading.source.error("the aspheres have odd powers (AsphericalOddCount); only even ones are read", line)
+
+
+def _variable(reading: Reading, words: list[str], line: int) -> None:
+    values = [word for word in words[1:] if word]
+    reading.variables[words[0].lower()] = (values[0] if values else "", line)
+    if len(set(values)) > 1:
+        text = "the file holds several positions (zoom or focus); the first column is read"
+        reading.notes.add("caution", text)
+
+
+def _value(reading: Reading, name: str) -> float | None:
+    """Return a variable's first value, None where there is none or it is infinite or undefined."""
+    word, line = reading.variables.get(name, ("", 0))
+    if not word or word.lower() in ("undefined", "infinity", "inf"):
+        return None
+    return number(word, name, reading.source, line)
+
+
+def _surface(reading: Reading, words: list[str], line: int) -> None:
+    if len(words) < 3:
+        raise reading.source.error("a row of lens data needs number, radius and distance; complete it", line)
+    surface = RawSurface(len(reading.raw.surfaces) + 1, line, words[0])
+    words = [*words, *[""] * 8]
+    kind = words[1].upper()
+    if kind not in PLANES:
+        radius = number(words[1], "radius", reading.source, line)
+        surface.curvature = 1 / radius if radius else 0.0
+    surface.thickness = _distance(reading, words[2], line)
+    surface.semi_diameter = number(words[4], "diameter", reading.source, line) / 2 if words[4] else inf
+    surface.glass = _glass(reading, words, surface, line)
+    if kind == "AS":
+        if reading.raw.stop:
+            raise reading.source.error(
+                f"surfaces {reading.raw.stop} and {surface.number} both are stops; keep one", line
+            )
+        reading.raw.stop = surface.number
+        surface.semi_diameter = (_value(reading, "aperture diameter") or 2 * surface.semi_diameter) / 2
+        surface.keeps_medium = surface.glass is None
+    reading.raw.surfaces.append(surface)
+    reading.rows[words[0]] = surface
+
+
+def _distance(reading: Reading, word: str, line: int) -> float:
+    if not re.match(r"[A-Za-z]", word):
+        return number(word, "distance", reading.source, line) if word else 0.0
+    value = _value(reading, word.lower())
+    if value is None:
+        raise reading.source.error(f'distance "{word[:20]}" has no value in [variable distances]; add it', line)
+    return value
+
+
+def _glass(reading: Reading, words: list[str], surface: RawSurface, line: int) -> RawGlass | None:
+    """Return the medium: the named glass where it is known exactly, else nd and vd of the same row."""
+    if not words[3]:
+        return None
+    nd = number(words[3], "nd", reading.source, line)
+    vd = number(words[5], "vd", reading.source, line) if words[5] else 0.0
+    stated = RawGlass(model=(nd, vd), line=line) if vd else RawGlass(index=nd, line=line)
+    if not words[6]:
+        return stated
+    named = _exactly(RawGlass(words[6], tuple(words[7].upper().split()), line=line), reading.sources)
+    if named is None:
+        text = f"glass {words[6][:30]} is not known by name; its nd {nd:g} and vd {vd:g} of the same row are taken"
+        reading.notes.add("read", text, surface.number, line)
+    return RawGlass(medium=named.medium, line=line) if named else stated
+
+
+def _exactly(glass: RawGlass, sources: GlassSources) -> Resolution | None:
+    try:
+        return resolve(glass, GlassSources(sources.catalogues, sources.private, accept_substitutes=False))
+    except GlassError:
+        return None
+
+
+def _asphere(reading: Reading, words: list[str], line: int) -> None:
+    surface = reading.rows.get(words[0])
+    if surface is None:
+        raise reading.source.error(f'aspherical data of "{words[0][:20]}", which is no row of the lens data', line)
+    values = [number(word, "aspherical value", reading.source, line) for word in words[1:] if word]
+    if len(values) < 2:
+        raise reading.source.error("a row of aspherical data needs number, radius, conic; complete it", line)
+    curvature = 1 / values[0] if values[0] else 0.0
+    if abs(curvature - surface.curvature) > 1e-6 * abs(surface.curvature):
+        raise reading.source.error(
+            f"{surface.name}: radius {values[0]:g} differs from the lens data's; correct one", line
+        )
+    surface.conic = values[1]
+    first = 2 if "asphericala2" in reading.constants else 4
+    surface.aspheric = dict(zip(range(first, 42, 2), values[2:], strict=False))
+
+
+def _finish(reading: Reading) -> None:
+    raw = reading.raw
+    raw.object_distance = _value(reading, "d0") or inf
+    if not abs(raw.object_distance) < FAR:
+        raw.object_distance = inf
+    f_number = _value(reading, "f-number")
+    if f_number:
+        raw.aperture, raw.aperture_line = ("f_number", f_number), reading.variables["f-number"][1]
+    angle = _value(reading, "angle of view")
+    if angle:
+        raw.field_line = reading.variables["angle of view"][1]
+        raw.fields = [(0.0, fraction * angle / 2) for fraction in FIELD_FRACTIONS]
+    if raw.surfaces and not raw.surfaces[-1].thickness:
+        back = _value(reading, "bf")
+        raw.surfaces[-1].thickness = back or 0.0
+        raw.sensor_stated = back is not None
+
+
+READERS = {
+    "[descriptive data]": _describe,
+    "[constants]": _constant,
+    "[variable distances]": _variable,
+    "[lens data]": _surface,
+    "[aspherical data]": _asphere,
+}

@@ -1,0 +1,1 @@
+"""Paraxial optics: first order, stop and pupils, Seidel sums, and the wavefront of the six coefficients."""

@@ -1,0 +1,239 @@
+"""Aperture stop, entrance and exit pupil, marginal and chief ray: the quasi-invariant features (qSIF)."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from p2sf.conventions import anywhere, vergence
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.paraxial.first_order import (
+    BasisRays,
+    axial_ray,
+    basis_rays,
+    check_depth,
+    chief_ray,
+    crossing,
+    settled_angle,
+)
+
+# Two rims whose cones differ by less than the rounding of a prescription's six digits are a tie, not a warning.
+RIM_TIE = 2e-6
+# Nearer to the entrance pupil than a few roundings of its distance, the cone of light is nothing but noise.
+OBJECT_IN_PUPIL = 8 * np.finfo(float).eps
+
+
+@dataclass(frozen=True)
+class Stop:
+    """The stop in use: surface (from 1), its rim in mm, who chose it, and which rim limits the axial cone.
+
+    ``surface``, ``semi_diameter`` and ``limiting_surface`` are numbers or arrays over (depth, wavelength).
+    """
+
+    surface: np.ndarray
+    semi_diameter: np.ndarray
+    limiting_surface: np.ndarray
+    chosen_by: str
+
+    @property
+    def warning(self) -> str | None:
+        """Return a sentence when another rim is narrower than the stop somewhere, else None."""
+        clash = np.asarray(self.limiting_surface != self.surface)
+        if not clash.any():
+            return None
+        rim = int(np.broadcast_to(self.limiting_surface, clash.shape)[clash].ravel()[0])
+        stop = int(np.broadcast_to(self.surface, clash.shape)[clash].ravel()[0])
+        return (
+            f"the rim of surface {rim} is narrower for this object than the stop on surface {stop}; "
+            "the stop is kept, choose stop auto to let the narrowest rim decide"
+        )
+
+
+@dataclass(frozen=True)
+class Pupils:
+    """Entrance and exit pupil, mm, positive to the right of the named vertex; infinite when telecentric."""
+
+    entrance_from_first: np.ndarray
+    entrance_diameter: np.ndarray
+    exit_from_last: np.ndarray
+    exit_diameter: np.ndarray
+
+
+@dataclass(frozen=True)
+class ParaxialRays:
+    """Marginal ray, and the chief ray of unit field slope, at every surface; surface axis first.
+
+    ``y``, ``chief_y``: heights (surfaces, …), mm. ``nu``, ``chief_nu``: reduced angles (surfaces + 1, …).
+    ``invariant``: the Lagrange invariant, n·(entrance-pupil radius) for a chief ray of unit slope.
+    """
+
+    y: np.ndarray
+    nu: np.ndarray
+    chief_y: np.ndarray
+    chief_nu: np.ndarray
+    index: np.ndarray
+    invariant: np.ndarray
+
+
+def find_stop(lens: Lens, depth_mm=np.inf, wavelength_um=None, mode: str = "file") -> Stop:
+    """Return the aperture stop per (depth, wavelength): the file's (``mode="file"``) or the limiting rim (``"auto"``).
+
+    The search follows Pieroni et al. 2015 (qSIF): of all rims, the one the axial ray meets at the
+    greatest fraction of its radius limits the cone. A tie keeps the file's stop.
+    """
+    wavelength = lens.reference_wavelength_um if wavelength_um is None else wavelength_um
+    rays = basis_rays(lens, wavelength, (depth_mm,))
+    named = lens.stop_surface or named_stop(lens)
+    rim = stop_rim(lens)
+    limiting = _limiting_surface(lens, rays, depth_mm, named, rim)
+    if mode == "file":
+        return Stop(np.asarray(named), np.asarray(rim), limiting, "file" if lens.stop_surface else "auto")
+    if mode != "auto":
+        raise GeometryError(f'stop "{mode}" is unknown; choose "file" or "auto"')
+    rims = rim_radii(lens, named, rim)
+    return Stop(limiting, rims[limiting - 1], limiting, "auto")
+
+
+def file_stop(lens: Lens) -> tuple[int, float]:
+    """Return the file's stop surface (from 1), or the limiting rim if it names none, and its rim in mm."""
+    return lens.stop_surface or named_stop(lens), stop_rim(lens)
+
+
+def rim_radii(lens: Lens, named: int, rim: float) -> np.ndarray:
+    """Return clear semi-diameters in mm, shape (surfaces,), with the stop's own rim in its place."""
+    rims = np.array([surface.semi_diameter for surface in lens.surfaces])
+    rims[named - 1] = rim
+    return rims
+
+
+def named_stop(lens: Lens) -> int:
+    """Return the stop surface of a lens that names none: the limiting rim at infinity and the reference wavelength."""
+    rims = np.array([surface.semi_diameter for surface in lens.surfaces])
+    if not np.isfinite(rims).any():
+        raise GeometryError("the lens names no stop surface and no semi-diameters; state one of them")
+    rays = basis_rays(lens, lens.reference_wavelength_um)
+    return int(np.argmax(np.abs(rays.a) / rims)) + 1
+
+
+def _limiting_surface(lens: Lens, rays: BasisRays, depth_mm, named: int, rim: float) -> np.ndarray:
+    height, _ = axial_ray(rays, depth_mm)
+    rims = rim_radii(lens, named, rim)
+    fraction = np.abs(height) / rims.reshape(-1, *[1] * (height.ndim - 1))
+    fraction[named - 1] *= 1 + RIM_TIE
+    return np.argmax(fraction, axis=0) + 1
+
+
+def stop_rim(lens: Lens) -> float:
+    """Return semi-diameter of the stop in mm, from whatever way the aperture is stated.
+
+    Raises GeometryError for an f-number of an afocal lens, or a pupil diameter when the pupil is at infinity.
+    """
+    if lens.aperture.kind == "stop_semi_diameter":
+        return lens.aperture.value
+    rays = basis_rays(lens, lens.reference_wavelength_um)
+    _, nu = chief_ray(rays, lens.stop_surface or named_stop(lens))
+    scale = abs(float(nu[0]))
+    if scale == 0:
+        raise GeometryError("the entrance pupil is at infinity, so it has no diameter; state the stop's semi-diameter")
+    if lens.aperture.kind == "entrance_pupil_diameter":
+        return lens.aperture.value / 2 * scale
+    power = abs(float(settled_angle(rays.power, rays.gap, rays.a, rays.c)))
+    if power == 0:
+        raise GeometryError("an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter")
+    return scale / (2 * power * lens.aperture.value)
+
+
+def pupils(lens: Lens, wavelength_um, stop: Stop | None = None) -> Pupils:
+    """Return entrance and exit pupil over (depth, wavelength) as the stop varies; mm."""
+    stop = stop or find_stop(lens)
+    rays = basis_rays(lens, wavelength_um, (stop.surface,))
+    y, nu = chief_ray(rays, stop.surface)
+    with np.errstate(divide="ignore"):
+        return Pupils(
+            entrance_from_first=crossing(rays.object_index, y[0], nu[0]),
+            entrance_diameter=2 * stop.semi_diameter / np.abs(nu[0]),
+            exit_from_last=crossing(rays.image_index, y[-1], nu[-1]),
+            exit_diameter=2 * stop.semi_diameter / np.abs(nu[-1]),
+        )
+
+
+def paraxial_rays(
+    lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None, field: Literal["slope", "height"] = "slope"
+) -> ParaxialRays:
+    """Return marginal and unit-field chief ray over broadcast (depth, wavelength).
+
+    ``field="slope"``: the chief ray has slope 1 at the entrance pupil; ``"height"``: it comes from an object
+    1 mm below the axis, which a telecentric object space needs. The marginal ray is positive at the entrance
+    pupil (at the stop, if that pupil is at infinity) and has no singular depth but the one that puts the
+    object into the entrance pupil. Raises GeometryError there, for a slope when the entrance pupil is at
+    infinity, and for a height when the object is.
+    """
+    check_depth(depth_mm)
+    surface, rim = (stop.surface, stop.semi_diameter) if stop else file_stop(lens)
+    rays = basis_rays(lens, wavelength_um, (depth_mm, surface))
+    centre_y, centre_nu = chief_ray(rays, surface)
+    n, a, close = rays.object_index, centre_nu[0], vergence(depth_mm)
+    reach = a - n * close * centre_y[0]
+    _check_field(field, a, close)
+    if anywhere(abs(reach) <= OBJECT_IN_PUPIL * abs(a)):
+        raise GeometryError("the object lies in the entrance pupil, so no cone of light is defined; move the object")
+    side = 1.0 - 2.0 * (a < 0)
+    y, nu = _combine(rays, side * rim / reach, n * close * side * rim / reach)
+    nu[-1] = settled_angle(rays.power, rays.gap, y, nu[1:])
+    scale = n / a if field == "slope" else n * close / reach
+    return ParaxialRays(y, nu, centre_y * scale, centre_nu * scale, rays.index, side * rim * scale)
+
+
+def _check_field(field: str, a, close) -> None:
+    """Raise GeometryError where a slope (entrance pupil at infinity) or a height (object there) says nothing."""
+    if field == "slope" and anywhere(a == 0):
+        raise GeometryError(
+            "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, "
+            'or in Python state the field as an object height, field="height"'
+        )
+    if field == "height" and np.any(close == 0):
+        raise GeometryError("an object at infinity has no height; give the field as an angle or an image height")
+
+
+def _combine(rays: BasisRays, y1, nu1):
+    """Return heights at, and reduced angles before and behind, every surface of the ray (y1, nu1)."""
+    angle = rays.c * y1 + rays.d * nu1
+    nu = np.empty((len(angle) + 1, *angle.shape[1:]))
+    nu[0], nu[1:] = nu1, angle
+    return rays.a * y1 + rays.b * nu1, nu
+
+
+def f_number(lens: Lens, wavelength_um, stop: Stop | None = None) -> np.ndarray:
+    """Return effective focal length over entrance-pupil diameter; infinite for an afocal lens."""
+    rays = basis_rays(lens, wavelength_um)
+    power = np.abs(settled_angle(rays.power, rays.gap, rays.a, rays.c))
+    with np.errstate(divide="ignore"):
+        return 1 / (power * pupils(lens, wavelength_um, stop).entrance_diameter)
+
+
+def working_f_number(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None) -> np.ndarray:
+    """Return 1/(2 NA) at this depth, NA = n'|u'|; infinite for an image at infinity."""
+    with np.errstate(divide="ignore"):
+        return 0.5 / numerical_aperture(lens, depth_mm, wavelength_um, stop)
+
+
+def numerical_aperture(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None) -> np.ndarray:
+    """Return paraxial image-space numerical aperture n'|u'| at this depth."""
+    return np.abs(paraxial_rays(lens, depth_mm, wavelength_um, stop).nu[-1])
+
+
+def field_from_object_height(lens: Lens, depth_mm, wavelength_um, height_mm, stop: Stop | None = None):
+    """Return field slope of an object ``height_mm`` below the axis; GeometryError for an object at infinity."""
+    if np.any(np.isinf(depth_mm)):
+        raise GeometryError("an object at infinity has no height; give the field as an angle or an image height")
+    return height_mm / (depth_mm + pupils(lens, wavelength_um, stop).entrance_from_first)
+
+
+def field_from_image_height(lens: Lens, wavelength_um, height_mm, stop: Stop | None = None):
+    """Return field slope whose paraxial chief ray meets the sensor at ``height_mm``."""
+    rays = paraxial_rays(lens, np.inf, wavelength_um, stop)
+    unit = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * lens.sensor_mm
+    if np.any(unit == 0):
+        raise GeometryError("every chief ray meets the sensor on the axis; give the field as an angle")
+    return height_mm / unit

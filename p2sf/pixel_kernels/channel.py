@@ -1,0 +1,109 @@
+"""The kernel of one spectral channel anywhere on the sensor: fits on the radial line, turned and added in colour."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from math import atan2, hypot
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM, vergence
+from p2sf.errors import P2SFError
+from p2sf.pixel_kernels.frequency_grid import PupilMap, pupil_map, without
+from p2sf.pixel_kernels.pixels import Window, half_width, pixel_kernel, samples_across
+from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.pixel_kernels.sensor_points import View
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How kernels are made: rung, its numbers (None: as the residual asks), samples per λ/(2NA), margin of the window.
+
+    ``margin`` is a share of the window's half width added on either side before the transform and cut off after it;
+    ``drop_waves`` how much RMS phase the left-out terms may have together.
+    """
+
+    method: str = "fitted"
+    numbers: int | None = None
+    fineness: float = 1.0
+    margin: float = 0.0
+    drop_waves: float = 0.0
+
+
+@dataclass(frozen=True)
+class Colour:
+    """Wavelengths in µm and the share of a channel's light that each one carries."""
+
+    wavelengths_um: tuple[float, ...]
+    weights: tuple[float, ...]
+
+
+@dataclass(eq=False)
+class Kernels:
+    """Kernels of one view, channel and pixel pitch; pupils are kept per height, since a ring shares them.
+
+    ``recipe_at(height_mm) -> Recipe`` lets the rung fall where a cheaper one holds; ``tables`` by wavelength, where
+    there are any, spare a fit for every height.
+    """
+
+    seen: View
+    colour: Colour
+    pixel_um: float
+    recipe_at: Callable[[float], Recipe]
+    half: int | None = None
+    tables: Mapping[float, PupilTable] = field(default_factory=dict)
+    kept: dict = field(default_factory=dict)
+
+    def at(self, x_mm: float, y_mm: float, half: int | None = None) -> np.ndarray:
+        """Return the kernel of the point that lands at (x, y up), (size, size) float32 of unit sum, row 0 the top."""
+        height, angle = hypot(x_mm, y_mm), atan2(x_mm, y_mm)
+        rays = self.pupils(height)
+        half = half or self.half or self.half_width(height)
+        total = 0.0
+        for weight, (pupil, shift_mm) in zip(self.colour.weights, rays, strict=True):
+            shift = shift_mm * UM_PER_MM * np.sin(angle), shift_mm * UM_PER_MM * np.cos(angle)
+            total = total + np.float32(weight) * self._one(pupil, angle, half, shift, self.recipe_at(height))
+        return total / total.sum(dtype=float).astype(np.float32)
+
+    def _one(self, pupil: PupilMap, angle, half: int, shift, recipe: Recipe) -> np.ndarray:
+        samples = samples_across(pupil, self.pixel_um, recipe.fineness)
+        # A pencil wider than the window must not come in again on the other side.
+        need = half_width(pupil, self.pixel_um, hypot(*shift))
+        wide = max(half, need) + int(np.ceil(recipe.margin * half))
+        kernel = pixel_kernel(pupil, angle, Window(wide, self.pixel_um, samples), shift)
+        cut = wide - half
+        return kernel[cut : kernel.shape[0] - cut, cut : kernel.shape[1] - cut] if cut else kernel
+
+    def pupils(self, height_mm: float) -> list[tuple[PupilMap, float]]:
+        """Return (pupil, lateral colour in mm) of every wavelength at one height."""
+        key = round(height_mm, 9)
+        if key not in self.kept:
+            recipe = self.recipe_at(height_mm)
+            self.kept[key] = [self._pupil(height_mm, w, recipe) for w in self.colour.wavelengths_um]
+        return self.kept[key]
+
+    def _pupil(self, height_mm, wavelength_um, recipe: Recipe) -> tuple[PupilMap, float]:
+        table = self.tables.get(wavelength_um)
+        found = table and table.at(height_mm, float(vergence(self.seen.depth_mm)))
+        pupil, shift = found or own_pupil(self.seen, height_mm, wavelength_um, recipe)
+        return (without(pupil, recipe.drop_waves) if recipe.drop_waves else pupil), shift
+
+    def half_width(self, height_mm: float) -> int:
+        """Return how many pixels on either side hold the whole kernel at this height."""
+        return max(half_width(p, self.pixel_um, abs(s) * UM_PER_MM) for p, s in self.pupils(height_mm))
+
+    def light(self, height_mm: float) -> float:
+        """Return the pupil's projected solid angle at this height, weighted over the channel."""
+        recipe = self.recipe_at(height_mm)
+        own = (own_pupil(self.seen, height_mm, wave, recipe)[0].light for wave in self.colour.wavelengths_um)
+        return float(
+            sum(w * light for w, light in zip(self.colour.weights, own, strict=True)) / sum(self.colour.weights)
+        )
+
+
+def own_pupil(seen: View, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[PupilMap, float]:
+    """Return the pupil of one height by its own rays, and its lateral colour in mm; P2SFError says where it failed."""
+    try:
+        pupil = pupil_map(seen.lens, seen.source(height_mm, wavelength_um), recipe.method, recipe.numbers)
+    except P2SFError as error:
+        raise type(error)(f"{height_mm:.4g} mm from the axis of the sensor: {error}") from error
+    return pupil, seen.shift_mm(height_mm, wavelength_um)

@@ -1,0 +1,201 @@
+"""A pencil over its own spatial frequencies, which a uniform grid samples and an FFT sums.
+
+Form 2 of DESIGN.md section 2: phase and entrance-pupil point as polynomials over f = n'K/λ, the image of the unit
+circle as edge and |∂(ξ, η)/∂f| as amplitude (entrance-pupil areas weigh equally, as in the reference). The
+polynomials are Zernike's, so that a field in another direction is the same pupil with turned coefficients:
+rotation costs no interpolation.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.seidel import coefficients
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.zernike import basis, basis_by_powers, gradient, powers, terms
+from p2sf.raytrace.fit import FittedPencil, fit
+
+ORDERS = 6, 18  # the least and the greatest
+FAR_OFF = 30.0  # times what is allowed: then the next order but one is tried, as one alone seldom helps enough
+NODES = 16, 44
+REACH_NODES = 14, 36
+STRAY = 2e-3  # of the light may land outside the window: next to nothing in L2, and rims of fast lenses throw far
+PHASE_RESIDUAL = 2e-4  # waves RMS: 2e-3 of relative L2 in the finest detail, less in a pixel
+POINT_RESIDUAL = 5e-4  # of the pupil radius
+
+
+@dataclass(frozen=True, eq=False)
+class PupilMap:
+    """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
+
+    ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``light`` the pupil's area in
+    (cycles/µm)² times λ², proportional to the irradiance of an even object; ``residual_waves`` RMS phase error left.
+    """
+
+    order: int
+    radius: float
+    phase: np.ndarray
+    eta: np.ndarray
+    xi: np.ndarray
+    reach_um: float
+    light: float
+    residual_waves: float
+    method: str
+    numbers: int
+
+
+def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None) -> PupilMap:
+    """Return the pencil of one source by the rung ``method``, "seidel" or "fitted".
+
+    Raises GeometryError where rays do not arrive, or no polynomial follows them.
+    """
+    if method == "seidel":
+        return _from_seidel(lens, source)
+    return _from_fit(fit(lens, source, numbers), source)
+
+
+def _from_seidel(lens: Lens, source: Source) -> PupilMap:
+    six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+    scale = -float(six.reduced_slope) / source.wavelength_um
+    if scale == 0:
+        raise GeometryError("the image lies at infinity, so the sensor sees no blur of finite size; move the object")
+    nodes, sign = disc_nodes(*NODES), np.sign(scale)
+    phase = wavefront(six, nodes.xi, nodes.eta)
+    columns = phase, nodes.eta, nodes.xi
+    found = _coefficients(*basis_by_powers(4, sign * nodes.xi, sign * nodes.eta), columns)
+    reach = reach_of(4, found[0], abs(scale))
+    light = np.pi * (abs(scale) * source.wavelength_um) ** 2
+    return PupilMap(4, abs(scale), *found, reach, float(light), 0.0, "seidel", 6)
+
+
+def _from_fit(found: FittedPencil, source: Source) -> PupilMap:
+    nodes = disc_nodes(*NODES)
+    even, odd, slopes, slopes_odd = _at_nodes(found.level.wave_order, found.level.map_order)
+    phase, fx, fy = found.on(even, odd)
+    centre = (fy.max() + fy.min()) / 2
+    radius = float(np.hypot(fx, fy - centre).max()) * 1.02
+    u, v = fx / radius, (fy - centre) / radius
+    order = ORDERS[0]
+    while True:
+        even_here, odd_here = basis_by_powers(order, u, v)
+        columns = _coefficients(even_here, odd_here, (phase, nodes.eta, nodes.xi))
+        waves, miss = columns[0] @ even_here - phase, columns[1] @ even_here - nodes.eta
+        residual = float(np.sqrt(nodes.weight @ waves**2))
+        excess = max(residual / PHASE_RESIDUAL, float(np.abs(miss).max()) / POINT_RESIDUAL)
+        if excess < 1 or order == ORDERS[-1]:
+            break
+        order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
+    area = (found.fx @ slopes_odd[0]) * (found.fy @ slopes[1]) - (found.fx @ slopes_odd[1]) * (found.fy @ slopes[0])
+    light = float(nodes.weight @ np.abs(area)) * np.pi * source.wavelength_um**2
+    left = float(np.hypot(residual, found.residual_waves))
+    reach = reach_of(order, columns[0], radius)
+    return PupilMap(order, radius, *columns, reach, light, left, "fitted", found.numbers)
+
+
+@lru_cache(maxsize=8)
+def _at_nodes(wave_order: int, map_order: int):
+    """Return even and odd terms, and the map terms' gradients, at the nodes that never change."""
+    nodes = disc_nodes(*NODES)
+    even = basis(max(wave_order, map_order), nodes.xi, nodes.eta)
+    odd = basis(map_order, nodes.xi, nodes.eta, odd=True)
+    slopes = (gradient(map_order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
+    return even, odd, *slopes
+
+
+def _coefficients(even: np.ndarray, odd: np.ndarray, columns):
+    """Return least-squares coefficients of phase and η over the even terms, and of ξ over the odd ones."""
+    phase, eta, xi = columns
+    both = _solve(even, np.stack([phase, eta], axis=1))
+    return both[:, 0], both[:, 1], _solve(odd, xi)
+
+
+def _solve(rows: np.ndarray, values) -> np.ndarray:
+    """Return least squares by the normal equations: nearly orthogonal terms lose no digits that matter."""
+    normal = rows @ rows.T
+    normal[np.diag_indices_from(normal)] *= 1 + 1e-12
+    return np.linalg.solve(normal, rows @ values)
+
+
+def reach_of(order: int, phase: np.ndarray, radius: float) -> float:
+    """Return the radius in µm that holds all light but a stray part: rays land at −∂w/∂f (Hamilton)."""
+    across, along = _slopes(order)
+    distance = np.hypot(phase @ across, phase @ along) / radius
+    order_of = np.argsort(distance)
+    inside = np.cumsum(disc_nodes(*REACH_NODES).weight[order_of]) <= 1 - STRAY
+    return float(distance[order_of][inside].max(initial=0.0))
+
+
+@lru_cache(maxsize=16)
+def _slopes(order: int):
+    nodes = disc_nodes(*REACH_NODES)
+    return gradient(order, nodes.xi, nodes.eta)
+
+
+def dropped_terms(pupil: PupilMap, waves: float) -> list[tuple[int, int, float]]:
+    """Return (n, m, RMS waves) of the weakest phase terms that together stay below ``waves`` RMS, weakest first.
+
+    The terms are orthonormal over the disc, so their squares add. Tilt, which moves the picture, is never one of them.
+    """
+    named = [(abs(c), n, m) for c, (n, m) in zip(pupil.phase, terms(pupil.order), strict=True) if n > 1]
+    out, total = [], 0.0
+    for size, n, m in sorted(named):
+        total += size * size
+        if total > waves * waves:
+            break
+        out.append((n, m, float(size)))
+    return out
+
+
+def without(pupil: PupilMap, waves: float) -> PupilMap:
+    """Return the pupil without the terms of `dropped_terms`."""
+    gone = {(n, m) for n, m, _ in dropped_terms(pupil, waves)}
+    if not gone:
+        return pupil
+    keep = np.array([name not in gone for name in terms(pupil.order)])
+    return replace(pupil, phase=np.where(keep, pupil.phase, 0.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Turned:
+    """A pupil map as plain powers Σ c[i, j]·uⁱ·vʲ, turned to the direction of its field."""
+
+    radius: float
+    phase: np.ndarray
+    eta: np.ndarray
+    xi: np.ndarray
+
+
+def turned(pupil: PupilMap, angle: float) -> Turned:
+    """Return the pupil of a field ``angle`` radians from +y towards +x: θ becomes θ − angle in every term."""
+    even, odd = (np.array([m for _, m in terms(pupil.order, flag)]) for flag in (False, True))
+    keep = even > 0  # the odd terms are the even ones without m = 0, in the same order
+    cosine, sine = np.cos(even * angle), np.sin(even * angle)[keep]
+    cosine_odd, sine_odd = np.cos(odd * angle), np.sin(odd * angle)
+    from_xi = np.zeros(even.size)
+    from_xi[keep] = -pupil.xi * sine_odd
+    phase = _plain(pupil.order, pupil.phase * cosine, pupil.phase[keep] * sine)
+    eta = _plain(pupil.order, pupil.eta * cosine, pupil.eta[keep] * sine)
+    return Turned(pupil.radius, phase, eta, _plain(pupil.order, from_xi, pupil.xi * cosine_odd))
+
+
+def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:
+    """Return coefficients c[i, j] of uⁱvʲ, (order + 1, order + 1)."""
+    forms = _all_powers(order)
+    return (even @ forms[0] + odd @ forms[1]).reshape(order + 1, order + 1)
+
+
+@lru_cache(maxsize=16)
+def _all_powers(order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return every even and every odd term as flat rows of c[i, j]."""
+    out = []
+    for odd in (False, True):
+        form = powers(order, odd)
+        full = np.zeros((len(form), order + 1, order + 1))
+        full[:, (1 if odd else 0) :: 2] = form[:, : len(range(1 if odd else 0, order + 1, 2))]
+        out.append(full.reshape(len(form), -1))
+    return out[0], out[1]

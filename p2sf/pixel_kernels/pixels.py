@@ -1,0 +1,155 @@
+"""From a pupil to the light that each pixel of a small window receives from one point."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import ceil
+
+import numpy as np
+
+from p2sf.errors import SamplingError
+from p2sf.pixel_kernels.frequency_grid import PupilMap, Turned, turned
+
+TAIL = 8.0  # of λ/NA: what of diffraction's wings is kept beyond where rays land
+LARGEST_WINDOW = 4096
+BLOCK = 32768  # samples of the pupil that are worked on at once
+
+
+@dataclass(frozen=True)
+class Window:
+    """Pixels from the centre to the edge, their pitch in µm, and PSF samples across each pixel."""
+
+    half: int
+    pixel_um: float
+    samples: int
+
+    @property
+    def size(self) -> int:
+        """Return the odd number of pixels along each side."""
+        return 2 * self.half + 1
+
+
+def half_width(pupil: PupilMap, pixel_um: float, shift_um: float = 0.0) -> int:
+    """Return how many pixels on either side of the centre hold the rays and the nearest rings around them."""
+    return max(1, ceil((pupil.reach_um + abs(shift_um) + TAIL / pupil.radius) / pixel_um - 0.5))
+
+
+def samples_across(pupil: PupilMap, pixel_um: float, finest: float = 1.0) -> int:
+    """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 every fringe.
+
+    At least three, so that a pixel's edge falls near enough to where it is.
+    """
+    return max(3, ceil(2 * pupil.radius * pixel_um * finest))
+
+
+def pixel_kernel(pupil: PupilMap, angle: float, window: Window, shift_um=(0.0, 0.0)) -> np.ndarray:
+    """Return the share of a point's light per pixel, (size, size) float32 of unit sum, as a picture shows it.
+
+    The field lies ``angle`` radians from +y towards +x; row 0 is the top. ``shift_um``: where the point's chief ray
+    lands, x and y (up) from the centre of the middle pixel. Raises SamplingError for a window too large.
+    """
+    import scipy.fft
+
+    count, pitch = window.size * window.samples, window.pixel_um / window.samples
+    side = scipy.fft.next_fast_len(count)
+    if side > LARGEST_WINDOW:
+        raise SamplingError(
+            f"a blur of {window.size} pixels with {window.samples} samples each needs a {side}² transform; "
+            "bring the depths nearer to focus, stop down, or ask for larger pixels"
+        )
+    # Sample 0 of the transform is the window's lowest corner, and samples lie centrally in their pixel.
+    origin = (-(count - 1) / 2 * pitch - shift for shift in shift_um)
+    field = _field(turned(pupil, angle), side, 1 / (side * pitch), tuple(origin))
+    plane = scipy.fft.ifft2(field, overwrite_x=True)[:count, :count]
+    light = plane.real**2 + plane.imag**2
+    binned = _binned(light, window.size, window.samples)
+    return np.ascontiguousarray(binned[::-1]) / binned.sum(dtype=float).astype(np.float32)
+
+
+def _binned(light: np.ndarray, size: int, samples: int) -> np.ndarray:
+    """Return the light of every pixel from ``samples``² samples in it, (size, size), none of it negative."""
+    lines = _edged(light.reshape(size, samples, -1))
+    return np.maximum(_edged(np.ascontiguousarray(lines.T).reshape(size, samples, -1)).T, 0)
+
+
+def _edged(light: np.ndarray) -> np.ndarray:
+    """Return sums over samples in the middle of equal steps, (pixels, samples, columns) → (pixels, columns).
+
+    The midpoint rule misses h²/24 of the slope's change from edge to edge (Abramowitz & Stegun 1964, 25.4.2 over half
+    steps); the slope at an edge is that of the samples on either side, so pixels exchange it and no light is lost.
+    """
+    sums = light.sum(1)
+    passed = (light[1:, 0] - light[:-1, -1]) / np.float32(24)
+    sums[:-1] += passed
+    sums[1:] -= passed
+    return sums
+
+
+def _field(pupil: Turned, side: int, step: float, origin) -> np.ndarray:
+    """Return the pupil's complex amplitude on ``side``² frequencies, complex64, as an inverse FFT wants them.
+
+    A few rows at a time: what one step leaves is still in the processor's cache for the next.
+    """
+    half = int(pupil.radius / step) + 1
+    phase = pupil.phase.copy()
+    phase[1, 0] += pupil.radius * origin[0]
+    phase[0, 1] += pupil.radius * origin[1]
+    cell = step / pupil.radius
+    axis = np.arange(-half, half + 1) * cell
+    table = np.vander(axis, len(phase), increasing=True)
+    slopes = np.zeros_like(table)
+    slopes[:, 1:] = table[:, :-1] * np.arange(1, len(phase))
+    across, maps = phase.T @ table.T, _maps_across(pupil, table, slopes)
+    single, steep = table.astype(np.float32), slopes.astype(np.float32)
+    field = np.empty((axis.size, axis.size), np.complex64)
+    rows_at_once = max(8, BLOCK // axis.size)
+    for start in range(0, axis.size, rows_at_once):
+        rows = slice(start, start + rows_at_once)
+        turns = table[rows] @ across
+        turns -= np.rint(turns)
+        turns = (2 * np.pi * turns).astype(np.float32)
+        (xi, xi_u), (eta, eta_u) = single[rows] @ maps
+        xi_v, eta_v = steep[rows] @ maps[:, 0]
+        amplitude = _amplitude((xi, eta), np.abs(xi_u * eta_v - xi_v * eta_u), axis, rows)
+        np.multiply(amplitude, np.cos(turns), out=field[rows].real)
+        np.multiply(amplitude, np.sin(turns), out=field[rows].imag)
+    return _wrapped(field, half, side)
+
+
+def _maps_across(pupil: Turned, table: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Return (ξ, η) × (value, slope by u) summed over the powers of u, (2, 2, powers of v, columns) float32."""
+    forms = np.stack([pupil.xi.T, pupil.eta.T])[:, None]
+    return (forms @ np.stack([table.T, slopes.T])).astype(np.float32)
+
+
+def _amplitude(point, area: np.ndarray, axis: np.ndarray, rows: slice) -> np.ndarray:
+    """Return ``area``, |∂(ξ, η)/∂u|, times each cell's share inside the pupil, float32, for some rows.
+
+    Across the rim the share falls linearly over one cell, whose width in the pupil is the root of its area there.
+    """
+    (xi, eta), cell = point, axis[1] - axis[0]
+    inside = (1 - np.sqrt(xi * xi + eta * eta)) / (np.sqrt(area) * np.float32(cell) + np.float32(1e-30)) + 0.5
+    inside *= axis[rows, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials mean nothing
+    np.clip(inside, 0, 1, out=inside)
+    return np.multiply(area, inside, out=area)
+
+
+def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:
+    """Return the centred grid with frequency 0 at index 0, folded onto itself where it is wider than ``side``."""
+    plane = np.zeros((side, side), field.dtype)
+    pieces = _pieces(half, side)
+    for to_row, from_row in pieces:
+        for to_column, from_column in pieces:
+            plane[to_row, to_column] += field[from_row, from_column]
+    return plane
+
+
+@lru_cache(maxsize=64)
+def _pieces(half: int, side: int):
+    """Return (place in the plane, part of the centred axis) slices that cover −half…half modulo ``side``."""
+    out, start = [], -half
+    while start <= half:
+        place = start % side
+        length = min(side - place, half + 1 - start)
+        out.append((slice(place, place + length), slice(start + half, start + half + length)))
+        start += length
+    return tuple(out)

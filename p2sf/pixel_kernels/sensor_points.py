@@ -1,0 +1,95 @@
+"""Where the points of one object plane land: from sensor height to field, distortion, illumination."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.conventions import vergence
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import find_stop, pupils
+from p2sf.paraxial.seidel import coefficients
+from p2sf.raytrace.pencil import pencil
+
+CHIEF_RAYS = 257
+REACHES = (1.35, 1.15, 1.04, 1.0, 0.9, 0.75)  # of the paraxial slope: how far out chief rays are tried
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """One object plane seen through one lens: chief rays from the axis to the sensor's corner.
+
+    ``heights_mm``: where real chief rays of ``slopes`` land, increasing from 0; ``scale_mm``: paraxial height per
+    unit slope, negative where the image is upright. At the reference wavelength.
+    """
+
+    lens: Lens
+    depth_mm: float
+    wavelength_um: float
+    slopes: np.ndarray
+    heights_mm: np.ndarray
+    scale_mm: float
+
+    def slope(self, height_mm):
+        """Return field slopes whose chief rays land at radial heights, mm."""
+        return np.interp(height_mm, self.heights_mm, self.slopes)
+
+    def ideal_height(self, height_mm):
+        """Return the undistorted (paraxial) height of what lands at these heights, mm."""
+        return self.slope(height_mm) * self.scale_mm
+
+    def source(self, height_mm: float, wavelength_um: float) -> Source:
+        """Return the object point that lands at a height in the reference colour, seen in another one."""
+        slope = float(self.slope(height_mm)) * self._slope_ratio(wavelength_um)
+        return Source(self.depth_mm, slope, float(wavelength_um))
+
+    def shift_mm(self, height_mm: float, wavelength_um: float) -> float:
+        """Return lateral colour: how much farther out another wavelength lands, mm."""
+        if wavelength_um == self.wavelength_um:
+            return 0.0
+        return float(chief_heights(self.lens, self.source(height_mm, wavelength_um))) - float(height_mm)
+
+    def _slope_ratio(self, wavelength_um: float) -> float:
+        """Return how the chief ray's slope to one object point changes as the entrance pupil moves with colour."""
+        close = float(vergence(self.depth_mm))
+        if close == 0 or wavelength_um == self.wavelength_um:
+            return 1.0
+        here, there = (_entrance(self.lens, w) for w in (self.wavelength_um, wavelength_um))
+        return (1 + close * here) / (1 + close * there)
+
+
+def view(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> View:
+    """Return the view out to radial ``height_mm`` on the sensor; GeometryError where no chief ray lands that far."""
+    six = coefficients(lens, depth_mm, 1.0, wavelength_um)
+    scale = float(six.image_height)
+    if scale == 0 or not np.isfinite(scale):
+        raise GeometryError("every chief ray meets the sensor on the axis, so it holds no picture; move the stop")
+    for reach in REACHES:
+        slopes = np.linspace(0, reach * height_mm / scale, CHIEF_RAYS)
+        try:
+            heights = chief_heights(lens, Source(depth_mm, slopes, wavelength_um))
+        except GeometryError:
+            continue
+        if heights[-1] >= height_mm and (np.diff(heights) > 0).all():
+            return View(lens, float(depth_mm), float(wavelength_um), slopes, heights, scale)
+    depth = "∞" if np.isinf(depth_mm) else f"{depth_mm:g} mm"
+    raise GeometryError(
+        f"no chief ray of an object at {depth} lands {height_mm:.4g} mm from the axis, where the sensor's "
+        "corner is; take a smaller sensor"
+    )
+
+
+def chief_heights(lens: Lens, source: Source) -> np.ndarray:
+    """Return where real chief rays land, mm from the axis along the field's direction, shape of the source."""
+    return pencil(lens, source, [0.0], [0.0]).chief_y[..., 0]
+
+
+def distortion_at(seen: View, height_mm) -> np.ndarray:
+    """Return (real − paraxial)/paraxial height of what lands at these heights; 0 on the axis."""
+    ideal = np.asarray(seen.ideal_height(height_mm))
+    return np.where(ideal > 0, np.asarray(height_mm) / np.where(ideal > 0, ideal, 1) - 1, 0.0)
+
+
+def _entrance(lens: Lens, wavelength_um: float) -> float:
+    return float(pupils(lens, wavelength_um, find_stop(lens)).entrance_from_first)

@@ -1,0 +1,1 @@
+"""The point spread function: one module a method, the choice between them, and what is read off the result."""

@@ -1,0 +1,229 @@
+"""The `huygens` rung, the reference: every traced ray a plane wavelet at the sensor, summed directly.
+
+The nodes are Gauss–Legendre radii times uniform directions, so that there is no edge to converge; their
+count rises until two successive pictures agree. Clear apertures (`vignetting`) end each radius at the rim it meets.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.conventions import centred_axis
+from p2sf.errors import Cancelled, GeometryError, SamplingError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.psf.plane_waves import Made, counts_for, psf_from_intensity, pupil_amplitude, resolved
+from p2sf.psf.seidel import Psf
+from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
+from p2sf.pupil.transform import sum_plane_waves
+from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf.raytrace.ray_field import RayData, ray_data, steepness
+from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, whole_nodes
+
+BLOCK = 8192  # rays at a time: few enough for a second-level cache, and an answer to cancel every few milliseconds
+GROWTH = 1.3
+MOST_NODES = 2**22
+PROBE = 12, 36
+LIVE = 72, 180  # as many rays as a 128² grid has in the half disc
+
+
+@dataclass(frozen=True)
+class Filling:
+    """How the pupil is filled: ``aim`` "paraxial" or "real" (`raytrace`), ``clip`` by the clear semi-diameters."""
+
+    aim: str = "paraxial"
+    clip: bool = False
+
+
+PLAIN = Filling()
+
+
+@dataclass(frozen=True)
+class Field:
+    """A summed field (y, x) in units of the unaberrated peak, ∫|field|²dx in µm² (None if unresolved), rays lost."""
+
+    values: np.ndarray
+    blur_um2: float | None
+    lost: int
+
+
+def huygens_psf(
+    lens: Lens,
+    source: Source,
+    pixels: int,
+    pixel_um: float,
+    tolerance: float | None = SETTLED_TOLERANCE,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    filling: Filling = PLAIN,
+) -> Psf:
+    """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
+
+    The agreement reached (relative L2 in the window) is reported as the PSF's ``tolerance``, also where more nodes than
+    are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as a
+    128² grid has or as the blur needs, for a live picture that promises nothing. ``progress`` is told the fraction
+    done; ``cancelled`` is asked between blocks, and stops the work with `Cancelled`. Raises GeometryError where the
+    chief ray, or every ray, fails. Where rays fail without ``clip`` the pupil ends where they begin to.
+    """
+    started = perf_counter()
+    window = pixels, pixel_um
+    if tolerance is None:
+        found, counts = _once(lens, source, window, filling, _Watch(None, cancelled, live=True))
+        reached, rays = None, _nodes(counts)
+    else:
+        watch = _Watch(progress, cancelled)
+        found, counts, reached, rays = _settle(lens, source, window, filling, tolerance, watch)
+    words = _words(counts, found, filling, reached, tolerance)
+    made = Made("huygens", 0, rays, words, started, reached)
+    intensity = found.values.real**2 + found.values.imag**2
+    return psf_from_intensity(intensity, pixel_um, source.wavelength_um, found.blur_um2, made)
+
+
+def _once(lens, source, window, filling, watch: "_Watch"):
+    """Return the field of one pass in float32: as many rays as a 128² grid, more where the blur needs more."""
+    needed = first_counts(lens, source, window, filling)
+    counts = LIVE if needed[0] <= LIVE[0] and needed[1] <= LIVE[1] else needed
+    return huygens_field(lens, source, counts, window, filling, watch), counts
+
+
+def _settle(lens, source, window, filling, tolerance, watch: "_Watch"):
+    """Return (field, counts, agreement, rays traced) once two successive node counts agree."""
+    counts = first_counts(lens, source, window, filling)
+    watch.expect(_nodes(counts) + _nodes(_raised(counts)))
+    before, rays = huygens_field(lens, source, counts, window, filling, watch), _nodes(counts)
+    while True:
+        counts = _raised(counts)
+        found = huygens_field(lens, source, counts, window, filling, watch)
+        rays += _nodes(counts)
+        reached = _distance(before.values, found.values)
+        if reached <= tolerance or _nodes(_raised(counts)) > MOST_NODES:
+            watch.done()
+            return found, counts, reached, rays
+        before = found
+        watch.expect(_nodes(_raised(counts)))
+
+
+def _raised(counts):
+    return tuple(2 * round(GROWTH * count / 2) for count in counts)
+
+
+def _nodes(counts) -> int:
+    return counts[0] * counts[1] // 2
+
+
+def _distance(before, after) -> float:
+    """Return relative L2 distance of two intensities."""
+    one, two = np.abs(before) ** 2, np.abs(after) ** 2
+    return float(np.linalg.norm(one - two) / np.linalg.norm(two))
+
+
+def first_counts(lens, source, window, filling) -> tuple[int, int]:
+    """Return node counts that should carry the phase, from a coarse pencil. Raises SamplingError for too many."""
+    xi, eta = _probe()
+    rays = pencil(lens, source, xi, eta, filling.aim)
+    if not rays.passed.any():
+        raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
+    counts = counts_for(steepness(ray_data(rays), xi, eta), *window)
+    if _nodes(counts) > MOST_NODES:
+        raise SamplingError(
+            f"this blur over {window[0]} pixels of {window[1]:g} µm needs {_nodes(counts)} rays; bring the sensor "
+            "nearer to the image, stop down, or show a smaller window"
+        )
+    return tuple(2 * -(-count // 2) for count in counts)
+
+
+@lru_cache(maxsize=1)
+def _probe():
+    """Return pupil points (ξ, η) of the coarse pencil; the rim, where phases are steepest, is among them."""
+    nodes, angle = disc_nodes(*PROBE), np.linspace(0, np.pi, PROBE[1])
+    return np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
+
+
+def huygens_field(lens, source, counts, window, filling: Filling, watch: "_Watch") -> Field:
+    """Return the field of one set of nodes; the sum separates into matrix products over the grid."""
+    nodes = _nodes_of(lens, source, counts, filling)
+    blur = None if watch.live else pencil_blur(lens, source, nodes, filling.aim)
+    axis, dtype = centred_axis(*window), np.float32 if watch.live else np.float64
+    total, lost, spread = 0.0, 0, 0.0
+    for first in range(0, nodes.xi.size, BLOCK):
+        part = slice(first, first + BLOCK)
+        data, weight = _block(lens, source, nodes, part, filling.aim)
+        lost += int((weight == 0).sum())
+        spread = max(spread, float(np.hypot(data.fx, data.fy).max(initial=0)))
+        amplitude = pupil_amplitude(weight, data.phase, dtype)
+        fx, fy = data.fx.astype(dtype), data.fy.astype(dtype)
+        total = total + sum_plane_waves(amplitude, fx, fy, axis, axis)
+        watch.advance(weight.size)
+    return Field(total, blur if resolved(spread, window[1]) else None, lost)
+
+
+def _nodes_of(lens, source, counts, filling: Filling) -> ClearNodes:
+    """Return nodes that end where rays end: at the pupil's rim, at clear apertures, or where a surface is missed."""
+    if filling.clip or not all_reach(lens, source, filling.aim):
+        return clear_nodes(lens, source, counts, filling.aim, filling.clip)
+    return whole_nodes(counts)
+
+
+@lru_cache(maxsize=16)
+def all_reach(lens: Lens, source: Source, aim: str = "paraxial") -> bool:
+    """Return whether rays all over the pupil, its rim included, reach the sensor unclipped."""
+    xi, eta = hexapolar(PROBE[0])
+    return bool(pencil(lens, source, xi, eta, aim).passed.all())
+
+
+def _block(lens, source, nodes: ClearNodes, part: slice, aim) -> tuple[RayData, np.ndarray]:
+    rays = pencil(lens, source, nodes.xi[part], nodes.eta[part], aim)
+    data, weight = ray_data(rays), nodes.weight[part]
+    if rays.passed.all():
+        return data, weight
+    columns = (np.where(rays.passed, column, 0.0) for column in vars(data).values())
+    return RayData(*columns), np.where(rays.passed, weight, 0.0)
+
+
+def plain_sum(data: RayData, weight, x_um, y_um) -> np.ndarray:
+    """Return the field Σ weight·exp(2πi(w + f·x)) point by point, (y, x), mirror images included: the definition."""
+    field = np.empty((len(y_um), len(x_um)), complex)
+    for j, y in enumerate(y_um):
+        for i, x in enumerate(x_um):
+            right = np.exp(2j * np.pi * (data.phase + data.fx * x + data.fy * y))
+            left = np.exp(2j * np.pi * (data.phase - data.fx * x + data.fy * y))
+            field[j, i] = weight @ (right + left) / 2
+    return field
+
+
+def _words(counts, found: Field, filling: Filling, reached, tolerance) -> str:
+    words = f"{counts[0]} radii × {counts[1]} directions"
+    words += ", clipped by the clear semi-diameters" if filling.clip else ""
+    words += ", aimed at the real stop" if filling.aim == "real" else ""
+    words += f", {found.lost} rays lost" if found.lost else ""
+    if reached is None:
+        return words + ", one pass in float32"
+    return words + ("" if reached <= tolerance else f", not converged: agrees to {reached:.1e} only")
+
+
+class _Watch:
+    """Tells how far the work is, and asks whether it is still wanted."""
+
+    def __init__(self, progress=None, cancelled=None, live: bool = False):
+        self.progress, self.cancelled, self.live = progress, cancelled, live
+        self.finished, self.expected = 0, 0
+
+    def expect(self, nodes: int) -> None:
+        """Note more work to come."""
+        self.expected += nodes
+
+    def advance(self, nodes: int) -> None:
+        """Note work done; raise Cancelled where it is no longer wanted."""
+        self.finished += nodes
+        if self.cancelled and self.cancelled():
+            raise Cancelled("the reference was cancelled before it was done")
+        if self.progress and self.expected:
+            self.progress(min(self.finished / self.expected, 0.99))
+
+    def done(self) -> None:
+        """Note that all is done."""
+        if self.progress:
+            self.progress(1.0)

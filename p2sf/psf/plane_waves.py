@@ -1,0 +1,71 @@
+"""From traced or fitted rays to a PSF: one plane wave per node, summed on the sensor."""
+
+from dataclasses import dataclass
+from math import sqrt
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.psf.seidel import Psf
+from p2sf.pupil.phasors import cosine_sine
+from p2sf.pupil.quadrature import nodes_for
+from p2sf.raytrace.fit import Steepness
+
+
+@dataclass(frozen=True)
+class Made:
+    """How a PSF came about, for its labels; ``started`` is a `perf_counter` reading."""
+
+    method: str
+    numbers: int
+    rays: int
+    sampling: str
+    started: float
+    tolerance: float | None = None
+
+
+def pupil_amplitude(weight, phase_waves, dtype=np.float64) -> np.ndarray:
+    """Return weight·exp(2πi·phase), complex; whole waves are taken off first, so that float32 stays accurate."""
+    cosine, sine = cosine_sine(np.array(phase_waves, dtype=float), dtype)
+    amplitude, weight = np.empty(cosine.shape, np.result_type(dtype, np.complex64)), weight.astype(dtype)
+    np.multiply(cosine, weight, out=amplitude.real)
+    np.multiply(sine, weight, out=amplitude.imag)
+    return amplitude
+
+
+def window_reach(spread: float, pixels: int, pixel_um: float) -> float:
+    """Return waves per unit pupil radius of the plane waves at the window's corner."""
+    return spread * pixel_um * (pixels // 2) * sqrt(2)
+
+
+def counts_for(steepness: Steepness, pixels: int, pixel_um: float) -> tuple[int, int]:
+    """Return (radial, angular) node counts that carry this phase over this window."""
+    reach = window_reach(steepness.spread, pixels, pixel_um)
+    return nodes_for(steepness.radial, reach, steepness.angular)
+
+
+def psf_from_intensity(intensity, pixel_um: float, wavelength_um: float, blur_um2: float | None, made: Made) -> Psf:
+    """Return the PSF of an intensity in units of the unaberrated peak.
+
+    ``blur_um2`` is the integral of that intensity over the whole plane, None if unknown. A sum of samples is an
+    integral only while the pitch is finer than half the finest fringe; the caller passes None where it is not.
+    """
+    total = float(intensity.sum(dtype=float))
+    return Psf(
+        values=intensity / total,
+        pixel_um=pixel_um,
+        wavelength_um=float(wavelength_um),
+        method=made.method,
+        strehl=float(intensity.max()),
+        energy=None if blur_um2 is None else total * pixel_um**2 / blur_um2,
+        numbers=made.numbers,
+        rays=made.rays,
+        sampling=made.sampling,
+        seconds=perf_counter() - made.started,
+        tolerance=made.tolerance,
+    )
+
+
+def resolved(spread: float, pixel_um: float) -> bool:
+    """Return whether samples this far apart follow the finest fringes, 2·spread cycles per µm."""
+    return 2 * spread * pixel_um <= 1

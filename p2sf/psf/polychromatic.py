@@ -1,0 +1,176 @@
+"""The colour PSF: one PSF a wavelength, laid over one another where they fall, as the eye and a screen see it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import isfinite, pi
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.colour.colorimetry import bands, displayable, linear_rgb
+from p2sf.colour.spectrum import Spectrum
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, centred_axis
+from p2sf.errors import RequestError
+from p2sf.lens.lens import Lens, lens_range_um
+from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import Stop
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.methods import render
+from p2sf.psf.seidel import Psf, check_image, suitable_pixel_um
+from p2sf.raytrace.pencil import pencil
+
+COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm
+MOST = 400
+LOOKED_AT = 9  # wavelengths that say how wide a window must be
+
+Renderer = Callable[[Lens, Source, int, float], Psf]
+"""What makes one PSF: (lens, source at one wavelength, pixels, µm per pixel)."""
+
+
+@dataclass(frozen=True)
+class ColourPsf:
+    """X, Y, Z of a point's image, ``xyz`` (y, x, 3), rows +y; sample N//2 is the reference wavelength's chief ray.
+
+    Y sums to ``light_in_window``, the share of all light that falls into it; None where samples are too far apart to
+    tell, and then Y sums to an estimate. ``wavelengths_um``: what was rendered, by ``methods``; ``shift_um``: how far
+    above the reference's each chief ray lands.
+    """
+
+    xyz: np.ndarray
+    pixel_um: float
+    spectrum: str
+    wavelengths_um: np.ndarray
+    shift_um: np.ndarray
+    methods: tuple[str, ...]
+    seconds: float
+    light_in_window: float | None = None
+
+    @property
+    def x_um(self) -> np.ndarray:
+        """Column positions, µm."""
+        return centred_axis(self.xyz.shape[1], self.pixel_um)
+
+    @property
+    def y_um(self) -> np.ndarray:
+        """Row positions, µm."""
+        return centred_axis(self.xyz.shape[0], self.pixel_um)
+
+
+def colour_psf(
+    lens: Lens,
+    source: Source,
+    spectrum: Spectrum,
+    window: tuple[int, float],
+    method: str | Renderer = "auto",
+    count: int = COUNT,
+) -> ColourPsf:
+    """Return the PSF of a point with this spectrum over (pixels, µm per pixel), centred on the source's own wavelength.
+
+    ``method``: a rung of the ladder or what makes one PSF. Each wavelength's PSF is shifted by where its chief ray
+    lands (lateral colour), by straight lines between samples, which keeps light and sign. Raises RequestError for
+    a count that is none, GlassError for a line outside the glasses' data.
+    """
+    started = perf_counter()
+    if not 1 <= count <= MOST:
+        raise RequestError(f"{count} wavelengths for a colour PSF; give a whole number from 1 to {MOST}")
+    make = method if callable(method) else by_ladder(method)
+    wavelengths, weights = bands(spectrum, count, *_limits(lens))
+    shifts = chief_shifts_um(lens, source, wavelengths)
+    made = [make(lens, replace(source, wavelength_um=float(wave)), *window) for wave in wavelengths]
+    each = zip(made, shares(lens, source, made), shifts, strict=True)
+    layers = (shifted_up(share * psf.values, shift / window[1]) for psf, share, shift in each)
+    xyz = sum(layer[..., None] * weight for layer, weight in zip(layers, weights, strict=True))
+    methods = tuple(dict.fromkeys(psf.method for psf in made))
+    light = None if any(psf.energy is None for psf in made) else float(xyz[..., 1].sum())
+    return ColourPsf(xyz, window[1], spectrum.name, wavelengths, shifts, methods, perf_counter() - started, light)
+
+
+def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: int, stop: Stop | None = None) -> float:
+    """Return the pitch at which the window shows the PSF of every colour, lateral colour included, µm.
+
+    Raises GeometryError where the image of the source's own colour lies at infinity, and so that of none other near.
+    """
+    check_image(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop))
+    waves, _ = bands(spectrum, LOOKED_AT, *_limits(lens))
+    c = coefficients(lens, source.depth_mm, source.field_slope, waves, stop)
+    shift = np.abs(chief_shifts_um(lens, source, waves))
+    return float(np.max(suitable_pixel_um(c, pixels) + 2 * shift / pixels))
+
+
+def by_ladder(method: str) -> Renderer:
+    """Return what renders by a rung of the ladder."""
+    return lambda lens, source, pixels, pixel_um: render(lens, source, method, pixels, pixel_um)
+
+
+def _limits(lens: Lens) -> tuple[tuple[float, float], ...]:
+    known = lens_range_um(lens)
+    return (known,) if known else ()
+
+
+def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:
+    """Return the share of all its light that each wavelength's PSF has in the window, by one rule for all of them.
+
+    What is known where all is; else `estimated_share`, or one wavelength would be weighed otherwise than the next.
+    """
+    if all(psf.energy is not None for psf in made):
+        return np.minimum(1.0, [float(psf.energy) for psf in made])
+    na = coefficients(lens, source.depth_mm, source.field_slope, np.array([psf.wavelength_um for psf in made])).na
+    return np.array(
+        [estimated_share(psf, float(one)) for psf, one in zip(made, np.broadcast_to(na, len(made)), strict=True)]
+    )
+
+
+def estimated_share(psf: Psf, na: float) -> float:
+    """Return Σ samples·π(NA·pixel/λ)², the rule of `psf.energy_fraction`, where samples are too far apart for it."""
+    if psf.strehl is None or not isfinite(psf.strehl):
+        return 1.0 if psf.energy is None else min(1.0, float(psf.energy))
+    total = float(psf.strehl) / float(psf.values.max())  # in units of the unaberrated peak
+    return min(1.0, total * pi * (na * psf.pixel_um / psf.wavelength_um) ** 2)
+
+
+def chief_shifts_um(lens: Lens, source: Source, wavelengths_um) -> np.ndarray:
+    """Return how far above the source's own each wavelength's exact chief ray lands, µm: lateral colour."""
+    waves = np.append(np.asarray(wavelengths_um, dtype=float), source.wavelength_um)
+    landed = pencil(lens, replace(source, wavelength_um=waves), np.zeros(1), np.zeros(1)).chief_y[..., 0]
+    return UM_PER_MM * (landed[:-1] - landed[-1])
+
+
+def shifted_up(values: np.ndarray, rows: float) -> np.ndarray:
+    """Return samples moved up by a number of rows, fractions by a straight line; what leaves the window is lost."""
+    whole = int(np.floor(rows))
+    part = rows - whole
+    return (1 - part) * _moved(values, whole) + (part * _moved(values, whole + 1) if part else 0.0)
+
+
+def _moved(values: np.ndarray, rows: int) -> np.ndarray:
+    out = np.zeros_like(values)
+    count = len(values)
+    if abs(rows) < count:
+        out[max(0, rows) : count + min(0, rows)] = values[max(0, -rows) : count - max(0, rows)]
+    return out
+
+
+def screen_rgb(found: ColourPsf) -> np.ndarray:
+    """Return linear sRGB, (y, x, 3), the brightest channel 1."""
+    rgb = displayable(linear_rgb(found.xyz))
+    return rgb / (float(rgb.max()) or 1.0)
+
+
+def faint_rgb(found: ColourPsf, stretch: Callable[[np.ndarray], np.ndarray] = np.sqrt) -> np.ndarray:
+    """Return linear sRGB as `screen_rgb` does, with the brightest channel of each sample stretched, its hue kept."""
+    rgb = screen_rgb(found)
+    top = rgb.max(-1, keepdims=True)
+    return rgb * np.divide(stretch(top), top, out=np.zeros_like(top), where=top > 0)
+
+
+def record(found: ColourPsf) -> dict:
+    """Return what a colour PSF knows about itself but the samples."""
+    return {
+        "spectrum": found.spectrum,
+        "pixel_um": found.pixel_um,
+        "wavelengths_nm": found.wavelengths_um * NM_PER_UM,
+        "chief_ray_shift_um": found.shift_um,
+        "methods": list(found.methods),
+        "light_in_window": found.light_in_window,
+        "seconds": found.seconds,
+    }

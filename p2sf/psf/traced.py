@@ -1,0 +1,94 @@
+"""The `traced` rung: exact rays, thousands of them, at the speed of a separable sum.
+
+The rays go through pupil points that a fit puts in rows of equal spatial frequency (`rows`). A ray's true fy misses
+its row's by what the fit leaves; since the phase over frequency has the gradient −x (Hamilton), moving its
+phase there by −y·(row − ray) is right to second order in that miss. Phase, fx and the area of every node are exact.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.psf.huygens import PLAIN, Filling, huygens_psf
+from p2sf.psf.plane_waves import Made, psf_from_intensity, resolved
+from p2sf.psf.seidel import Psf
+from p2sf.psf.separable_sum import FrequencyRows, rows_for
+from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.ray_field import ray_data
+
+# A fifth-order pupil map at least: what is second order in its miss is then below 1e-5 of R² on every stored row.
+FEWEST = 46
+RESIDUAL_WAVES = 1e-3  # of that map times the blur; what is left is second order in it
+
+FALLBACK_TOLERANCE = 3e-3  # relative L2 of node by node sums: R² to 1e-5
+
+
+def traced_psf(
+    lens: Lens,
+    source: Source,
+    pixels: int,
+    pixel_um: float,
+    quality: str = "settled",
+    filling: Filling = PLAIN,
+    cancelled: Callable[[], bool] | None = None,
+) -> Psf:
+    """Return the PSF of exact rays, one pass: "settled" in float64, "preview" fewer rays in float32.
+
+    Where rays are lost or clipped, or no fit puts them in rows well enough, they are summed node by node as the
+    reference is, to FALLBACK_TOLERANCE, which takes long: ``cancelled`` is asked between blocks of them (`Cancelled`).
+    Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
+    """
+    started = perf_counter()
+    rows = None if filling.clip else _rows(lens, source, (pixels, pixel_um), quality, filling.aim)
+    if rows is None:
+        tolerance = FALLBACK_TOLERANCE if quality == "settled" else None
+        one_by_one = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, filling)
+        return replace(one_by_one, method="traced")
+    found, nodes = rows
+    phase, fx = exact_rows(lens, source, nodes, filling.aim)
+    intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
+    tolerance = SETTLED_TOLERANCE if quality == "settled" else None
+    words = f"{nodes.words}, {intensity.dtype.name}"
+    made = Made("traced", 0, found.rays + nodes.xi.size, words, started, tolerance)
+    blur = found.blur_um2 if resolved(found.steepness.spread, pixel_um) else None
+    return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made)
+
+
+def in_rows(lens: Lens, source: Source) -> bool:
+    """Return whether a fit puts the rays of a whole pupil in rows: whether `traced_psf` is quick."""
+    return _fit(lens, source, PLAIN.aim) is not None
+
+
+def _rows(lens, source, window, quality, aim) -> tuple[FittedPencil, FrequencyRows] | None:
+    found = _fit(lens, source, aim)
+    nodes = found and rows_for(found, *window, quality)
+    return nodes and (found, nodes)
+
+
+@lru_cache(maxsize=2)
+def _fit(lens: Lens, source: Source, aim: str) -> FittedPencil | None:
+    """Return the map that puts rays in rows; None where rays are lost, or no polynomial does it well enough."""
+    try:
+        found = fit(lens, source, FEWEST, aim)
+        if found.error_waves >= RESIDUAL_WAVES:
+            found = fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
+    except GeometryError:  # rays lost: the reference's nodes end where they begin to be
+        return None
+    return None if found.error_waves > RESIDUAL_WAVES else found
+
+
+def exact_rows(lens: Lens, source: Source, nodes: FrequencyRows, aim: str = "paraxial"):
+    """Return exact phase (waves) and fx (cycles/µm) of rays through rows of nodes, (rows, columns)."""
+    rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel(), aim))
+    miss = np.repeat(nodes.fy, nodes.xi.shape[1])
+    miss -= rays.fy
+    miss *= rays.y_um
+    return (rays.phase - miss).reshape(nodes.xi.shape), rays.fx.reshape(nodes.xi.shape)

@@ -1,0 +1,211 @@
+"""The pencil of one source through the pupil: path differences, spots and fans. Everything is exact skew rays."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import Stop
+from p2sf.raytrace.aiming import PupilRays, entrance, pupil_rays, start
+from p2sf.raytrace.surface import Status
+from p2sf.raytrace.trace import Trace, lens_rims, run, status_sentence, trace
+
+__all__ = ["Pencil", "PupilRays", "Status", "Trace", "diffraction_phase", "displayed_opd", "pupil_rays", "trace"]
+
+MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, of rays that are symmetric but for them
+
+
+@dataclass(frozen=True)
+class Pencil:
+    """The rays of one source at the sensor plane, all relative to its chief ray; leading axes first, (…, ray).
+
+    ``dx``, ``dy``: mm from the chief ray's sensor point. ``kx``, ``ky``, ``kz``: direction cosines in image space.
+    ``path``: optical path to the sensor less the chief ray's, mm. ``status``, ``failed_surface``: as in `rays.Trace`.
+    The chief ray: ``chief_y`` mm on the sensor, ``chief_ky``, ``chief_kz``; ``index``: of image space.
+    """
+
+    xi: np.ndarray
+    eta: np.ndarray
+    dx: np.ndarray
+    dy: np.ndarray
+    kx: np.ndarray
+    ky: np.ndarray
+    kz: np.ndarray
+    path: np.ndarray
+    status: np.ndarray
+    failed_surface: np.ndarray
+    chief_y: np.ndarray
+    chief_ky: np.ndarray
+    chief_kz: np.ndarray
+    index: np.ndarray
+    wavelength_um: np.ndarray
+
+    @property
+    def passed(self) -> np.ndarray:
+        """Return which rays reach the sensor."""
+        return self.status == Status.PASSED
+
+
+@dataclass(frozen=True)
+class Spot:
+    """Where rays meet the sensor, µm from the chief ray; ``rms_um`` about their centroid."""
+
+    x_um: np.ndarray
+    y_um: np.ndarray
+    rms_um: np.ndarray
+    centroid_y_um: np.ndarray
+
+
+@dataclass(frozen=True)
+class Fan:
+    """A quantity along one line of the pupil: ``pupil`` −1…1, ``tangential`` along η, ``sagittal`` along ξ."""
+
+    pupil: np.ndarray
+    tangential: np.ndarray
+    sagittal: np.ndarray
+    unit: str
+
+
+def pencil(lens: Lens, source: Source, xi, eta, aim="paraxial", clip=False, stop: Stop | None = None) -> Pencil:
+    """Trace a source's rays through pupil points (ξ, η), each (ray,), to the sensor.
+
+    ``clip`` applies the clear semi-diameters of every surface but the stop, which the pupil already stands for.
+    Raises GeometryError where the chief ray itself does not reach the sensor.
+    """
+    # The chief ray rides along as the last ray, so that one trace does.
+    xi, eta = np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
+    rays = pupil_rays(lens, source, xi, eta, aim, stop)
+    beam = start(rays)
+    beam.exempt = 1  # the chief ray is the origin of all differences, whether or not a rim would stop it
+    run(lens, beam, rays.index, lens_rims(lens, keep_stop=False) if clip else None)
+    beam.path += rays.path
+    if beam.status.any():
+        _blank(beam)
+    index = rays.index[-1]
+    chief = beam.path[..., -1:], beam.y[..., -1:], beam.q[..., -1:] / index, beam.r[..., -1:] / index
+    return Pencil(
+        *(xi[:-1], eta[:-1]),
+        *(beam.x[..., :-1], beam.y[..., :-1] - chief[1]),
+        *(component[..., :-1] / index for component in (beam.p, beam.q, beam.r)),
+        beam.path[..., :-1] - chief[0],
+        *(beam.status[..., :-1], beam.failed_surface[..., :-1]),
+        *chief[1:],
+        index,
+        np.asarray(source.wavelength_um)[..., None],
+    )
+
+
+def _blank(beam) -> None:
+    """Make failed rays NaN throughout, and refuse a pencil whose chief ray failed."""
+    bad = beam.status != Status.PASSED
+    if bad[..., -1].any():
+        status, surface = (a[..., -1][bad[..., -1]].ravel()[0] for a in (beam.status, beam.failed_surface))
+        raise GeometryError(f"the chief ray {status_sentence(status, surface)}; choose a smaller field")
+    for column in (beam.x, beam.y, beam.p, beam.q, beam.r, beam.path):
+        column[bad] = np.nan
+
+
+def diffraction_phase(rays: Pencil) -> np.ndarray:
+    """Return w = (OPL ray − OPL chief − n'K·(I − C))/λ in waves, (…, ray): the phase over direction cosines (K)."""
+    shift = rays.kx * rays.dx
+    shift += rays.ky * rays.dy
+    shift *= rays.index
+    return (rays.path - shift) * (UM_PER_MM / rays.wavelength_um)
+
+
+def displayed_opd(lens: Lens, source: Source, xi, eta, aim="paraxial", stop: Stop | None = None) -> np.ndarray:
+    """Return (OPL chief − OPL ray)/λ in waves at pupil points, on the sphere about the chief ray's sensor point.
+
+    The sphere's radius reaches to the chief ray at the paraxial exit-pupil plane; a telecentric lens has a plane.
+    NaN for failed rays. For the displayed wavefront only; diffraction uses `diffraction_phase`.
+    """
+    rays = pencil(lens, source, xi, eta, aim, stop=stop)
+    return opd_on_sphere(rays, _exit_radius(lens, source, rays, stop))
+
+
+def opd_on_sphere(rays: Pencil, radius) -> np.ndarray:
+    """Return the displayed OPD in waves for a reference sphere of signed radius (mm, positive before the sensor).
+
+    The ray's way back from the sensor to the sphere is written as a difference to the chief ray's, so that no
+    radius costs digits: t − t_chief = −b − (b² − d²)/(R(1 + √(1 + (b² − d²)/R²))), b = K·(I − C), d = |I − C|.
+    NaN for a ray so far off that it does not meet the sphere.
+    """
+    b = rays.kx * rays.dx + rays.ky * rays.dy
+    bend = b * b - rays.dx * rays.dx - rays.dy * rays.dy
+    with np.errstate(invalid="ignore"):
+        back = bend / (radius * (1 + np.sqrt(1 + bend / radius**2)))
+    return (rays.index * (b + back) - rays.path) * (UM_PER_MM / rays.wavelength_um)
+
+
+def _exit_radius(lens: Lens, source: Source, rays: Pencil, stop=None):
+    """Return distance along the chief ray from the paraxial exit-pupil plane to the sensor, mm; the sphere's radius."""
+    return (lens.sensor_mm - entrance(lens, source, stop).exit_plane) / rays.chief_kz
+
+
+@lru_cache(maxsize=8)
+def pupil_grid(count: int):
+    """Return cell-centre coordinates (ξ, η) of a count × count grid over the pupil, and which lie in the disc."""
+    axis = (2 * np.arange(count) + 1 - count) / count
+    xi, eta = np.meshgrid(axis, axis)
+    inside = xi * xi + eta * eta <= 1
+    for array in (xi, eta, inside):
+        array.setflags(write=False)  # the cache hands out the same arrays to everybody
+    return xi, eta, inside
+
+
+def opd_map(lens: Lens, source: Source, count: int = 64, aim="paraxial") -> np.ndarray:
+    """Return the displayed OPD over the pupil, (count, count) waves, row = η, NaN outside; half the disc is traced."""
+    xi, eta, inside = pupil_grid(count)
+    right = slice(None), slice(count // 2, None)
+    half = inside[right]
+    values = np.full((count, count), np.nan)
+    values[right][half] = displayed_opd(lens, source, xi[right][half], eta[right][half], aim)
+    values[:, : (count + 1) // 2] = values[:, : -((count + 1) // 2) - 1 : -1]
+    return values
+
+
+def spot(lens: Lens, source: Source, rings: int = 8, aim="paraxial", clip=False) -> Spot:
+    """Return the spot diagram of ``rings`` hexapolar rings, and its RMS radius about the centroid; µm."""
+    xi, eta = hexapolar(rings)
+    rays = pencil(lens, source, xi, eta, aim, clip)
+    x, y = rays.dx * UM_PER_MM, rays.dy * UM_PER_MM
+    if not rays.passed.any():
+        raise GeometryError("no ray reaches the sensor; choose a smaller field or leave clip off")
+    centre_x, centre_y = _mean(x), _mean(y)
+    square = np.nanmean((x - centre_x) ** 2 + (y - centre_y) ** 2, axis=-1)
+    return Spot(x, y, np.sqrt(square), centre_y[..., 0])
+
+
+def _mean(values):
+    """Return the mean over the rays that arrive, (…, 1); 0 where it is nothing but the rounding of their sum."""
+    mean = np.nanmean(values, -1, keepdims=True)
+    return np.where(np.abs(mean) > MEAN_ROUNDING * np.nanmax(np.abs(values), -1, keepdims=True), mean, 0.0)
+
+
+def hexapolar(rings: int):
+    """Return pupil points (ξ, η): the centre, then rings of 6, 12, 18 … points, equal area per point."""
+    radius = np.concatenate([[0.0], *(np.full(6 * k, k / rings) for k in range(1, rings + 1))])
+    angle = np.concatenate([[0.0], *(2 * np.pi * np.arange(6 * k) / (6 * k) for k in range(1, rings + 1))])
+    return radius * np.sin(angle), radius * np.cos(angle)
+
+
+def ray_fan(lens: Lens, source: Source, count: int = 65, aim="paraxial") -> Fan:
+    """Return transverse ray errors at the sensor along η (their y) and along ξ (their x); µm."""
+    line, tangential, sagittal = _two_lines(lens, source, count, aim)
+    return Fan(line, tangential.dy * UM_PER_MM, sagittal.dx * UM_PER_MM, "µm")
+
+
+def opd_fan(lens: Lens, source: Source, count: int = 65, aim="paraxial") -> Fan:
+    """Return the displayed OPD along η and along ξ; waves."""
+    line, tangential, sagittal = _two_lines(lens, source, count, aim)
+    values = (opd_on_sphere(rays, _exit_radius(lens, source, rays)) for rays in (tangential, sagittal))
+    return Fan(line, *values, "waves")
+
+
+def _two_lines(lens, source, count, aim):
+    line, zero = np.linspace(-1, 1, count), np.zeros(count)
+    return line, pencil(lens, source, zero, line, aim), pencil(lens, source, line, zero, aim)

@@ -1,0 +1,198 @@
+"""One surface at a time: where a skew ray meets it, and how it leaves.
+
+Rays are kept as *optical* direction cosines (P, Q, R) = n·(L, M, N) and the ray parameter τ is length
+per index, so that a step τ moves a point by τ(P, Q, R) and adds n²τ to the optical path: no division
+by the index anywhere. `Beam` is a workbench that the functions change in place, which is what makes
+thousands of rays cheap; it never leaves `rays`.
+"""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from p2sf.lens.lens import Surface
+
+NEWTON_STEPS = 40
+# A root is found when the sag differs from the ray's height by no more than the rounding of their sum.
+ROUNDING = 16 * np.finfo(float).eps
+
+
+class Status(IntEnum):
+    """Why a ray ended, or that it did not."""
+
+    PASSED = 0
+    MISSED = 1
+    REFLECTED = 2
+    CLIPPED = 3
+    REFUSED = 4
+    UNAIMED = 5
+
+
+class Beam:
+    """Rays on their way: position from the current vertex (mm), optical cosines, optical path (mm), fate.
+
+    ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that whatever treats the
+    components alike is one call. The last ``exempt`` rays pass every rim.
+    """
+
+    def __init__(self, place: np.ndarray, ray: np.ndarray):
+        self.place, self.ray = place, ray
+        self.x, self.y, self.z = place
+        self.p, self.q, self.r = ray
+        self.path = np.zeros(place.shape[1:])
+        self.status = np.zeros(place.shape[1:], np.int8)
+        self.failed_surface = np.zeros(place.shape[1:], np.int16)
+        self.exempt = 0
+
+    def advance(self, step, index) -> None:
+        """Move every ray by the ray parameter ``step`` in a medium of this index."""
+        self.place += step * self.ray
+        self.path += step * (index * index)
+
+    def fail(self, bad: np.ndarray, why: Status, number: int) -> None:
+        """Write down why and where rays fail; the first reason stands, the ray becomes NaN."""
+        fresh = bad & (self.status == Status.PASSED)
+        self.status[fresh], self.failed_surface[fresh] = why, number
+        self.p[fresh] = self.path[fresh] = np.nan
+
+
+class Normal(NamedTuple):
+    """Surface normal (−slope·x, −slope·y, axial), not normalised, where the rays meet the surface.
+
+    ``axial`` None stands for 1 − slope·z, a sphere's. ``square`` is the normal's squared length, None for 1.
+    ``along`` = ray·normal = n·cosI·length, and ``along_square`` its square.
+    """
+
+    slope: np.ndarray | float
+    axial: np.ndarray | float | None
+    square: np.ndarray | None
+    along: np.ndarray
+    along_square: np.ndarray
+
+
+def to_plane(beam: Beam, index) -> None:
+    """Carry every ray to the plane z = 0 of the current vertex."""
+    back = beam.z / beam.r
+    beam.place[:2] -= back * beam.ray[:2]
+    beam.z[...] = 0.0
+    back *= index * index
+    beam.path -= back
+
+
+def meet(beam: Beam, surface: Surface, index, number: int) -> Normal | None:
+    """Carry every ray to the surface and return its normal there; None for a plane."""
+    if any(surface.aspheric):
+        return _meet_asphere(beam, surface, index, number)
+    if surface.curvature:
+        return _meet_conic(beam, surface, index, number)
+    return to_plane(beam, index)
+
+
+def _conic_step(beam: Beam, curvature: float, conic: float, index):
+    """Carry every ray to the plane of the vertex; return the step from there to a conicoid, and (n·cosI·|normal|)².
+
+    Of the two intersections it is the one where light crosses from the front to the back of the sheet through
+    the vertex; written as F/(G + root) it has no special case for a plane (Welford 1986, §4.3, optical cosines).
+    """
+    to_plane(beam, index)
+    f = beam.x * beam.x
+    f += beam.y * beam.y
+    f *= curvature
+    g = beam.x * beam.p
+    g += beam.y * beam.q
+    g *= curvature
+    np.subtract(beam.r, g, out=g)
+    square = g * g
+    square -= f * (curvature * (index * index + (conic * beam.r * beam.r if conic else 0.0)))
+    g += np.sqrt(square)
+    f /= g
+    return f, square
+
+
+def _meet_conic(beam: Beam, surface: Surface, index, number: int) -> Normal:
+    curvature, conic = surface.curvature, surface.conic
+    step, along_square = _conic_step(beam, curvature, conic, index)
+    beam.advance(step, index)
+    # Past its equator the sheet through the vertex ends; NaN, a miss, fails this test too.
+    depth = beam.z.max() if curvature > 0 else beam.z.min()
+    if not curvature * (1 + conic) * depth < 1:
+        beam.fail(~(curvature * (1 + conic) * beam.z < 1), Status.MISSED, number)
+    along = np.sqrt(along_square)
+    if not conic:
+        return Normal(curvature, None, None, along, along_square)
+    bulge = curvature * beam.z
+    # |normal|² on the conicoid, with c²r² = 2cz − c²(1 + K)z² put in.
+    return Normal(
+        curvature, 1 - (1 + conic) * bulge, 1 - conic * bulge * (2 - (1 + conic) * bulge), along, along_square
+    )
+
+
+def sag_and_slope(surface: Surface, square):
+    """Return sag z and dz/d(r²) of an even asphere at squared radius ``square`` mm² (NaN beyond the conic's edge)."""
+    c, k = surface.curvature, surface.conic
+    root = np.sqrt(1 - (1 + k) * (c * c) * square)
+    sag, slope = c * square / (1 + root), c / (2 * root)
+    power = square
+    for order, coefficient in enumerate(surface.aspheric, 2):
+        slope = slope + order * coefficient * power
+        power = power * square
+        sag = sag + coefficient * power
+    return sag, slope
+
+
+def _meet_asphere(beam: Beam, surface: Surface, index, number: int) -> Normal:
+    """Newton from the underlying conicoid, or from the plane where that is missed; refused unless it has converged."""
+    step, _ = _conic_step(beam, surface.curvature, surface.conic, index)
+    beam.advance(np.where(np.isfinite(step), step, 0.0), index)
+    for _ in range(NEWTON_STEPS):
+        sag, slope = sag_and_slope(surface, beam.x * beam.x + beam.y * beam.y)
+        along = beam.r - 2 * slope * (beam.x * beam.p + beam.y * beam.q)
+        miss = sag - beam.z
+        open_ = ~(np.abs(miss) <= ROUNDING * (np.abs(beam.x) + np.abs(beam.y) + np.abs(beam.z)))
+        if not open_.any() or not np.isfinite(miss[open_]).any():
+            break
+        beam.advance(np.where(open_, miss / along, 0.0), index)
+    beam.fail(~np.isfinite(miss), Status.MISSED, number)
+    beam.fail(open_ | ~(along > 0), Status.REFUSED, number)
+    slope = 2 * slope
+    return Normal(slope, 1.0, 1 + slope * slope * (beam.x * beam.x + beam.y * beam.y), along, along * along)
+
+
+def refract(beam: Beam, normal: Normal | None, before, after, number: int) -> None:
+    """Bend every ray by Snell's law, n'K' = nK + (n'cosI' − n·cosI)·unit normal (Welford 1986, eq. 4.36)."""
+    gain = (after - before) * (after + before)
+    if normal is None:
+        _root(beam, beam.r * beam.r, gain, number, out=beam.r)
+        return
+    if normal.square is None:
+        push = _root(beam, normal.along_square, gain, number)
+        push -= normal.along
+    else:
+        length = np.sqrt(normal.square)
+        push = _root(beam, normal.along_square / normal.square, gain, number)
+        push = (push - normal.along / length) / length
+    if normal.axial is None:
+        beam.r += push
+        push *= normal.slope
+        beam.ray -= push * beam.place
+    else:
+        beam.r += push * normal.axial
+        push *= normal.slope
+        beam.ray[:2] -= push * beam.place[:2]
+
+
+def _root(beam: Beam, cosine_square, gain, number: int, out=None):
+    """Return n'cosI' = √(n²cos²I + n'² − n²); where that is not real the ray is totally reflected."""
+    square = cosine_square + gain
+    if not square.min() >= 0:
+        beam.fail(square < 0, Status.REFLECTED, number)
+    return np.sqrt(square, out=square if out is None else out)
+
+
+def clip(beam: Beam, rim: float, number: int) -> None:
+    """Stop every ray that lands outside a rim of radius ``rim`` mm."""
+    outside = beam.x * beam.x + beam.y * beam.y > rim * rim
+    outside[..., outside.shape[-1] - beam.exempt :] = False
+    if outside.any():
+        beam.fail(outside, Status.CLIPPED, number)

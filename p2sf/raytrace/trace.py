@@ -1,0 +1,130 @@
+"""Exact skew rays through a whole lens."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens, indices
+from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
+from p2sf.raytrace.surface import Beam, Status, clip, meet, refract, to_plane
+
+_REASONS = {
+    Status.MISSED: "misses surface {0}",
+    Status.REFLECTED: "is totally reflected at surface {0}",
+    Status.CLIPPED: "is stopped by the rim of surface {0}",
+    Status.REFUSED: "meets the asphere on surface {0} where no safe intersection was found",
+    Status.UNAIMED: "could not be aimed at its place in the stop, surface {0}",
+}
+
+
+@dataclass(frozen=True)
+class Trace:
+    """Rays followed from their origins to the sensor.
+
+    ``points``: (surfaces + 2, …, ray, 3) mm from the first vertex: the origin, every surface, the sensor; NaN from
+    where the ray failed. ``cosines``: (…, ray, 3) in image space. ``path``: optical path from the origin to
+    the sensor, mm. ``status``: `Status` per ray; ``failed_surface`` counts from 1, 0 where the ray passed.
+    """
+
+    points: np.ndarray
+    cosines: np.ndarray
+    path: np.ndarray
+    status: np.ndarray
+    failed_surface: np.ndarray
+
+
+def status_sentence(status: int, surface: int) -> str:
+    """Return what happened to a ray, as the end of a sentence that begins with "the ray"."""
+    return _REASONS[Status(status)].format(surface) if status else "passes"
+
+
+def trace(lens: Lens, origins, directions, wavelength_um, clip: bool = False) -> Trace:
+    """Trace skew rays; ``origins`` and ``directions`` (…, ray, 3), mm from the first vertex and any length.
+
+    An origin may lie anywhere on its ray in object space. ``wavelength_um`` broadcasts against the leading
+    axes. ``clip`` applies every clear semi-diameter and the stop's rim. A ray that fails becomes NaN and keeps
+    its reason and surface. Raises GlassError. Source: Welford 1986, ch. 4.
+    """
+    origins, directions = np.broadcast_arrays(np.asarray(origins, float), np.asarray(directions, float))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        unit = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    index = per_ray(indices(lens, wavelength_um))
+    beam = launch(*np.moveaxis(origins, -1, 0), *np.moveaxis(unit, -1, 0), index[0])
+    beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # no line at all meets no surface
+    points = [origins]
+    run(lens, beam, index, lens_rims(lens) if clip else None, visit=lambda vertex: points.append(_points(beam, vertex)))
+    cosines = np.stack([beam.p / index[-1], beam.q / index[-1], beam.r / index[-1]], -1)
+    cosines[np.isnan(beam.path)] = np.nan
+    return Trace(np.stack(points), cosines, beam.path, beam.status, beam.failed_surface)
+
+
+def launch(x, y, z, cosine_x, cosine_y, cosine_z, index) -> Beam:
+    """Return a fresh beam of rays with these positions from the first vertex and unit cosines."""
+    shape = np.broadcast_shapes(*map(np.shape, (x, y, z, cosine_x, cosine_y, cosine_z, index)))
+    place, ray = np.empty((3, *shape)), np.empty((3, *shape))
+    for row, value in zip((*place, *ray), (x, y, z, cosine_x, cosine_y, cosine_z), strict=True):
+        row[...] = value
+    ray *= index
+    return Beam(place, ray)
+
+
+def run(lens: Lens, beam: Beam, index, rims=None, last: int | None = None, visit=None) -> Beam:
+    """Carry a beam through the lens to the sensor plane, or onto surface ``last``, and return it.
+
+    ``rims`` in mm clip, one per surface. ``visit(vertex)`` is called on every surface and on the sensor with the
+    current vertex's distance from the first; without it, planes between equal media are passed unseen.
+    """
+    vertex = 0.0
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        for number, surface in enumerate(lens.surfaces[:last], 1):
+            idle = not surface.curvature and not any(surface.aspheric) and rims is None and visit is None
+            if number == last or not (idle and _same(index[number - 1], index[number])):
+                _cross(beam, surface, index, number, rims, (lambda v=vertex: visit(v)) if visit else None)
+            if number != last:
+                beam.z -= surface.thickness
+                vertex += surface.thickness
+        if last is None:
+            to_plane(beam, index[-1])
+            if visit:
+                visit(vertex)
+    return beam
+
+
+def _cross(beam, surface, index, number, rims, arrived) -> None:
+    before, after = index[number - 1], index[number]
+    normal = meet(beam, surface, before, number)
+    if arrived:
+        arrived()
+    if rims is not None:
+        clip(beam, rims[number - 1], number)
+    if not _same(before, after):
+        refract(beam, normal, before, after, number)
+
+
+def _same(before, after) -> bool:
+    equal = before == after
+    return equal if isinstance(equal, bool) else bool(equal.all())
+
+
+def _points(beam: Beam, vertex: float) -> np.ndarray:
+    points = np.stack([beam.x, beam.y, beam.z + vertex], -1)
+    points[beam.status != Status.PASSED] = np.nan
+    return points
+
+
+def per_ray(index: np.ndarray) -> np.ndarray | list[float]:
+    """Return indices with a ray axis behind the wavelength's axes; plain floats for one wavelength."""
+    return index.tolist() if index.ndim == 1 else index[..., None]
+
+
+def lens_rims(lens: Lens, keep_stop: bool = True) -> np.ndarray:
+    """Return rims that clip, mm, a rounding wider than written; the stop's own left out when the bundle is made by it.
+
+    Raises GeometryError for a lens whose rims are all unknown: nothing would be clipped.
+    """
+    stop = lens.stop_surface or named_stop(lens)
+    rims = rim_radii(lens, stop, stop_rim(lens) if keep_stop else np.inf) * (1 + RIM_TIE)
+    if not np.isfinite(rims).any():
+        raise GeometryError("the lens states no semi-diameters, so nothing can be clipped; add them or leave clip off")
+    return rims

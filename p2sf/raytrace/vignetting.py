@@ -1,0 +1,132 @@
+"""Pupil nodes that end at the clear apertures: the cat's eye of an oblique pencil, without a jagged edge.
+
+From a centre inside the clear part every direction is followed to the rim it meets (bisection on real rays), and
+Gauss–Legendre radii run to exactly there. Where one rim takes over from another the outline has a corner; the
+directions are Gauss–Legendre nodes between corners, so that nothing kinks inside an interval. The part must be
+star-shaped about its centre, as every overlap of rims seen through a lens is.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
+from p2sf.raytrace.fit import fit
+from p2sf.raytrace.pencil import hexapolar, pencil
+
+SEARCH_RINGS = 12
+SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/192 of the half circle may be missed
+BISECTIONS = 36  # the pupil radius to 2e-11
+CORNER_BISECTIONS = 26  # a corner's direction to 2e-10
+FEWEST_PER_ARC = 6
+CLIPPED = "the rims clip every ray of this field; leave clip off or reduce the field"
+LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduce the field"
+GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
+
+
+@dataclass(frozen=True)
+class Outline:
+    """The clear part of the pupil: its centre on the η axis, and the corners' angles from +η, 0 and π included."""
+
+    centre: float
+    corners: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class ClearNodes:
+    """Half-disc nodes (ξ, η) with weights of unit sum, and the clear share of the pupil's area."""
+
+    xi: np.ndarray
+    eta: np.ndarray
+    weight: np.ndarray
+    share: float
+
+
+def whole_nodes(counts) -> ClearNodes:
+    """Return the nodes of (radial, angular) ``counts`` over the whole pupil."""
+    nodes = disc_nodes(*counts)
+    return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
+
+
+def clear_nodes(lens: Lens, source: Source, counts, aim: str = "paraxial", clip: bool = True) -> ClearNodes:
+    """Return nodes over the clear part of the pupil, about as dense as ``counts`` are over the whole.
+
+    Without ``clip`` the clear part ends where rays miss a surface or are totally reflected, not at rims.
+
+    Raises GeometryError when nothing is clear.
+    """
+    shape = outline(lens, source, aim, clip)
+    theta, share = _directions(shape.corners, counts[1])
+    radius, _ = _edge(lens, source, (aim, clip), shape.centre, theta)
+    square, weight = gauss_legendre(counts[0])
+    rho = np.sqrt((1 + square) / 2)[:, None] * radius
+    # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half, over the whole pupil's area π.
+    area = (weight[:, None] / 2 * radius**2 * share / np.pi).ravel()
+    xi, eta = (rho * np.sin(theta)).ravel(), (shape.centre + rho * np.cos(theta)).ravel()
+    return ClearNodes(xi, eta, area / area.sum(), float(area.sum()))
+
+
+def _directions(corners, count: int):
+    """Return angles and weights (sum π) of Gauss–Legendre nodes between corners, together some ``count``/2."""
+    angles, weights = [], []
+    for low, high in pairwise(corners):
+        number = max(FEWEST_PER_ARC, round(GAUSS_EXCESS * count / 2 * (high - low) / np.pi))
+        node, weight = gauss_legendre(number)
+        angles.append((low + high + (high - low) * node) / 2)
+        weights.append((high - low) / 2 * weight)
+    return np.concatenate(angles), np.concatenate(weights)
+
+
+@lru_cache(maxsize=16)
+def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True) -> Outline:
+    """Return centre and corners of the clear part of the pupil. Raises GeometryError when nothing is clear."""
+    xi, eta = hexapolar(SEARCH_RINGS)
+    passed = pencil(lens, source, xi, eta, aim, clip).passed
+    if not passed.any():
+        raise GeometryError(
+            "the rims clip every ray of this field; leave clip off or reduce the field" if clip else LOST
+        )
+    centre = float(eta[passed].mean())
+    if not pencil(lens, source, [0.0], [centre], aim, clip).passed.all():
+        raise GeometryError("the clear part of the pupil has no clear centre; leave clip off or reduce the field")
+    theta = (np.arange(SCAN) + 0.5) * (np.pi / SCAN)
+    rim = _edge(lens, source, (aim, clip), centre, theta)[1]
+    change = np.flatnonzero(np.diff(rim))
+    low, high, first = theta[change], theta[change + 1], rim[change]
+    for _ in range(CORNER_BISECTIONS if change.size else 0):
+        middle = (low + high) / 2
+        same = _edge(lens, source, (aim, clip), centre, middle)[1] == first
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return Outline(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
+
+
+def _edge(lens, source, way, centre: float, theta):
+    """Return the clear radius along each angle, and the surface that ends it (0: the pupil's own rim)."""
+    sine, cosine = np.sin(theta), np.cos(theta)
+    # The unit circle seen from the centre: |centre + r·direction| = 1.
+    outer = np.sqrt(1 - (centre * sine) ** 2) - centre * cosine
+    rays = pencil(lens, source, outer * sine, centre + outer * cosine, *way)
+    whole, rim = rays.passed, rays.failed_surface.copy()
+    low, high = np.zeros_like(outer), outer.copy()
+    for _ in range(0 if whole.all() else BISECTIONS):
+        middle = (low + high) / 2
+        rays = pencil(lens, source, middle * sine, centre + middle * cosine, *way)
+        low, high = np.where(rays.passed, middle, low), np.where(rays.passed, high, middle)
+        rim = np.where(rays.passed, rim, rays.failed_surface)
+    return np.where(whole, outer, low), np.where(whole, 0, rim)
+
+
+def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, aim: str) -> float | None:
+    """Return ∫|field|²dx in µm² by Parseval from the fitted pupil map; None where rays are lost and none is fitted."""
+    try:
+        found = fit(lens, source, aim=aim)
+    except GeometryError:
+        return None
+    if nodes.share == 1.0:
+        return found.blur_um2
+    return float(nodes.weight @ (1 / np.abs(found.jacobian(nodes.xi, nodes.eta))) / (np.pi * nodes.share))

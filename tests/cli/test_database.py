@@ -1,0 +1,166 @@
+"""p2sf database, export, and psf from a database: what they print, what they write, what they refuse."""
+
+import json
+
+import numpy as np
+import pytest
+
+from p2sf.cli.spans import even_span, span
+from p2sf.database_files import load_database
+from p2sf.database_files.stack import open_stack
+from p2sf.errors import RequestError
+from p2sf.io.psf_files import read_psf
+from tests.database_files.test_npz import damaged
+
+GRID = ("--depths-mm", "500:inf:5", "--fields-deg", "0:14:3", "--wavelengths-nm", "450:650:3")
+
+
+@pytest.fixture
+def file(said, tmp_path):
+    said("database", "build", "double_gauss_28", *GRID, "-o", tmp_path / "gauss.npz")
+    return tmp_path / "gauss.npz"
+
+
+def test_build_reports_what_it_made_and_how_exact(said, tmp_path):
+    answer = json.loads(said("database", "build", "tessar", *GRID, "-o", tmp_path / "a.npz", "--json"))
+    assert answer["nodes"] == [5, 3, 3]
+    assert answer["bytes"] == (tmp_path / "a.npz").stat().st_size
+    assert set(answer["errors_waves"]) == {"w40", "w31", "w22", "w20", "w11", "wd"}
+    assert "largest error of Wd" in said("database", "build", "tessar", *GRID, "-o", tmp_path / "b.npz")
+
+
+@pytest.mark.parametrize("interpolant", ["table1", "linear"])
+def test_the_camera_and_the_interpolant_are_kept(said, tmp_path, interpolant):
+    path = tmp_path / "a.npz"
+    camera = ("--focus-mm", 2000, "--f-number", 5.6, "--interpolant", interpolant)
+    said("database", "build", "double_gauss_28", *GRID, *camera, "-o", path)
+    stored = load_database(path)
+    assert stored.database.interpolant == interpolant
+    assert stored.meta["sensor_mm"] > 60
+    assert float(stored.database.coefficients(np.inf, 0.0, 0.55).na) == pytest.approx(1 / 11.2, rel=0.02)
+
+
+def test_info_says_where_it_comes_from(said, file):
+    printed = said("database", "info", file)
+    assert "SCHOTT" in printed
+    assert "500 to ∞" in printed
+    answer = json.loads(said("database", "info", file, "--json"))
+    assert answer["lens"]["name"] == "double_gauss_28"
+    assert answer["covers"]["depth_mm"] == [500, None]
+    assert answer["schema"] == 1
+
+
+def test_psf_from_a_database_is_the_psf_of_the_lens(said, file, tmp_path):
+    point = ("--depth-mm", 3000, "--field-deg", 7, "--wavelength-nm", 550, "--pixels", 32, "--pixel-um", 20)
+    said("psf", file, *point, "-o", tmp_path / "a.npz")
+    said("psf", "double_gauss_28", "--method", "seidel", *point, "-o", tmp_path / "b.npz")
+    (looked, meta), (direct, _) = read_psf(tmp_path / "a.npz"), read_psf(tmp_path / "b.npz")
+    np.testing.assert_allclose(looked.values, direct.values, atol=1e-12)  # both settled, from equal coefficients
+    assert meta["lens"]["name"] == "double_gauss_28"
+    assert "field 7°, 550 nm" in said("psf", file, *point)
+
+
+def test_a_database_answers_in_image_height_and_moves_its_sensor(said, file):
+    common = ("--wavelength-nm", 550, "--pixels", 16, "--pixel-um", 1, "--json")
+    by_height = json.loads(said("psf", file, "--image-height-mm", 17.0, "--sensor-shift-um", 50, *common))
+    of_lens = ("psf", "double_gauss_28", "--method", "seidel", "--image-height-mm", 17.0, "--sensor-shift-um", 50)
+    assert by_height["strehl"] == pytest.approx(json.loads(said(*of_lens, *common))["strehl"], rel=1e-3)
+
+
+def test_a_stack_is_built_told_about_and_exported(said, tmp_path):
+    path = tmp_path / "gauss.zarr"
+    near = ("--depths-mm", "20000:inf:2", *GRID[2:])
+    said("database", "build", "double_gauss_28", *near, "--stack", "--pixels", 16, "--pixel-um", 2, "-o", path)
+    assert open_stack(path).psf.shape == (2, 3, 3, 16, 16)
+    answer = json.loads(said("database", "info", path, "--json"))
+    assert answer["complete"] is True
+    assert answer["psfs"] == [2, 3, 3, 16, 16]
+    assert json.loads(said("export", path, "--to", "tiff", "-o", tmp_path / "a.tif", "--json"))["bytes"] > 18 * 1024
+
+
+@pytest.mark.parametrize("to", ["iset", "fits", "tiff", "csv"])
+def test_every_export_is_written_beside_the_database(said, file, to):
+    answer = json.loads(said("export", file, "--to", to, "--pixels", 16, "--pixel-um", 20, "--json"))
+    assert answer["bytes"] == (file.parent / answer["file"]).stat().st_size > 1000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--depths-mm", "500-inf"), "--depths-mm is 500-inf; write LOW:HIGH:COUNT"),
+        (("--depths-mm", "500:inf"), "--depths-mm is 500:inf; write LOW:HIGH:COUNT"),
+        (("--depths-mm", "inf:500:3"), "which does not ascend from a finite number"),
+        (("--depths-mm", "500:inf:1"), "1 nodes; give from 2 to 4096"),
+        (("--depths-mm=-5:inf:3",), "give distances in front of the lens"),
+        (("--depths-mm", "nan"), "--depths-mm is nan; write"),
+        (("--depths-mm", "0:10:3"), "give distances in front of the lens"),
+        (("--stack", "--pixels", "9.5"), "--pixels"),
+        (("--fields-deg", "0:inf:3"), "only a depth may reach to inf"),
+        (("--fields-deg", "0:90:3"), "give angles from 0 to below 90 degrees"),
+        (("--fields-deg", "5,2"), "put the numbers in ascending order"),
+        (("--wavelengths-nm", "0:500:3"), "give wavelengths above 0"),
+        (("--wavelengths-nm", "100:500:3"), "outside the data of"),
+        (("--pixels", "1"), "--pixels is 1; give a whole number"),
+        (("--pixel-um", "-1"), "--pixel-um is -1 µm"),
+        (("--stack",), "a stack is a .zarr folder, choose a name that ends in .zarr"),
+        (("--method", "fitted", "--interpolant", "linear"), "--interpolant is linear, which is for --method seidel"),
+        (("--interpolant", "cubic"), "cubic"),
+    ],
+)
+def test_bad_builds_are_one_sentence(refused, tmp_path, arguments, words):
+    assert words in refused("database", "build", "double_gauss_28", *arguments, "-o", tmp_path / "a.npz")
+    assert not list(tmp_path.iterdir())
+
+
+def test_bad_files_and_questions_are_one_sentence(refused, file, tmp_path):
+    foreign = tmp_path / "foreign.npz"
+    foreign.write_bytes(b"text")
+    assert "is not a P2SF database" in refused("database", "info", foreign)
+    assert "is not a P2SF database" in refused("psf", foreign)
+    assert "cannot be read" in refused("export", tmp_path / "none.npz", "--to", "csv")
+    assert "is not a P2SF stack" in refused("database", "info", tmp_path)
+    assert "depth 100 mm is outside this database" in refused("psf", file, "--depth-mm", 100)
+    assert "--f-number needs the lens" in refused("psf", file, "--f-number", 4)
+    assert "leave them away" in refused("psf", file, "--method", "huygens")
+    assert "33 samples a side" in refused("export", file, "--to", "iset", "--pixels", 33)
+    assert "choose a name that ends in .npz" in refused("database", "build", "tessar", "-o", tmp_path / "a.zarr")
+
+
+def test_an_export_under_another_formats_ending_is_refused_and_writes_nothing(refused, file, tmp_path):
+    said = refused("export", file, "--to", "fits", "-o", tmp_path / "x.txt")
+    assert 'its ending ".txt" is unknown; choose .fits, .fit, .fts' in said
+    assert not (tmp_path / "x.txt").exists()
+
+
+def test_an_image_height_in_a_database_of_the_axis_is_one_sentence(said, refused, tmp_path):
+    axis = tmp_path / "axis.npz"
+    said("database", "build", "tessar", "--depths-mm", "inf", "--fields-deg", 0, "--wavelengths-nm", 550, "-o", axis)
+    assert "build one with fields" in refused("psf", axis, "--image-height-mm", 1)
+
+
+def test_spans():
+    assert span("500:inf:20", "x") == (500, np.inf, 20)
+    assert span("500, 800,inf", "x").tolist() == [500, 800, np.inf]
+    assert even_span("400:700:4", "x").tolist() == [400, 500, 600, 700]
+    with pytest.raises(RequestError, match="x is a:b:3"):
+        span("a:b:3", "x")
+
+
+def test_a_fitted_database_is_built_and_rendered(said, tmp_path):
+    path = tmp_path / "fitted.npz"
+    grid = ("--depths-mm", "5000:inf:3", "--fields-deg", "10:14:3", "--wavelengths-nm", "540:560:3")
+    answer = json.loads(said("database", "build", "cooke_triplet", *grid, "--method", "fitted", "-o", path, "--json"))
+    assert answer["errors_waves"]["phase"] < 1e-3
+    shown = json.loads(said("psf", path, "--field-deg", 12, "--wavelength-nm", 550, "--pixels", 16, "--json"))
+    assert shown["method"] == "fitted"
+    assert shown["rays"] == 0
+
+
+def test_a_thousand_corrupted_files_are_refused_with_code_2_and_one_sentence(refused, file, tmp_path):
+    """The same random damage as in test_databasefile, through the command line."""
+    whole, rng, broken = file.read_bytes(), np.random.default_rng(7), tmp_path / "broken.npz"
+    for _ in range(1000):
+        content = damaged(whole, rng)
+        if content != whole:
+            broken.write_bytes(content)
+            assert str(broken) in refused("database", "info", broken)

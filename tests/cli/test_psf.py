@@ -1,0 +1,95 @@
+"""`p2sf psf` writes the PSF it says, in every format, by every method."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from p2sf.cli import main
+from p2sf.cli.cautions import long_sum
+from p2sf.io.psf_files import read_psf
+from p2sf.lensfile.library import find_lens
+from p2sf.request import Request, set_up
+
+
+@pytest.mark.parametrize("ending", ["npz", "tiff", "csv", "png"])
+def test_psf_writes_what_it_says(answer, tmp_path, ending):
+    path = tmp_path / f"spot.{ending}"
+    place = ("--field-deg", 10, "--wavelength-nm", 656.2725, "--pixels", 32, "--pixel-um", 0.69125)
+    said = answer("psf", "double_gauss_28", *place, "--method", "seidel", "--sampling", "mdft", "-o", path)
+    assert (said["file"], said["pixels"], said["pixel_um"], said["method"]) == (str(path), 32, 0.69125, "seidel")
+    if ending != "png":
+        psf, meta = read_psf(path)
+        assert psf.values.shape == (32, 32) and psf.values.sum() == pytest.approx(1, abs=1e-6)
+        assert meta["lens"]["name"] == "double_gauss_28" and len(meta["lens"]["sha256_of_toml"]) == 64
+        assert meta["setup"]["depth_mm"] is None and meta["setup"]["field_deg"] == pytest.approx(10)
+        assert set(meta["versions"]) >= {"p2sf", "numpy", "python"}
+
+
+def test_both_samplings_show_the_same_spot(tmp_path, said):
+    pictures = []
+    for sampling in ("fft", "mdft"):
+        path = tmp_path / f"{sampling}.npz"
+        said("psf", "cooke_triplet", "--sampling", sampling, "--pixels", 64, "--pixel-um", 0.5, "-o", path)
+        pictures.append(read_psf(path)[0].values)
+    # A square pupil grid with a yes/no edge is off by some 1e-2 (DESIGN.md section 7); a shift or a flip by far more.
+    assert np.linalg.norm(pictures[0] - pictures[1]) < 0.05 * np.linalg.norm(pictures[1])
+
+
+def test_a_folder_that_is_not_there(capsys):
+    place = ("--sampling", "mdft", "-o", "no_such_folder/spot.npz")
+    assert main(["psf", "double_gauss_28", *place]) == 2
+    error = capsys.readouterr().err
+    assert "no_such_folder" in error and "make the folder" in error
+
+
+def test_the_figures_are_measured_on_the_samples(answer, tmp_path):
+    found = answer("psf", "tessar", "--field-deg", 15, "--method", "seidel", "-o", tmp_path / "a.csv")
+    psf, _ = read_psf(tmp_path / "a.csv")
+    centre = [(psf.values.sum(0) * psf.x_um).sum(), (psf.values.sum(1) * psf.y_um).sum()]
+    assert found["centroid_um"] == pytest.approx(centre, abs=1e-9)
+    assert 0 < found["radius_50_um"] < found["radius_80_um"]
+
+
+def test_a_table_for_people(said):
+    text = said("psf", "asphere", "--method", "seidel", "--pixels", 31)
+    assert "31 × 31" in text and "Strehl ratio" in text and "µm" in text
+
+
+@pytest.mark.parametrize("method", ["seidel", "fitted", "traced", "huygens", "gaussian"])
+def test_the_asked_rung_makes_the_picture(method, capsys):
+    assert main(["psf", "landscape", "--method", method, "--pixels", "16", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["method"] == method and (found["strehl"] is None) == (method == "gaussian")
+
+
+def test_a_fitted_gaussian_has_a_dash_for_its_strehl_ratio(said, tmp_path):
+    where = tmp_path / "psf.png"
+    text = said("psf", "landscape", "--method", "gaussian", "--pixels", 16, "-o", where)
+    assert where.stat().st_size > 1000
+    assert any(line.split()[:3] == ["Strehl", "ratio", "–"] for line in text.splitlines())
+
+
+def test_auto_is_the_default_and_takes_the_cheapest_rung_that_holds(capsys):
+    """Six coefficients describe f/16 on axis and fail on the Double Gauss at 14° (DESIGN.md section 2)."""
+    found = []
+    for arguments in (["landscape"], ["double_gauss_28", "--field-deg", "14"]):
+        assert main(["psf", *arguments, "--pixels", "16", "--json"]) == 0
+        found.append(json.loads(capsys.readouterr().out)["method"])
+    assert found == ["seidel", "fitted"]
+
+
+def test_a_virtual_image_is_told_beside_the_blur(capsys):
+    assert main(["psf", "plano_convex", "--depth-mm", "20", "--method", "seidel", "--pixels", "8"]) == 0
+    error = capsys.readouterr().err
+    assert error.startswith("warning: the image of an object at 20 mm is virtual, ") and error.count("\n") == 1
+    assert "beyond the front focal point" in error
+    assert main(["psf", "plano_convex", "--depth-mm", "200", "--method", "seidel", "--pixels", "8"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_a_sum_of_seconds_is_announced_with_its_time():
+    setup = set_up(find_lens("double_gauss_28"), Request(field_deg=60.0))
+    assert re.search(r"rise 1490 waves per pupil radius here, so their sum takes some 9 s", long_sum(setup))
+    assert long_sum(set_up(find_lens("double_gauss_28"), Request(field_deg=14.0))) is None

@@ -1,0 +1,124 @@
+"""`p2sf plan` and `p2sf image`, run as a user runs them."""
+
+import json
+
+import numpy as np
+import pytest
+
+from p2sf.cli import main
+from p2sf.io.photo_files import read_photo, write_photo
+from p2sf.scene.study import RINGS
+
+SCENE = """
+tolerance = 0.1
+f_number = 5.6
+[sensor]
+rows = 40
+columns = 60
+pixel_um = 60.0
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE)
+    return path
+
+
+def test_a_plan_explains_itself(scene, capsys):
+    assert main(["plan", "double_gauss_28", str(scene)]) == 0
+    told = capsys.readouterr().out
+    assert "keeps the tolerance" in told and "full grid" in told
+    assert main(["plan", "double_gauss_28", str(scene), "--check", "1", "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["meets"] and facts["measured"]["kept"] and facts["predicted_error"] <= 0.1
+    assert len(facts["decisions"]) == RINGS + 5 + 3
+
+
+def test_a_plan_tells_its_progress_on_a_terminal(scene, capsys, monkeypatch):
+    monkeypatch.setattr("p2sf.cli.scenes.TELL_EVERY_S", 0.0)
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    scene.write_text(SCENE.replace("rows = 40", "rows = 4").replace("columns = 60", "columns = 6"))
+    assert main(["plan", "tessar", str(scene)]) == 0
+    lines = capsys.readouterr().err.split("\r")
+    assert "planning: 1 measurements" in lines[1] and len(lines) > 20 and not lines[-1].strip()
+
+
+def test_a_picture_goes_through_the_lens(scene, tmp_path, capsys):
+    out = tmp_path / "out.tif"
+    assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(out), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["rows"] == 40
+    formed = read_photo(out, "srgb").values
+    assert formed.shape == (40, 60, 3)
+    write_photo(tmp_path / "grey.png", np.full((40, 60), 0.5, np.float32), "srgb", "16")
+    arguments = ["image", "double_gauss_28", str(scene), str(tmp_path / "grey.png"), "-o", str(tmp_path / "b.png")]
+    assert main([*arguments, "--noise", "0.002", "--deblur", "wiener", "--method", "lowrank"]) == 0
+    assert abs(read_photo(tmp_path / "b.png").values[15:25, 25:35].mean() - 0.5) < 0.02
+    assert main([*arguments, "--preview"]) == 0
+
+
+def test_depths_come_from_a_float_tiff(scene, tmp_path, capsys):
+    depth = np.zeros((40, 60), np.float32)
+    depth[:, :30] = 20000.0
+    write_photo(tmp_path / "depth.tif", depth, "linear", "float")
+    rough = SCENE.replace("tolerance = 0.1", "tolerance = 0.4")  # its plan is made in a few seconds
+    scene.write_text(rough + '[depth]\nnear_mm = 20000\nmap = "depth.tif"\nfar_mm = inf\n')
+    assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 0
+    write_photo(tmp_path / "depth.tif", depth, "linear", "8")
+    assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 2
+    assert "whole numbers" in capsys.readouterr().err
+
+
+def test_a_missing_depth_map_is_told_before_the_plan(scene, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("p2sf.cli.scenes.plan", lambda *_: pytest.fail("seconds of planning for nothing"))
+    scene.write_text(SCENE + '[depth]\nnear_mm = 20000\nmap = "absent.tif"\n')
+    assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 2
+    assert "absent.tif cannot be read" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("lost", ["in.png", "depth.tif"])
+def test_a_picture_does_not_overwrite_what_it_is_made_of(scene, tmp_path, capsys, monkeypatch, lost):
+    """By another path to the same file too, and before any work."""
+    monkeypatch.setattr("p2sf.cli.scenes.plan", lambda *_: pytest.fail("work for nothing"))
+    monkeypatch.chdir(tmp_path)
+    scene.write_text(SCENE + '[depth]\nnear_mm = 20000\nmap = "depth.tif"\n')
+    for name in ("in.png", "depth.tif"):
+        write_photo(tmp_path / name, np.full((40, 60), 0.5, np.float32))
+    before = (tmp_path / lost).read_bytes()
+    elsewhere = tmp_path / "link" / lost
+    elsewhere.parent.symlink_to(tmp_path)
+    assert main(["image", "double_gauss_28", str(scene), "in.png", "-o", str(elsewhere)]) == 2
+    assert f"{lost}; choose another name" in capsys.readouterr().err
+    assert (tmp_path / lost).read_bytes() == before
+
+
+@pytest.mark.parametrize("line", ["f_number = 0", "f_number = 5.6\nfocus_mm = 10"])
+def test_a_scene_the_lens_cannot_take_is_told_in_the_scenes_words(scene, capsys, line):
+    scene.write_text(SCENE.replace("f_number = 5.6", line))
+    assert main(["plan", "double_gauss_28", str(scene)]) == 2
+    told = capsys.readouterr().err
+    assert f"scene.toml: {line.split()[-3]} is " in told and "--" not in told
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["plan", "double_gauss_28", "absent.toml"], "absent.toml"),
+        (["plan", "double_gauss_28", "SCENE", "--check", "-1"], "--check"),
+        (["image", "double_gauss_28", "SCENE", "chart:text"], "--output"),
+        (["image", "double_gauss_28", "SCENE", "chart:text", "-o", "a.jpg"], ".jpg"),
+        (["image", "double_gauss_28", "SCENE", "chart:txt", "-o", "a.png"], "did you mean text"),
+        (["image", "double_gauss_28", "SCENE", "absent.png", "-o", "a.png"], "absent.png"),
+        (["image", "double_gauss_28", "SCENE", "chart:text", "-o", "a.png", "--noise", "-1"], "--noise"),
+        (
+            ["image", "double_gauss_28", "SCENE", "chart:text", "-o", "a.png", "--preview", "--deblur", "wiener"],
+            "--deblur",
+        ),
+    ],
+)
+def test_every_mistake_is_one_sentence(scene, tmp_path, capsys, monkeypatch, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    assert main([str(scene) if a == "SCENE" else a for a in arguments]) == 2
+    told = capsys.readouterr().err
+    assert words in told and told.count("\n") == 1 and "Traceback" not in told

@@ -1,0 +1,101 @@
+"""The fitted rung as a database: looked up equals fitted, to the error it states."""
+
+import numpy as np
+import pytest
+
+from p2sf.database import Space, depth_nodes
+from p2sf.database.departure import departures
+from p2sf.database.fitted import powers, split
+from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted, held_out, ray_error
+from p2sf.database.render import Sampling, database_psf, rendered
+from p2sf.database_files import load_database, save_database
+from p2sf.errors import DatabaseError
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.pupils import find_stop
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.fitted import fitted_psf
+from p2sf.raytrace.fit import LEVELS, fit
+from p2sf.raytrace.pencil import pencil
+
+SPACE = Space(depth_nodes(3000), np.tan(np.deg2rad(np.linspace(0, 14, 5))), np.linspace(0.5, 0.6, 5))
+SOURCES = [Source(4000.0, 0.2, 0.53), Source(np.inf, 0.0, 0.58), Source(9000.0, 0.11, 0.51)]
+
+
+@pytest.fixture(scope="module")
+def lens():
+    return find_lens("double_gauss_28")
+
+
+@pytest.fixture(scope="module")
+def database(lens):
+    return build_fitted(lens, SPACE)
+
+
+def test_the_stated_error_is_below_the_tolerance_and_holds_elsewhere(lens, database):
+    """The points held out set the node counts; 12 others, of another space inside, may lose twice as much."""
+    assert 0 < database.errors["phase"] <= TOLERANCE_WAVES
+    inside = Space(depth_nodes(3500), SPACE.field_slopes[:-1], SPACE.wavelengths_um[1:])
+    for point in held_out(lens, inside, database.level, find_stop(lens)):
+        assert ray_error(database, *point) <= 2 * TOLERANCE_WAVES
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_psfs_looked_up_are_those_fitted(lens, database, source):
+    """An RMS phase error σ changes a PSF by some 2πσ relative: 0.6 % at the tolerance, far less found."""
+    looked = database_psf(database, source, 48, 2.0)
+    direct = fitted_psf(lens, source, 48, 2.0, database.level.numbers)
+    assert np.linalg.norm(looked.values - direct.values) <= 6e-3 * np.linalg.norm(direct.values)
+    assert looked.method == "fitted"
+    assert looked.rays == 0
+    assert looked.numbers == database.level.numbers
+
+
+def test_the_chief_rays_height_is_the_traced_one(lens, database):
+    for source in SOURCES:
+        height = split(database.level, database.numbers_at(source))[3]
+        traced = pencil(lens, source, np.zeros(1), np.zeros(1)).chief_y.item()
+        assert height == pytest.approx(traced, abs=1e-5)  # mm; a hundredth of a pixel
+
+
+def test_numbers_are_even_or_odd_in_the_field_as_their_polynomials_are(lens):
+    """The parity that the database is built on: a fit at −h has the same numbers, the odd ones negated."""
+    above, below = (fit(lens, Source(5000.0, slope, 0.55), LEVELS[1].numbers) for slope in (0.15, -0.15))
+    signs = np.sign(powers(above.level, Source(5000.0, -0.15, 0.55)))
+    for name, part in zip(("phase", "fx", "fy"), split(above.level, signs)[:3], strict=True):
+        one, other = getattr(above, name), getattr(below, name) * part
+        np.testing.assert_allclose(one, other, atol=1e-7 * np.abs(one).max())
+
+
+def test_the_seidel_numbers_are_there_too(lens, database):
+    point = (4000.0, 0.2, 0.53)
+    assert departures(database.coefficients(*point), coefficients(lens, *point))["w40"] < 1e-10
+
+
+def test_a_fitted_database_comes_back_from_its_file(lens, database, tmp_path):
+    stored = load_database(save_database(database, lens, tmp_path / "fitted.npz"))
+    assert stored.meta["method"] == "fitted"
+    assert stored.database.errors == database.errors
+    for source in SOURCES:
+        np.testing.assert_allclose(stored.database.numbers_at(source), database.numbers_at(source), atol=1e-12)
+
+
+def test_stacks_are_rendered_from_it(database):
+    psfs = rendered(database, SPACE.axes, Sampling(16, 2.0))
+    assert psfs.shape == (20, 5, 5, 16, 16)
+    np.testing.assert_allclose(psfs.sum((-2, -1)), 1, atol=1e-5)
+    one = database.psf(Source(np.inf, float(SPACE.field_slopes[2]), 0.55), 16, 2.0).values
+    assert np.linalg.norm(psfs[-1, 2, 2] - one) <= 1e-4 * np.linalg.norm(one)
+
+
+def test_extrapolation_is_refused(database):
+    for source in (Source(2000.0, 0.1, 0.55), Source(4000.0, 0.4, 0.55), Source(4000.0, 0.1, 0.4)):
+        with pytest.raises(DatabaseError, match="is outside this database"):
+            database.numbers_at(source)
+
+
+def test_a_single_point_needs_a_single_fit(lens):
+    one = build_fitted(lens, Space([5000.0], [0.1], [0.55]))
+    assert one.series.shape[:3] == (1, 1, 1)
+    assert one.level in LEVELS
+    assert one.errors["phase"] < 1e-9

@@ -1,0 +1,94 @@
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF
+
+from p2sf_explorer.charts.chart import Chart, bottom_marks
+from p2sf_explorer.charts.painting import polylines, set_text
+from p2sf_explorer.charts.plots import EMPTY, as_indices
+from p2sf_explorer.charts.theme import LIGHT
+from p2sf_explorer.layout_view.marks import free_room
+from p2sf_explorer.state.scales import ticks
+
+
+@pytest.fixture
+def chart(qtbot):
+    made = Chart("x", "y", aspect=True)
+    qtbot.addWidget(made)
+    made.resize(400, 300)
+    made.set_range((-2.0, 3.0), (-1.0, 1.0))
+    return made
+
+
+def test_pixels_and_data_are_each_others_inverse_and_circles_are_round(chart):
+    x, y = chart.to_pixels(0.7, -0.3)
+    assert chart.from_pixels(QPointF(x, y)) == pytest.approx((0.7, -0.3))
+    right, up = (
+        chart.to_pixels(1.0, 0.0)[0] - chart.to_pixels(0.0, 0.0)[0],
+        np.diff(chart.to_pixels(0, np.arange(2))[1]),
+    )
+    assert right == pytest.approx(-float(up[0]))
+
+
+def test_what_was_asked_for_is_in_sight(chart):
+    (left, right), (low, high) = chart.ranges()
+    assert left <= -2 and right >= 3 and low <= -1 and high >= 1
+
+
+@pytest.mark.parametrize(("low", "high"), [(-1.0, 1.0), (0.0, 1.04), (-147.0, 147.0), (-3e-4, 2e-3), (0.0, 1e6)])
+def test_ticks_are_few_round_inside_and_written_as_they_are(low, high):
+    found = list(ticks(low, high, 6))
+    assert 3 <= len(found) <= 7
+    for value, text in found:
+        assert low - 1e-9 <= value <= high * (1 + 1e-9)
+        assert float(text.replace("−", "-")) == pytest.approx(value, abs=1e-9 * (high - low))
+
+
+@pytest.mark.parametrize("half", [101.0, 147.0, 199.0, 260.0, 499.0, 1040.0, 0.35])
+@pytest.mark.parametrize("most", [1.2, 1.9, 2.5])
+def test_an_axis_with_little_room_says_its_scale_all_the_same(half, most):
+    found = [value for value, _ in ticks(-half, half, most)]
+    assert len(found) == 3 and found[1] == 0 and found[2] == -found[0] > 0.4 * half
+
+
+@pytest.mark.parametrize("half", [104.0, 4680.0, 832.0])
+def test_marks_below_a_round_picture_are_three_at_least_and_stand_apart(chart, half):
+    chart.set_range((-half, half), (-half, half))
+    for width in (100, 120, 160, 200, 260, 400):
+        chart.resize(width + 69, 250)
+        chart.forget_ground()  # no resize event reaches a chart that is not on screen
+        below = [
+            (float(chart.to_pixels(value, 0.0)[0]), set_text(text).size().width())
+            for value, text in bottom_marks(chart)
+        ]
+        assert len(below) >= 3
+        assert all(b - a > (one + other) / 2 for (a, one), (b, other) in pairwise(below))
+
+
+def test_a_line_breaks_where_a_value_is_missing():
+    x = np.array([0.0, 1, 2, 3, 4])
+    parts = list(polylines(x, np.array([0.0, 1, np.nan, 3, 4])))
+    assert [part.count() for part in parts] == [2, 2]
+
+
+def test_the_image_lies_where_it_is_said_to_and_the_first_row_is_lowest(chart):
+    chart.restyle(LIGHT)
+    chart.show_pixels(np.array([[0xFF0000FF], [0xFFFF0000]], np.uint32), (0.0, -1.0, 1.0, 2.0))
+    shown = chart.grab().toImage()
+    colours = [shown.pixelColor(QPointF(*chart.to_pixels(0.5, y)).toPoint()).name() for y in (-0.5, 0.5)]
+    assert colours == ["#0000ff", "#ff0000"]
+
+
+def test_a_missing_value_has_an_index_of_its_own():
+    assert as_indices(np.array([-9.0, 0.0, 1.0, 9.0, np.nan]), 0.0, 1.0).tolist() == [0, 0, 254, 254, EMPTY]
+
+
+def test_names_at_one_place_do_not_touch_and_one_without_room_is_left_out(qapp):
+    taken, rooms = [], []
+    for name in ("EnP", "ExP", "H", "H′", "F′"):
+        rooms.append(free_room(name, 100.0, 50.0, taken, 200.0))
+        assert not any(rooms[-1] and rooms[-1].intersects(other) for other in taken)
+        taken += filter(None, rooms[-1:])
+    assert rooms[0] and rooms[1] and rooms[-1] is None
+    assert free_room("EnP", 199.0, 50.0, [], 200.0).right() <= 200.0

@@ -1,0 +1,112 @@
+"""A − B in every panel: what it is, checked against the two, or a sentence on why there is none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pytest import approx
+
+from p2sf_explorer.compare.comparison import answers
+from p2sf_explorer.compare.differences import FROM_ANSWERS, OTHER_SURFACES, SUBTRACTED, WHY, minus, subtracted
+from p2sf_explorer.compute import live as compute
+from p2sf_explorer.i18n import language as languages
+from p2sf_explorer.panels import REGISTRY, view_of
+from p2sf_explorer.results.through_focus import answer
+from p2sf_explorer.state.pinning import side_b
+from p2sf_explorer.state.state import State
+
+ENTRIES = {entry.key: entry for entry in REGISTRY}
+PAIR = State(method="seidel", f_number=4.0, field_deg=5.0, theme="light", pinned=State(method="seidel", f_number=8.0))
+STILL = ("solid", "image", "database", "accuracy", "colour")  # OpenGL, or seconds of work; their sentences are the same
+
+
+@pytest.fixture(scope="module")
+def views():
+    wanted = {key: view_of(ENTRIES[key]) for key in SUBTRACTED}
+    a, b = (compute.live(side, "preview", wanted).views for side in (replace(PAIR, pinned=None), side_b(PAIR)))
+    return a, b, answers(replace(PAIR, shown="difference"), "preview", wanted).seen.views
+
+
+def test_every_panel_either_differs_or_says_why():
+    parts = (FROM_ANSWERS, SUBTRACTED, WHY)
+    assert sorted(key for part in parts for key in part) == sorted(ENTRIES)
+    assert all(why.startswith("This is A: ") and why.endswith(".") for why in WHY.values())
+    german = (languages.FOLDER / "de.ts").read_text(encoding="utf-8")
+    assert all(f"<source>{why}</source>" in german for why in (*WHY.values(), OTHER_SURFACES))
+
+
+def test_in_the_window_every_panel_names_its_side_and_says_why(window):
+    window.store.replace(replace(PAIR, shown="difference"))
+    for key in (key for key in ENTRIES if key not in STILL):
+        window.store.update(tab=key if ENTRIES[key].place == "tab" else "profiles")
+        card = window.panels[key].widget
+        assert card.note.isVisible() == (key in WHY)
+        assert card.note.text() == WHY.get(key, "")
+        assert card.title.text().endswith(" · A" if key in WHY else " · A − B")
+    window.store.update(shown="b", tab="profiles")
+    assert window.panels["layout"].widget.title.text() == "Layout · B"
+    assert not window.panels["layout"].widget.note.isVisible()
+    window.store.replace(replace(PAIR, pinned=None))
+    assert window.panels["layout"].widget.title.text() == "Layout"
+
+
+def test_fans_and_sums_per_surface_are_taken_from_each_other(views):
+    a, b, d = views
+    for fan in ("ray_fan", "opd_fan"):
+        for line in ("sagittal", "tangential"):
+            assert np.allclose(*(getattr(a[fan], line) - getattr(b[fan], line), getattr(d[fan], line)), equal_nan=True)
+    for term, waves in d["seidel"].waves.items():
+        assert waves == approx(a["seidel"].waves[term] - b["seidel"].waves[term])
+    # third order: W40 goes as the fourth power of the aperture, so that f/4 less f/8 is 15/16 of f/4
+    assert d["seidel"].waves["w40"].sum() == approx(15 / 16 * a["seidel"].waves["w40"].sum(), rel=1e-6)
+
+
+def test_a_lens_with_other_surfaces_has_no_sums_to_take_away(views):
+    other = compute.live(
+        State(lens="cooke_triplet", method="seidel"), "preview", {"seidel": view_of(ENTRIES["seidel"])}
+    )
+    shown, why = subtracted("seidel", views[0]["seidel"], other.views["seidel"])
+    assert shown is views[0]["seidel"] and "11 surfaces and B has 6" in why
+
+
+def test_field_curves_differ_by_focus_and_by_share_of_height(views):
+    a, b, d = (side["field"] for side in views)
+    # both have the axis and, by the same lens file, the same fields; the stop moves the real foci alone
+    assert d.real.tangential == approx(a.real.tangential - b.real.tangential, nan_ok=True)
+    assert d.third.sagittal == approx(a.third.sagittal - b.third.sagittal)
+    assert d.heights.distortion == approx(a.heights.distortion - b.heights.distortion, abs=1e-12)
+
+
+def test_a_colour_b_cannot_show_has_no_difference(views):
+    a, b, d = (side["chromatic"] for side in views)
+    assert d.shift_um == approx(a.shift_um - b.shift_um)
+    assert d.shift_um[0] == approx(0, abs=1e-9)  # paraxial rays do not know the stop
+    short = replace(b, wavelength_nm=b.wavelength_nm[5:], shift_um=b.shift_um[:, 5:])
+    assert np.isnan(subtracted("chromatic", a, short)[0].shift_um[:, :5]).all()
+
+
+def test_the_strip_is_light_less_light_at_the_same_places(views):
+    a, _, d = (side["through_focus"] for side in views)
+    assert d.less.shifts_um == a.shifts_um and d.less.window == a.window
+    few = replace(a, shifts_um=a.shifts_um[:1])
+    found = answer(replace(few, less=replace(d.less, shifts_um=few.shifts_um)), lambda: False, lambda *_: None)
+    parts = [answer(part, lambda: False, lambda *_: None) for part in (few, replace(d.less, shifts_um=few.shifts_um))]
+    assert np.allclose(found.light, parts[0].light - parts[1].light) and found.light.any()
+    assert subtracted("through_focus", a, "no")[1] == "no"
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "shown"),
+    [
+        ("100.004 mm", "99.5 mm", "0.504 mm"),
+        ("−1.25 mm", "2.00 mm", "−3.25 mm"),
+        ("f/4.00", "f/8.0", "−4.00"),
+        ("⌀ 25 at 57.91 mm", "⌀ 12.5 at 57.91 mm", "⌀ 12.5 at 0.00 mm"),
+        ("∞", "∞", "–"),
+        ("∞", "900 mm", "∞ | 900 mm"),
+        ("surface 6 (file)", "surface 6 (file)", "–"),
+        ("surface 6 (file)", "surface 5 (file)", "surface 6 (file) | surface 5 (file)"),
+    ],
+)
+def test_values_of_the_table_are_taken_from_each_other(a, b, shown):
+    assert minus(a, b) == shown

@@ -1,0 +1,137 @@
+import numpy as np
+import pytest
+
+from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.errors import GeometryError
+from p2sf.psf.metrics import radius_of_energy
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.raytrace.pencil import pencil
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.ray_density import density, exact_landing, finely, geometric_psf, polar
+from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.state.limits import CHOICES
+from p2sf_explorer.state.state import State
+
+BLURRED = State(depth_mm=1500.0, focus_mm=None, field_deg=8.0, method="fitted")
+
+
+def moments(psf) -> np.ndarray:
+    """Return mean y and the variances of x and y, µm and µm², each pixel a square of even light."""
+    axis = centred_axis(psf.values.shape[0], psf.pixel_um)
+    across, along = psf.values.sum(0), psf.values.sum(1)
+    mean = along @ axis
+    return np.array([mean, across @ axis**2, along @ (axis - mean) ** 2])
+
+
+def test_the_density_has_the_moments_of_the_spot():
+    set_up, nodes = setting(BLURRED), disc_nodes(24, 48)
+    rays = pencil(set_up.lens, set_up.source, nodes.xi, nodes.eta)
+    x, y = UM_PER_MM * rays.dx, UM_PER_MM * rays.dy
+    mean = nodes.weight @ y
+    exact = np.array([mean, nodes.weight @ x**2, nodes.weight @ (y - mean) ** 2])
+    pixel = 2.2 * max(np.abs(x).max(), np.abs(y).max()) / 128
+    psf = geometric_psf(set_up, True, (128, pixel))
+    assert psf.values.sum() == pytest.approx(1)
+    assert psf.energy == pytest.approx(1)
+    found = moments(psf)
+    # Sharing a ray among pixels, each by its nearness, keeps the mean and adds f(1 − f)·pixel² to a variance: 1/6 of it
+    # on the average over places f in a pixel.
+    assert found[0] == pytest.approx(exact[0], abs=0.02 * pixel)
+    assert found[1:] == pytest.approx(exact[1:] + pixel**2 / 6, rel=5e-3)
+
+
+def test_pure_defocus_is_an_even_disc_of_the_known_size():
+    set_up = setting(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
+    c = set_up.coefficients
+    radius = abs(2 * float(c.wd + c.w40) * set_up.source.wavelength_um / float(c.reduced_slope))
+    psf = geometric_psf(set_up, False, (64, 2.4 * radius / 64))
+    assert moments(psf)[1] == pytest.approx(radius**2 / 4, rel=0.01)  # W40 is a thousandth of Wd here
+    lit = psf.values[psf.values > 0.5 * psf.values.max()]
+    assert lit.size == pytest.approx(np.pi * radius**2 / psf.pixel_um**2, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("exact", "quality", "pixels"), [(True, "settled", 128), (False, "settled", 128), (True, "preview", 64)]
+)
+def test_an_even_blur_has_neither_a_hole_nor_rings(exact, quality, pixels):
+    set_up = setting(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
+    c = set_up.coefficients
+    radius = abs(2 * float(c.wd + c.w40) * set_up.source.wavelength_um / float(c.reduced_slope))
+    psf = geometric_psf(set_up, exact, (pixels, 2.4 * radius / pixels), quality)
+    axis = centred_axis(pixels, psf.pixel_um)
+    inner = psf.values[np.hypot(*np.meshgrid(axis, axis)) < 0.85 * radius] / np.median(psf.values[psf.values > 0])
+    # Each ray is shared by four pixels, so a pattern of rays some two to a pixel leaves a few per cent, and no more.
+    assert inner.min() > 0.9 and inner.max() < 1.1
+
+
+@pytest.mark.parametrize("pixels", [8, 9])
+def test_each_ray_is_shared_by_the_pixels_about_it_and_its_mirror_image(pixels):
+    """One ray a quarter of a pixel right of and above the chief ray's pixel; beyond the window nothing comes back."""
+    middle, one = pixels // 2, np.array([[0.5]])
+    found = density(0.25 * one * 2, 0.25 * one * 2, one, pixels, 1.0)
+    right, level = np.array([0.0, 0.75, 0.25]) / 2, np.array([0.75, 0.25])
+    assert found[middle : middle + 2, middle - 1 : middle + 2] == pytest.approx(np.outer(level, right + right[::-1]))
+    assert found.sum() == pytest.approx(1)
+    for place in (middle + 1.0, np.inf, -middle - 1.0):
+        assert density(place * one * 2, 0 * one, one, pixels, 1.0).sum() == 0
+        assert density(0 * one, place * one * 2, one, pixels, 1.0).sum() == 0
+
+
+def test_lost_rays_leave_less_light_and_stay_where_they_are_lost():
+    values = np.ones((6, 8))
+    values[5, 7] = np.nan
+    fine = finely(values, (24, 32))
+    assert np.isinf(fine[-1, -1])
+    assert np.isfinite(fine[:12]).all()
+    assert fine[np.isfinite(fine)] == pytest.approx(1)
+
+
+def test_interpolated_rays_land_where_traced_ones_do():
+    set_up = setting(BLURRED)
+    x, y, weight = exact_landing(set_up)
+    xi, eta, _ = polar(*x.shape)
+    some = slice(None, None, 997)
+    rays = pencil(set_up.lens, set_up.source, xi.ravel()[some], eta.ravel()[some])
+    reach = UM_PER_MM * np.abs(rays.dy).max()
+    assert 2 * weight.sum() == pytest.approx(1)
+    # Straight lines between 20 × 48 rays: the curvature of a blur of aberrations leaves some thousandths of its reach.
+    assert np.abs(x.ravel()[some] - UM_PER_MM * rays.dx).max() < 5e-3 * reach
+    assert np.abs(y.ravel()[some] - UM_PER_MM * rays.dy).max() < 5e-3 * reach
+
+
+def test_the_window_says_that_it_shows_rays_only():
+    answer = live(BLURRED)
+    assert answer.psf.method == "geometric"
+    assert "ray density, no diffraction" in answer.why
+    assert any("ray density, no diffraction" in sentence for sentence in answer.warnings)
+    assert not any("ray density" in sentence for sentence in live(State(method="fitted")).warnings)
+
+
+@pytest.mark.parametrize("name", ["wide_angle_35", "fast_gauss_f14"])
+def test_a_few_far_rays_do_not_shrink_the_picture_to_a_dot(name):
+    state = State(lens=name)
+    answer = live(state)
+    half = answer.psf.pixel_um * answer.psf.values.shape[0] / 2
+    assert answer.psf.method == "geometric"
+    assert radius_of_energy(answer.psf, 0.8) > half / 4  # of 128 pixels at least 32 are across what matters
+    assert 0.85 < answer.psf.energy < 0.995  # nine tenths at least but for what diffraction and round widths change
+    assert f"; {100 * answer.psf.energy:.0f} % of the pupil's light is in view" in answer.why
+    assert live(state, "preview").psf.pixel_um == pytest.approx(2 * answer.psf.pixel_um)
+    assert any("stop down or go nearer the axis" in sentence for sentence in answer.warnings)
+
+
+def test_a_blur_of_defocus_is_seen_to_its_rim_and_asks_for_focus():
+    answer = live(BLURRED)
+    assert answer.psf.energy == pytest.approx(1)
+    assert any("bring focus and source together" in sentence for sentence in answer.warnings)
+
+
+FRONT_FOCUS_MM = 29.32063039659634  # the depth whose image the default lens puts at infinity, to the last bit
+
+
+@pytest.mark.parametrize("quality", ["settled", "preview"])
+@pytest.mark.parametrize("method", CHOICES["method"])
+def test_an_object_in_the_front_focal_plane_is_the_same_sentence_by_every_method(method, quality):
+    with pytest.raises(GeometryError, match=r"lies at infinity .*; move the object or refocus"):
+        live(State(depth_mm=FRONT_FOCUS_MM, method=method), quality)
+    assert live(State(depth_mm=FRONT_FOCUS_MM * (1 + 1e-12), method=method), quality).psf.values.sum() > 0.5

@@ -1,0 +1,73 @@
+import os
+
+os.environ["QT_QPA_PLATFORM"] = "offscreen"  # before Qt is imported: tests need no screen
+
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtWidgets import QApplication
+
+from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.shell.window import Window
+from p2sf_explorer.state.state import State
+
+
+@pytest.fixture(autouse=True, scope="session")
+def own_memory(tmp_path_factory):
+    """Keep the list of recent files of a test run out of the person's own."""
+    with pytest.MonkeyPatch.context() as patch:
+        path = tmp_path_factory.mktemp("memory") / "p2sf" / "recent.json"
+        patch.setattr("p2sf_explorer.files.recent.recent_path", lambda: path)
+        yield path
+
+
+FIRST = State(method="seidel", theme="light")
+
+
+@pytest.fixture(scope="session")
+def only_window(qapp):
+    qapp.setStyle("Fusion")
+    configure_plots()
+    made = Window(FIRST, measured=False)
+    made.resize(1440, 900)
+    made.show()
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def window(only_window, qtbot):
+    """Return the one window, back in the first state: to make a new one each time takes a second."""
+    only_window.store.replace(FIRST)
+    only_window.refresh(FIRST)
+    if focused := QApplication.focusWidget():
+        focused.clearFocus()  # a shortcut is about the panel that has the focus
+    only_window.activateWindow()  # shortcuts and editors answer in the active window only
+    QApplication.processEvents()
+    return only_window
+
+
+@pytest.fixture
+def image_panel(window, qtbot):
+    """Return the image panel of the window, photographing print; afterwards another tab is in front again."""
+    window.store.update(tab="image", photo_pixel_um=16.0, photo="text")
+    made = window.panels["image"]
+    qtbot.waitUntil(lambda: not made._stale(), timeout=30000)
+    yield made
+    window.store.update(tab="profiles")
+
+
+@pytest.fixture
+def drag(qtbot):
+    """Return a function that drags a slider's handle to a travel with the mouse; ``release=False`` holds it there."""
+
+    def move(slider, travel: float, release: bool = True, steps: int = 4) -> None:
+        middle, start = 11, slider.handle_x()
+        end = 9 + travel * (slider.width() - 18)
+        qtbot.mousePress(slider, Qt.MouseButton.LeftButton, pos=QPointF(start, middle).toPoint())
+        for k in range(1, steps + 1):
+            at = start + (end - start) * k / steps
+            qtbot.mouseMove(slider, QPointF(at, middle).toPoint())
+        if release:
+            qtbot.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=QPointF(end, middle).toPoint())
+
+    return move

@@ -1,0 +1,163 @@
+"""A snapshot reopened is the same state, and its data the PSF that was on screen."""
+
+import io
+import zipfile
+
+import numpy as np
+import pytest
+from PIL import Image
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent, QImage
+
+from p2sf.database import Space, build_database, depth_nodes
+from p2sf.database_files import save_database
+from p2sf.errors import LensFileError
+from p2sf.io.fits_psf import read_psf_fits
+from p2sf.io.psf_files import read_psf, write_psf
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import lens_to_toml
+from p2sf.psf.seidel import seidel_psf
+from p2sf_explorer.__main__ import starting_state
+from p2sf_explorer.files.embedded_state import PNG_HEADER, foreign, state_inside, with_state
+from p2sf_explorer.files.opening import opened
+from p2sf_explorer.files.snapshot import DATA_ENDINGS
+from p2sf_explorer.shell.display import display_problem
+from p2sf_explorer.state.state import State, read_state
+from p2sf_explorer.widgets.copying import png_of
+from tests.explorer.conftest import FIRST
+from tests.support.waves import waves
+
+
+@pytest.fixture
+def busy(window):
+    window.store.update(depth_mm=3000.0, focus_mm=3000.0, field_deg=7.25, psf_scale="log", f_number=5.6, theme="dark")
+    return window
+
+
+@pytest.mark.parametrize("ending", [".npz", ".tiff", ".csv", ".png", ".json"])
+def test_the_state_beside_a_snapshot_reopens_identically(busy, tmp_path, ending):
+    path = tmp_path / f"shot{ending}"
+    assert busy.actions.save(str(path))
+    assert path.stat().st_size > 0
+    assert starting_state([str(tmp_path / "shot.json")]) == busy.store.state
+    before = busy.store.state
+    busy.store.update(field_deg=1.0)
+    assert busy.actions.open_path(str(tmp_path / "shot.json"))
+    assert busy.store.state == before
+
+
+def exported(path) -> np.ndarray:
+    """Return the samples in a snapshot of data."""
+    return (read_psf_fits if path.suffix == ".fits" else read_psf)(path)[0].values
+
+
+def drop(window, path) -> None:
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path))])
+    buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    window.dropEvent(QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, buttons, keys))
+
+
+SETUPS = {
+    "plain": {},
+    "by hand": {"added_waves": (0.5, -1.0, 0.0, 0.0, 0.25, 0.0), "muted": ("w22",), "free_pupil": True},
+    "compared": {"pinned": State(method="seidel", f_number=8.0), "shown": "b"},
+    "edited": {"lens_text": lens_to_toml(find_lens("cooke_triplet")).replace("Cooke", "Cooke & Söhne's ")},
+}
+
+
+@pytest.mark.parametrize("setup", SETUPS)
+@pytest.mark.parametrize("ending", [".npz", ".tiff", ".fits", ".csv", ".png", ".json"])
+def test_a_snapshot_dropped_on_the_window_is_the_same_state_and_the_same_psf(busy, tmp_path, ending, setup):
+    busy.store.update(**SETUPS[setup])
+    path = (tmp_path / "shot").with_suffix(ending)
+    assert busy.actions.save(str(path))
+    state, psf = busy.store.state, busy.live.psf.values
+    if ending != ".json":
+        (tmp_path / "shot.json").unlink()
+    busy.store.replace(FIRST)
+    drop(busy, path)
+    assert busy.store.state == state
+    assert np.array_equal(busy.live.psf.values, psf)
+    if ending in DATA_ENDINGS:
+        kind = np.float32 if ending == ".tiff" else float
+        assert np.array_equal(exported(path), busy.live.psf.values.astype(kind))
+
+
+def test_the_picture_is_of_the_window_pixel_by_pixel(busy, tmp_path):
+    before = busy.grab().toImage()
+    busy.actions.save(str(tmp_path / "shot.png"))
+    after = QImage(str(tmp_path / "shot.png")).convertToFormat(before.format())
+    assert after.size() == before.size()
+    assert bytes(after.constBits()) == bytes(before.constBits())
+
+
+def test_a_picture_without_a_state_is_no_lens_and_says_so(window, tmp_path):
+    plain = QImage(8, 8, QImage.Format.Format_RGB32)
+    plain.save(str(tmp_path / "photo.png"))
+    assert state_inside(tmp_path / "photo.png") is None
+    assert not window.actions.open_path(str(tmp_path / "photo.png"))
+    assert window.banner.isVisible()
+
+
+@pytest.mark.parametrize("ending", [".npz", ".tiff", ".csv", ".png"])
+def test_a_psf_of_the_command_line_holds_no_state_and_a_database_is_named(tmp_path, ending):
+    psf = write_psf(seidel_psf(waves(), 16), tmp_path / f"psf{ending}", {})
+    with pytest.raises(LensFileError, match="no readable state"):
+        opened(State(), str(psf))
+    space = Space(depth_nodes(500), np.linspace(0, 0.1, 12), np.linspace(0.5, 0.6, 12))
+    lens = find_lens("singlet_f6")
+    kept = save_database(build_database(lens, space), lens, tmp_path / "kept.npz")
+    with pytest.raises(LensFileError, match="a database of PSFs"):
+        opened(State(), str(kept))
+
+
+def test_a_lens_in_a_zip_is_still_a_lens(tmp_path):
+    with zipfile.ZipFile(tmp_path / "lens.zip", "w") as archive:
+        archive.writestr("lens.zmx", "")
+    assert foreign(tmp_path / "lens.zip") is None
+
+
+@pytest.mark.parametrize("ending", [".npz", ".tiff", ".fits", ".csv", ".png"])
+def test_a_torn_snapshot_is_a_sentence(busy, tmp_path, ending):
+    path = (tmp_path / "shot").with_suffix(ending)
+    busy.actions.save(str(path))
+    path.write_bytes(path.read_bytes()[:700])
+    assert not busy.actions.open_path(str(path))
+    assert busy.banner.isVisible()
+
+
+def test_the_side_car_names_the_versions(busy, tmp_path):
+    busy.actions.save(str(tmp_path / "shot.png"))
+    assert '"versions"' in (tmp_path / "shot.json").read_text()
+    assert read_state(tmp_path / "shot.json") == busy.store.state
+
+
+def test_a_place_that_cannot_be_written_is_a_sentence(busy, tmp_path):
+    assert not busy.actions.save(str(tmp_path / "no" / "shot.npz"))
+    assert busy.banner.isVisible()
+
+
+def test_no_display_is_a_sentence_and_a_display_is_none():
+    assert "no display" in display_problem({}, "linux")
+    assert display_problem({"WAYLAND_DISPLAY": "wayland-0"}, "linux") is None
+    assert display_problem({"QT_QPA_PLATFORM": "offscreen"}, "linux") is None
+    assert display_problem({}, "darwin") is None
+
+
+def test_a_state_goes_into_a_picture_without_encoding_it_again(tmp_path, window):
+    """Encoding held the window up for a third of a second: all but one chunk stays byte for byte."""
+    image = window.grab().toImage()
+    assert image.save(str(tmp_path / "bare.png"))
+    bare = (tmp_path / "bare.png").read_bytes()
+    whole = with_state(bare, "{} ∞")
+    assert whole[:PNG_HEADER] + whole[PNG_HEADER + len(whole) - len(bare) :] == bare
+    with Image.open(io.BytesIO(whole)) as picture:
+        picture.verify()
+        assert picture.info["p2sf-state"] == "{} ∞"
+
+
+def test_a_picture_of_the_window_is_packed_quickly(window):
+    """The first two bytes of what is packed tell the effort (RFC 1950, 2.2): the least there is."""
+    made = png_of(window.panels["psf"].widget)
+    assert made[made.index(b"IDAT") + 4 :][:2] == b"\x78\x01"

@@ -1,0 +1,164 @@
+"""Lessons in the window: begun, gone through, answered and left by keyboard and mouse; the first start's offer."""
+
+from dataclasses import replace
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel
+
+from p2sf_explorer.lessons.controller import Teaching
+from p2sf_explorer.lessons.lesson import shipped_lessons
+from p2sf_explorer.lessons.lesson_panel import rich
+
+FIRST, SECOND = shipped_lessons()[:2]
+ALT = Qt.KeyboardModifier.AltModifier
+
+
+@pytest.fixture
+def teaching(window):
+    yield window.teaching
+    if window.store.state.lesson:
+        window.teaching.leave()
+
+
+@pytest.fixture
+def panel(teaching, qtbot, window):
+    qtbot.keyClick(window, Qt.Key.Key_F3)
+    return teaching.panel
+
+
+def said(text: str) -> str:
+    return text.split(".")[0]
+
+
+def shown(label: QLabel) -> str:
+    return label.text() if label.isVisible() else ""
+
+
+def test_f2_begins_the_first_lesson_and_ends_it_as_it_was(window, qtbot, teaching):
+    window.store.update(field_deg=3.5, wavelength_nm=486.0, tab="mtf")
+    before = window.store.state
+    qtbot.keyClick(window, Qt.Key.Key_F3)
+    assert window.store.state == FIRST.state(0, before)
+    assert teaching.panel.isVisible() and shown(teaching.panel.title) == FIRST.steps[0].title
+    window.store.update(field_deg=1.0)
+    qtbot.keyClick(window, Qt.Key.Key_F3)
+    assert window.store.state == before and not teaching.panel.isVisible()
+
+
+def test_leaving_once_more_after_undo_still_puts_back_what_was_before(window, qtbot, teaching):
+    window.store.update(field_deg=3.5, wavelength_nm=486.0)
+    before = window.store.state
+    teaching.toggle()
+    window.teaching.move(1)
+    teaching.leave()
+    window.store.undo()
+    assert window.store.state.lesson == FIRST.name
+    teaching.leave()
+    assert window.store.state == before
+
+
+def test_where_nothing_was_before_the_lesson_stays_and_says_so(window, teaching):
+    teaching.toggle()
+    kept, window.store._states, window.store._at = window.store.state, [window.store.state], 0
+    told = []
+    window.store.said.connect(told.append)
+    teaching.leave()
+    window.store.said.disconnect(told.append)
+    assert window.store.state == replace(kept, lesson="") and "nothing to put back" in told[0]
+
+
+def test_next_and_back_set_the_window_and_keys_do_the_same(window, qtbot, panel):
+    qtbot.mouseClick(panel.next, Qt.MouseButton.LeftButton)
+    assert window.store.state == FIRST.state(1, window.store.state) and window.live.state.field_deg == 10
+    assert shown(panel.count) == f"step 2 of {len(FIRST.steps)}"
+    window.store.update(field_deg=12.0)
+    qtbot.keyClick(window, Qt.Key.Key_Right, ALT)
+    qtbot.keyClick(window, Qt.Key.Key_Left, ALT)
+    assert window.store.state.field_deg == 10  # a step is what its file says, whatever was dragged before
+    qtbot.mouseClick(panel.back, Qt.MouseButton.LeftButton)
+    assert window.store.state.lesson_step == 0 and not panel.back.isEnabled()
+    window.teaching.move(-1)
+    assert window.store.state.lesson_step == 0
+
+
+def test_the_answer_is_hidden_until_asked_for(window, qtbot, panel):
+    qtbot.keyClick(window, Qt.Key.Key_Right, ALT)
+    assert shown(panel.question) == FIRST.steps[1].question and shown(panel.answer) == ""
+    qtbot.mouseClick(panel.reveal, Qt.MouseButton.LeftButton)
+    assert said(FIRST.steps[1].answer) in shown(panel.answer) and not panel.reveal.isVisible()
+    qtbot.keyClick(window, Qt.Key.Key_Right, ALT)
+    assert shown(panel.answer) == ""
+    window.store.undo()
+    assert said(FIRST.steps[1].answer) in shown(panel.answer)  # undo goes through lessons as through all else
+
+
+def test_the_slider_of_the_step_is_pointed_to(window, qtbot, panel):
+    rows = window.controls.rows
+    assert not any(row.property("pointed") for row in rows.values())
+    qtbot.keyClick(window, Qt.Key.Key_Right, ALT)
+    assert [key for key, row in rows.items() if row.property("pointed")] == ["field_deg"]
+    window.teaching.leave()
+    assert not any(row.property("pointed") for row in rows.values())
+
+
+def test_after_the_last_step_comes_the_next_lesson_and_the_list_leads_to_any(window, qtbot, panel, teaching):
+    for _ in FIRST.steps:
+        teaching.move(1)
+    assert window.store.state.lesson == SECOND.name and window.store.state.lens == SECOND.lens
+    panel.choice.setCurrentIndex(len(shipped_lessons()) - 1)
+    panel.choice.activated.emit(panel.choice.currentIndex())
+    last = shipped_lessons()[-1]
+    assert window.store.state.lesson == last.name
+    before = window.store.latest(lambda state: not state.lesson)
+    for _ in last.steps:
+        teaching.move(1)
+    assert window.store.state == before
+
+
+@pytest.mark.parametrize("lesson", shipped_lessons(), ids=lambda lesson: lesson.name)
+def test_every_step_of_every_lesson_is_painted(window, teaching, lesson):
+    teaching.begin(lesson.name)
+    for number, step in enumerate(lesson.steps):
+        assert window.live.state == lesson.state(number, window.store.state)
+        assert not window.banner.isVisible()
+        assert shown(teaching.panel.title) == step.title
+        assert window.tabs.current() == window.store.state.tab
+        teaching.move(1)
+
+
+def test_paragraphs_stand_apart_and_emphasis_is_seen():
+    made = rich("One *two*.\n\nThree **four**.")
+    assert made.count("<p ") == 2 and "margin-top:8px" in made and "font-weight:700" in made and "*" not in made
+
+
+def test_a_state_that_names_an_unknown_lesson_opens_without_one(window, teaching):
+    window.store.update(lesson="99_gone", lesson_step=5)
+    assert teaching.panel is None or not teaching.panel.isVisible()
+    teaching.move(1)
+    window.store.update(lesson=FIRST.name, lesson_step=50)
+    assert shown(teaching.panel.title) == FIRST.steps[-1].title
+
+
+def test_a_bad_lesson_is_one_sentence_in_the_banner_and_the_others_stay(window, qtbot, monkeypatch, tmp_path):
+    (tmp_path / "99_bad.md").write_text("no lesson", encoding="utf-8")
+    monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
+    made = Teaching(window)
+    assert len(made.lessons()) == len(shipped_lessons())
+    qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text(), timeout=2000)
+    window.store.changed.disconnect(made.follow)
+    window.banner.hide()
+
+
+def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, teaching, own_memory):
+    teaching.offer_once()
+    offer = teaching.offer
+    assert offer.isVisible()
+    qtbot.mouseClick(offer.start, Qt.MouseButton.LeftButton)
+    assert window.store.state.lesson == FIRST.name and not offer.isVisible()
+    again = Teaching(window)
+    again.offer_once()
+    assert again.offer is None
+    window.store.changed.disconnect(again.follow)
+    offer.deleteLater()
+    teaching.offer = None

@@ -1,0 +1,234 @@
+"""The image panel: the picture against the library, coarse then planned, stale marks, split, loupe, sharpening."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, Qt
+
+from p2sf.errors import Cancelled, RequestError, SamplingError
+from p2sf.image import Watch, form_image
+from p2sf.image.lattice import Lattice
+from p2sf.io.photo_files import read_photo, write_photo
+from p2sf.lens.lens import lens_range_um
+from p2sf.lensfile.library import find_lens
+from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.setup import default_state
+from p2sf_explorer.results import image
+from p2sf_explorer.results.image import (
+    COLUMNS,
+    ROWS,
+    TOLERANCE,
+    coarse,
+    fine_enough,
+    local_psf,
+    no_plan,
+    pixels,
+    question,
+    scene_of,
+    shown,
+)
+from p2sf_explorer.results.photos import channels_of, fitted, scene_values
+from p2sf_explorer.state.state import State
+
+FAST = State(method="seidel", photo_pixel_um=16.0, theme="light")
+
+
+def asked(**changes):
+    return question(compute.live(replace(FAST, **changes)))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return image.planned(asked(lens="cooke_triplet", field_deg=4.0))
+
+
+def test_the_planned_picture_is_the_librarys_own(found):
+    values = scene_values("landscape", (ROWS, COLUMNS))
+    again = form_image(found.plan, values)
+    assert np.abs(found.after - again).max() < 1e-5  # float32, summed in threads
+    assert found.plan.meets
+
+
+def test_the_coarse_picture_resembles_the_planned_one(found):
+    quick = coarse(found.question)
+    assert quick.quality == "coarse" and found.quality == "planned"
+    error = np.linalg.norm(quick.after - found.after) / np.linalg.norm(found.after)
+    assert error < 2 * TOLERANCE  # it promises nothing, but a person must not see it jump
+    assert np.array_equal(quick.before, found.before)
+
+
+def test_the_words_count_the_psfs_and_explain_every_kind_of_decision(found):
+    rows, columns = found.plan.counts
+    waves = sum(len(colour.wavelengths_um) for colour in found.plan.colours)
+    assert found.headline.startswith(f"{rows * columns * waves} PSFs")  # off the axis there are no mirror images
+    assert dict(found.words)["PSFs"] == f"{rows} × {columns} places × {waves} wavelengths"
+    names = {what.split(" ")[0] for what, _ in found.words}
+    assert names == {"Error", "PSFs", "Places", "Colour", "Method", "Phase", "Sampling", "Depths", "Pupils"}
+    assert "keeps 0.1" in dict(found.words)["Error"]
+
+
+def test_the_whole_field_uses_mirror_images_and_reaches_the_widest_chief_ray():
+    whole = asked(lens="singlet_f6", photo_pixel_um=None)
+    scene = scene_of(whole)
+    assert scene.sensor.centred
+    farthest = scene.sensor.corners_mm()[1]
+    widest = np.tan(np.deg2rad(max(find_lens("singlet_f6").fields_deg)))
+    focal = compute.live(State(lens="singlet_f6", method="seidel")).setting.focal_length_mm
+    assert farthest == pytest.approx(focal * widest, rel=0.05)  # 3 % kept back, and some distortion
+    assert "12 PSFs" in coarse(whole).headline  # 2 × 2 of 3 × 3 in three colours
+
+
+def test_large_pixels_get_no_plan_and_small_ones_do():
+    whole, part = coarse(asked(photo_pixel_um=None)), coarse(asked())
+    assert not fine_enough(whole) and fine_enough(part)
+    assert whole.no_plan == "No plan: these pixels hide the PSF" and not part.no_plan
+    assert "pixels as large as these" in dict(whole.words)["Coarse"] and "a plan follows" in dict(part.words)["Coarse"]
+    assert no_plan(replace(part.plan, counts=(1, 1))) == "No plan: these PSFs are too wide"
+
+
+def test_sharpening_by_the_right_psfs_helps_and_by_the_axis_psf_does_not():
+    quick = coarse(asked(photo="siemens_star", photo_show="sharpened", field_deg=14.0))
+    sentence = dict(quick.words)["Sharpening"]
+    blurred, right, wrong = (float(word) for word in sentence.replace(",", "").split() if is_number(word))
+    assert right > blurred + 3  # issue 8: what knowing the PSF buys, in dB
+    assert wrong < right - 3
+
+
+def is_number(word: str) -> bool:
+    return word.replace(".", "", 1).isdigit()
+
+
+def test_the_loupe_interpolates_the_kernels_between_nodes():
+    one, two = np.zeros((2, 3, 3, 3), np.float32)
+    one[:, 1, 1], two[:, 1, 2] = 1.0, 1.0
+    lattice = Lattice(np.array([0.0, 10.0]), np.array([0.0, 20.0]), [[one, two], [one, two]])
+    answer = replace(coarse_stub(), lattice=lattice)
+    middle = local_psf(answer, 5.0, 10.0)
+    assert middle[1, 1] == pytest.approx(1.0) and middle[1, 2] == pytest.approx(1.0)  # half and half, peak at 1
+    near = local_psf(answer, 5.0, 5.0)
+    assert near[1, 2] == pytest.approx(1 / 3)
+
+
+def coarse_stub():
+    empty = np.zeros((2, 2, 3), np.float32)
+    return image.Answer(asked(), empty, empty, "coarse", None, None, 0.0, "", ())
+
+
+def test_pixels_are_srgb_with_red_first():
+    values = np.array([[[1.0, 0.0, 0.0], [0.0, 0.21586, 1.0]]])  # sRGB 128/255 (IEC 61966-2-1)
+    assert pixels(values).tolist() == [[0xFFFF0000, 0xFF0080FF]]
+
+
+def test_a_photo_is_cut_to_the_frame_and_averaged(tmp_path):
+    values = np.zeros((40, 100, 3), np.float32)
+    values[:, 50:, 0] = 1.0
+    write_photo(tmp_path / "half.tif", values, "linear")
+    small = scene_values(str(tmp_path / "half.tif"), (20, 30))
+    assert small.shape == (20, 30, 3)
+    assert small[:, :14, 0].max() == 0 and small[:, 16:, 0].min() == 1
+    assert fitted(values, (8, 12))[..., 0].mean() == pytest.approx(0.5, abs=1e-6)  # the middle is half red
+    with pytest.raises(RequestError, match="cannot be read"):
+        scene_values(str(tmp_path / "none.png"), (20, 30))
+
+
+def test_colours_stay_where_the_glasses_have_data():
+    for channel in channels_of(find_lens("eye_navarro")):
+        low, high = lens_range_um(find_lens("eye_navarro")) or (0.0, 9.0)
+        assert low <= channel.wavelengths_um.min() and channel.wavelengths_um.max() <= high
+
+
+def test_a_cancelled_picture_stops_in_the_plan_too():
+    with pytest.raises(Cancelled):
+        image.planned(asked(), Watch(cancelled=lambda: True))
+
+
+def test_a_blur_too_wide_to_wait_for_is_one_sentence():
+    with pytest.raises(SamplingError, match=r"blur over .* mm here"):
+        coarse(asked(depth_mm=500.0))
+
+
+@pytest.mark.parametrize("name", ["relay", "eye_navarro", "landscape"])
+def test_other_lenses_have_a_picture(name):
+    state = replace(default_state(name), method="seidel", photo_pixel_um=16.0, field_deg=0.0)
+    found = coarse(question(compute.live(state)))
+    assert found.after.shape == (ROWS, COLUMNS, 3) and np.isfinite(found.after).all()
+
+
+def test_the_panel_shows_the_split_picture_and_marks_an_earlier_one(window, image_panel, qtbot):
+    assert np.array_equal(image_panel.wipe.before, pixels(scene_values("text", (ROWS, COLUMNS))))
+    assert image_panel.wipe.names == ("scene", "image")
+    window.store.update(field_deg=3.0)
+    assert "earlier picture" in image_panel.widget.readout.text()
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert "earlier" not in image_panel.widget.readout.text()
+    window.store.update(psf_scale="log")  # nothing the picture depends on
+    assert not image_panel._stale()
+
+
+def test_what_is_painted_is_the_scene_left_of_the_split_and_the_image_right_of_it(window, image_panel):
+    wipe = image_panel.wipe
+    before, after = np.full((20, 30), 0xFF204060, np.uint32), np.full((20, 30), 0xFFA08060, np.uint32)
+    wipe.show_pictures(before, after, ("", ""))
+    painted, area, x = wipe.grab().toImage(), wipe.area(), wipe.split_x()
+    y = int(area.bottom()) - 12  # below the loupe
+    assert painted.pixel(int(x) - 30, y) == 0xFF204060 and painted.pixel(int(x) + 30, y) == 0xFFA08060
+    image_panel._paint()
+
+
+def test_dragging_the_split_is_one_undo_and_hovering_moves_the_loupe(window, image_panel, qtbot):
+    wipe, first = image_panel.wipe, window.store.state
+    area = wipe.area()
+    places = [QPointF(area.left() + part * area.width(), area.center().y()).toPoint() for part in (0.5, 0.3, 0.25)]
+    qtbot.mousePress(wipe, Qt.MouseButton.LeftButton, pos=places[0])
+    for place in places[1:]:
+        qtbot.mouseMove(wipe, place)
+    qtbot.mouseRelease(wipe, Qt.MouseButton.LeftButton, pos=places[-1])
+    assert window.store.state.photo_split == pytest.approx(0.25, abs=1.5 / area.width())
+    window.store.undo()
+    assert window.store.state == first and wipe.split == first.photo_split
+    image_panel._look(0.0, 0.0)
+    assert wipe.place == (0.0, 0.0)
+    qtbot.keyClick(wipe, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    assert window.store.state.photo_split == pytest.approx(first.photo_split + 0.05)
+
+
+def test_saving_writes_the_picture_and_the_state(window, image_panel, tmp_path):
+    image_panel.save_as(str(tmp_path / "out.png"))
+    written = read_photo(tmp_path / "out.png").values
+    assert written.shape == (ROWS, COLUMNS, 3)
+    assert np.abs(written - np.clip(image_panel._answer.after, 0, 1)).max() < 0.01  # 8 bits of sRGB
+    assert (tmp_path / "out.json").is_file()
+
+
+def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
+    window.store.update(photo="/nowhere/photo.png")
+    qtbot.waitUntil(lambda: "cannot be read" in image_panel.veil.text, timeout=10000)
+    assert image_panel.widget.readout.text() == "no picture"
+    window.store.update(psf_scale="log")  # nothing the picture depends on
+    assert image_panel.widget.readout.text() == "no picture" and not image_panel.headline.isVisible()
+    assert not image_panel.save.isEnabled() and not image_panel.words.button.isEnabled()
+    image_panel.save_as("/nowhere/out.png")
+    assert "there is no picture yet" in window.banner.text.text().lower()
+    window.store.update(photo="text")
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=10000)
+    assert not image_panel.veil.text and image_panel.save.isEnabled() and image_panel.words.button.isEnabled()
+
+
+def test_shown_pictures_have_the_scene_left_and_the_image_right(found):
+    before, after, more = shown("lens", found.plan, found.before, found.lattice, Watch())
+    assert before is found.before and more == () and not np.array_equal(before, after)
+
+
+def test_a_late_answer_to_an_earlier_question_does_not_cover_the_present_picture(window, image_panel, qtbot):
+    """The worker that plans stops when it can, and may still hand over what was asked before."""
+    present, asked_now = image_panel._answer, image_panel._asked
+    earlier = replace(present, question=replace(asked_now, centre_mm=asked_now.centre_mm + 1.0), quality="planned")
+    image_panel.fine.finished.emit(earlier.question, earlier)
+    assert image_panel._answer is present and "earlier" not in image_panel.widget.readout.text()
+    window.store.update(field_deg=2.0)
+    image_panel.fine.finished.emit(earlier.question, earlier)
+    assert image_panel._answer is earlier and "earlier" in image_panel.widget.readout.text(), (
+        "better than one older still"
+    )
+    qtbot.waitUntil(lambda: image_panel._answer.question == image_panel._asked)

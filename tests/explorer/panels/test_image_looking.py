@@ -1,0 +1,238 @@
+"""Looking closer in the image panel: keys, details, dropped photos, and the plan told behind a button."""
+
+from dataclasses import replace
+from itertools import pairwise
+from threading import Event
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication
+
+from p2sf.errors import Cancelled
+from p2sf.image import Watch
+from p2sf.io.photo_files import write_photo
+from p2sf.scene.cost import Cost
+from p2sf.scene.plan import Decision
+from p2sf_explorer.files.snapshot import write_picture
+from p2sf_explorer.i18n.language import Spoken
+from p2sf_explorer.i18n.tr import unbroken
+from p2sf_explorer.results.image import (
+    COLUMNS,
+    PLANLESS,
+    PLANNING,
+    ROWS,
+    TOO_LARGE,
+    forming,
+    local_psf,
+    pixels,
+    planning,
+)
+from p2sf_explorer.results.image_words import frame_words
+from p2sf_explorer.results.photos import cut_away, scene_values
+from p2sf_explorer.widgets.copying import png_of
+from p2sf_explorer.widgets.split_layout import close_up, rooms
+
+
+def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):
+    wipe, split = image_panel.wipe, window.store.state.photo_split
+    image_panel._look(100.0, 150.0)
+    for key, place in (("Down", (108.0, 150.0)), ("Right", (108.0, 158.0)), ("Up", (100.0, 158.0))):
+        qtbot.keyClick(wipe, getattr(Qt.Key, f"Key_{key}"))
+        assert wipe.place == pytest.approx(place)
+    image_panel._look(0.0, COLUMNS - 1.0)
+    qtbot.keyClick(wipe, Qt.Key.Key_Right)
+    assert wipe.place == pytest.approx((0.0, COLUMNS - 1.0)) and window.store.state.photo_split == split
+    wanted = local_psf(image_panel._answer, 0.0, COLUMNS - 1.0)
+    assert np.array_equal(wipe.loupe, pixels(np.sqrt(wanted)))
+
+
+def test_a_low_panel_has_details_and_the_psf_beside_the_picture_and_a_narrow_one_the_psf_on_it():
+    low, narrow = rooms(940, 170, ROWS, COLUMNS), rooms(320, 400, ROWS, COLUMNS)
+    assert low.picture.height() == 170 and len(low.details) == 2
+    assert low.loupe.right() == pytest.approx(940)  # all of the width is used
+    edges = [low.picture, *low.details, low.loupe]
+    assert all(one.right() < two.left() for one, two in pairwise(edges))
+    assert narrow.picture.width() == 320 and not narrow.details and narrow.picture.contains(narrow.loupe)
+    part = close_up((0.0, 300.0), (ROWS, COLUMNS), low.details[0])
+    assert part.top() == 0 and part.right() == COLUMNS  # never beyond the rim
+    assert part.width() / part.height() == pytest.approx(low.details[0].width() / low.details[0].height())
+
+
+def test_the_details_are_the_two_pictures_at_the_place_looked_at(window, image_panel):
+    wipe = image_panel.wipe
+    wipe.resize(900, 160)
+    before, after = np.full((ROWS, COLUMNS), 0xFF204060, np.uint32), np.full((ROWS, COLUMNS), 0xFFA08060, np.uint32)
+    wipe.show_pictures(before, after, ("", ""))
+    painted = wipe.grab().toImage()
+    for room, colour in zip(wipe.rooms().details, (0xFF204060, 0xFFA08060), strict=True):
+        assert painted.pixel(room.center().toPoint()) == colour
+    image_panel._paint()
+
+
+def drop(widget, path) -> QDropEvent:
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path))])
+    place, actions = QPointF(5, 5), Qt.DropAction.CopyAction
+    for kind in (QDragEnterEvent, QDropEvent):
+        at = place.toPoint() if kind is QDragEnterEvent else place
+        event = kind(at, actions, data, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier)
+        QApplication.sendEvent(widget, event)
+    return event
+
+
+def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_the_window(
+    window, image_panel, qtbot, tmp_path
+):
+    write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
+    assert drop(image_panel.widget, tmp_path / "grey.png").isAccepted()
+    assert window.store.state.photo == str(tmp_path / "grey.png")
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert image_panel.wipe.before[5, 5] & 0xFF == pytest.approx(188, abs=1)  # sRGB of half the light
+    said = []
+    window.store.refused.connect(said.append)
+    drop(image_panel.widget, tmp_path / "holiday.jpg")
+    assert said == ["holiday.jpg is no PNG or TIFF; save the photo as one of these and drop that"]
+    assert not drop(image_panel.widget, tmp_path / "lens.zmx").isAccepted()
+    window.store.update(photo="text")
+
+
+def test_a_photo_dropped_beside_the_open_panel_is_photographed_and_a_snapshot_still_opens(
+    window, image_panel, tmp_path
+):
+    before = window.store.state
+    write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
+    assert drop(window, tmp_path / "grey.png").isAccepted()
+    assert window.store.state == replace(before, photo=str(tmp_path / "grey.png"))
+    assert not window.banner.isVisible()
+    window.store.update(photo="text")
+    write_picture(replace(before, field_deg=7.0), png_of(window), tmp_path / "snapshot.png")
+    drop(window, tmp_path / "snapshot.png")
+    assert window.store.state.field_deg == 7.0 and window.store.state.photo == "text"
+
+
+def test_the_plan_is_told_behind_a_button_and_a_few_words_stand_under_the_controls(window, image_panel):
+    words = image_panel.words
+    assert words.button.menu() is not None and not words.isVisible()
+    words.button.menu().popup(words.button.mapToGlobal(words.button.rect().bottomLeft()))
+    assert words.isVisible() and len(words.text()) > 40
+    words.button.menu().close()
+    assert (
+        "PSFs" in image_panel.headline.text()
+        and unbroken(image_panel.headline.toolTip()) == image_panel.headline.text()
+    )
+
+
+@pytest.fixture
+def orders(window, image_panel, qtbot, monkeypatch):
+    """Return what plans are ordered from now on: none is made, so that a test tells how far one is."""
+    image_panel._call_off()
+    qtbot.waitUntil(lambda: not image_panel.fine.busy, timeout=30000)
+    made = []
+    monkeypatch.setattr(image_panel.fine, "submit", lambda key, job: made.append(key))
+    image_panel._answer = replace(image_panel._answer, quality="coarse")
+    yield made
+    image_panel._ordered = image_panel._stopped = image_panel._unplanned = image_panel._planned = None
+
+
+def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_words_say_why(window, image_panel, orders):
+    image_panel._on_failure(image_panel._asked, "points 500 mm away blur over 2.4 mm; stop down")
+    assert image_panel.headline.text().startswith("Points 500\u00a0mm away")
+    assert image_panel.widget.readout.text() == "coarse" and not image_panel.veil.text
+    image_panel._refine()
+    assert not orders  # a second try would end the same
+    image_panel._on_failure(image_panel._asked, "points inf mm away blur over 6 mm; stop down")
+    assert image_panel.headline.text().startswith("Points ∞ away")
+
+
+def test_a_picture_without_a_plan_says_why_under_the_controls(window, image_panel, orders):
+    image_panel._on_answer(image_panel._asked, replace(image_panel._answer, no_plan=TOO_LARGE))
+    assert image_panel.headline.text().startswith("No plan: these pixels hide")
+    said = Spoken("de").said
+    for short, sentence in PLANLESS.items():
+        assert said(short).startswith("Kein Plan") and said(f"Unmeasured. {sentence}").startswith("Ungemessen. Für so")
+
+
+def test_a_plan_says_how_far_it_is_and_is_stopped_and_made_after_all(window, image_panel, orders, qtbot):
+    line, asked = image_panel.plan_line, image_panel._asked
+    window.store.update(psf_scale="log")  # the sliders rest: a plan is ordered
+    image_panel.fine.progressed.emit(asked, 0.63)
+    image_panel.fine.progressed.emit(asked, 0.2)  # of another step; a bar that goes back is none
+    assert orders == [asked] and line.bar.isVisible() and line.bar.text() == "planning 63\u00a0%"
+    qtbot.mouseClick(line.turn, Qt.MouseButton.LeftButton)
+    assert line.turn.text() == "Plan it after all" and not line.bar.isVisible()
+    assert image_panel.widget.readout.text() == "coarse"
+    window.store.update(psf_scale="linear")
+    assert orders == [asked]  # and it stays stopped while the picture is the same
+    qtbot.mouseClick(line.turn, Qt.MouseButton.LeftButton)
+    assert orders == [asked, asked] and line.bar.value() == 0
+    image_panel._on_answer(asked, replace(image_panel._answer, quality="planned"))
+    assert not line.isVisible() and image_panel.headline.isVisible()
+
+
+def test_a_planned_picture_that_came_too_late_to_be_cancelled_is_no_cancelled_one(window, image_panel, orders, qtbot):
+    """As one that another photo's plan made, when the photo whose plan was cancelled stands there again."""
+    line, asked = image_panel.plan_line, image_panel._asked
+    window.store.update(psf_scale="log")
+    qtbot.mouseClick(line.turn, Qt.MouseButton.LeftButton)
+    assert line.isVisible()
+    image_panel._on_answer(asked, replace(image_panel._answer, quality="planned"))
+    assert not line.isVisible() and image_panel.headline.isVisible()
+
+
+def test_a_plan_is_ordered_though_the_one_before_has_not_yet_stopped(window, image_panel, orders, qtbot, monkeypatch):
+    monkeypatch.setattr(image_panel.fine, "_cancelled", Event())  # as while a job is running
+    window.store.update(field_deg=3.0)
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert orders == [image_panel._asked]
+
+
+def test_another_photo_is_made_by_the_plan_there_is(window, image_panel, orders, qtbot):
+    price = Cost(1.0, 1.0, 1.0)
+    plan = replace(
+        image_panel._answer.plan, decisions=(Decision("depth", "1 node", "one", 0.0),), cost=price, naive=price
+    )
+    by_plan = replace(image_panel._answer, quality="planned", plan=plan)
+    image_panel._on_answer(image_panel._asked, by_plan)
+    window.store.update(photo="siemens_star")
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert image_panel._answer.plan is by_plan.plan and image_panel._answer.lattice is by_plan.lattice and not orders
+    assert np.array_equal(image_panel._answer.before, scene_values("siemens_star", (ROWS, COLUMNS)))
+    window.store.update(field_deg=5.0)
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert image_panel._answer.plan is not by_plan.plan and orders == [image_panel._asked]
+
+
+def test_the_share_of_a_plan_grows_to_where_that_of_its_picture_begins():
+    told = []
+    watch = Watch(told.append)
+    step, picture = planning(watch), forming(watch)
+    for _ in range(1000):
+        step()
+    picture.expect(2)
+    picture.advance()
+    picture.advance()
+    assert told == sorted(told) and told[0] < 0.05 and told[999] <= PLANNING and told[-1] == pytest.approx(1.0)
+    with pytest.raises(Cancelled):
+        planning(Watch(told.append, lambda: True))()
+
+
+def test_a_docked_panel_in_a_small_window_gives_the_picture_its_height(window, image_panel):
+    window.resize(1280, 800)
+    QApplication.processEvents()
+    assert image_panel.wipe.area().height() > 0.85 * image_panel.widget.height()
+    assert len(image_panel.wipe.rooms().details) == 2
+    window.resize(1440, 900)
+
+
+def test_a_photo_of_other_proportions_is_cut_and_the_panel_says_where(window, image_panel, qtbot, tmp_path):
+    write_photo(tmp_path / "wide.png", np.full((20, 60, 3), 0.5, np.float32))
+    window.store.update(photo=str(tmp_path / "wide.png"))
+    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
+    assert image_panel._answer.cut == "sides of the photo cut off"
+    assert image_panel.headline.text().startswith(image_panel._answer.cut)
+    assert "50 % of its width" in dict(image_panel._answer.words)["Frame"]  # 60 columns where 20 × 3/2 fit
+    assert cut_away(str(tmp_path / "wide.png"), (80, 60)) == pytest.approx((0.0, 0.75))
+    assert cut_away(str(tmp_path / "wide.png"), (10, 60)) == pytest.approx((0.5, 0.0))
+    assert frame_words("text", (ROWS, COLUMNS)) == ("", "")

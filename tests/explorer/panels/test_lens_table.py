@@ -1,0 +1,237 @@
+"""The lens table under a person's hands: typing, stop, surfaces, undo, files."""
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit
+
+from p2sf.errors import GeometryError, GlassError
+from p2sf.lensfile import load_lens
+from p2sf.paraxial.pupils import f_number
+from p2sf.paraxial.seidel import coefficients
+from p2sf_explorer.compute.editing import deleted, edited_state, inserted, with_stop, with_value
+from p2sf_explorer.compute.setup import load, prescription, setting
+from p2sf_explorer.state.state import State, state_from_json, state_to_json
+from p2sf_explorer.widgets.surface_table import KEYS
+from tests.explorer.shell.test_window import changed, pictures
+
+LENS = "double_gauss_28"
+
+
+def speed_of(window) -> float:
+    setting = window.live.setting
+    return float(f_number(setting.lens, setting.lens.reference_wavelength_um, setting.stop))
+
+
+def editor_of(table) -> QLineEdit:
+    """Return the open editor; earlier ones may still wait for their deletion."""
+    return next(editor for editor in table.view.findChildren(QLineEdit) if editor.isVisible())
+
+
+@pytest.fixture
+def table(window):
+    window.open_panel("lens")
+    return window.panels["lens"]
+
+
+@pytest.fixture
+def typed(table, qtbot):
+    """Return a function that double-clicks a cell and types into it."""
+
+    def fill(row: int, key: str, text: str, end=Qt.Key.Key_Return) -> None:
+        index = table.model.index(row, KEYS.index(key))
+        table.view.scrollTo(index)
+        place = table.view.visualRect(index).center()
+        for press in (qtbot.mouseClick, qtbot.mouseDClick):
+            press(table.view.viewport(), Qt.MouseButton.LeftButton, pos=place)
+        editor = editor_of(table)
+        editor.selectAll()
+        if text.isascii():
+            qtbot.keyClicks(editor, text)
+        else:  # QTest has no keys for ∞ and −; they arrive as a paste does
+            editor.insert(text)
+        qtbot.keyClick(editor, end)
+        QApplication.processEvents()
+
+    return fill
+
+
+def test_the_headings_carry_units_and_the_rows_the_prescription(table):
+    heads = [table.model.headerData(k, Qt.Orientation.Horizontal) for k in range(table.model.columnCount())]
+    assert heads[:6] == [
+        "Radius, mm", "Thickness, mm", "Glass or index", "Semi-diameter, mm", "Conic K", "Stop",
+    ]  # fmt: skip
+    shown = [table.model.data(table.model.index(0, k)) for k in range(6)]
+    assert shown == ["56.20238", "8.75", "SCHOTT N-SSK2", "31.104097", "0", "○"]
+    assert table.model.data(table.model.index(5, 5)) == "●"
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "value"),
+    [
+        ("radius", "57,5", 57.5),
+        ("thickness", "0.91 cm", pytest.approx(9.1, rel=1e-15)),
+        ("semi_diameter", "∞", inf),
+        ("conic", "−0.3", -0.3),
+        ("aspheric", "1e-6 −2e-9", (1e-6, -2e-9)),
+    ],
+)
+def test_a_typed_value_is_one_undo_and_moves_every_panel(window, typed, key, text, value):
+    first, before = window.store.state, pictures(window)
+    typed(0, key, text)
+    assert getattr(prescription(window.store.state).surfaces[0], key) == value
+    assert window.top.edited.isVisible()
+    if key != "semi_diameter":
+        assert {"pupil", "psf", "coefficients"} <= changed(before, pictures(window))
+    window.store.undo()
+    assert window.store.state == first
+    assert not window.top.edited.isVisible()
+    assert not changed(before, pictures(window))
+
+
+@pytest.mark.parametrize("glass", ["SCHOTT N-BK7", "1.6", "nd 1.62 vd 36.4", "N-BK7"])
+def test_a_typed_glass_is_live(window, typed, glass):
+    before = float(window.live.setting.coefficients.w40)
+    typed(0, "medium", glass)
+    assert float(window.live.setting.coefficients.w40) != before
+
+
+@pytest.mark.parametrize(
+    ("row", "key", "text", "words"),
+    [
+        (0, "radius", "0", "surface 1: radius 0"),
+        (0, "radius", "round", "surface 1"),
+        (2, "medium", "SCHOTT N-SK222", "surface 3: glass"),
+        (2, "medium", "mirror", "mirror"),
+        (1, "semi_diameter", "-3", "surface 2: semi-diameter"),
+        (4, "thickness", "∞", "surface 5"),
+    ],
+)
+def test_a_bad_value_is_a_sentence_and_the_old_one_stays(window, table, typed, row, key, text, words):
+    state, before = window.store.state, pictures(window)
+    old = table.model.data(table.model.index(row, KEYS.index(key)))
+    typed(row, key, text)
+    assert window.banner.isVisible()
+    assert words.lower() in window.banner.text.text().lower()
+    assert window.store.state == state
+    assert table.model.data(table.model.index(row, KEYS.index(key))) == old
+    assert not changed(before, pictures(window))
+
+
+def test_escape_leaves_the_value(window, typed):
+    state = window.store.state
+    typed(0, "radius", "99", Qt.Key.Key_Escape)
+    assert window.store.state == state
+
+
+def test_keys_alone_edit_a_cell(window, table, qtbot):
+    table.view.setCurrentIndex(table.model.index(0, 0))
+    table.view.setFocus()
+    qtbot.keyClick(table.view, Qt.Key.Key_Down)
+    qtbot.keyClick(table.view, Qt.Key.Key_F2)
+    editor = editor_of(table)
+    editor.selectAll()
+    qtbot.keyClicks(editor, "150")
+    qtbot.keyClick(editor, Qt.Key.Key_Return)
+    QApplication.processEvents()  # a delegate hands its text over from the event loop
+    assert prescription(window.store.state).surfaces[1].radius == 150
+
+
+def test_clicking_the_stop_column_moves_the_stop_and_keeps_the_f_number(window, table, qtbot):
+    index = table.model.index(3, KEYS.index("stop"))
+    table.view.scrollTo(index)
+    speed = speed_of(window)
+    qtbot.mouseClick(table.view.viewport(), Qt.MouseButton.LeftButton, pos=table.view.visualRect(index).center())
+    assert int(window.live.setting.stop.surface) == 4
+    assert speed_of(window) == pytest.approx(speed, rel=1e-12)  # one division and its inverse
+
+
+def test_insert_and_delete_from_the_keyboard_give_the_first_lens_back(window, table, qtbot):
+    first = window.store.state
+    table.view.setCurrentIndex(table.model.index(1, 0))
+    table.view.setFocus()
+    qtbot.keyClick(table.view, Qt.Key.Key_Insert)
+    assert table.model.rowCount() == 12
+    assert table.view.currentIndex().row() == 2
+    qtbot.keyClick(table.view, Qt.Key.Key_Delete)
+    assert window.store.state == first  # an edit taken back by hand leaves no mark
+
+
+@pytest.mark.parametrize("number", range(1, 12))
+def test_an_inserted_plane_changes_no_coefficient(number):
+    lens = load(LENS)
+    before, after = (coefficients(x, inf, 0.2, 0.5876) for x in (lens, inserted(lens, number)))
+    for name in ("w40", "w31", "w22", "w20", "w11", "wd"):
+        # sums of a hundred waves of either sign, in another order
+        assert float(getattr(after, name)) == pytest.approx(float(getattr(before, name)), abs=1e-9)
+    assert deleted(inserted(lens, number), number + 1) == lens
+
+
+def test_what_cannot_be_deleted_is_a_sentence():
+    with pytest.raises(GeometryError, match="surface 6 is the stop"):
+        deleted(load(LENS), 6)
+    with pytest.raises(GeometryError, match="at least one surface"):
+        deleted(replace(load(LENS), surfaces=load(LENS).surfaces[:1], stop_surface=None), 1)
+
+
+def test_the_rim_of_the_stop_is_the_aperture():
+    lens = with_value(load(LENS), 6, "semi_diameter", "8")
+    assert lens.aperture.value == lens.surfaces[5].semi_diameter == 8.0
+
+
+def test_a_stop_moved_and_back_keeps_its_rim():
+    lens = load(LENS)
+    assert with_stop(with_stop(lens, 3), 6).aperture.value == pytest.approx(lens.aperture.value, rel=1e-12)
+
+
+def test_a_glass_without_this_wavelength_is_refused():
+    state = State(wavelength_nm=2200.0, lens="plano_convex")
+    with pytest.raises(GlassError, match="2200 nm"):
+        edited_state(state, with_value(load("plano_convex"), 1, "medium", "nd 1.5 vd 60"))
+
+
+def test_100_edits_undone_give_bit_identical_states_and_pictures(window):
+    chance, first = np.random.default_rng(1), window.store.state
+    visited = [first]
+    for radius in chance.uniform(54, 58, 100):
+        lens = with_value(prescription(window.store.state), 1, "radius", repr(float(radius)))
+        window.store.replace(edited_state(window.store.state, lens))
+        visited.append(window.store.state)
+    last = window.live.psf.values.copy()
+    for state in reversed(visited[:-1]):
+        window.store.undo()
+        assert window.store.state == state
+    assert window.store.state is first
+    for _ in range(100):
+        window.store.redo()
+    assert np.array_equal(window.live.psf.values, last)
+
+
+def test_the_edited_lens_goes_through_a_state_file():
+    state = State()
+    made = edited_state(state, with_value(load(LENS), 1, "radius", "57"))
+    again = state_from_json(state_to_json(made))
+    assert again == made
+    assert prescription(again).surfaces[0].radius == 57
+    assert setting(again).coefficients.w40 == setting(made).coefficients.w40
+
+
+@pytest.mark.parametrize("ending", [".toml", ".zmx", ".json"])
+def test_save_as_writes_the_edited_lens(window, table, typed, qtbot, tmp_path, monkeypatch, ending):
+    typed(0, "radius", "57")
+    path = tmp_path / f"mine{ending}"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), f"(*{ending})"))
+    qtbot.mouseClick(table.buttons["_save"], Qt.MouseButton.LeftButton)
+    assert load_lens(path).surfaces[0].radius == pytest.approx(57, rel=1e-12)  # .zmx holds the curvature
+    assert window.top.edited.isVisible() == (ending != ".toml")
+    assert (window.store.state.lens == str(path)) == (ending == ".toml")
+
+
+def test_back_to_file_drops_the_edits(window, table, typed, qtbot):
+    typed(0, "radius", "57")
+    qtbot.mouseClick(table.buttons["_revert"], Qt.MouseButton.LeftButton)
+    assert window.store.state.lens_text is None
+    assert not table.buttons["_revert"].isEnabled()

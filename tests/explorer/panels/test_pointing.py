@@ -1,0 +1,99 @@
+"""Bars per surface, stacked or alone, and the light between them and the layout."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+
+from p2sf_explorer.layout_view.surface_highlight import section
+
+
+@pytest.fixture
+def panel(window):
+    window.open_panel("seidel")
+    made = window.panels["seidel"]
+    choose(made, "w40")
+    made.chart.grab()
+    yield made
+    choose(made, "w40")
+    window.store.point_at(0)
+
+
+def choose(panel, term):
+    panel.term.setCurrentIndex(panel.term.findData(term))
+    panel.term.activated.emit(panel.term.currentIndex())
+
+
+def on_surface(window, surface):
+    """Return a point of the layout on a surface, above the axis."""
+    chart = window.panels["layout"].chart
+    z, y = section(window.live.setting.lens, surface)
+    x, row = chart.to_pixels(z[-4], y[-4])
+    return chart, QPointF(float(x), float(row)).toPoint()
+
+
+def test_bars_are_as_high_as_the_contributions_and_the_last_is_their_sum(window, panel):
+    waves = window.live.views["seidel"].waves["w40"]
+    zero = float(panel.chart.to_pixels(0.0, 0.0)[1])
+    per_wave = zero - float(panel.chart.to_pixels(0.0, 1.0)[1])
+    for bar in panel.chart.bars:
+        height = waves.sum() if bar.surface == 0 else waves[bar.surface - 1]
+        room = panel.chart.room(bar)
+        assert room.height() == pytest.approx(abs(height) * per_wave, abs=1e-6)
+        assert (room.center().y() < zero) == (height > 0) or abs(height) < 1e-9
+    assert panel.chart.bars[-1].surface == 0
+
+
+def test_stacked_bars_stand_on_one_another_and_end_where_the_sums_do(window, panel):
+    choose(panel, "all")
+    waves = window.live.views["seidel"].waves
+    for surface in range(1, len(waves["w40"]) + 1):
+        mine = [bar for bar in panel.chart.bars if bar.surface == surface]
+        assert len(mine) == 5
+        top = max(bar.base + bar.height for bar in mine)
+        low = min(bar.base + bar.height for bar in mine)
+        own = np.array([column[surface - 1] for column in waves.values()])
+        assert max(0.0, top) == pytest.approx(own.clip(min=0).sum())
+        assert min(0.0, low) == pytest.approx(own.clip(max=0).sum())
+
+
+def test_pointing_at_a_bar_lights_its_surface_in_the_layout(window, panel, qtbot):
+    bar = next(bar for bar in panel.chart.bars if bar.surface == 7)
+    layout = window.panels["layout"].chart
+    before = layout.grab().toImage()
+    qtbot.mouseMove(panel.chart, panel.chart.room(bar).center().toPoint())
+    assert layout.light.lit == 7 and panel.chart.lit == 7
+    chart, point = on_surface(window, 7)
+    now = chart.grab().toImage()
+    assert now.pixelColor(point) != before.pixelColor(point)
+    assert now.pixelColor(point).name() == window._theme.accent
+    qtbot.mouseMove(panel.chart, QPoint(2, 2))
+    assert layout.light.lit == 0
+
+
+@pytest.mark.parametrize("surface", [1, 5, 11])
+def test_pointing_at_a_surface_of_the_layout_marks_its_bar(window, panel, qtbot, surface):
+    chart, point = on_surface(window, surface)
+    qtbot.mouseMove(chart, point)
+    assert panel.chart.lit == surface
+    column = panel.chart.grab().toImage()
+    x = float(panel.chart.to_pixels(surface + 0.45, 0.0)[0])
+    assert column.pixelColor(int(x), int(panel.chart.area.top()) + 4).name() == window._theme.faint
+    qtbot.mouseMove(chart, QPoint(3, 3))
+    assert panel.chart.lit == 0
+
+
+def test_pointing_is_no_step_of_undo(window, panel, qtbot):
+    before = window.store.state
+    chart, point = on_surface(window, 3)
+    qtbot.mouseMove(chart, point)
+    assert window.store.state is before
+
+
+def test_dragging_the_source_still_works_beside_the_light(window, panel, qtbot):
+    chart = window.panels["layout"].chart
+    place = QPointF(*(float(v) for v in chart.to_pixels(*chart.handle.place(chart)))).toPoint()
+    field = window.store.state.field_deg
+    qtbot.mousePress(chart, Qt.MouseButton.LeftButton, pos=place)
+    qtbot.mouseMove(chart, place + QPoint(0, 12))
+    qtbot.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=place + QPoint(0, 12))
+    assert window.store.state.field_deg != field

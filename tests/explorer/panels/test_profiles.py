@@ -1,0 +1,84 @@
+"""Sections and encircled energy as they are painted, against the Airy pattern and the picture's own samples."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.special import j0, j1
+
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.results.profiles import airy_curves, profiles
+from p2sf_explorer.state.state import State
+
+FIRST = State(method="seidel", theme="light")
+PERFECT = replace(FIRST, free_pupil=True)
+
+
+def test_the_airy_pattern_and_its_energy_are_bessels():
+    position, pattern, energy = airy_curves(201, 30.0, 2.0)
+    v = 3.8317059702 * np.abs(position) / 2.0
+    safe = np.where(v > 0, v, 1.0)
+    assert pattern == pytest.approx(np.where(v > 0, (2 * j1(safe) / safe) ** 2, 1.0), abs=1e-12)
+    assert energy == pytest.approx(1 - j0(v) ** 2 - j1(v) ** 2, abs=1e-12)
+
+
+def test_a_perfect_lens_paints_the_airy_pattern_on_both_sections(window):
+    window.store.update(free_pupil=True, tab="profiles")
+    panel = window.panels["profiles"]
+    x, wanted = panel.curves["Airy"].data()
+    for name in ("along x", "along y"):
+        assert panel.curves[name].data()[1] == pytest.approx(wanted, abs=1e-3)  # settled sums keep 1e-4
+    rings = x[1:-1][(wanted[1:-1] < wanted[:-2]) & (wanted[1:-1] < wanted[2:])]
+    assert rings[rings > 0][0] == pytest.approx(window.live.airy_radius_um, abs=x[1] - x[0])
+    assert x[1] - x[0] < window.live.airy_radius_um / 10, "a core is drawn with more than three points"
+
+
+def test_four_fifths_of_a_perfect_lens_light_lie_inside_the_first_ring(window):
+    window.store.update(free_pupil=True, tab="profiles")
+    panel = window.panels["profiles"]
+    radius = window.live.airy_radius_um
+    assert np.interp(radius, *panel.perfect.data()) == pytest.approx(0.838, abs=2e-3)  # Born and Wolf 1999, §8.5.2
+    # Of the window's light it is more than of all: five Airy radii hold 96 % of it.
+    assert np.interp(radius, *panel.within.data()) == pytest.approx(0.838 / 0.96, abs=0.03)
+
+
+@pytest.mark.parametrize(("method", "lens"), [("seidel", "double_gauss_28"), ("fitted", "double_gauss_28")])
+def test_fine_sections_go_through_the_samples_of_the_picture(method, lens):
+    answer = live(replace(FIRST, method=method, f_number=8.0, field_deg=7.0, lens=lens))
+    view, psf = profiles(answer), answer.psf
+    assert view.position_um.size > 3 * psf.values.shape[-1]
+    rows = psf.values.shape[0] // 2
+    scale = float(psf.strehl) / psf.values.max()
+    top = max(view.along_y.max(), 1e-9)
+    found = np.interp(psf.y_um, view.position_um, view.along_y) / top
+    own = psf.values[:, rows] * scale
+    assert found == pytest.approx(own / own.max(), abs=0.03)  # straight lines between points a quarter sample apart
+
+
+def test_a_drag_paints_sections_of_the_preview(window):
+    with window.store.drag():
+        window.store.update(field_deg=9.0)
+        assert window.live.quality == "preview"
+        x, y = window.panels["profiles"].curves["along x"].data()
+        assert x.size == 257 and y.max() == pytest.approx(1.0, abs=0.1)
+        radius, energy = window.panels["profiles"].within.data()
+        assert (np.diff(energy) >= 0).all() and energy[-1] > 0.95 and radius[0] == 0
+
+
+def test_defocus_spreads_the_energy(window):
+    window.store.update(free_pupil=True)
+    panel = window.panels["profiles"]
+    sharp = np.interp(10.0, *panel.within.data())
+    window.store.update(added_waves=(0.0, 0.0, 0.0, 0.0, 3.0, 0.0))
+    assert np.interp(10.0, *panel.within.data()) < 0.6 * sharp
+    # 3 λ of defocus: rays land up to 2·3·λ/NA from the chief ray.
+    edge = 6 * window.live.setting.source.wavelength_um / float(window.live.setting.coefficients.na)
+    assert np.interp(1.3 * edge, *panel.within.data()) > 0.9
+
+
+def test_where_rays_are_clipped_the_samples_are_shown():
+    answer = live(replace(FIRST, method="traced", field_deg=14.0, f_number=5.6, clip=True), "preview")
+    answer = replace(answer, quality="settled")
+    view = profiles(answer)
+    middle = answer.psf.values[answer.psf.values.shape[0] // 2]
+    assert np.interp(answer.psf.x_um, view.position_um, view.along_x).argmax() == middle.argmax()

@@ -1,0 +1,250 @@
+"""The through-focus strip and the field map: what fills in behind the slider, against the physics."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, Qt
+
+from p2sf.conventions import degrees_from_slope
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.sampled import in_window, optics
+from p2sf_explorer.compute.setup import setting, with_lens
+from p2sf_explorer.panels.field_map import FieldMapPanel
+from p2sf_explorer.results import field_map, through_focus
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.what_if import UNTOUCHED
+
+FIRST = State(method="seidel", theme="light")
+PURE = replace(FIRST, free_pupil=True)
+
+
+@pytest.fixture
+def strip(window, qtbot):
+    """Return the strip's panel once it is filled."""
+    window.store.update(tab="through_focus", f_number=8.0)
+    panel = window.panels["through_focus"]
+    filled(panel, qtbot)
+    return panel
+
+
+def filled(panel, qtbot):
+    qtbot.waitUntil(lambda: not panel.asking.worker.busy and panel.found and panel.found[0] == panel.asking.asked)
+
+
+def worked(question, module):
+    told = []
+    return module.answer(question, lambda: False, lambda share, found: told.append(share)), told
+
+
+def test_the_brightest_picture_is_at_the_medial_focus(strip):
+    asked, found = strip.found
+    peaks = found.light.max((1, 2))
+    shifts = np.array(asked.shifts_um)
+    assert abs(shifts[peaks.argmax()] - found.best) <= (shifts[1] - shifts[0])
+    c = setting(asked.state).coefficients
+    unit = float(c.wavelength_um) / float(c.na) ** 2
+    # Best focus Wd = −(W40 + W20 + W22/2) (Mahajan 1991), Δz = 2λWd/NA².
+    assert found.best == pytest.approx(-2 * unit * float(c.w40 + c.w20 + c.w22 / 2 + c.wd), abs=0.01)
+    assert found.tangential - found.sagittal == pytest.approx(-2 * unit * float(c.w22))
+
+
+def test_lines_stand_across_each_other_at_the_two_foci():
+    """At the tangential focus the light is a line along x, at the sagittal one along y (Welford 1986, §8.4)."""
+    state = replace(FIRST, f_number=11.0, field_deg=14.0)
+    first = live(state)
+    c = setting(state).own
+    places = through_focus.seidel_foci(c)
+    shapes = []
+    for place in (places.tangential, places.sagittal):
+        psf = in_window(replace(optics(state), sensor_shift_um=1e3 * float(place)), (64, 1.0), True)
+        x, y = psf.values.sum(0), psf.values.sum(1)
+        shapes.append((x @ psf.x_um**2) / (y @ psf.y_um**2))
+    assert first.rung == "seidel" and shapes[0] > 1 > shapes[1]
+
+
+def test_pictures_and_marks_stand_at_their_sensor_positions(strip):
+    asked, found = strip.found
+    assert [tile.x for tile in strip.chart.tiles] == pytest.approx(asked.shifts_um)
+    notes = {words[2:]: x for x, _, words, _, _ in strip.chart.notes}
+    assert notes == pytest.approx({"S": found.sagittal, "T": found.tangential, "best": found.best})
+
+
+def test_dragging_the_sensor_moves_the_slider_and_leaves_the_strip(window, strip, qtbot):
+    chart, asked = strip.chart, strip.asking.asked
+    chart.grab()
+    start = QPointF(float(chart.to_pixels(0.0, 0.0)[0]), chart.area.bottom() - 6)
+    goal = QPointF(float(chart.to_pixels(asked.shifts_um[3], 0.0)[0]), start.y())
+    qtbot.mousePress(chart, Qt.MouseButton.LeftButton, pos=start.toPoint())
+    qtbot.mouseMove(chart, goal.toPoint())
+    assert window.live.quality == "preview"
+    qtbot.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=goal.toPoint())
+    assert window.store.state.sensor_shift_um == pytest.approx(asked.shifts_um[3], abs=2 * chart.per_pixel())
+    assert strip.chart.sensor_um == window.store.state.sensor_shift_um
+    assert window.live.quality == "settled" and window.store.can_undo
+    filled(strip, qtbot)
+    assert strip.asking.asked == asked, "the strip does not move with the sensor"
+
+
+@pytest.mark.parametrize("changes", [{"free_pupil": True}, {"muted": ("wd",)}, {"solo": ("w40",)}])
+def test_where_the_sensor_does_not_focus_there_is_a_sentence_and_no_strip(window, strip, qtbot, changes):
+    """With Wd set aside every picture is the same wherever the sensor stands: foci would be marks of nothing."""
+    window.store.update(**changes)
+    assert "moving the sensor does not focus" in strip.widget.readout.text()
+    window.store.update(psf_scale="linear")
+    assert not strip.chart.tiles and not strip.chart.notes
+    assert strip.chart.ranges()[0] == (-200.0, 200.0), "the sensor's line stands on its slider's travel"
+    window.store.update(**UNTOUCHED)
+    filled(strip, qtbot)
+    assert len(strip.chart.tiles) == len(strip.asking.asked.shifts_um)
+
+
+def test_arrow_keys_move_the_sensor(window, strip, qtbot):
+    strip.chart.setFocus()
+    qtbot.keyClick(strip.chart, Qt.Key.Key_Left)
+    assert window.store.state.sensor_shift_um < 0
+
+
+def test_defocus_alone_is_symmetric_about_focus():
+    """Pure defocus: the picture at +Δz is that at −Δz (the kernel depends on Wd²)."""
+    lens = replace(with_lens(FIRST, "achromat_f6"), method="seidel", field_deg=0.0, muted=("w40",), f_number=12.0)
+    question = through_focus.strip(live(lens))
+    found, told = worked(question, through_focus)
+    shifts = np.array(question.shifts_um)
+    centre = float(through_focus.seidel_foci(setting(question.state).coefficients).sagittal) * 1e3
+    pair = [in_window(replace(question.state, sensor_shift_um=centre + d), (32, 1.0), True).values for d in (60, -60)]
+    assert pair[0] == pytest.approx(pair[1], abs=1e-6)  # the preview's float32
+    assert shifts[0] < centre < shifts[-1] and told[-1] <= 1 and np.isfinite(found.light).all()
+
+
+def test_the_map_is_the_psf_turned_towards_each_field(window, qtbot):
+    window.store.update(tab="field_map", f_number=5.6)
+    panel = window.panels["field_map"]
+    filled(panel, qtbot)
+    asked, found = panel.found
+    middle = found[1, 4]
+    assert middle == pytest.approx(middle.T, abs=1e-4), "round on the axis"
+    top, bottom = found[0, 4], found[2, 4]
+    assert bottom[1:, 1:] == pytest.approx(top[1:, 1:][::-1, ::-1], abs=1e-4), "turned by 180°"
+    right = found[1, 8]
+    own = field_map.one(asked, float(field_map.places()[1, 8, 0]))
+    assert right[1:, 1:] == pytest.approx(own.T[1:, 1:], abs=1e-4), "+y points to the right"
+    assert (found.max((2, 3)) > 0.5).all()
+
+
+def test_a_click_on_the_map_goes_to_that_field(window, qtbot):
+    window.store.update(tab="field_map")
+    panel = window.panels["field_map"]
+    filled(panel, qtbot)
+    panel.chart.grab()
+    corner = panel.chart.tiles[-1]
+    qtbot.mouseClick(panel.chart, Qt.MouseButton.LeftButton, pos=panel.chart.room(corner).center().toPoint())
+    assert window.store.state.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
+    assert panel.asking.asked == panel.found[0], "and the map stays as it is"
+
+
+def test_a_map_given_up_before_its_first_picture_is_an_empty_one(window):
+    panel = FieldMapPanel(window.store)
+    panel._paint(field_map.field_map(window.live), np.full((*field_map.SHAPE, 8, 8), np.nan))
+    assert not panel.chart.tiles
+
+
+def test_arrow_keys_choose_a_picture_of_the_map_and_enter_goes_to_its_field(window, qtbot):
+    window.store.update(tab="field_map", field_deg=0.0)
+    chart = window.panels["field_map"].chart
+    filled(window.panels["field_map"], qtbot)
+    chart.setFocus()
+    for _ in range(9):  # from the middle to the rim, and no farther
+        qtbot.keyClick(chart, Qt.Key.Key_Right)
+    assert chart.fields_deg[chart.cursor.number] == pytest.approx(chart.fields_deg[17]), "the end of the middle row"
+    assert window.store.state.field_deg == 0.0, "choosing alone moves nothing"
+    before = chart.grab().toImage()
+    qtbot.keyClick(chart, Qt.Key.Key_Down)
+    assert chart.grab().toImage() != before, "the frame is seen to move"
+    qtbot.keyClick(chart, Qt.Key.Key_Return)
+    assert window.store.state.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
+
+
+def test_coma_points_away_from_the_axis_at_every_place():
+    question = field_map.field_map(live(replace(FIRST, solo=("w31",), f_number=4.0)))
+    found, told = worked(question, field_map)
+    where = field_map.places()
+    axis = np.arange(question.window[0]) - question.window[0] // 2
+    sides = []
+    for at in ((0, 4), (1, 8), (2, 0), (0, 8)):
+        light = found[at] / found[at].sum()
+        centroid = np.array([light.sum(0) @ axis, light.sum(1) @ axis])
+        sides.append(centroid @ where[at] / np.linalg.norm(where[at]) / np.linalg.norm(centroid))
+    assert np.abs(sides) == pytest.approx(np.ones(4), abs=0.02), "along the field's direction"
+    assert len({side > 0 for side in sides}) == 1 and told == sorted(told), "and all the same way"
+
+
+@pytest.mark.parametrize("key", ["through_focus", "field_map", "colour"])
+def test_an_earlier_picture_is_marked_until_its_own_is_there(window, qtbot, key):
+    window.store.update(tab=key, f_number=8.0)
+    panel = window.panels[key]
+    filled(panel, qtbot)
+    words = panel.widget.readout.text()
+    window.store.update(f_number=11.0)
+    assert panel.widget.readout.text() == f"{words} · earlier picture"
+    filled(panel, qtbot)
+    assert "earlier" not in panel.widget.readout.text()
+
+
+def test_the_top_of_the_map_is_the_field_that_lands_there():
+    """A relay images upright: what lands above the axis comes from the other side than in a camera."""
+    state = replace(with_lens(FIRST, "relay"), method="seidel", solo=("w31",), depth_mm=96.0, focus_mm=96.0)
+    first = live(state, "preview")
+    question = replace(field_map.field_map(first), window=(24, first.airy_radius_um / 3))
+    lands = {}
+    for side in (1, -1):
+        one = replace(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
+        values = in_window(one, question.window, True).values
+        lands[float(setting(one).coefficients.image_height) > 0] = values / values.max()
+    shown = field_map.one(question, 1.0)
+    assert shown[1:, 1:] == pytest.approx(lands[True][1:, 1:], abs=1e-4)
+    assert np.abs(shown - lands[False]).max() > 0.1, "coma tells the two apart"
+
+
+@pytest.mark.parametrize(("lens", "field", "up"), [("", 5.0, 1), ("", -5.0, -1), ("relay", 0.2, -1), ("", 0.0, 0)])
+def test_the_arrow_points_to_where_farther_fields_land(window, lens, field, up):
+    state = with_lens(window.store.state, lens) if lens else window.store.state
+    window.store.replace(replace(state, field_deg=field))
+    near, far = (float(setting(replace(state, field_deg=part * field)).coefficients.image_height) for part in (1, 1.1))
+    panel = window.panels["psf"]
+    tip = panel.arrow.data()[1][1]
+    assert np.sign(far - near) == up == (0 if np.isnan(tip) else np.sign(tip))
+    assert ("axis" in panel.map.chart.labels[1]) == (up < 0)
+
+
+def test_hidden_strip_and_map_ask_nothing(window, strip, qtbot):
+    window.open_panel("profiles")
+    asked = strip.asking.asked
+    window.store.update(field_deg=4.0)
+    assert strip.asking.asked is asked and not strip.asking.worker.busy
+
+
+@pytest.mark.parametrize(
+    ("ask", "points"),
+    [
+        (field_map.field_map, ({"field_deg": 0.0}, {"field_deg": 14.0})),
+        (through_focus.strip, ({"sensor_shift_um": 0.0}, {"sensor_shift_um": 400.0})),
+    ],
+    ids=["map", "strip"],
+)
+def test_what_auto_chose_for_one_point_does_not_make_the_pictures_of_all(ask, points):
+    """Six coefficients do near the axis and where all is blurred, and miss elsewhere: `auto` changes its mind."""
+    state = replace(FIRST, method="auto", field_deg=2.0, f_number=5.6)
+    answers = [live(replace(state, **point)) for point in points]
+    assert {answer.rung for answer in answers} == {"seidel", "fitted"}
+    first, second = map(ask, answers)
+    assert first == second and not first.six
+
+
+@pytest.mark.parametrize("lens", ["relay", "eye_navarro", "landscape"])
+def test_other_lenses_have_a_strip_with_their_foci_inside(lens):
+    state = replace(with_lens(FIRST, lens), method="seidel")
+    question = through_focus.strip(live(state, "preview"))
+    sagittal, tangential, best = through_focus.foci(question)
+    assert question.shifts_um[0] <= min(sagittal, tangential, best)
+    assert question.shifts_um[-1] >= max(sagittal, tangential, best)

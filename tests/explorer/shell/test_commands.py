@@ -1,0 +1,146 @@
+"""Every command by name and key: palette, help, and the choices of stop, clip, colours and theme."""
+
+import pytest
+from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence
+from PySide6.QtWidgets import QApplication
+
+from p2sf_explorer.compute.setup import shipped, title
+from p2sf_explorer.panels import REGISTRY
+from p2sf_explorer.shell.choices import everything
+from p2sf_explorer.shell.command_palette import named
+from p2sf_explorer.shell.fuzzy import ranked, score
+from p2sf_explorer.shell.help_page import HelpPage
+from p2sf_explorer.state.what_if import PRESETS
+
+
+@pytest.mark.parametrize(
+    ("sought", "texts", "first"),
+    [
+        ("psf", ["Spot diagram of fields", "Panel: PSF"], 1),
+        ("fm", ["Film…", "Field map"], 1),
+        ("cook", ["Copy the look", "Lens: Cooke triplet"], 1),
+        ("UNDO", ["Steps: Undo"], 0),
+        ("spr", ["Vorgabe: Sphärisch, Randfokus", "Sprache: Deutsch"], 1),
+        ("", ["first", "second"], 0),
+    ],
+)
+def test_a_few_letters_find_what_is_meant(sought, texts, first):
+    assert ranked(sought, texts)[0] == first
+
+
+def test_letters_that_are_not_there_in_their_order_find_nothing():
+    assert score("fsp", "PSF") is None and ranked("xyz", ["PSF"]) == []
+
+
+def test_no_two_commands_answer_to_the_same_key(window):
+    keys = [QKeySequence(key).toString() for command in window.actions.commands for key in command.keys]
+    assert len(keys) == len(set(keys)) and all(keys)
+
+
+def test_the_palette_lists_every_panel_lens_and_preset(window):
+    listed = {command.title for command in everything(window)}
+    assert listed >= {entry.title for entry in REGISTRY if entry.place != "main"}
+    assert listed >= {title(name) for name in shipped()} | {preset.title for preset in PRESETS}
+
+
+def test_no_command_says_its_group_twice(window):
+    names = [named(command) for command in everything(window)]
+    assert not [name for name in names if name.split(": ")[1].startswith(name.split(": ")[0])]
+
+
+def test_typing_and_enter_do_what_is_found(window, qtbot):
+    qtbot.keyClick(window, Qt.Key.Key_K, Qt.KeyboardModifier.ControlModifier)
+    palette = window.actions.palette
+    assert palette.isVisible()
+    qtbot.keyClicks(palette.sought, "cooke")
+    assert "Cooke triplet" in palette.found.item(0).text()
+    qtbot.keyClick(palette.sought, Qt.Key.Key_Return)
+    assert window.store.state.lens == "cooke_triplet" and not palette.isVisible()
+    window.actions.find()
+    qtbot.keyClicks(palette.sought, "panel mtf")
+    qtbot.keyClick(palette.sought, Qt.Key.Key_Return)
+    assert window.store.state.tab == "mtf"
+
+
+def test_arrows_choose_and_escape_goes_back(window, qtbot):
+    before = window.store.state
+    window.actions.find()
+    palette = window.actions.palette
+    qtbot.keyClicks(palette.sought, "theme")
+    qtbot.keyClick(palette.sought, Qt.Key.Key_Down)
+    assert palette.found.currentRow() == 1
+    qtbot.keyClick(palette.sought, Qt.Key.Key_Escape)
+    assert not palette.isVisible() and window.store.state == before
+    window.actions.find()
+    qtbot.keyClicks(palette.sought, "qqqq")
+    qtbot.keyClick(palette.sought, Qt.Key.Key_Return)
+    assert window.store.state == before
+    palette.hide()
+
+
+def test_the_question_mark_lists_every_key(window, qtbot):
+    qtbot.keyClick(window, Qt.Key.Key_Question)
+    page = window.findChild(HelpPage)
+    lines = page.text.toPlainText()
+    for command in window.actions.commands:
+        assert not command.keys or (command.title in lines and all(key in lines for key in command.keys))
+    assert page.height() <= page.screen().availableGeometry().height()
+    window.actions.help()
+    assert window.findChildren(HelpPage) == [page], "asked again, the one page comes to the front"
+    qtbot.keyClick(page, Qt.Key.Key_Escape)
+    assert not page.isVisible()
+
+
+def test_stop_and_clip_tell_the_store_and_follow_it(window, qtbot):
+    row = window.controls.stopping
+    row.stop.setCurrentIndex(row.stop.findData("auto"))
+    row.stop.activated.emit(row.stop.currentIndex())
+    assert window.store.state.stop == "auto"
+    qtbot.mouseClick(row.clip, Qt.MouseButton.LeftButton, pos=QPoint(8, row.clip.height() // 2))
+    assert window.store.state.clip
+    window.store.undo()
+    window.store.undo()
+    assert not row.clip.isChecked() and row.stop.currentData() == "file"
+
+
+def test_a_held_arrow_key_is_one_step_of_undo(window, qtbot):
+    first, slider = window.store.state, window.controls.rows["field_deg"].slider
+    slider.setFocus()
+    qtbot.keyPress(slider, Qt.Key.Key_Right)
+    for _ in range(9):  # what a keyboard sends while the key is down
+        event = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_Right, Qt.KeyboardModifier.NoModifier, "", True)
+        QApplication.sendEvent(slider, event)
+    assert window.live.quality == "preview"
+    qtbot.keyRelease(slider, Qt.Key.Key_Right)
+    assert window.live.quality == "settled"
+    assert window.store.state.field_deg > first.field_deg + 0.5
+    window.store.undo()
+    assert window.store.state == first
+
+
+def reachable(window) -> list:
+    """Return every widget that Tab comes by, in its order."""
+    found, at = [], window.nextInFocusChain()
+    while at is not window:
+        if at.focusPolicy() & Qt.FocusPolicy.TabFocus and at.isVisibleTo(window) and at.isEnabled():
+            found.append(at)
+        at = at.nextInFocusChain()
+    return found
+
+
+def test_every_control_is_reached_by_tab_and_shows_its_focus(window):
+    window.store.update(field_deg=11.0)
+    window.store.undo()  # so that Redo is enabled
+    chain = reachable(window)
+    for row in window.controls.rows.values():
+        assert row.slider in chain and row.edit in chain
+    for button in (window.top.lens, window.top.method, window.top.more, window.controls.stopping.clip):
+        assert button in chain
+    for widget in (window.controls.rows["field_deg"].slider, window.top.more, window.controls.stopping.clip):
+        widget.clearFocus()
+        before = widget.grab().toImage()
+        widget.setFocus(Qt.FocusReason.TabFocusReason)
+        QApplication.processEvents()
+        assert widget.grab().toImage() != before, type(widget).__name__
+        widget.clearFocus()

@@ -1,0 +1,200 @@
+"""Little room, odd lenses and refusals: what is shown stays whole, sensible and in the window's own words."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+
+from p2sf.errors import P2SFError
+from p2sf.request import Request
+from p2sf_explorer.charts.painting import fitting, width_of
+from p2sf_explorer.charts.plots import ColourBar, HeatMap
+from p2sf_explorer.compute.glass_outlines import clear_rims, glass_of, still
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.setup import default_state, load, setting, shipped
+from p2sf_explorer.i18n.language import speak
+from p2sf_explorer.i18n.messages import spoken
+from p2sf_explorer.panels.lens_table import LensTablePanel
+from p2sf_explorer.shell.tabs import Tabs
+from p2sf_explorer.shell.window import TABS
+from p2sf_explorer.widgets.card import Card, chooser
+from p2sf_explorer.widgets.readout import BAR_AIR, Readout
+
+
+@pytest.mark.parametrize(
+    ("said", "heard"),
+    [
+        ("--focus-mm is inf mm, but", "Focus distance is ∞, but"),
+        ("give --depth-mm as well", "Give Depth as well"),
+        ("depth is -5 mm; give 0.001 to inf mm", "Depth is −5 mm; give 0.001 to ∞"),
+        ("information from lens-1.toml, infinite", "Information from lens-1.toml, infinite"),
+        ("--sensor-shift-um is 3e-05 µm", "Sensor shift is 3e-05 µm"),
+    ],
+)
+def test_a_refusal_speaks_the_windows_words(said, heard):
+    assert spoken(said) == heard
+
+
+@pytest.mark.parametrize("wrong", [{"depth_mm": -1.0}, {"f_number": 0.0}, {"focus_mm": 0.0}, {"stop": "x"}])
+def test_no_option_of_the_command_line_is_left_in_a_sentence(wrong):
+    with pytest.raises(P2SFError) as refused:
+        Request(**wrong)
+    assert "--" in str(refused.value) and "--" not in spoken(str(refused.value))
+
+
+def test_the_banner_says_infinity_as_a_sign(window):
+    window.store.update(depth_mm=-3.0)
+    assert "∞" in window.banner.text.text() and "inf" not in window.banner.text.text()
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_every_lens_opens_at_a_field_of_its_file(name):
+    state = default_state(name)
+    assert 0 < state.field_deg <= max(map(abs, load(name).fields_deg))
+    assert state.depth_mm == np.inf or live(state, "preview").psf.method != "geometric"
+
+
+def test_the_relay_opens_with_an_object_its_glass_can_see(window):
+    state = default_state("relay")
+    assert abs(setting(state).object_height_mm) < 10
+    rims = clear_rims(still(load("relay")))
+    assert max(rims) < 25, "the file's 69 mm are more than its glass could have"
+    for outline in glass_of(still(load("relay"))).outlines:
+        half = len(outline.z) // 2
+        assert np.isfinite(outline.z).all() and outline.z[:half].mean() < outline.z[half:].mean()
+
+
+def test_no_other_lens_is_cut_by_its_edges():
+    for name in set(shipped()) - {"relay"}:
+        stated = [s.semi_diameter for s in load(name).surfaces]
+        drawn = clear_rims(still(load(name)))
+        assert all(d >= 0.9 * s or s == np.inf for d, s in zip(drawn, stated, strict=True)), name
+
+
+def test_a_badge_with_little_room_is_short_and_not_cut(qapp):
+    readout = Readout(pill=True)
+    readout.set_text(
+        "fitted · preview 7.1 / settled 77 ms · R² 0.9993 vs Huygens", short="fitted · 7.1/77 ms · R² 0.9993"
+    )
+    readout.resize(600, 20)
+    assert readout._cut() == readout.text()
+    readout.resize(220, 20)
+    assert readout._cut() == "fitted · 7.1/77 ms · R² 0.9993"
+    readout.resize(60, 20)
+    assert readout._cut().endswith("…")
+
+
+def test_no_fact_is_cut_where_the_banner_takes_room(window, qtbot):
+    window.resize(1280, 800)
+    window.store.update(depth_mm=-3.0)
+    facts = window.controls.facts
+    area = facts.parentWidget().parentWidget().parentWidget()
+    qtbot.waitUntil(lambda: facts.height() == round(facts.ROW * len(facts._rows)))
+    bar = area.verticalScrollBar()
+    qtbot.waitUntil(lambda: bar.maximum() == 0 or bar.isVisible())
+    air = area.viewport().width() - facts.mapTo(area, facts.rect().topRight()).x() - 1
+    assert air == (BAR_AIR if bar.isVisible() else 0)
+    window.resize(1440, 900)
+
+
+def test_a_colour_bar_widens_for_its_longest_label_and_keeps_that_room(qapp):
+    bar = ColourBar()
+    usual = bar.sizeHint().width()
+    bar.show_scale("CET-L4", "of light", ((0.0, "0"), (1.0, "0.181 %")))
+    wide = bar.sizeHint().width()
+    assert wide > usual and wide >= ColourBar.TICK + width_of("0.181 %")
+    bar.show_scale("CET-L4", "of light", ((0.0, "0"), (1.0, "4 %")))
+    assert bar.sizeHint().width() == wide
+
+
+def test_the_contrast_fills_its_axis_and_marks_the_sensors_nyquist(window):
+    window.store.update(tab="mtf", pixel_um=5.0, f_number=8.0)
+    panel = window.panels["mtf"]
+    (low, high), _ = panel.chart.ranges()
+    assert (low, high) == (0.0, panel.curves["tangential"].data()[0][-1])
+    assert panel.chart.uprights == ((100.0, "text"),)  # 1/(2·5 µm)
+
+
+def test_the_spot_stands_in_a_square_beside_its_figures(window):
+    window.store.update(tab="spot", field_deg=0.0)
+    panel = window.panels["spot"]
+    (left, right), (low, high) = panel.chart.ranges()
+    assert right - left < 2 * (high - low), "no empty width"
+    rows = {name: value for name, value, _ in panel.facts._rows}
+    assert rows["RMS in x"] == rows["RMS in y"], "round on the axis"
+    both = np.hypot(*(float(rows[name].split()[0]) for name in ("RMS in x", "RMS in y")))
+    assert both == pytest.approx(float(rows["RMS radius"].split()[0]), rel=1e-2)  # three digits each
+
+
+def test_accuracy_says_what_will_be_there(window):
+    window.open_panel("accuracy")
+    panel = window.panels["accuracy"]
+    assert panel.empty.isVisible() and "Huygens" in panel.empty.text()
+
+
+def test_a_narrow_heat_map_keeps_its_picture_and_a_wide_one_its_colour_bar(qtbot):
+    shown = HeatMap("x, µm", "y, µm")
+    qtbot.addWidget(shown)
+    for width, bar in ((176, False), (300, True), (176, False)):
+        shown.resize(width, 200)
+        shown.show()
+        qtbot.waitUntil(lambda bar=bar: shown.bar.isVisible() is bar)
+        qtbot.waitUntil(lambda width=width: shown.chart.area.width() > 0.55 * width)
+
+
+def test_tools_that_do_not_fit_beside_the_title_stand_under_it(qtbot):
+    card = Card("Pupil phase")
+    qtbot.addWidget(card)
+    card.add_tool(chooser((("waves", "W, waves"),), "How the phase is shown", card))
+    card.set_body(QWidget())
+    for width, below in ((180, True), (400, False)):
+        card.resize(width, 200)
+        card.show()
+        qtbot.waitUntil(lambda below=below: (card.tools[0].y() > card.title.geometry().bottom()) is below)
+        qtbot.waitUntil(lambda: card.title.width() >= card.title.sizeHint().width())
+
+
+def test_a_label_that_is_too_long_leaves_out_what_stands_in_brackets(qapp):
+    label = "y, µm (towards the field)"
+    assert fitting(label, 500) == label
+    assert fitting(label, width_of(label) - 1) == "y, µm"
+    assert fitting(label, 12).endswith("…") and width_of(fitting(label, 30)) <= 30
+
+
+def test_the_window_fits_a_screen_of_1920_by_1080_at_twice_the_size(window):
+    """That is 960 by 540 to a program: the column of controls scrolls, and no main panel is cut."""
+    window.resize(960, 540)
+    QApplication.processEvents()
+    try:
+        assert (window.width(), window.height()) == (960, 540)
+        assert window.top.undo.text() == "↶" and window.top.undo.accessibleName() == "Undo"
+        row = [window.panels[key].widget for key in ("pupil", "psf", "coefficients")]
+        for card in row:
+            assert card.height() >= card.layout().minimumSize().height() and card.width() >= card.minimumWidth()
+        button = window.controls.focus_button
+        button.setFocus(Qt.FocusReason.TabFocusReason)
+        assert not button.visibleRegion().isEmpty(), "what has the focus is scrolled to"
+    finally:
+        window.resize(1440, 900)
+        QApplication.processEvents()
+    assert window.top.undo.text() == "Undo" and window.top.named.isVisible()
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_every_groups_tabs_fit_a_small_window_and_no_column_of_the_lens_is_cut(window, language):
+    speak(language)
+    try:
+        tabs, table = Tabs(TABS), LensTablePanel(window.store)
+        tabs.setStyleSheet(window.styleSheet())
+        tabs.resize(964, 200)  # what a window of 1280 pixels leaves them
+        tabs.show()
+        tabs.chosen.connect(tabs.bring_up)
+        for button in tabs.buttons.named.values():
+            button.click()
+            QApplication.processEvents()
+            assert not any(arrow.isVisible() for arrow in tabs.tabBar().findChildren(QToolButton)), button.text()
+        head = table.view.horizontalHeader()
+        assert all(head.sectionSize(k) >= head.sectionSizeHint(k) for k in range(head.count() - 1))
+    finally:
+        speak("en")
+        tabs.close()

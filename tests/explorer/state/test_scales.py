@@ -1,0 +1,80 @@
+"""Slider scales invert themselves; what people type is read, and refused in sentences."""
+
+from math import inf
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.compute.quantities import QUANTITIES
+from p2sf_explorer.state.scales import Linear, Logarithmic, Vergence, nice, read_distance, written_distance
+
+
+@pytest.mark.parametrize("scale", [Linear(-2.0, 5.0), Logarithmic(1.4, 32.0), Vergence(60.0)])
+@given(travel=st.floats(0, 1))
+def test_travel_and_value_invert_each_other(scale, travel):
+    assert scale.travel(scale.value(travel)) == pytest.approx(travel, abs=1e-12)  # round-off of two divisions
+
+
+READERS = {quantity.key: quantity.read for quantity in QUANTITIES}
+
+
+def test_vergence_ends_at_infinity_and_is_even_in_dioptres():
+    scale = Vergence(100.0)
+    assert scale.value(1.0) == inf
+    assert 1 / scale.value(0.5) == pytest.approx(0.5 / 100, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "mm"),
+    [("2 m", 2000), ("2m", 2000), ("350", 350), ("12,5 cm", 125), ("∞", inf), ("inf", inf), ("3 km", 3e6)],
+)
+def test_distances_as_people_type_them(text, mm):
+    assert read_distance(text) == mm
+
+
+@pytest.mark.parametrize("mm", [12.5, 350.0, 999.0, 2000.0, inf])
+def test_what_is_written_can_be_read(mm):
+    assert read_distance(written_distance(mm)) == pytest.approx(mm, rel=1e-3)  # four digits are written
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "value"),
+    [
+        *(("f_number", text, 5.6) for text in ("5.6", "5,6", "f/5.6", "F5.6", "f 5,6", "F/5.6", "f / 5.6", "1:5.6")),
+        ("field_deg", "−10°", -10),
+        ("wavelength_nm", "0.55 µm", 550),
+        ("field_deg", "1e1", 10),
+        ("field_deg", "12 deg", 12),
+        ("field_deg", "12deg", 12),
+        ("field_deg", "1.2e1 deg", 12),
+    ],
+)
+def test_numbers_with_units(key, text, value):
+    assert READERS[key](text) == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("key", "text"),
+    [
+        ("sensor_shift_um", "2 m"),
+        ("f_number", "1:5.6 mm"),
+        ("field_deg", "2 m"),
+        ("f_number", "550 nm"),
+        ("depth_mm", "10°"),
+    ],
+)
+def test_a_foreign_unit_is_refused_and_never_dropped(key, text):
+    with pytest.raises(P2SFError, match="unit"):
+        READERS[key](text)
+
+
+@pytest.mark.parametrize("text", ["", "abc", "1 parsec", "nan"])
+def test_what_is_no_distance_is_a_sentence(text):
+    with pytest.raises(P2SFError, match="distance"):
+        read_distance(text)
+
+
+def test_nice_is_the_next_round_number():
+    assert [nice(x) for x in (0.9, 1.0, 1.1, 3.0, 7.0)] == [1, 1, 2, 5, 10]

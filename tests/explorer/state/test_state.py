@@ -1,0 +1,155 @@
+"""The state: JSON and back, and every bad value one sentence."""
+
+import json
+import subprocess
+import sys
+from math import inf
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.state.state import CHOICES, LINKABLE, SCHEMA, State, read_state, state_from_json, state_to_json
+from p2sf_explorer.state.terms import TERMS
+
+finite = {"allow_nan": False, "allow_infinity": False}
+
+
+def some_of(names):
+    return st.sets(st.sampled_from(names)).map(lambda found: tuple(name for name in names if name in found))
+
+
+WAVES = st.floats(-1000, 1000, **finite)
+ALONE = dict(
+    lens=st.sampled_from(["double_gauss_28", "/some where/lens.toml"]),
+    lens_text=st.none() | st.text(max_size=200),
+    depth_mm=st.floats(1e-3, 1e12, **finite) | st.just(inf),
+    focus_mm=st.none() | st.floats(1e-3, 1e12, **finite) | st.just(inf),
+    sensor_shift_um=st.floats(-1e6, 1e6, **finite),
+    field_deg=st.floats(-89, 89, **finite),
+    wavelength_nm=st.floats(100, 20000, **finite),
+    f_number=st.none() | st.floats(0.2, 1000, **finite),
+    clip=st.booleans(),
+    tolerance=st.floats(0, 1, **finite),
+    added_waves=st.tuples(*[WAVES] * len(TERMS)),
+    muted=some_of(TERMS),
+    solo=some_of(TERMS),
+    free_pupil=st.booleans(),
+    linked=some_of(LINKABLE),
+    play_seconds=st.floats(0.1, 600, **finite),
+    **{name: st.sampled_from(values) for name, values in CHOICES.items() if name != "shown"},
+)
+PLAYED = st.builds(dict, play=st.just("depth_mm"), play_range=st.none() | st.just((500.0, inf)))
+PLAYED |= st.builds(dict, play=st.just("added_w31"), play_range=st.tuples(WAVES, WAVES))
+STATES = st.builds(
+    lambda alone, other, played, shown: State(**alone, **played, pinned=other, shown=shown if other else "a"),
+    st.builds(dict, **ALONE),
+    st.none() | st.builds(State, **ALONE),
+    PLAYED,
+    st.sampled_from(CHOICES["shown"]),
+)
+
+
+@given(STATES)
+def test_json_and_back_is_identical(state):
+    assert state_from_json(state_to_json(state, versions={"p2sf": "x"})) == state
+
+
+def test_infinity_is_plain_json():
+    text = state_to_json(State())
+    assert json.loads(text, parse_constant=pytest.fail)["state"]["depth_mm"] == "inf"
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"depth_mm": -1.0}, "source depth is -1 mm"),
+        ({"depth_mm": float("nan")}, "source depth is nan mm"),
+        ({"field_deg": 90.0}, "field angle is 90°"),
+        ({"field_deg": "wide"}, "field angle is 'wide'"),
+        ({"method": "magic"}, 'method is "magic"; choose one of auto'),
+        ({"lens": ""}, "names no lens"),
+        ({"lens_text": 3}, "edited lens is not text"),
+        ({"clip": "yes"}, "clip must be true or false"),
+        ({"added_waves": (1.0,)}, "give 6 numbers, for w40"),
+        ({"added_waves": (float("nan"), 0.0, 0.0, 0.0, 0.0, 0.0)}, "added to w40 is nan λ"),
+        ({"muted": ("w31", "w40")}, "each once and in this order"),
+        ({"solo": ("piston",)}, "list some of w40"),
+        ({"free_pupil": 1}, "free_pupil is 1"),
+        ({"pinned": State(pinned=State())}, "nothing pinned in it"),
+        ({"shown": "b"}, "nothing is pinned as B"),
+        ({"linked": ("theme",)}, "linked is"),
+        ({"play": "theme"}, "name a slider"),
+        ({"play": "depth_mm", "play_range": (-1.0, inf)}, "source depth is -1 mm"),
+        ({"play_seconds": 0.0}, "duration of a sweep is 0 s"),
+    ],
+)
+def test_a_value_that_cannot_be_is_a_sentence(changes, words):
+    with pytest.raises(P2SFError, match=words.replace("(", r"\(")):
+        State(**changes)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{", "line 1: not JSON"),
+        ("[]", "is not a state"),
+        ('{"schema": "p2sf-explorer-state", "version": 99, "state": {}}', "version 99"),
+        ('{"schema": "p2sf-explorer-state", "version": 1, "state": {"dept_mm": 1}}', 'unknown entry "dept_mm"'),
+    ],
+)
+def test_a_bad_state_file_is_a_sentence(tmp_path, text, words):
+    path = tmp_path / "state.json"
+    path.write_text(text)
+    with pytest.raises(P2SFError, match=words):
+        read_state(path)
+
+
+def nested(value: str, depth: int) -> str:
+    """Return a value in so many lists."""
+    return "[" * depth + value + "]" * depth
+
+
+def pinned(depth: int) -> str:
+    return '{"pinned": ' * depth + "{}" + "}" * depth
+
+
+@pytest.mark.parametrize("depth", [*range(750, 1000, 7), 100_000])
+@pytest.mark.parametrize("entry", ["windows", "field_deg", "play_range", "lens_text", "muted", "spectrum", "nothing"])
+def test_a_state_nested_as_deep_as_python_can_and_deeper_is_a_sentence(entry, depth):
+    """Some depths JSON still reads and what follows does not: where that begins depends on who calls."""
+    with pytest.raises(P2SFError):
+        state_from_json(f'{{"schema": "{SCHEMA}", "version": 1, "state": {{"{entry}": {nested("1", depth)}}}}}')
+
+
+@pytest.mark.parametrize("depth", [3, 300, 950, 100_000])
+def test_only_one_state_is_pinned(depth):
+    with pytest.raises(P2SFError, match=r"nothing pinned in it|nested too deep"):
+        state_from_json(f'{{"schema": "{SCHEMA}", "version": 1, "state": {pinned(depth)}}}')
+
+
+@pytest.mark.parametrize("digits", [400, 5000])
+def test_a_whole_number_no_float_can_hold_is_a_sentence(digits):
+    with pytest.raises(P2SFError, match=r"field angle is 999|too long a number"):
+        state_from_json(f'{{"schema": "{SCHEMA}", "version": 1, "state": {{"field_deg": {"9" * digits}}}}}')
+
+
+def test_a_missing_state_file_is_a_sentence(tmp_path):
+    with pytest.raises(P2SFError, match="cannot be read"):
+        read_state(tmp_path / "none.json")
+
+
+def test_state_and_compute_know_no_qt():
+    """The layer law: a live answer, side panels included, without Qt or its plots."""
+    code = """
+import sys
+from p2sf_explorer.compute import autofocus, live
+from p2sf_explorer.files import snapshot
+from p2sf_explorer.state import state
+from p2sf_explorer.results import profiles, seidel
+live.live(state.State(), views={"p": profiles.profiles, "s": seidel.per_surface})
+print([name for name in sys.modules if name.startswith(("PySide6", "pyqtgraph", "pyvista"))])
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "[]"

@@ -1,0 +1,176 @@
+"""A panel's picture and numbers on the clipboard, and the printed page."""
+
+import csv
+import io
+import re
+import zlib
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.i18n.language import speak
+from p2sf_explorer.shell.report import SHARES, fields, write_report
+from p2sf_explorer.state.pinning import pin
+from p2sf_explorer.state.state import State
+from p2sf_explorer.widgets.copying import copy_menu, data_of, table
+from tests.long.crash import small_disk
+
+
+def test_the_curves_of_the_open_panel_are_copied_as_they_are(window, qtbot):
+    qtbot.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    rows = list(csv.reader(io.StringIO(QGuiApplication.clipboard().text())))
+    column = rows[0].index("along y: share of the peak")
+    x, y = window.panels["profiles"].curves["along y"].data()
+    assert y.max() == pytest.approx(1.0)
+    read = np.array([[float(cell) for cell in row[column - 1 : column + 1]] for row in rows[1 : 1 + x.size]])
+    assert read[:, 0] == pytest.approx(x, rel=1e-8) and read[:, 1] == pytest.approx(y, rel=1e-8, abs=1e-12)
+
+
+def test_a_heat_map_is_copied_as_a_grid_with_its_places(window):
+    window.store.update(psf_scale="linear")
+    rows = list(csv.reader(io.StringIO(data_of(window.panels["psf"].widget))))
+    psf = window.live.psf
+    count = psf.values.shape[0]
+    grid = np.array([[float(cell) for cell in row] for row in rows[1 : count + 1]])
+    assert grid[:, 1:] == pytest.approx(psf.values / psf.values.max(), abs=1e-7)
+    assert grid[:, 0] == pytest.approx(psf.x_um, abs=1e-5)
+    assert [float(cell) for cell in rows[0][1:]] == pytest.approx(psf.x_um, abs=1e-5)
+
+
+@pytest.mark.parametrize("scale", ["sqrt", "log"])
+def test_what_is_copied_is_light_and_not_brightness(window, scale):
+    """The root or logarithm that a map is shown by is for the eye; the numbers are the PSF's, in the bar's units."""
+    window.store.update(psf_scale=scale, psf_units="sum", tab="beside", phase="contour")
+    psf, maps = window.live.psf, window.panels["beside"].maps
+    rows, grid = grid_of(window.panels["psf"].map)
+    assert rows[0][0].startswith("PSF, sum = 1: y, µm") and grid == pytest.approx(psf.values, rel=1e-6, abs=1e-12)
+    view = window.live.views["beside"]
+    for heat, values in zip(maps, (view.real, view.perfect, view.pixels), strict=True):
+        assert grid_of(heat)[1] == pytest.approx(np.asarray(values), rel=1e-6, abs=1e-12)
+    rows, grid = grid_of(window.panels["pupil"].map)
+    waves = window.live.pupil.waves
+    assert rows[0][0].startswith("W, waves: ") and grid == pytest.approx(waves, rel=1e-6, abs=1e-9, nan_ok=True)
+
+
+def test_a_difference_is_copied_as_shares_of_the_higher_peak(window):
+    window.store.replace(pin(window.store.state))
+    window.store.update(f_number=8.0, shown="difference")
+    rows, grid = grid_of(window.panels["psf"].map)
+    assert rows[0][0].startswith("A − B") and grid == pytest.approx(window.live.difference.psf, rel=1e-6, abs=1e-9)
+
+
+def grid_of(heat):
+    """Return the rows of a map's CSV, and its numbers without their places."""
+    rows = table(heat)
+    return rows, np.array([[float(cell or "nan") for cell in row[1:]] for row in rows[1:]])
+
+
+@pytest.mark.parametrize("key", ["coefficients", "lens", "first_order", "seidel", "spot", "ray_fan"])
+def test_other_panels_have_their_numbers_too(window, key):
+    window.open_panel(key) if key != "coefficients" else None
+    text = data_of(window.panels[key].widget)
+    assert sum(bool(re.search(r"\d", cell)) for row in csv.reader(io.StringIO(text)) for cell in row) >= 10
+
+
+@pytest.mark.parametrize("key", ["through_focus", "field_map"])
+def test_small_pictures_are_copied_as_one_grid_each(window, qtbot, key):
+    window.open_panel(key)
+    panel = window.panels[key]
+    qtbot.waitUntil(lambda: not panel.asking.worker.busy and bool(panel.chart.grids), timeout=10000)
+    asked, found = panel.found
+    pictures = (found.light if key == "through_focus" else found).reshape(-1, *(asked.window[0],) * 2)
+    kept = [picture for picture in pictures if np.isfinite(picture).any()]
+    rows = list(csv.reader(io.StringIO(data_of(panel.widget))))
+    heads = [k for k, row in enumerate(rows) if row and "\\" in row[0]]
+    assert len(heads) == len(kept) > 5
+    for at, picture in zip(heads, kept, strict=True):
+        grid = np.array([[float(cell or "nan") for cell in row] for row in rows[at + 1 : at + 1 + asked.window[0]]])
+        assert grid[:, 1:] == pytest.approx(picture, rel=1e-6, abs=1e-9, nan_ok=True)
+        assert grid[:, 0] == pytest.approx([float(cell) for cell in rows[at][1:]])
+        assert grid[1, 0] - grid[0, 0] == pytest.approx(asked.window[1])
+
+
+@pytest.mark.parametrize(
+    ("key", "heads"),
+    [
+        ("layout", ["marginal rays, axial point: z, mm", "chief ray: y, mm"]),
+        ("field", ["sagittal S: focus behind the sensor, mm", "distortion, third order: distortion, %"]),
+        ("chromatic", ["0.7 of the pupil: focus, µm", "rim: wavelength, nm"]),
+        ("depth_of_field", ["exact rays, this field: blur, µm"]),
+    ],
+)
+def test_every_column_says_what_it_is(window, key, heads):
+    window.open_panel(key)
+    rows = list(csv.reader(io.StringIO(data_of(window.panels[key].widget))))
+    found = [cell for row in rows for cell in row]
+    assert set(heads) <= set(found) and not any(re.match(r"\d+: |^$|: $", cell) for cell in rows[0])
+
+
+def test_a_panel_without_numbers_says_so(window, qtbot):
+    window.open_panel("import")
+    menu = copy_menu(window.panels["import"].widget)
+    assert not menu.actions()[1].isEnabled()
+    menu.deleteLater()
+    told = []
+    window.store.said.connect(told.append)
+    qtbot.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    window.store.said.disconnect(told.append)
+    assert told == ["This panel has no numbers"]
+
+
+def test_the_picture_on_the_clipboard_is_the_panel(window, qtbot):
+    window.panels["psf"].map.chart.setFocus()
+    widget = window.panels["psf"].widget
+    menu = copy_menu(widget)
+    first, second = menu.actions()
+    assert second.isEnabled()
+    first.trigger()
+    assert QGuiApplication.clipboard().pixmap().size() == widget.grab().size()
+    menu.deleteLater()
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_the_report_is_one_page_of_a4_with_drawing_numbers_and_pictures(qapp, tmp_path, language):
+    state = State(method="seidel", f_number=8.0)
+    speak(language)
+    try:
+        write_report(state, str(tmp_path / "page.pdf"))
+    finally:
+        speak("en")
+    document = (tmp_path / "page.pdf").read_bytes()
+    assert document.startswith(b"%PDF-")
+    assert len(re.findall(rb"/Type\s*/Page\b", document)) == 1
+    width, height = (float(v) for v in re.search(rb"/MediaBox\s*\[\s*0 0 ([\d.]+) ([\d.]+)", document).groups())
+    assert (width, height) == pytest.approx((595.3, 841.9), abs=1.0)  # A4 in points, ISO 216
+    assert len(re.findall(rb"/Subtype\s*/Image", document)) >= len(SHARES)
+    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", document, re.DOTALL)
+    drawn = b"".join(inflated(stream) for stream in streams)
+    assert drawn.count(b" l\n") > 200, "outlines and rays are lines"
+
+
+def inflated(stream: bytes) -> bytes:
+    try:
+        return zlib.decompress(stream)
+    except zlib.error:
+        return b""
+
+
+def test_the_report_shows_the_field_from_the_axis_to_the_lens_files_widest():
+    shown = [state.field_deg for state in fields(State())]
+    assert shown == pytest.approx([0.0, 4.9, 9.8, 14.0])
+
+
+def test_a_report_that_cannot_be_written_is_a_sentence(qapp, tmp_path):
+    with pytest.raises(P2SFError, match="cannot be written"):
+        write_report(State(method="seidel", f_number=8.0), str(tmp_path / "no" / "page.pdf"))
+
+
+def test_a_report_on_a_full_disk_is_a_sentence_and_the_old_one_stays(qapp, tmp_path):
+    old = tmp_path / "page.pdf"
+    old.write_bytes(b"old")
+    with small_disk(2000), pytest.raises(P2SFError, match="cannot be written"):
+        write_report(State(method="seidel", f_number=8.0), str(old))
+    assert (list(tmp_path.iterdir()), old.read_bytes()) == ([old], b"old")

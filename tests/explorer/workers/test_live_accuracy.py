@@ -1,0 +1,95 @@
+"""The background measure: R² against the Huygens sum arrives by itself, and its ladder is in order."""
+
+from dataclasses import replace
+from threading import Event
+
+import pytest
+
+from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.reference import Accuracy, measure
+from p2sf_explorer.lessons.measures import MEASURES
+from p2sf_explorer.panels.accuracy import anchors
+from p2sf_explorer.shell.window import Window
+from p2sf_explorer.state.scales import written_r_squared
+from p2sf_explorer.state.state import State
+from p2sf_explorer.workers.live_accuracy import fits
+
+
+@pytest.fixture
+def measured(qapp, qtbot):
+    configure_plots()
+    made = Window(State(method="seidel", theme="light", field_deg=0.0, f_number=8.0, tab="accuracy"))
+    made.show()
+    yield made
+    made.close()
+
+
+def test_the_badge_and_the_ladder_arrive_by_themselves(measured, qtbot):
+    badge = measured.panels["psf"].badge
+    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+    known = measured.measuring._last
+    rungs = {rung.method: rung for rung in known.rungs}
+    assert set(rungs) == {"gaussian", "seidel", "fitted", "traced", "huygens"}
+    assert rungs["fitted"].r_squared >= 0.998  # the rung's promise on every row
+    assert rungs["traced"].r_squared >= 0.9999
+    assert known.r_squared == pytest.approx(rungs["seidel"].r_squared, abs=1e-4)  # settled against its own repeat
+    assert "vs Huygens" in measured.panels["accuracy"].message.text()
+
+
+def test_the_panel_in_a_window_of_its_own_is_told_whatever_tab_is_in_front(measured, qtbot):
+    measured.store.update(tab="mtf", windows=("accuracy",), field_deg=1.0)
+    message = measured.panels["accuracy"].message
+    qtbot.waitUntil(lambda: "vs Huygens" in message.text() and "earlier" not in message.text(), timeout=30000)
+    assert measured.measuring._last.live.state.field_deg == 1.0 and measured.measuring._last.rungs
+
+
+def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
+    """The six coefficients ask for a wider window than the rays do; measured there they would have another figure."""
+    found = {}
+    for method in ("seidel", "fitted"):
+        shown = live(State(method=method, field_deg=10.0, wavelength_nm=656.3, f_number=4.0))
+        accuracy = measure(shown, True, Event(), lambda part: None)
+        rungs = {rung.method: rung.r_squared for rung in accuracy.rungs}
+        assert accuracy.r_squared == pytest.approx(rungs[method], abs=1e-12)
+        found[method] = shown.psf.pixel_um, rungs
+    assert found["seidel"][0] != found["fitted"][0], "the state no longer tells one window from two"
+    assert found["seidel"][1] == pytest.approx(found["fitted"][1], abs=1e-12)
+
+
+def test_the_figure_goes_grey_when_the_picture_moves_on(measured, qtbot):
+    badge = measured.panels["psf"].badge
+    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+    with measured.store.drag():
+        measured.store.update(field_deg=3.0)
+        assert badge._colour == "muted"
+
+
+def test_a_lesson_claims_what_the_panel_says(measured, qtbot):
+    badge = measured.panels["psf"].badge
+    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+    said = written_r_squared(MEASURES["r_squared"](measured.store.state))
+    assert f"R² {said} " in measured.panels["accuracy"].message.text()
+
+
+@pytest.mark.parametrize(
+    ("changes", "wide"),
+    [({"clip": True}, 0.0), ({}, 200.0), ({"method": "fitted"}, 0.0), ({"field_deg": 3.0}, 0.0)],
+    ids=["clip", "window", "method", "field"],
+)
+def test_a_figure_answers_for_its_own_picture_only(changes, wide):
+    """R² compares two pictures: other rays cut, another window or method or point, and it is another number."""
+    state = State(method="seidel", field_deg=2.0, f_number=8.0)
+    shown = live(state)
+    known = Accuracy(shown, shown.psf, shown.psf, 0.9)
+    assert fits(known, live(replace(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
+    assert not fits(known, live(replace(state, **changes), at_least_um=wide), False)
+
+
+def test_names_on_the_ladder_stay_inside_and_take_different_sides(qapp):
+    """Two dots at one height, the second where the first one's name would reach: the names part company."""
+    first, second, last = anchors(
+        ["seidel R² 0.8", "gaussian R² 0.9", "huygens"], [(20, 20), (90, 20), (310, 80)], (330, 95)
+    )
+    assert first[0] <= 0 and (second[0] <= 0 or second[1] != first[1])
+    assert last[0] > 1  # hangs to the left of its dot: at the right it would run out

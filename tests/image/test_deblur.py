@@ -1,0 +1,59 @@
+"""Knowing the PSF sharpens the picture, and knowing a wrong one does so less."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import RequestError
+from p2sf.image import plan_lattice
+from p2sf.image.charts import draw_chart
+from p2sf.image.deblur import forward, psnr, richardson_lucy, transposed, wiener, with_one_kernel
+from p2sf.lensfile.library import find_lens
+from p2sf.scene import Channel, Scene, Sensor, plan
+
+NOISE, SIZE = 0.002, 160
+INNER = (slice(20, -20), slice(20, -20))
+
+
+@pytest.fixture(scope="module")
+def blurred():
+    """10 mm off the axis of the Double Gauss at f/3, pixels of 16 µm, noise of a five-hundredth of white."""
+    scene = Scene(Sensor(SIZE, SIZE, 16.0, (0.0, 10.0)), (Channel("green", (540.0,), (1.0,)),), tolerance=0.05)
+    planned = plan(find_lens("double_gauss_28"), scene)
+    lattice = plan_lattice(planned, planned.vergences[0])
+    chart = draw_chart("siemens_star", SIZE, SIZE)[..., 1:2]
+    noise = np.random.default_rng(1).normal(0, NOISE, chart.shape).astype(np.float32)
+    on_axis = with_one_kernel(lattice, planned.kernels(0, 0.0).at(0.0, 0.0)[None])
+    return chart, forward(chart, lattice) + noise, lattice, on_axis
+
+
+def gain(found, chart, picture) -> float:
+    return psnr(found[INNER], chart[INNER]) - psnr(picture[INNER], chart[INNER])
+
+
+def test_wiener_gains_three_decibels_and_the_axis_psf_less(blurred):
+    chart, picture, lattice, on_axis = blurred
+    right, wrong = (gain(wiener(picture, known, NOISE), chart, picture) for known in (lattice, on_axis))
+    assert right >= 3 and wrong < right - 3
+
+
+def test_richardson_lucy_gains_three_decibels_and_the_axis_psf_less(blurred):
+    chart, picture, lattice, on_axis = blurred
+    right, wrong = (gain(richardson_lucy(picture, known, 60), chart, picture) for known in (lattice, on_axis))
+    assert right >= 3 and wrong < right
+
+
+def test_the_adjoint_is_one(blurred):
+    """⟨Hx, y⟩ = ⟨x, Hᵀy⟩, in float32."""
+    _, _, lattice, _ = blurred
+    random = np.random.default_rng(4)
+    x, y = (random.random((SIZE, SIZE, 1)).astype(np.float32) for _ in range(2))
+    one, two = (forward(x, lattice).astype(float) * y).sum(), (x * transposed(y, lattice).astype(float)).sum()
+    assert one == pytest.approx(two, rel=1e-5)
+
+
+def test_without_noise_stated_wiener_refuses(blurred):
+    _, picture, lattice, _ = blurred
+    with pytest.raises(RequestError, match="noise"):
+        wiener(picture, lattice, 0.0)
+    with pytest.raises(RequestError, match="at least 1"):
+        richardson_lucy(picture, lattice, 0)

@@ -1,0 +1,205 @@
+"""Fast image formation equals the definition, keeps the light, and has the contrast that the PSF has."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from p2sf.errors import Cancelled, RequestError
+from p2sf.image import Forming, Watch, form_image, preview, with_noise
+from p2sf.image.charts import draw_chart
+from p2sf.image.direct import direct_sum
+from p2sf.image.form import blur
+from p2sf.image.geometry import distorted, distortion_px, illumination
+from p2sf.image.lattice import build_lattice
+from p2sf.image.lowrank import decompose
+from p2sf.image.preview import quick_plan
+from p2sf.lensfile.library import find_lens
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, view
+from p2sf.psf.huygens import huygens_psf
+from p2sf.scene import Channel, Scene, Sensor
+
+SIDE, HALF = 128, 7
+GREEN = (Channel("green", (540.0,), (1.0,)),)
+
+
+def comet(row: float, column: float) -> np.ndarray:
+    """Return a kernel that grows, turns and gets a tail with the field: what lenses do, in closed form."""
+    y, x = np.mgrid[-HALF : HALF + 1, -HALF : HALF + 1]
+    up, right = (SIDE / 2 - row) / SIDE, (column - SIDE / 2) / SIDE + 1e-9  # the axis has no direction
+    field = np.hypot(up, right)
+    along, across = (x * right - y * up) / field, (x * up + y * right) / field
+    width, length = 1 + 2 * field**2, 1 + 5 * field**2
+    kernel = np.exp(-(across**2) / (2 * width**2) - (along - 2 * field**2 * np.abs(along)) ** 2 / (2 * length**2))
+    return (kernel / kernel.sum())[None].astype(np.float32)
+
+
+@pytest.fixture(scope="module")
+def by_definition():
+    pictures = np.concatenate([draw_chart(name, SIDE, SIDE)[..., :1] for name in ("text", "landscape")], axis=-1)
+    noise = np.random.default_rng(1).random((SIDE, SIDE, 1)).astype(np.float32)
+    pictures = np.concatenate([pictures, noise], axis=-1)
+    return pictures, direct_sum(pictures, lambda row, column: comet(row, column), HALF)
+
+
+@pytest.mark.parametrize("method", ["patches", "lowrank"])
+@pytest.mark.parametrize("channel", range(3), ids=["text", "landscape", "noise"])
+def test_both_ways_equal_the_direct_sum_and_keep_the_light(by_definition, method, channel):
+    """Linear interpolation over cells of 4 pixels leaves 3e-4 of this fast-changing kernel, splines over 8 less."""
+    pictures, truth = by_definition
+    count = 33 if method == "patches" else 17
+    lattice = build_lattice(comet, (SIDE, SIDE), (count, count))
+    picture = pictures[..., channel : channel + 1]
+    found = blur(picture, lattice, method, 1e-4)
+    good = truth[..., channel : channel + 1]
+    assert np.linalg.norm(found - good) / np.linalg.norm(good) <= 1e-3
+    assert found.sum(dtype=float) == pytest.approx(picture.sum(dtype=float), rel=1e-6)
+
+
+def test_a_real_lens_equals_its_direct_sum():
+    """400 bright pixels anywhere in 128 × 128 at 18 mm of the Double Gauss, each sent out with its own kernel."""
+    sensor = Sensor(SIDE, SIDE, 8.0, (0.0, 18.0))
+    seen = view(find_lens("double_gauss_28"), np.inf, 0.5876, sensor.corners_mm()[1])
+    kernels = Kernels(seen, Colour((0.5876,), (1.0,)), 8.0, lambda height: Recipe("fitted", 26), half=14)
+
+    def kernel_at(row, column):
+        return kernels.at(float(sensor.x_mm(column)), float(sensor.y_mm(row)))[None]
+
+    random = np.random.default_rng(2)
+    picture = np.zeros((SIDE, SIDE, 1), np.float32)
+    picture.ravel()[random.choice(SIDE * SIDE, 400, replace=False)] = random.random(400)
+    truth = direct_sum(picture, kernel_at, 14)
+    for method in ("patches", "lowrank"):
+        found = blur(picture, build_lattice(kernel_at, (SIDE, SIDE), (4, 4)), method, 1e-4)
+        assert np.linalg.norm(found - truth) / np.linalg.norm(truth) <= 1e-3
+        assert found.sum(dtype=float) == pytest.approx(picture.sum(dtype=float), rel=1e-6)
+
+
+def test_a_low_rank_says_what_it_leaves_out():
+    lattice = build_lattice(comet, (SIDE, SIDE), (9, 9))
+    left = [decompose(lattice, 0, rank=rank).left for rank in (0, 2, 5, 20)]
+    assert left == sorted(left, reverse=True) and left[-1] < 0.15 * left[0]
+    assert np.abs(decompose(lattice, 0, rank=5).kernels.sum((1, 2))).max() < 1e-5
+
+
+def test_mirrored_quarters_are_the_whole():
+    """`comet` is symmetric about pixel 64, so on 129 pixels its quarters are exact mirror images."""
+    one, two = (build_lattice(comet, (129, 129), (5, 4), mirrored) for mirrored in (False, True))
+    for line, other in zip(one.kernels, two.kernels, strict=True):
+        for kernel, twin in zip(line, other, strict=True):
+            assert np.allclose(kernel, twin, atol=1e-7)
+
+
+def quick(sensor: Sensor, lens="double_gauss_28", f_number=None):
+    scene = Scene(sensor, GREEN, f_number=f_number)
+    return quick_plan(scene.camera(find_lens(lens)), scene)
+
+
+def test_the_slanted_edge_has_the_psfs_contrast():
+    """Edge: the formed picture, binned along the edge to an eighth of a pixel, differentiated (ISO 12233).
+
+    PSF: the house's reference, its transform along the edge's normal. Between them stand two boxes a pixel wide,
+    the chart's averaging and the sensor's, and the two of a bin.
+    """
+    size, pixel, angle, bins = 161, 5.0, np.deg2rad(5.0), 8
+    sensor = Sensor(size, size, pixel, (0.0, 8.0))
+    planned = quick(sensor, f_number=6.0)
+    planned = replace(planned, rings=((99.0, Recipe("fitted", 46, 4.0, 0.5)),))
+    picture = form_image(planned, draw_chart("slanted_edge", size, size)[..., :1], how=Forming(geometry=False))
+    inner = picture[30:-30, 20:-20, 0].astype(float)
+    y, x = np.mgrid[30 : size - 30, 20 : size - 20] - size // 2
+    distance = x * np.cos(angle) - y * np.sin(angle)
+    index = np.floor(distance * bins).astype(int)
+    used = np.abs(index) < 40 * bins
+    total, count = (np.bincount(index[used] + 40 * bins, w) for w in (inner[used], np.ones(used.sum())))
+    line = np.diff(total[1:] / count[1:])
+    f = np.linspace(0.02, 0.45, 20)
+    places = np.arange(len(line)) / bins
+    edge = np.abs(np.exp(-2j * np.pi * np.outer(f, places)) @ line) / line.sum() / np.sinc(f / bins) ** 2
+    seen = planned.view(0.0)
+    psf = huygens_psf(seen.lens, seen.source(8.0, 0.54), 256, 0.7)
+    along = np.cos(angle) * psf.x_um + np.sin(angle) * psf.y_um[:, None]
+    wave = np.exp(-2j * np.pi * f[:, None, None] / pixel * along)
+    boxes = (np.sinc(f * np.cos(angle)) * np.sinc(f * np.sin(angle))) ** 2
+    expected = np.abs((wave * psf.values).sum((1, 2))) * boxes
+    assert expected.min() < 0.3 < 0.8 < expected.max()
+    assert np.abs(edge - expected).max() <= 0.01
+
+
+def test_distortion_puts_points_where_real_chief_rays_land():
+    sensor = Sensor(400, 400, 80.0)
+    seen = view(find_lens("double_gauss_28"), np.inf, 0.54, sensor.corners_mm()[1])
+    assert 1 < distortion_px(seen, sensor) < 5
+    row, column = np.mgrid[:400, :400]
+    blob = np.exp(-((row - 40.0) ** 2 + (column - 330.0) ** 2) / 18)[..., None].astype(np.float32)
+    found = distorted(blob, seen, sensor)[..., 0]
+    place = [(found * axis).sum() / found.sum() for axis in (row, column)]
+    x, y = float(sensor.x_mm(330)), float(sensor.y_mm(40))
+    from p2sf.lens.source import Source
+    from p2sf.pixel_kernels.sensor_points import chief_heights
+
+    ideal = np.hypot(x, y)
+    real = float(chief_heights(seen.lens, Source(np.inf, ideal / seen.scale_mm, 0.54)))
+    wanted = (y * real / ideal, x * real / ideal)
+    assert float(sensor.y_mm(place[0])) == pytest.approx(wanted[0], abs=0.008)  # a tenth of a pixel
+    assert float(sensor.x_mm(place[1])) == pytest.approx(wanted[1], abs=0.008)
+    assert abs(real - ideal) > 0.05
+
+
+def test_light_falls_off_as_the_cosines_fourth_power_for_a_thin_stop():
+    """E ∝ cos⁴ for a stop that nothing magnifies; the landscape lens, whose stop stands before it, is close to that."""
+    planned = quick(Sensor(100, 100, 60.0), "landscape")
+    shade = illumination(planned.kernels(0, 0.0), planned.scene.sensor)
+    slope = planned.view(0.0).slope(planned.scene.sensor.corners_mm()[1])
+    assert shade[50, 50] == pytest.approx(1, abs=1e-3)
+    assert shade[0, 0] == pytest.approx((1 + slope**2) ** -2, abs=0.03)
+
+
+def test_an_even_object_stays_even_without_its_shading():
+    planned = quick(Sensor(60, 80, 10.0))
+    for method in ("patches", "lowrank"):
+        for depth in (None, np.where(np.arange(80) < 40, 20000.0, np.inf) * np.ones((60, 1))):
+            out = form_image(planned, np.full((60, 80, 1), 0.5), depth, Forming(method, geometry=False))
+            # Light is kept and not evenness: kernels that change hand a pixel a little more or less than it gave.
+            assert np.abs(out - 0.5).max() < 1e-3 if depth is None else np.abs(out - 0.5).max() < 1e-6
+
+
+def test_a_preview_shows_the_same_picture():
+    scene = Scene(Sensor(660, 660, 30.0))
+    picture = draw_chart("landscape", 660, 660)
+    small = preview(find_lens("double_gauss_28"), scene, picture)
+    assert small.shape == (220, 220, 3)
+    whole = form_image(quick_plan(find_lens("double_gauss_28"), scene), picture)
+    blocks = whole.reshape(220, 3, 220, 3, 3).mean((1, 3))
+    assert np.sqrt(np.mean((small - blocks) ** 2)) < 0.01
+
+
+def test_progress_is_told_and_cancelling_is_heard():
+    planned, told = quick(Sensor(40, 50, 10.0)), []
+    picture = np.ones((40, 50, 1), np.float32)
+    form_image(planned, picture, watch=Watch(told.append))
+    assert told[-1] == 1 and all(0 < part <= 1 for part in told)
+    with pytest.raises(Cancelled):
+        form_image(planned, picture, watch=Watch(cancelled=lambda: len(told) > 0))
+
+
+def test_noise_is_apart_and_has_the_variance_of_its_electrons():
+    noisy = with_noise(np.full((200, 200, 1), 0.25), 1000.0, 5.0, seed=3)
+    assert noisy.var() == pytest.approx((250 + 25) / 1e6, rel=0.05)
+    with pytest.raises(RequestError, match="full well"):
+        with_noise(noisy, 0.0)
+
+
+def test_what_does_not_fit_is_one_sentence():
+    planned = quick(Sensor(40, 50, 10.0))
+    with pytest.raises(RequestError, match="40 rows"):
+        form_image(planned, np.ones((40, 40, 1)))
+    with pytest.raises(RequestError, match="not finite"):
+        form_image(planned, np.full((40, 50, 1), np.nan))
+    with pytest.raises(RequestError, match="depth map"):
+        form_image(planned, np.ones((40, 50, 1)), np.ones((3, 3)))
+    with pytest.raises(RequestError, match="not positive"):
+        form_image(planned, np.ones((40, 50, 1)), np.zeros((40, 50)))
+    for wrong in ({"method": "svd"}, {"surround": "white"}):
+        with pytest.raises(RequestError, match="choose"):
+            Forming(**wrong)

@@ -1,0 +1,122 @@
+"""CODE V files: commands, remarks, continued lines, glasses, units, and what is refused by surface number."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import LensFileError
+from p2sf.lensfile import load_lens
+from p2sf.paraxial.first_order import cardinal_points, image_distance
+from p2sf.paraxial.pupils import paraxial_rays, working_f_number
+from tests.support.lens_files import FOLDER, read, refused_at
+
+DOUBLET, PRIVATE = "doublet.seq", "private.seq"
+
+
+def efl(lens):
+    return float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length)
+
+
+def test_the_prescription_is_read_as_it_stands():
+    lens = load_lens(FOLDER / DOUBLET)
+    assert lens.title == "Doublet; with a semicolon & an ampersand!"
+    assert [round(s.radius, 9) for s in lens.surfaces] == [62.5, -45.454545455, -128.205128205]
+    assert [s.thickness for s in lens.surfaces] == [6.0, 2.5, 96.0]  # 95.5 and the image's 0.5 of defocus
+    assert [s.medium.label for s in lens.surfaces] == ["SCHOTT N-BK7", "SCHOTT N-SF5", "1.0"]
+    assert lens.surfaces[2].conic == -0.5 and lens.surfaces[2].aspheric == (1e-7, -2e-10)
+    assert [s.semi_diameter for s in lens.surfaces] == [12.5, np.inf, 12.5]  # EDG is no clear rim
+    assert (lens.stop_surface, lens.aperture.kind, lens.aperture.value) == (1, "entrance_pupil_diameter", 20.0)
+    assert lens.fields_deg == (0.0, 1.0)
+
+
+def test_it_is_the_lens_of_the_zemax_file():
+    """Both files state one doublet; their 1/radius differ in the sixteenth digit."""
+    assert efl(load_lens(FOLDER / DOUBLET)) == pytest.approx(efl(load_lens(FOLDER / "doublet.zmx")), rel=1e-12)
+
+
+def test_private_glass_codes_units_and_finite_object():
+    lens = load_lens(FOLDER / PRIVATE)
+    first, second, third, fourth = (s.medium for s in lens.surfaces)
+    assert float(first.index(0.55)) == pytest.approx(1.495, abs=1e-12)  # halfway between 500 and 600 nm
+    assert (second.nd, second.vd) == (1.517, 64.2) and (third.nd, third.vd) == (1.62, 36.4) and fourth.label == "1.0"
+    assert lens.surfaces[0].radius == 25.4 / 0.5 and lens.surfaces[0].thickness == 0.2 * 25.4
+    assert lens.stop_surface == 2
+
+
+def test_the_image_f_number_is_the_working_one_of_a_finite_object():
+    lens = load_lens(FOLDER / PRIVATE)
+    assert float(working_f_number(lens, 254.0, 0.55)) == pytest.approx(4.0, rel=1e-10)
+
+
+def test_the_image_f_number_of_an_object_at_infinity_is_the_f_number():
+    aperture = read(DOUBLET, ("EPD   20.0", "FNO 5")).lens.aperture
+    assert (aperture.kind, aperture.value) == ("f_number", 5.0)
+
+
+def test_image_heights_of_a_finite_object_become_angles():
+    """The chief ray of the field meets the paraxial image plane at the stated height."""
+    lens = load_lens(FOLDER / PRIVATE)
+    rays = paraxial_rays(lens, 254.0, 0.55)
+    plane = float(image_distance(lens, 254.0, 0.55))
+    height = np.tan(np.deg2rad(lens.fields_deg[1])) * float(rays.chief_y[-1] + rays.chief_nu[-1] * plane)
+    assert abs(height) == pytest.approx(2.54, rel=1e-10)
+
+
+def test_without_a_radius_mode_numbers_are_curvatures():
+    lens = read(DOUBLET, ("RDM;LEN", "LEN")).lens
+    assert lens.surfaces[0].radius == 1 / 62.5
+
+
+def test_without_a_stop_it_is_surface_1_and_said():
+    found = read(DOUBLET, ("  STO\n", ""))
+    assert found.lens.stop_surface == 1 and "no stop (STO)" in found.report.text
+
+
+def test_later_commands_address_surfaces_by_number():
+    lens = read(DOUBLET, ("GO", "THI S2 3.5; RDY S1 60.0; GLA S2 SF5_SCHOTT; STO S3; K S3 -0.25")).lens
+    assert (lens.surfaces[1].thickness, lens.surfaces[0].radius, lens.stop_surface) == (3.5, 60.0, 3)
+    assert lens.surfaces[1].medium.label == "SCHOTT SF5" and lens.surfaces[2].conic == -0.25
+
+
+@pytest.mark.parametrize(
+    ("code", "nd", "vd"), [("517642", 1.517, 64.2), ("517.642", 1.517, 64.2), ("517000.520000", 1.517, 52.0)]
+)
+def test_glass_codes(code, nd, vd):
+    medium = read(DOUBLET, ("NBK7_SCHOTT", code)).lens.surfaces[0].medium
+    assert (medium.nd, medium.vd) == (pytest.approx(nd, abs=1e-12), pytest.approx(vd, abs=1e-12))
+
+
+def test_zero_tilts_are_no_tilts():
+    assert read(DOUBLET, ("  PIM", "  ADE 0.0; YDE 0.0")).lens == read(DOUBLET).lens
+
+
+REFUSED = {
+    "a mirror": (("NSF5_SCHOTT", "REFL"), "surface 2 is a mirror"),
+    "a named mirror": (('SLB "FRONT"', 'SLB "FRONT"; GLA REFL'), r"surface 1 \(FRONT\) is a mirror"),
+    "a tilt": (("  PIM", "  ADE 3.0"), "surface 3 is tilted or decentred"),
+    "a decentre": (("  PIM", "  YDE 3.0"), "surface 3 is tilted or decentred"),
+    "a diffractive surface": (("  PIM", "  DIF DOE"), "surface 3 diffracts"),
+    "a toroid": (("  PIM", "  YTO"), "surface 3 has a shape"),
+    "an unknown glass": (("NBK7_SCHOTT", "NNIX7_SCHOTT"), 'glass "NNIX7" of SCHOTT is in no catalogue'),
+    "a number that is no glass": (("NBK7_SCHOTT", "1.5168"), "neither a name nor a six-digit code"),
+    "a word for a number": (("62.5", "sixty"), 'radius "SIXTY|radius "sixty" is not a number'),
+    "an unknown unit": (("DIM   M", "DIM   X"), "lens unit"),
+    "an infinite gap": ((" 6.0 ", " 1e12 "), "surface 1 has an infinite thickness"),
+    "no surface": (("S  ", "!  "), "no surface"),
+    "a surface that is not there": (("GO", "THI S9 1.0"), "speaks of surface 9"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_is_refused_says_where_and_why(case):
+    refused_at(DOUBLET, *REFUSED[case])
+
+
+def test_a_private_glass_without_one_index_per_wavelength_is_refused():
+    with pytest.raises(LensFileError, match="private glass PLA has not one index per wavelength"):
+        read(PRIVATE, ("1.48 1.49 1.50&", "1.48 1.49&"))
+
+
+def test_a_bare_name_that_several_makers_sell_is_no_guess():
+    with pytest.raises(LensFileError, match='glass "F2" is in no catalogue given; accept a substitute'):
+        read(DOUBLET, ("NSF5_SCHOTT", "F2"))
+    assert read(DOUBLET, ("NSF5_SCHOTT", "F2"), accept=True).lens.surfaces[1].medium.label == "SCHOTT F2"

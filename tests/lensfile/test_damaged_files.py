@@ -1,0 +1,11 @@
+"""A damaged lens file is a lens or a sentence with its line; more by ``python -m tests.long.damaged_files``."""
+
+import pytest
+
+from tests.long.damaged_files import SAMPLES, attempt
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_damage_ends_in_a_lens_or_a_sentence(name):
+    results = attempt(name, 200)
+    assert set(results) == {"lens", "refused"}  # both happen, or the damage is too mild or too strong to test anything

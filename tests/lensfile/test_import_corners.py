@@ -1,0 +1,170 @@
+"""Rare statements of foreign lens files: each is read, or told in the report, or refused by a sentence."""
+
+import zipfile
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from p2sf.errors import LensFileError
+from p2sf.glass.media import ConstantIndex
+from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import parse_toml
+from p2sf.lensfile.writing import write_lens
+from p2sf.paraxial.first_order import magnification
+from p2sf.paraxial.pupils import numerical_aperture
+from tests.support.lens_files import read
+
+ZEMAX, TABLE = "doublet.zmx", "singlet.csv"
+GLAS = "GLAS N-BK7 0 0 1.5 4.0E+1 0 0 0 0 0 0"
+
+TOLD = {
+    "telecentric": (("FTYP 0 0 2 3", "FTYP 0 1 2 3"), "telecentric object space"),
+    "a central hole": (("  DISZ 6.0\n", "  DISZ 6.0\n  CLAP 1.0 9.0\n"), "its central hole is open here"),
+    "an obscuration": (("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 0 3.0\n"), "its obscuration is left out"),
+    "partial dispersion": ((GLAS, "GLAS ___BLANK 1 0 1.52 64.0 0.02"), "deviation in partial dispersion is left out"),
+}
+REFUSED = {
+    "a numerical aperture of 2": (("ENPD 2.0E+1", "OBNA 2.0"), "no numerical aperture"),
+    "a field of a right angle": (("YFLN 0 1.0", "YFLN 0 90.0"), "not below 90"),
+    "a wavelength that is none": (("WAVM 1 4.861327E-1", "WAVM 1 4861"), "wavelength"),
+    "a rim beside the axis": (("  DISZ 6.0\n", "  DISZ 6.0\n  OBDC 0 1.0\n"), "a rim decentred by"),
+}
+TABLE_REFUSED = {
+    "an unknown unit": (("# f_number: 8", "# f_number: 8\n# unit: furlong"), 'unit "furlong" is none of'),
+    "X-rays": (("486.1327,", "4.9,"), "a wavelength is not light"),
+    "two stops": (("air,10,,,", "air,10,,,x"), "both are the stop"),
+}
+ONE_INDEX = {
+    "an index column": (("glass,semi", "index,semi"), ("SCHOTT N-BK7", "1.5"), (",air,", ",,")),
+    "a number for a glass": (("SCHOTT N-BK7", "1.5"),),
+    "nd without vd": (("glass,semi", "nd,semi"), ("SCHOTT N-BK7", "1.5"), (",air,", ",,")),
+}
+
+
+@pytest.mark.parametrize("what", TOLD)
+def test_what_a_zemax_file_asks_for_and_does_not_get_is_told(what):
+    change, words = TOLD[what]
+    assert words in read(ZEMAX, change).report.text
+    assert words not in read(ZEMAX).report.text
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_what_no_lens_can_be_is_refused(what):
+    change, words = REFUSED[what]
+    with pytest.raises(LensFileError, match=words):
+        read(ZEMAX, change)
+
+
+def test_wavelengths_in_one_line_replace_those_before():
+    assert read(ZEMAX, ("PWAV 2", "WAVL 0.5 0.6\nPWAV 2")).lens.wavelengths_nm == (500.0, 600.0)
+
+
+def test_an_outer_rim_bounds_the_light_and_one_of_zero_does_not():
+    outer, none = (read(ZEMAX, ("  DISZ 6.0\n", f"  DISZ 6.0\n  CLAP 0 {rim}\n")).lens for rim in (9.0, 0.0))
+    surface = read(ZEMAX).lens.surfaces[0]
+    assert outer.surfaces[0].semi_diameter in (9.0, surface.semi_diameter)
+    assert none.surfaces[0].semi_diameter == surface.semi_diameter
+
+
+def test_a_stop_size_stands_as_it_is():
+    aperture = read(ZEMAX, ("ENPD 2.0E+1", "FLOA"), ("  STOP\n", "  STOP\n")).lens.aperture
+    assert (aperture.kind, aperture.value) == ("stop_semi_diameter", 12.5)
+
+
+def test_an_object_sided_aperture_is_kept_at_its_distance():
+    finite = read(ZEMAX, ("DISZ INFINITY", "DISZ 300.0"), ("ENPD 2.0E+1", "OBNA 0.02")).lens
+    # sin of the marginal ray in object space, where paraxial rays are taken for tangents: NA·|m| is the image's.
+    m = abs(float(magnification(finite, 300.0, finite.reference_wavelength_um)))
+    na = float(numerical_aperture(finite, 300.0, finite.reference_wavelength_um))
+    assert na * m == pytest.approx(np.tan(np.arcsin(0.02)), rel=1e-10)
+
+
+@pytest.mark.parametrize("what", TABLE_REFUSED)
+def test_a_table_with_a_wrong_remark_is_refused(what):
+    change, words = TABLE_REFUSED[what]
+    with pytest.raises(LensFileError, match=words):
+        read(TABLE, change)
+
+
+@pytest.mark.parametrize("what", ONE_INDEX)
+def test_a_table_may_give_one_index_in_any_column(what):
+    lens = read(TABLE, *ONE_INDEX[what]).lens
+    assert [float(medium.index(0.55)) for medium in lens.media] == [1.0, 1.5, 1.0]
+
+
+def test_a_table_in_inches_is_in_millimetres_afterwards():
+    lens = read(TABLE, ("# f_number: 8", "# f_number: 8\n# unit: in"), ("radius (mm)", "radius")).lens
+    assert lens.surfaces[0].radius == pytest.approx(50 * 25.4, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("ending", "change", "words"),
+    [
+        ("json", {"object_medium": ConstantIndex(1.33)}, "which an ISET file cannot say; save as TOML"),
+        ("zmx", {"aspheric": tuple([1e-9] * 40)}, "save as TOML"),
+    ],
+)
+def test_what_a_format_cannot_say_is_refused_and_not_left_out(tmp_path, ending, change, words):
+    lens = find_lens("asphere")
+    if "aspheric" in change:
+        lens = replace(lens, surfaces=(replace(lens.surfaces[0], **change), *lens.surfaces[1:]))
+    else:
+        lens = replace(lens, **change)
+    with pytest.raises(LensFileError, match=words):
+        write_lens(lens, tmp_path / f"lens.{ending}")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_lens_in_water_goes_through_zemax_and_back(tmp_path):
+    lens = replace(find_lens("asphere"), object_medium=ConstantIndex(1.33))
+    write_lens(lens, tmp_path / "wet.zmx")
+    again = load_lens(tmp_path / "wet.zmx")
+    assert float(again.object_medium.index(0.55)) == pytest.approx(1.33, abs=1e-9)
+
+
+FORMULA = '{name = "X1", agf_formula = 1, coefficients = [2.25], range_um = [0.4, 0.7]}'
+LENS = "[aperture]\nf_number = 8\n\n[[surface]]\nradius = 50.0\nthickness = 90.0\nglass = "
+
+
+def test_a_glass_by_its_formula_stands_alone():
+    lens = parse_toml(LENS + FORMULA)
+    assert float(lens.surfaces[0].medium.index(0.55)) == pytest.approx(1.5, abs=1e-15)
+    assert lens.surfaces[0].medium.range_um == (0.4, 0.7)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("agf_formula = 1", "agf_formula = 99", "agf_formula is 99; write a number from 1 to 13"),
+        ("[2.25]", '["a"]', "coefficients of X1 are not up to"),
+        ("[0.4, 0.7]", "[0.7, 0.4]", "write the shortest and the longest wavelength"),
+        ('name = "X1", ', "", "glass has the keys"),
+    ],
+)
+def test_a_broken_formula_is_refused(old, new, words):
+    with pytest.raises(LensFileError, match=words):
+        parse_toml(LENS + FORMULA.replace(old, new))
+
+
+@pytest.mark.parametrize("factors", ["0 0 0", "0.1 0 0"])
+def test_vignetting_factors_are_told_apart_from_zeros(factors):
+    text = read(ZEMAX, ("PWAV 2", f"PWAV 2\nVDXN {factors}")).report.text
+    assert ("all of them 0" in text) == (factors == "0 0 0")
+    assert ("vignetting factors are not applied" in text) == (factors != "0 0 0")
+
+
+def test_a_rim_that_is_not_round_and_a_word_nobody_knows_are_told():
+    text = read(ZEMAX, ("  DISZ 6.0\n", "  DISZ 6.0\n  SQAP 9 9\n  XYZZY 1\n")).report.text
+    assert "its rim (SQAP) is not round" in text and "XYZZY, which is not known" in text
+
+
+def test_an_archive_without_a_lens_and_a_folder_are_refused(tmp_path):
+    with zipfile.ZipFile(tmp_path / "none.zip", "w") as archive:
+        archive.writestr("readme.md", "nothing")
+    with pytest.raises(LensFileError, match=r"the archive holds no \.zmx or \.seq file"):
+        load_lens(tmp_path / "none.zip")
+    (tmp_path / "lens.zmx").mkdir()
+    with pytest.raises(LensFileError, match="this is a folder"):
+        load_lens(tmp_path / "lens.zmx")

@@ -1,0 +1,213 @@
+"""Lens files: what is written is read back equal, and every mistake is one sentence with place, value and remedy."""
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from p2sf.errors import LensFileError
+from p2sf.glass.media import ConstantIndex, TabulatedIndex, catalogue_glass, model_glass
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.lensfile.toml import lens_to_toml, parse_toml, write_toml
+from p2sf.paraxial.first_order import cardinal_points
+
+GOOD = """\
+title = "Biconvex"
+unit = "mm"
+stop_surface = 1
+fields_deg = [0, 5]
+wavelengths_nm = [587.5618]
+
+[aperture]
+f_number = 8
+
+[[surface]]  # 1
+radius = 50
+thickness = 4
+glass = "SCHOTT N-BK7"
+semi_diameter = 10
+
+[[surface]]  # 2
+radius = -50.0
+thickness = 47.0
+"""
+
+
+@pytest.mark.parametrize("name", shipped_lenses())
+def test_every_shipped_lens_survives_the_round_trip(name, tmp_path):
+    lens = find_lens(name)
+    write_toml(lens, tmp_path / "copy.toml")
+    again = load_lens(tmp_path / "copy.toml")
+    assert again == lens
+    assert lens_to_toml(again) == lens_to_toml(lens)
+
+
+numbers = st.floats(-1e12, 1e12).filter(lambda x: abs(x) > 1e-12)
+positive = st.floats(1e-9, 1e9)
+surfaces = st.builds(
+    Surface,
+    radius=st.one_of(numbers, st.just(inf)),
+    thickness=st.floats(-1e9, 1e9),
+    medium=st.one_of(
+        st.builds(ConstantIndex, st.floats(1, 4)),
+        st.builds(model_glass, st.floats(1.3, 2.2), st.floats(15, 95)),
+        st.just(catalogue_glass("SCHOTT N-SF11")),
+        st.just(TabulatedIndex((0.4, 0.7), (1.6, 1.5), "measured")),
+    ),
+    conic=st.floats(-1e3, 1e3),
+    aspheric=st.lists(st.floats(-1, 1), max_size=4).map(tuple),
+    semi_diameter=st.one_of(positive, st.just(inf)),
+)
+texts = st.text(st.characters(exclude_categories=("Cs",)), max_size=30)
+
+
+@given(st.lists(surfaces, min_size=1, max_size=3), positive, texts, texts, st.integers(0, 1))
+def test_any_lens_survives_the_round_trip(rows, opening, title, comment, stop):
+    """Random numbers to the last bit, random texts with quotes, line ends and control characters."""
+    aperture = Aperture("entrance_pupil_diameter", opening)
+    lens = Lens(tuple(rows), aperture, stop or None, "any", title, comment=comment, fields_deg=(-1.5, 0.0, 20.25))
+    assert parse_toml(lens_to_toml(lens)) == lens
+
+
+def test_what_is_left_out_has_its_default():
+    lens = parse_toml("[aperture]\nf_number=8\n[[surface]]\nradius=50\nthickness=4\nglass=1.5\n", "dir/plain.toml")
+    assert lens.name == "plain" and lens.stop_surface is None and lens.fields_deg == (0.0,)
+    assert lens.surfaces[0].semi_diameter == inf and lens.surfaces[0].conic == 0 and lens.surfaces[0].aspheric == ()
+    assert lens.wavelengths_nm == (587.5618,) and lens.object_medium == ConstantIndex(1.0)
+
+
+@pytest.mark.parametrize(
+    ("glass", "medium"),
+    [
+        ('"SCHOTT N-BK7"', catalogue_glass("SCHOTT N-BK7")),
+        ("1.5168", ConstantIndex(1.5168)),
+        ("{ nd = 1.5168, vd = 64.17 }", model_glass(1.5168, 64.17)),
+        ('"air"', ConstantIndex(1.0)),
+        ("{ wavelengths_um = [0.4, 0.7], n = [1.6, 1.5] }", TabulatedIndex((0.4, 0.7), (1.6, 1.5))),
+    ],
+)
+def test_glass_is_written_in_any_of_these_ways(glass, medium):
+    assert parse_toml(GOOD.replace('"SCHOTT N-BK7"', glass)).surfaces[0].medium == medium
+
+
+@pytest.mark.parametrize(("unit", "mm"), [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("inch", 25.4)])
+def test_units_scale_every_length_and_nothing_else(unit, mm):
+    """Focal length scales by the unit; the aspheric sag A4 y⁴ + A6 y⁶ does too when y does."""
+    text = GOOD.replace("semi_diameter = 10", "semi_diameter = 10\nconic = -0.5\naspheric = [1e-5, 2e-8]")
+    plain, scaled = parse_toml(text), parse_toml(text.replace('"mm"', f'"{unit}"'))
+    ratio = float(cardinal_points(scaled, 0.5876).effective_focal_length) / float(
+        cardinal_points(plain, 0.5876).effective_focal_length
+    )
+    assert ratio == pytest.approx(mm, rel=1e-14)
+    first, base = scaled.surfaces[0], plain.surfaces[0]
+    sag = [sum(a * (mm * 3.0) ** (2 * k + 4) for k, a in enumerate(first.aspheric))]
+    assert sag[0] == pytest.approx(mm * sum(a * 3.0 ** (2 * k + 4) for k, a in enumerate(base.aspheric)), rel=1e-13)
+    assert (first.conic, first.semi_diameter) == (base.conic, mm * base.semi_diameter)
+    assert scaled.aperture == plain.aperture
+    diameter = parse_toml(text.replace("f_number = 8", "entrance_pupil_diameter = 2").replace('"mm"', f'"{unit}"'))
+    assert diameter.aperture.value == 2 * mm
+
+
+# (what is changed in GOOD, into what, line, what the sentence holds)
+MISTAKES = [
+    ("thickness = 4\n", 'thickness = "abc"\n', 12, ["surface 1", 'thickness is "abc"', "as a number"]),
+    ("thickness = 47.0", "thickness = inf", 18, ["surface 2", "thickness is inf", "as a number"]),
+    ("thickness = 47.0", "thickness = true", 18, ["thickness is true"]),
+    ("thickness = 47.0\n", "", 16, ["surface 2: thickness is missing", "distance to the next surface"]),
+    ("radius = -50.0", "radius = 0", 17, ["surface 2: radius is 0", "inf for a plane"]),
+    ("radius = -50.0", "radius = nan", 17, ["radius is nan", "inf for a plane"]),
+    ("radius = 50\n", "", 10, ["surface 1: radius is missing", "inf for a plane"]),
+    ("semi_diameter = 10", "semi_diameter = -1", 14, ["semi_diameter is -1", "positive"]),
+    ("semi_diameter = 10", "semi_diametre = 10", 14, ['"semi_diametre" is unknown', 'did you mean "semi_diameter"']),
+    ("semi_diameter = 10", "colour = 3", 14, ['key "colour" is unknown', "radius, thickness, glass"]),
+    ("semi_diameter = 10", 'title = "x"', 14, ['"title" belongs to the top', "first [ heading"]),
+    ("semi_diameter = 10", "conic = [1]", 14, ["conic is [1]", "finite number"]),
+    ("semi_diameter = 10", "aspheric = 1e-5", 14, ["aspheric is 1e-05", "list of numbers"]),
+    ("semi_diameter = 10", 'aspheric = [1e-5, "x"]', 14, ['aspheric is "x"', "finite number"]),
+    ("semi_diameter = 10", "conic = 1" + 400 * "0", 14, ["conic is 1000", "finite number"]),
+    ('"SCHOTT N-BK7"', '"SCHOTT N-BK8"', 13, ["surface 1", '"SCHOTT N-BK8"', "did you mean SCHOTT N-BK7"]),
+    ('"SCHOTT N-BK7"', '"F2"', 13, ["sold with different indices", "SCHOTT F2", "write the one you mean"]),
+    ('"SCHOTT N-BK7"', "{ nd = 1.5 }", 13, ["glass is {'nd': 1.5}", "vd = 64.17"]),
+    ('"SCHOTT N-BK7"', "99", 13, ["refractive index is 99", "between 0.5 and 6"]),
+    ("stop_surface = 1", "stop_surface = 99", 3, ["stop_surface is 99", "from 1 to 2"]),
+    ("stop_surface = 1", "stop_surface = 0", 3, ["stop_surface is 0", "from 1 to 2"]),
+    ("stop_surface = 1", "stop_surface = 1.5", 3, ["stop_surface is 1.5", "whole number"]),
+    ("stop_surface = 1", "stop_surfaces = 1", 3, ['"stop_surfaces" is unknown', 'did you mean "stop_surface"']),
+    ('unit = "mm"', 'unit = "feet"', 2, ['unit is "feet"', "mm, cm, m, in"]),
+    ('unit = "mm"', "unit = 1", 2, ["unit is 1", "quotation marks"]),
+    ("title = ", "title = 3 #", 1, ["title is 3", "quotation marks"]),
+    ("[0, 5]", "[0, 90]", 4, ["fields_deg is 90", "below 90"]),
+    ("[0, 5]", "5", 4, ["fields_deg is 5", "list of numbers"]),
+    ("[0, 5]", "[]", 4, ["fields_deg is an empty list", "at least one"]),
+    ("[587.5618]", "[0.5876]", 5, ["wavelengths_nm is 0.5876", "nanometres"]),
+    ("[587.5618]", "[200.0, 587.6]", 5, ["wavelength 200 nm", "SCHOTT N-BK7, 300 to 2500 nm", "take it out"]),
+    ("f_number = 8", "f_number = -8", 8, ["f_number is -8", "positive"]),
+    ("f_number = 8", "f_nummer = 8", 8, ['"f_nummer" is unknown', 'did you mean "f_number"']),
+    ("f_number = 8", "f_number = 8\nstop_semi_diameter = 3", 7, ["states 2 of", "exactly one"]),
+    ("f_number = 8", "", 7, ["states 0 of", "exactly one"]),
+    ("[aperture]\nf_number = 8\n", "", None, ["aperture is None", "write [aperture]", "f_number"]),
+    ("[aperture]\nf_number = 8\n", "aperture = 8\n", 7, ["aperture is 8", "write [aperture]"]),
+    ("[aperture]", "[aperture", 7, ["this is not TOML", "correct the line"]),
+    ("radius = 50\n", "radius = 50 mm\n", 11, ["this is not TOML", "correct the line"]),
+    (
+        "radius = 50\n",
+        "radius = -50,5e1\n",
+        11,
+        ["this is not TOML", 'write -50.5e1 with a decimal point, not "-50,5e1"'],
+    ),
+    ("radius = 50\n", 'radius = "50,5"\n', 11, ['radius is "50,5"; write the number 50.5 without quotation marks']),
+    ("radius = 50\n", 'radius = "-1e3"\n', 11, ["write the number -1e3 without quotation marks"]),
+    ("radius = 50\n", 'radius = "50 mm"\n', 11, ["write a number that is not 0, inf for a plane"]),
+    ('glass = "SCHOTT N-BK7"', 'glass = "SCHOTT', 13, ["this is not TOML"]),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "line", "said"), MISTAKES, ids=[m[1].strip()[:30] for m in MISTAKES])
+def test_a_mistake_is_one_sentence_at_its_line(old, new, line, said):
+    assert GOOD.count(old) == 1 or old in ("title = ",)
+    with pytest.raises(LensFileError) as caught:
+        parse_toml(GOOD.replace(old, new, 1), "my.toml")
+    message = str(caught.value)
+    assert caught.value.line == line and message.startswith(f"my.toml, line {line}: " if line else "my.toml: "), message
+    assert all(part in message for part in said), message
+    assert "\n" not in message and len(message) < 400
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[aperture]\nf_number = 8\n", "the lens has no surfaces; write a [[surface]] for each"),
+        ("surface = 3\n[aperture]\nf_number = 8\n", "line 1: surface is not a list of tables"),
+        ("[aperture]\nf_number = 8\n[surface]\nradius = 1\n", "line 3: surface is not a list of tables"),
+        ("x = " + "[" * 5000, "nested too deep"),
+        ("x = " + "9" * 5000, "too long"),
+        ('title = """never closed', "this is not TOML"),
+    ],
+)
+def test_files_that_are_no_lens(text, said):
+    with pytest.raises(LensFileError, match=r"my\.toml") as caught:
+        parse_toml(text, "my.toml")
+    assert said in str(caught.value)
+
+
+def test_the_line_is_right_beneath_a_long_string():
+    text = 'comment = """\n[[surface]]\nthickness = 1\n"""\n' + GOOD.replace("thickness = 4\n", 'thickness = "abc"\n')
+    with pytest.raises(LensFileError, match="line 16: surface 1: thickness"):
+        parse_toml(text)
+
+
+def test_a_medium_no_file_can_hold_is_refused():
+    class Strange:
+        label, range_um = "strange stuff", None
+
+        def index(self, wavelength_um):
+            return np.ones_like(wavelength_um)
+
+    lens = parse_toml(GOOD)
+    with pytest.raises(LensFileError, match="medium strange stuff cannot be written"):
+        lens_to_toml(replace(lens, object_medium=Strange()))

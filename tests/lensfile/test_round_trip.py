@@ -1,0 +1,103 @@
+"""What is read and written again is the same lens: TOML exactly, .zmx and ISET .json as far as they can say it."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import LensFileError
+from p2sf.glass.media import TabulatedIndex, catalogue_glass
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lensfile import load_lens
+from p2sf.lensfile.agf import read_agf
+from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.writing import lens_to_iset, write_lens
+from p2sf.paraxial.first_order import abcd
+from p2sf.paraxial.pupils import find_stop, stop_rim
+from p2sf.paraxial.seidel import coefficients
+from tests.support.lens_files import FILES, FOLDER, read, text_of
+
+
+def with_own_glass() -> Lens:
+    catalogue = read_agf(FOLDER / "own.agf")
+    changes = (("GCAT SCHOTT", "GCAT OWN SCHOTT"), ("N-BK7", "HOUSE1"))
+    return read("doublet.zmx", *changes, catalogues=[catalogue]).lens
+
+
+LENSES = {
+    **{name: lambda name=name: find_lens(name) for name in shipped_lenses()},
+    **{name: lambda name=name: load_lens(FOLDER / name) for name in FILES},
+    "own glass": with_own_glass,
+}
+
+
+@pytest.mark.parametrize("name", LENSES)
+def test_toml_gives_the_identical_lens(name):
+    lens = LENSES[name]()
+    again = parse_toml(lens_to_toml(lens), "again.toml")
+    assert again == lens and lens_to_toml(again) == lens_to_toml(lens)
+
+
+def has_line_in_zemax(lens: Lens) -> bool:
+    return not any(isinstance(medium, TabulatedIndex) for medium in lens.media)
+
+
+@pytest.mark.parametrize("name", LENSES)
+def test_zmx_is_the_same_lens_to_this_reader(name, tmp_path):
+    """1/(1/radius) may differ in the last digit, hence 1e-13 on matrices of up to 12 surfaces."""
+    lens, path = LENSES[name](), tmp_path / "out.zmx"
+    if not has_line_in_zemax(lens):
+        with pytest.raises(LensFileError, match="has no line in a Zemax file"):
+            write_lens(lens, path)
+        return
+    write_lens(lens, path)
+    again = load_lens(path)
+    assert again.fields_deg == pytest.approx(lens.fields_deg, abs=1e-11)
+    assert again.wavelengths_nm == pytest.approx(lens.wavelengths_nm, rel=1e-12)
+    wave = lens.reference_wavelength_um
+    assert abcd(again, wave) == pytest.approx(abcd(lens, wave), rel=1e-13, abs=1e-13)
+    assert stop_rim(again) == pytest.approx(stop_rim(lens), rel=1e-12)
+    assert int(find_stop(again).surface) == int(find_stop(lens).surface)
+    for new, old in zip(again.surfaces, lens.surfaces, strict=True):
+        assert (new.conic, new.aspheric, new.thickness) == (old.conic, old.aspheric, old.thickness)
+
+
+@pytest.mark.parametrize("name", LENSES)
+def test_iset_is_the_same_lens_at_its_reference_wavelength(name, tmp_path):
+    """A stop on a refracting surface becomes a plane in its vertex, which no Seidel sum notices."""
+    lens, path = LENSES[name](), tmp_path / "out.json"
+    write_lens(lens, path)
+    again, wave = load_lens(path), lens.reference_wavelength_um
+    at = {"depth_mm": 1e4, "field_slope": 0.05, "wavelength_um": wave}
+    assert abcd(again, wave) == pytest.approx(abcd(lens, wave), rel=1e-12, abs=1e-12)
+    assert stop_rim(again) == pytest.approx(stop_rim(lens), rel=1e-12)
+    old, new = coefficients(lens, **at), coefficients(again, **at)
+    for term in ("w40", "w31", "w22", "w20", "w11"):
+        assert float(getattr(new, term)) == pytest.approx(float(getattr(old, term)), rel=1e-9, abs=1e-9), term
+
+
+def test_iset_indices_over_the_spectrum():
+    lens = find_lens("achromat_f6")
+    again = read("triplet.json", (text_of("triplet.json"), lens_to_iset(lens, spectral=True))).lens
+    waves = np.array([0.4, 0.55, 0.7])  # samples of the table, so nothing is interpolated
+    for new, old in zip(again.media[-len(lens.media) :], lens.media, strict=True):
+        assert new.index(waves) == pytest.approx(old.index(waves), rel=1e-14)
+
+
+def test_own_glasses_travel_in_a_catalogue_beside_the_lens(tmp_path):
+    lens = with_own_glass()
+    write_lens(lens, tmp_path / "out.zmx")
+    assert (tmp_path / "out.agf").exists()
+    assert load_lens(tmp_path / "out.zmx").media == lens.media
+
+
+def test_an_ending_nobody_writes(tmp_path):
+    with pytest.raises(LensFileError, match=r'ending "\.xyz" is none of \.toml, \.zmx, \.json'):
+        write_lens(find_lens("singlet_f6"), tmp_path / "lens.xyz")
+
+
+def test_two_makers_of_one_name_do_not_become_one(tmp_path):
+    """Hikari and Schott both sell a glass named SF5; a .zmx that names both makers could not tell which."""
+    media = (catalogue_glass("SCHOTT SF5"), catalogue_glass("HIKARI SF5"))
+    lens = Lens(tuple(Surface(50.0, 2.0, m, semi_diameter=5.0) for m in media), Aperture("f_number", 8.0), 1)
+    with pytest.raises(LensFileError, match="shares its name with another maker's glass"):
+        write_lens(lens, tmp_path / "lens.zmx")

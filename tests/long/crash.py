@@ -1,0 +1,136 @@
+"""Writers that are killed or run out of disk: ``python -m tests.long.crash kill|full FOLDER``.
+
+``kill``: children write every kind of file without end and are ended by SIGKILL at random moments; after each death
+every file must be readable and one of the versions ever written, and nothing else may lie about. ``full``: no file may
+grow beyond 2 kB; every writer must refuse in a sentence and leave the old file as it was. Prints what was tried.
+"""
+
+import os
+import random
+import resource
+import shutil
+import signal
+import sys
+import tempfile
+import time
+from contextlib import contextmanager, suppress
+from itertools import count
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.database import Space, build_database
+from p2sf.database_files import load_database, save_database
+from p2sf.errors import P2SFError
+from p2sf.io.photo_files import read_photo, write_photo
+from p2sf.io.psf_files import read_psf, write_psf
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import read_toml
+from p2sf.lensfile.writing import write_lens
+from p2sf.psf.seidel import Psf
+from p2sf_explorer.files import recent
+from p2sf_explorer.files.recent import remember
+from p2sf_explorer.files.snapshot import write_state
+from p2sf_explorer.state.state import State, read_state
+
+LENS = find_lens("tessar")
+NOISE = np.random.default_rng(1).random((64, 64))
+DATABASE = build_database(LENS, Space((500.0, np.inf), (0.0, 0.1), (0.5, 0.6)), "exact")
+LIMIT = 2000
+OLD = b"what was here before"
+
+
+def writers(folder: Path, version: int) -> dict:
+    """Return a function per file that writes it anew."""
+    psf = Psf(NOISE / NOISE.sum(), 1.0 + version, 0.5, "seidel", strehl=1.0)
+    many = {f"{name}-{version}": "x" * 40 for name in range(60)}
+    return {
+        "lens.toml": lambda: write_lens(LENS, folder / "lens.toml"),
+        "state.json": lambda: write_state(State(field_deg=version % 60), folder / "state.json", **many),
+        "snapshot.npz": lambda: write_psf(psf, folder / "snapshot.npz", {}),
+        "picture.png": lambda: write_photo(folder / "picture.png", NOISE),
+        "database.npz": lambda: save_database(DATABASE, LENS, folder / "database.npz"),
+        "recent.json": lambda: remember(str(folder / f"{version % 7}.toml")),
+    }
+
+
+READERS = {
+    "lens.toml": read_toml,
+    "state.json": read_state,
+    "snapshot.npz": read_psf,
+    "picture.png": read_photo,
+    "database.npz": load_database,
+    "recent.json": lambda path: path.read_text().rstrip().endswith("]") or 1 / 0,
+}
+
+
+def kill(folder: Path, deaths: int = 60) -> str:
+    """Kill a writing child again and again; return how often, and how many files were read."""
+    chance, checked, seen = random.Random(0), 0, set()
+    for number in range(deaths):
+        child = os.fork()
+        if child == 0:
+            write_for_ever(folder, number)
+        time.sleep(chance.uniform(0.001, 0.05))
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        names = set(os.listdir(folder))
+        assert seen <= names, "a file is lost"
+        seen = names & set(READERS)
+        for name in seen:
+            READERS[name](folder / name)
+            checked += 1
+        for name in names - seen:
+            assert is_whole(folder / name), f"{name} is half a file, left behind"
+            (folder / name).unlink()
+    return f"{deaths} kills, {checked} files read, none torn, none lost, no half file left behind"
+
+
+def is_whole(path: Path) -> bool:
+    """Say whether a file killed between its two names is whole: it then reads as one of those written."""
+    for name, reader in READERS.items():
+        with tempfile.TemporaryDirectory() as folder, suppress(P2SFError, ZeroDivisionError, ValueError):
+            reader(Path(shutil.copy(path, Path(folder) / name)))
+            return True
+    return False
+
+
+def write_for_ever(folder: Path, first: int) -> None:
+    for version in count(first):
+        work = list(writers(folder, version).values())
+        random.Random(version).shuffle(work)
+        for write in work:
+            write()
+
+
+@contextmanager
+def small_disk(most: int):
+    """Let no file of this process grow beyond so many bytes, which to a writer looks like a full disk."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+
+
+def full(folder: Path) -> str:
+    """Run every writer on a disk that takes 2 kB a file; return the sentences."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    told = []
+    for name, write in writers(folder, 1).items():
+        (folder / name).write_bytes(OLD)
+        before = sorted(os.listdir(folder))
+        with small_disk(LIMIT if name != "lens.toml" else 200):
+            try:
+                write()
+            except P2SFError as error:
+                told.append(f"{name}: {error}")
+        kept = name == "recent.json" or (told[-1].startswith(name) and (folder / name).read_bytes() == OLD)
+        assert kept and sorted(os.listdir(folder)) == before, (name, told)
+    return "\n".join(told)
+
+
+if __name__ == "__main__":
+    place = Path(sys.argv[2])
+    recent.recent_path = lambda: place / "recent.json"
+    print({"kill": kill, "full": full}[sys.argv[1]](place))

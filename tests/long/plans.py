@@ -1,0 +1,232 @@
+"""Plans held to their promise over random scenes of every shipped lens: `python -m tests.long.plans [SCENES] [LENS …]`.
+
+Each scene is planned, checked at random points against exact rays, and priced against the full grid, which is what a
+person would compute for the same error without a plan: one method everywhere, the cheapest that holds at the worst
+place, its own rays for every PSF; depth × rows × columns × every wavelength, as dense all over as the worst place asks;
+every fringe; all phase terms; one window, that of the widest blur; nothing from symmetry (`pricing.naive_work`). Both
+prices are printed as predicted and as measured (CPU seconds of making the kernels, of the full grid from a sample of
+them; chief rays, which both need alike, are traced before), and the reference sum's on the same grid beside them.
+
+`python -m tests.long.plans` runs 20 scenes of all lenses, `python -m tests.long.plans 4 tessar relay` four of two; set
+OMP_NUM_THREADS=1 and OPENBLAS_NUM_THREADS=1, or a second thread counts as CPU time. At the end it prints the sums of
+every lens and of all: full grid, plan, plan with its planning.
+"""
+
+import sys
+from dataclasses import replace
+from math import ceil
+from time import process_time
+
+import numpy as np
+
+from p2sf.errors import GeometryError, P2SFError
+from p2sf.image import plan_lattice
+from p2sf.lens.lens import lens_range_um, with_f_number
+from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.paraxial.pupils import f_number, numerical_aperture
+from p2sf.paraxial.seidel import coefficients
+from p2sf.pixel_kernels import Colour, Kernels
+from p2sf.pixel_kernels.nodes import nodes_along
+from p2sf.psf.plane_waves import counts_for
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.raytrace.fit import ray_data, steepness
+from p2sf.raytrace.pencil import pencil
+from p2sf.scene import Channel, Plan, Scene, Sensor, plan, verify
+from p2sf.scene.pricing import naive_recipe
+from p2sf.scene.reference import LEAST_POINTS, PROBE
+from p2sf.scene.scene import depth_of
+
+SCENES, POINTS, SAMPLE = 20, 2, 12
+TOLERANCES = 0.2, 0.1, 0.05, 0.03
+AFFORDABLE = 2e11  # products of a reference sum, some minutes of one core
+SLOWEST_TRIED = 4.0  # f-number: faster lenses are stopped down to it or beyond, as their rims are not clipped here
+
+
+def random_scene(lens, random) -> tuple:
+    """Return a lens stopped down at random and a scene: a crop of its field, a few waves deep, one or two colours."""
+    wave = lens.reference_wavelength_um
+    fastest = max(float(f_number(lens, wave)), SLOWEST_TRIED)
+    lens = with_f_number(lens, fastest * random.uniform(1, 2))
+    near, far = _depths(lens, random)
+    na = float(numerical_aperture(lens, depth_of(far), wave))
+    pixel = random.uniform(1.5, 8) * wave / (2 * na)
+    rim = abs(float(coefficients(lens, depth_of(far), np.tan(np.deg2rad(max(lens.fields_deg))), wave).image_height))
+    rim = rim or 50 * pixel / 1000
+    columns, rows = (int(n) for n in random.integers(48, 400, 2))
+    size = float(np.hypot(rows, columns) / 2 * pixel / 1000)
+    place, angle = max(0.0, random.uniform(0, 0.75) * rim - size), random.uniform(0, 2 * np.pi)
+    centre = (place * np.sin(angle), place * np.cos(angle)) if random.random() < 0.5 else (0.0, 0.0)
+    tolerance = float(random.choice(TOLERANCES))
+    sensor = Sensor(rows, columns, float(pixel), centre)
+    return lens, Scene(sensor, _channels(lens, random), depth_of(near), depth_of(far), tolerance)
+
+
+def _depths(lens, random) -> tuple[float, float]:
+    """Return near and far vergence: from where the lens is focused, up to two waves towards it."""
+
+    def defocus(vergence):
+        return np.array(
+            [float(coefficients(lens, depth_of(v), 0.0, lens.reference_wavelength_um).wd) for v in vergence]
+        )
+
+    tried = np.append(0.0, np.geomspace(1e-6, 0.05, 400))
+    found = defocus(tried)
+    crossing = np.flatnonzero((found[:-1] < 0) != (found[1:] < 0))
+    focus = float(tried[crossing[-1]]) if crossing.size and abs(found[0]) > 2 else 0.0
+    step = 1e-7
+    slope = abs(float(np.diff(defocus([focus, focus + step]))[0])) / step
+    return focus + random.uniform(0, 2) / slope, focus
+
+
+def _channels(lens, random) -> tuple[Channel, ...]:
+    low, high = lens_range_um(lens) or (0.4, 0.7)
+    low, high = max(1000 * low, 420) + 20, min(1000 * high, 680) - 20
+    middles = random.uniform(low, max(low, high), random.integers(1, 3))
+    kinds = (0.0,), (-15.0, 15.0), (-20.0, 0.0, 20.0)
+    steps = kinds[int(random.integers(3))]
+    return tuple(
+        Channel(f"{m:.0f} nm", tuple(float(m + s) for s in steps), tuple(random.uniform(0.5, 1, len(steps)).tolist()))
+        for m in middles
+    )
+
+
+def trial(lens, scene, seed: int = 0) -> dict:
+    """Return one scene's figures; raises P2SFError where the lens cannot form it."""
+    started = process_time()
+    planned = plan(lens, scene)
+    planning = process_time() - started
+    check_affordable(planned)
+    spent, full = plan_seconds(planned), naive_seconds(planned)
+    verdict = verify(planned, POINTS, seed)
+    nodes = planned.counts[0] * planned.counts[1] * len(planned.vergences)
+    grid = nodes * sum(len(channel.wavelengths_nm) for channel in scene.channels)
+    return {
+        "tolerance": scene.tolerance,
+        "predicted": planned.predicted_error,
+        "worst": verdict.worst,
+        "meets": planned.meets,
+        "kept": verdict.kept,
+        "planning_seconds": planning,
+        "kernel_seconds": spent,
+        "naive_seconds": full,
+        "predicted_saving": planned.naive.kernel_seconds / planned.cost.kernel_seconds,
+        "measured_saving": full / max(spent, 1e-9),
+        "reference_saving": grid * verdict.reference_seconds / max(spent, 1e-9),
+        "loosening_is_cheaper": loosened_cost(lens, scene) <= planned.cost.kernel_seconds if seed % 5 == 0 else None,
+        "what": [f"{d.what}: {d.choice} ({d.error:.2g})" for d in planned.decisions],
+    }
+
+
+def check_affordable(planned: Plan) -> None:
+    """Raise GeometryError for a scene whose reference sum is hours of work, as of a relay far out of focus."""
+    sensor, seen = planned.scene.sensor, planned.view(planned.vergences[0])
+    half = planned.kernels(0, planned.vergences[0]).half_width(sensor.corners_mm()[1])
+    source = seen.source(sensor.corners_mm()[1], min(planned.colours[0].wavelengths_um))
+    probe = disc_nodes(*PROBE)
+    steep = steepness(ray_data(pencil(seen.lens, source, probe.xi, probe.eta)), probe.xi, probe.eta)
+    size = 2 * half + 1
+    points = size * max(LEAST_POINTS, ceil(np.pi * steep.spread * sensor.pixel_um) + 3)
+    products = float(np.prod(counts_for(steep, size, sensor.pixel_um))) * points**2
+    if products > AFFORDABLE:
+        raise GeometryError(f"its reference is a sum of {products:.0e} products; too long to be tried")
+
+
+def plan_seconds(planned: Plan) -> float:
+    """Return the CPU seconds of all kernels of a plan, its pupils included: of one depth times the depths."""
+    for vergence in planned.vergences:
+        planned.view(vergence)
+    for vergence in (planned.pupil_nodes or ((), ()))[1]:
+        planned.view(vergence)
+    started = process_time()
+    for number in range(len(planned.colours)):
+        planned.kernels(number, planned.vergences[0])  # makes the pupils that are shared
+    shared, started = process_time() - started, process_time()
+    plan_lattice(planned, planned.vergences[0])
+    return shared + (process_time() - started) * len(planned.vergences)
+
+
+def naive_seconds(planned: Plan) -> float:
+    """Return the CPU seconds of the full grid's kernels: SAMPLE of them made, times how many there are."""
+    sensor, recipe = planned.scene.sensor, naive_recipe(planned.rings)
+    rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), planned.counts, strict=True))
+    places = [(v, c, a, b) for v in planned.vergences for c in planned.scene.channels for a in rows for b in columns]
+    ends, rim = (planned.vergences[0], planned.vergences[-1]), sensor.corners_mm()[1]
+    half = max(planned.kernels(0, v).half_width(rim) for v in ends)
+    picked = [places[n] for n in np.linspace(0, len(places) - 1, min(SAMPLE, len(places))).astype(int)]
+    views = {v: planned.view(v) for v, *_ in picked}
+    started = process_time()
+    for v, channel, row, column in picked:
+        colour = Colour(tuple(channel.wavelengths_um.tolist()), tuple(channel.shares.tolist()))
+        kernels = Kernels(views[v], colour, sensor.pixel_um, lambda _: recipe, half)
+        kernels.at(float(sensor.x_mm(column)), float(sensor.y_mm(row)))
+    return (process_time() - started) * len(places) / len(picked)
+
+
+def loosened_cost(lens, scene) -> float:
+    """Return the predicted cost at twice the tolerance."""
+    return plan(lens, replace(scene, tolerance=min(0.9, 2 * scene.tolerance))).cost.kernel_seconds
+
+
+def run(name: str, scenes: int) -> list[dict]:
+    """Return the figures of this many scenes of one lens, printing a line each.
+
+    Scenes that no light reaches, or that take too long to check, are redrawn.
+    """
+    random, rows, refused = np.random.default_rng(sum(map(ord, name))), [], 0
+    while len(rows) < scenes and refused < 10 * scenes:
+        try:
+            rows.append({"lens": name, **trial(*random_scene(find_lens(name), random), len(rows))})
+        except P2SFError as error:
+            refused += 1
+            print(f"  {name}: redrawn, {error}", flush=True)
+            continue
+        row = rows[-1]
+        print(
+            f"{name} {len(rows)}: tolerance {row['tolerance']:g}, predicted {row['predicted']:.3f}, "
+            f"worst {row['worst']:.4f}{'' if row['kept'] else ' MISSED'}{'' if row['meets'] else ' (said so)'}, saving "
+            f"{row['predicted_saving']:.1f}× predicted, {row['measured_saving']:.1f}× measured "
+            f"({row['naive_seconds']:.3f} s to {row['kernel_seconds']:.3f} s), "
+            f"{row['reference_saving']:.0f}× against the reference, "
+            f"looser is cheaper: {row['loosening_is_cheaper']}, "
+            f"planned in {row['planning_seconds']:.2f} s",
+            flush=True,
+        )
+        if not row["kept"]:
+            print("   ", "; ".join(row["what"]), flush=True)
+    return rows
+
+
+def main(arguments: list[str]) -> None:
+    """Run the trial and print its sums."""
+    scenes = int(arguments[0]) if arguments else SCENES
+    rows = [row for name in arguments[1:] or shipped_lenses() for row in run(name, scenes)]
+    missed = [row for row in rows if not row["kept"]]
+    print(f"{len(rows)} scenes, {len(missed)} missed, {sum(row['meets'] for row in missed)} of these unannounced")
+    if not rows:
+        return
+    for key in ("predicted_saving", "measured_saving", "reference_saving"):
+        found = np.array([row[key] for row in rows])
+        low, middle = np.percentile(found, [5, 50])
+        print(f"{key}: median {middle:.1f}, 5th percentile {low:.1f}, at least 5 in {np.mean(found >= 5):.0%}")
+    print("dearer when looser:", sum(row["loosening_is_cheaper"] is False for row in rows))
+    for name in dict.fromkeys(row["lens"] for row in rows):
+        print(sums(name, [row for row in rows if row["lens"] == name]))
+    print(sums("all", rows))
+
+
+def sums(name: str, rows: list[dict]) -> str:
+    """Return a sentence on what these scenes cost together."""
+    full, spent, planning = (
+        np.array([row[key] for row in rows]) for key in ("naive_seconds", "kernel_seconds", "planning_seconds")
+    )
+    saving = np.median([row["measured_saving"] for row in rows])
+    return (
+        f"{name}: {len(rows)} scenes, full grid {full.sum():.2f} s, plan {spent.sum():.2f} s "
+        f"({full.sum() / spent.sum():.1f}× in sum, median {saving:.1f}×), planning {planning.sum():.2f} s more "
+        f"(median {np.median(planning):.2f} s, longest {planning.max():.2f} s), "
+        f"{full.sum() / (spent + planning).sum():.1f}× with it"
+    )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,62 @@
+"""Lenses that can be computed and cannot be made: `p2sf info` says so in a sentence, and is silent about real ones."""
+
+from math import inf
+
+import pytest
+
+from p2sf.cli import main
+from p2sf.glass.media import ConstantIndex
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.paraxial.lens_checks import edge, oddities
+
+GLASS = ConstantIndex(1.5)
+
+
+def singlet(rim=5.0, stop=2.0, conic=0.0, glass=GLASS, stop_surface=1) -> Lens:
+    surfaces = (Surface(10.0, 3.0, glass, conic, (), rim), Surface(-40.0, 20.0))
+    return Lens(surfaces, Aperture("stop_semi_diameter", stop), stop_surface)
+
+
+@pytest.mark.parametrize("name", shipped_lenses())
+def test_the_shipped_lenses_have_no_oddities(name):
+    """But for the relay, a drawing-board lens whose published rims reach beyond its spheres."""
+    found = oddities(find_lens(name))
+    assert len(found) == (4 if name == "relay" else 0), found
+
+
+@pytest.mark.parametrize(
+    ("lens", "words"),
+    [
+        (
+            singlet(rim=10.001),
+            "surface 1 has a clear semi-diameter of 10.001 mm, but its radius of 10 mm ends it at 10 mm",
+        ),
+        (singlet(rim=5.1, conic=3.0), "ends it at 5 mm"),
+        (singlet(rim=12.0, stop=10.5), "the stop on surface 1 has a semi-diameter of 10.5 mm"),
+        (singlet(glass=ConstantIndex(1.0)), "every medium of this lens has the index 1, so no surface bends light"),
+    ],
+)
+def test_an_impossible_lens_is_told_in_a_sentence(lens, words):
+    found = oddities(lens)
+    assert any(words in sentence for sentence in found), found
+    assert all("; " in sentence for sentence in found)
+
+
+def test_at_the_edge_itself_a_rim_is_possible():
+    assert oddities(singlet(rim=10.0, stop=10.0)) == ()
+
+
+def test_planes_parabolas_and_hyperbolas_never_end():
+    assert edge(Surface()) == edge(Surface(10.0, conic=-1.0)) == edge(Surface(10.0, conic=-2.0)) == inf
+    assert oddities(singlet(rim=100.0, conic=-1.0)) == ()
+
+
+def test_info_warns_and_still_answers(tmp_path, capsys):
+    path = tmp_path / "air.toml"
+    head = "stop_surface = 1\n\n[aperture]\nstop_semi_diameter = 9\n\n"
+    path.write_text(head + "[[surface]]\nradius = 4.0\nthickness = 90.0\n")
+    assert main(["info", str(path)]) == 0
+    output, error = capsys.readouterr()
+    assert "effective focal length" in output
+    assert error.count("warning: ") == error.count("\n") == 2

@@ -1,0 +1,172 @@
+"""Kernels of single pixels against the reference, and the laws they must keep."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GeometryError
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, distortion_at, view
+from p2sf.pixel_kernels.channel import own_pupil
+from p2sf.pixel_kernels.frequency_grid import dropped_terms, pupil_map, without
+from p2sf.pixel_kernels.pixels import Window, _binned, half_width, pixel_kernel
+from p2sf.pixel_kernels.pupil_table import chebyshev, few_nodes, lagrange, pupil_table
+from p2sf.psf.huygens import huygens_psf
+from p2sf.pupil.zernike import basis, basis_by_powers
+from p2sf.scene.reference import exact_pixels
+from p2sf.scene.scene import Channel
+from p2sf.scene.spectrum import reduced
+
+WAVE, PIXEL = 0.5876, 6.0
+FINE = Recipe("fitted", 46, 4.0, 1.0)
+
+
+def source(degrees: float) -> Source:
+    return Source(np.inf, float(np.tan(np.deg2rad(degrees))), WAVE)
+
+
+def relative(kernel, good) -> float:
+    return float(np.linalg.norm(kernel - good) / np.linalg.norm(good))
+
+
+@pytest.mark.parametrize("degrees", [0, 14])
+def test_the_fft_of_a_fitted_pupil_is_the_huygens_sum_of_exact_rays(degrees):
+    """46 numbers leave 2e-4 waves here, 4πσ = 2.5e-3; the rim's linear share of a cell adds as much."""
+    lens = find_lens("double_gauss_28")
+    pupil = pupil_map(lens, source(degrees), "fitted", 46)
+    half = half_width(pupil, PIXEL)
+    wide = pixel_kernel(pupil, 0.0, Window(2 * half, PIXEL, 14))
+    kernel = wide[half:-half, half:-half] / wide[half:-half, half:-half].sum()
+    assert relative(kernel, exact_pixels(lens, source(degrees), 0.0, half, PIXEL, 0.0)) < 5e-3
+
+
+def test_the_reference_of_pixels_is_the_reference_of_the_house_added_up():
+    """9 × 9 samples a pixel instead of Gauss points: a pixel's rim falls a twentieth of it beside the truth."""
+    lens = find_lens("double_gauss_28")
+    fine = huygens_psf(lens, source(10), 25 * 9, PIXEL / 9).values.reshape(25, 9, 25, 9).sum((1, 3))[::-1]
+    assert relative(exact_pixels(lens, source(10), 0.0, 12, PIXEL, 0.0), fine / fine.sum()) < 5e-3
+
+
+@pytest.mark.parametrize("method", ["seidel", "fitted"])
+def test_a_field_to_the_right_is_the_field_upwards_turned(method):
+    pupil = pupil_map(find_lens("cooke_triplet"), source(12), method)
+    window = Window(12, 4.0, 5)
+    up = pixel_kernel(pupil, 0.0, window)
+    for quarter in (1, 2, 3):
+        turned = pixel_kernel(pupil, quarter * np.pi / 2, window)
+        assert np.abs(np.rot90(up, -quarter) - turned).max() < 2e-6 * up.max() + 1e-9  # float32
+
+
+def test_oblique_directions_are_turned_as_the_reference_is():
+    lens, angle = find_lens("cooke_triplet"), 0.7
+    pupil = pupil_map(lens, source(12), "fitted", 46)
+    half = half_width(pupil, PIXEL)
+    wide = pixel_kernel(pupil, angle, Window(2 * half, PIXEL, 8))[half:-half, half:-half]
+    good = exact_pixels(lens, source(12), angle, half, PIXEL, 0.0)
+    assert relative(wide / wide.sum(), good) < 1e-2
+    assert relative(wide[:, ::-1] / wide.sum(), good) > 0.1  # and the mirror image, a wrong sense of turning, is not
+
+
+def test_a_shift_moves_the_kernel_by_that_much():
+    pupil = pupil_map(find_lens("cooke_triplet"), source(0), "fitted")
+    centre = np.arange(-12, 13)
+    for shift in ((0.0, 0.0), (3.0, -2.0)):  # the rings' wings, cut on one side sooner, weigh a tenth of a µm or so
+        kernel = pixel_kernel(pupil, 0.0, Window(12, 4.0, 6), shift)
+        x, y = (kernel.sum(0) @ centre) * 4, (kernel.sum(1) @ -centre) * 4
+        assert np.allclose((x, y), shift, atol=0.2)
+        assert kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
+
+
+def test_dropped_terms_stay_below_their_bound_and_change_as_little():
+    pupil = pupil_map(find_lens("double_gauss_28"), source(10), "fitted")
+    gone = dropped_terms(pupil, 1e-3)
+    assert gone and sum(size**2 for *_, size in gone) <= 1e-6
+    one, two = (pixel_kernel(p, 0.3, Window(20, PIXEL, 6)) for p in (pupil, without(pupil, 1e-3)))
+    assert 0 < relative(two, one) < 4 * np.pi * 1e-3
+
+
+def test_a_view_finds_the_field_that_lands_where_it_says():
+    lens = find_lens("double_gauss_28")
+    seen = view(lens, np.inf, WAVE, 24.0)
+    from p2sf.pixel_kernels.sensor_points import chief_heights
+
+    landed = chief_heights(lens, Source(np.inf, seen.slope(np.array([3.0, 20.0])), WAVE))
+    assert np.allclose(landed, [3.0, 20.0], atol=1e-4)  # linear between 257 chief rays
+    assert distortion_at(seen, 0.0) == 0 and -0.02 < distortion_at(seen, 24.0) < -0.005
+    assert seen.shift_mm(10.0, WAVE) == 0 and seen.shift_mm(10.0, 0.45) != 0
+    with pytest.raises(GeometryError, match="sensor's corner"):
+        view(lens, np.inf, WAVE, 500.0)
+
+
+def test_fewer_wavelengths_keep_the_spectrums_moments():
+    channel = Channel("wide", (480.0, 510.0, 550.0, 600.0, 640.0), (1.0, 3.0, 2.0, 0.5, 1.0))
+    waves, shares = channel.wavelengths_um, channel.shares
+    for count in (1, 2, 3):
+        few = reduced(channel, count)
+        for power in range(2 * count):
+            moment = np.array(few.weights) @ np.array(few.wavelengths_um) ** power
+            assert moment == pytest.approx(shares @ waves**power, rel=1e-12)
+    assert reduced(channel, 5).wavelengths_um == tuple(waves)
+
+
+def test_kernels_of_a_channel_have_unit_sum_and_carry_lateral_colour():
+    seen = view(find_lens("landscape"), np.inf, WAVE, 15.0)
+    colours = Colour((0.45, 0.65), (0.5, 0.5))
+    kernel = Kernels(seen, colours, 8.0, lambda height: Recipe()).at(0.0, 12.0)
+    assert kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
+    single = Kernels(seen, Colour((WAVE,), (1.0,)), 8.0, lambda height: Recipe()).at(0.0, 12.0)
+
+    def spread(k):
+        axis = np.arange(len(k)) - len(k) // 2
+        line = k.sum(1)
+        return line @ axis**2 - (line @ axis) ** 2
+
+    assert spread(kernel) > spread(single)
+
+
+def test_pupils_between_a_few_are_the_ones_that_rays_give():
+    """Four heights and three depths: phase RMS 2e-4 waves, 4πσ = 2.5e-3 of a kernel; at the nodes, the fit itself."""
+    lens, recipe = find_lens("double_gauss_28"), Recipe("fitted", 46)
+    depths = 1 / chebyshev(1e-5, 2e-4, 3)
+    seen = {1 / d: view(lens, d, WAVE, 16.0) for d in (*depths, 9000.0)}
+    table = pupil_table(lambda h, v: own_pupil(seen[v], h, 0.55, recipe), chebyshev(2.0, 15.0, 4), list(seen)[:3])
+    for height in (3.1, 11.7):
+        made, own = table.at(height, 1 / 9000.0), own_pupil(seen[1 / 9000.0], height, 0.55, recipe)
+        assert np.linalg.norm(made[0].phase[1:] - own[0].phase[1:]) < 1e-3
+        assert np.abs(made[0].eta - own[0].eta).max() < 1e-4 and made[1] == pytest.approx(own[1], abs=2e-5)
+        assert made[0].reach_um == pytest.approx(own[0].reach_um, rel=0.02)
+        assert made[0].light == pytest.approx(own[0].light, rel=1e-4)
+    node = own_pupil(seen[1 / depths[1]], 15.0, 0.55, recipe)[0]
+    assert np.allclose(table.at(15.0, 1 / depths[1])[0].phase, node.phase, atol=1e-9)
+    assert table.at(15.1, 1e-4) is None and table.at(5.0, 1e-3) is None  # it never extrapolates
+
+
+def test_interpolation_is_exact_for_polynomials_and_few_values_are_their_own_nodes():
+    nodes = tuple(chebyshev(-1.0, 3.0, 4).tolist())
+    assert lagrange(nodes, 0.7) @ np.power(nodes, 3) == pytest.approx(0.7**3)
+    assert few_nodes((1.0, 2.0, 7.0), 3).tolist() == [1, 2, 7] and few_nodes((1.0, 2.0, 7.0), 2).tolist() == [1, 7]
+
+
+def test_a_node_but_for_rounding_is_that_node():
+    """Of a polynomial through 200 even nodes nothing is left 1e-10 beside one of them."""
+    nodes = tuple(np.linspace(0.0, 3.0, 200).tolist())
+    np.testing.assert_array_equal(lagrange(nodes, nodes[7] + 1e-10), np.eye(200)[7])
+    assert lagrange(nodes[:5], nodes[2] + 1e-3).sum() == pytest.approx(1)
+
+
+def test_samples_of_a_cubic_are_summed_over_inner_pixels_without_error():
+    """The midpoint rule alone is off by h³/24 of the second derivative in each sample; edges' slopes mend it."""
+    place = (np.arange(15) + 0.5) / 3
+    values = np.repeat((place**3).astype(np.float32)[:, None], 15, axis=1)
+    pixels = _binned(values, 5, 3)[1:-1, 2] / 9
+    start = np.arange(1, 4)
+    np.testing.assert_allclose(pixels, ((start + 1.0) ** 4 - start**4.0) / 4, rtol=1e-5)
+    assert _binned(values, 5, 3).sum() == pytest.approx(values.sum(), rel=1e-6)
+
+
+def test_powers_give_the_same_terms():
+    points = np.random.default_rng(0).uniform(-0.7, 0.7, (2, 50))
+    for order, close in ((6, 1e-12), (18, 1e-8)):
+        even, odd = basis_by_powers(order, *points)
+        np.testing.assert_allclose(even, basis(order, *points), atol=close)
+        np.testing.assert_allclose(odd, basis(order, *points, odd=True), atol=close)

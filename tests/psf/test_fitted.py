@@ -1,0 +1,160 @@
+"""The fitted rung: its polynomials, what it promises with 26 and 46 numbers, and when it asks for more."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GeometryError
+from p2sf.psf import fitted
+from p2sf.psf.fitted import fit, fitted_psf, summed
+from p2sf.psf.huygens import Filling, huygens_psf
+from p2sf.psf.separable_sum import row_counts
+from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
+from p2sf.pupil.zernike import basis, gradient, terms
+from p2sf.raytrace.fit import LEVELS
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.ray_field import ray_data
+from tests.psf.test_huygens import r_squared
+from tests.raytrace.test_pencil import case
+from tests.support.reference import LENSES, huygens_rows
+
+
+def cases(name):
+    for row, stored, _ in huygens_rows(name):
+        yield *case(name, row), row["pixel_um"], stored
+
+
+def test_a_basis_is_kept_unless_it_is_large():
+    """Eight of them stay: 8 × 240 000 nodes × 100 polynomials would be 1.5 GB."""
+    fitted._kept_basis.cache_clear()
+    for counts, kept in (((64, 256), 1), ((64, 258), 1), ((32, 256), 2)):
+        values = fitted._node_basis(4, *counts, False)
+        assert values.shape[1] == counts[0] * counts[1] / 2
+        assert fitted._kept_basis.cache_info().currsize == kept
+
+
+@pytest.mark.parametrize("odd", [False, True])
+def test_polynomials_are_orthonormal_on_the_disc(odd):
+    nodes = disc_nodes(16, 64)
+    values = basis(12, nodes.xi, nodes.eta, odd)
+    assert np.allclose((values * nodes.weight) @ values.T, np.eye(len(values)), atol=1e-13)
+    assert len(values) == len(terms(12, odd))
+
+
+@pytest.mark.parametrize("odd", [False, True])
+def test_gradients_equal_differences(odd):
+    nodes, step = disc_nodes(5, 12), 1e-5
+    across, along = gradient(8, nodes.xi, nodes.eta, odd)
+    around = [
+        (basis(8, nodes.xi + dx, nodes.eta + dy, odd) - basis(8, nodes.xi - dx, nodes.eta - dy, odd)) / (2 * step)
+        for dx, dy in ((step, 0), (0, step))
+    ]
+    # Second-order differences of degree 8: 8³·step² plus rounding over step.
+    assert np.allclose(across, around[0], atol=1e-6) and np.allclose(along, around[1], atol=1e-6)
+
+
+def test_the_levels_count_what_the_design_counts():
+    assert [level.numbers for level in LEVELS[:2]] == [26, 46]
+    assert LEVELS[0].rays == LEVELS[1].rays == 64
+
+
+@pytest.mark.parametrize("name", [name for name in LENSES if name != "petzval"])
+def test_sixty_four_rays_hold_what_the_ladder_promises(name):
+    for lens, source, pixel, stored in cases(name):
+        few, more, default = (fitted_psf(lens, source, 32, pixel, n) for n in (26, 46, None))
+        assert few.rays == more.rays == 64
+        assert r_squared(few.values, stored) >= 0.994
+        assert r_squared(more.values, stored) >= 0.9999
+        assert r_squared(default.values, stored) >= 0.998
+
+
+@pytest.mark.parametrize("k", range(4))
+def test_a_fast_petzval_takes_as_many_numbers_as_it_needs(k):
+    lens, source, pixel, stored = list(cases("petzval"))[k]
+    psf = fitted_psf(lens, source, 32, pixel)
+    print(f"petzval row {k}: {psf.numbers} numbers from {psf.rays} rays, R² {r_squared(psf.values, stored):.7f}")
+    assert r_squared(psf.values, stored) >= 0.995
+
+
+@pytest.mark.parametrize("name", ["double_gauss_28", "telephoto", "petzval"])
+def test_the_residual_is_that_of_rays_the_fit_has_not_seen(name):
+    lens, source, _, _ = list(cases(name))[1]
+    nodes = disc_nodes(9, 26)
+    rays = ray_data(pencil(lens, source, nodes.xi, nodes.eta))
+    for numbers in (26, 46):
+        found = fit(lens, source, numbers)
+        phase, fx, fy = found.at(nodes.xi, nodes.eta)
+        error = phase - rays.phase + (fx - rays.fx) * rays.x_um + (fy - rays.fy) * rays.y_um
+        seen = np.sqrt(nodes.weight @ error**2)
+        assert 0.7 < found.residual_waves / seen < 4  # an estimate, and rather too large than too small
+
+
+def test_the_map_of_the_pupil_is_squeezed_off_axis_as_the_witness_found():
+    """DESIGN.md section 2: NA × 0.979 sagittal and × 0.945 tangential on the Double Gauss at 14°."""
+    squeeze = []
+    for index in (0, 2):
+        lens, source, _, _ = list(cases("double_gauss_28"))[index]
+        _, fx, fy = fit(lens, source, 46).at(np.array([0.05, 0.0, 0.0]), np.array([0.0, 0.05, -0.05]))
+        squeeze.append((fx[0], (fy[1] - fy[2]) / 2))
+    sagittal, tangential = (off / on for off, on in zip(squeeze[1], squeeze[0], strict=True))
+    assert sagittal == pytest.approx(0.979, abs=0.015) and tangential == pytest.approx(0.945, abs=0.015)
+
+
+def test_the_energy_follows_parseval():
+    lens, source, pixel, _ = next(cases("tessar"))
+    assert fitted_psf(lens, source, 128, pixel / 2).energy == pytest.approx(
+        fitted_psf(lens, source, 256, pixel / 4).energy, rel=1e-2
+    )
+
+
+def test_an_unknown_count_of_numbers_names_those_there_are():
+    lens, source, _, _ = next(cases("tessar"))
+    with pytest.raises(GeometryError, match="26, 46, 72"):
+        fit(lens, source, 30)
+
+
+def test_the_preview_is_the_settled_picture_in_single_precision():
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    preview, settled = (fitted_psf(lens, source, 32, pixel, quality=q) for q in ("preview", "settled"))
+    assert r_squared(preview.values, settled.values) > 1 - 1e-7
+
+
+def test_a_psf_says_how_it_was_summed():
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    settled, preview = (fitted_psf(lens, source, 32, pixel, 26, quality) for quality in ("settled", "preview"))
+    assert "rows" in settled.sampling and settled.sampling.endswith(", float64")
+    assert "rows" in preview.sampling and preview.sampling.endswith(", float32")
+    assert (settled.tolerance, preview.tolerance) == (SETTLED_TOLERANCE, None)
+    assert (settled.method, settled.numbers, settled.rays, settled.pixel_um) == ("fitted", 26, 64, pixel)
+    assert 0 < settled.seconds < 60 and settled.wavelength_um == source.wavelength_um and 0 < settled.energy < 1
+    coarse = fitted_psf(lens, source, 8, 20 * pixel, 26)
+    assert coarse.energy is None  # samples this far apart are no integral
+
+
+def test_a_fit_is_of_the_rays_that_were_aimed():
+    lens, source, pixel, stored = list(cases("double_gauss_28"))[2]
+    aimed = fitted_psf(lens, source, 32, pixel, 46, aim="real")
+    reference = huygens_psf(lens, source, 32, pixel, filling=Filling(aim="real"))
+    assert r_squared(aimed.values, reference.values) > 0.999 > r_squared(aimed.values, stored)
+
+
+@pytest.mark.parametrize(("quality", "dtype", "error"), [("settled", "float64", 1e-4), ("preview", "float32", 1e-2)])
+def test_where_no_rows_can_be_the_nodes_are_summed_one_by_one_to_the_same_picture(quality, dtype, error, monkeypatch):
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    found = fit(lens, source, 46)
+    by_rows, _ = summed(found, 32, pixel, "settled")
+    monkeypatch.setattr("p2sf.psf.fitted.rows_for", lambda *_: None)
+    one_by_one, words = summed(found, 32, pixel, quality)
+    assert np.linalg.norm(one_by_one - by_rows) < error * np.linalg.norm(by_rows)
+    assert one_by_one.dtype.name == dtype
+    radii, directions = (int(word) for word in words.replace(",", "").split() if word.isdigit())
+    assert words == f"{radii} radii × {directions} directions, {dtype}" and directions > radii > 10
+
+
+def test_a_fitted_psf_is_settled_unless_told():
+    """In float64, on as many rows as the settled promise asks for; a preview makes do with fewer."""
+    lens, source, pixel, _ = next(cases("double_gauss_28"))
+    found = fit(lens, source)
+    rows, columns = row_counts(found, 16, pixel, "settled")
+    assert (rows, columns) != row_counts(found, 16, pixel, "preview")
+    words = f"{rows} rows × {columns} columns of equal frequency, float64"
+    assert fitted_psf(lens, source, 16, pixel).sampling == summed(found, 16, pixel)[1] == words

@@ -1,0 +1,144 @@
+"""The ladder: every rung through one door, a choice that holds what it promises, and the measured trade."""
+
+import json
+from dataclasses import replace
+from io import BytesIO
+from math import inf
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GeometryError, RequestError, SamplingError
+from p2sf.lens.lens import Aperture
+from p2sf.lens.source import Source
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.psf.compare import r_squared
+from p2sf.psf.huygens import Filling, huygens_psf
+from p2sf.psf.methods import METHODS, QUICK_LEVELS, choose, predicted_error, render, residual_for, seidel_sigma
+from p2sf.raytrace.fit import level_rays
+from p2sf.raytrace.ray_field import RayData
+from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
+from tests.long.method_choice import summary, trials
+from tests.raytrace.test_pencil import case, double_gauss
+from tests.support.reference import huygens_rows
+from tests.support.waves import waves
+
+
+def off_axis():
+    row, stored, _ = huygens_rows("double_gauss_28")[2]
+    return *case("double_gauss_28", row), row["pixel_um"], stored
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_rung_returns_the_same_kind_of_psf(method):
+    lens, source, pixel, _ = off_axis()
+    psf = render(lens, source, method, 32, pixel)
+    assert psf.method == method and psf.values.shape == (32, 32) and psf.pixel_um == pixel
+    assert psf.values.sum() == pytest.approx(1)
+    assert psf.strehl is None if method == "gaussian" else 0 < psf.strehl <= 1
+
+
+@pytest.mark.parametrize(("waves_off", "frequency_off"), [(0.0, 2e-3), (0.01, 0.0), (0.01, -2e-3)])
+def test_six_coefficients_miss_by_their_phase_and_by_where_diffraction_takes_their_frequency(waves_off, frequency_off):
+    """Rays that land at x = 0 and are the six coefficients' own, but for a step of phase and a miss of frequency."""
+    c, points = waves(0.3, -0.2, 0.1, 0.0, 0.0, 0.4), level_rays(QUICK_LEVELS[0])
+    xi, eta, weight = points
+    scale, side = float(c.reduced_slope) / float(c.wavelength_um), np.where(xi > np.median(xi), 1.0, -1.0)
+    off = waves_off * side + 0.7  # a constant phase is no error
+    zero = 0 * xi
+    rays = RayData(off - wavefront(c, xi, eta), scale * xi + frequency_off, scale * eta, zero, zero)
+    own = side[: weight.size]
+    wanted = np.hypot(waves_off * np.sqrt(1 - (weight @ own) ** 2), frequency_off * 5.0)
+    assert seidel_sigma(c, rays, points, 5.0) == pytest.approx(wanted, rel=1e-12)
+
+
+def test_rungs_rank_as_the_design_says():
+    lens, source, pixel, stored = off_axis()
+    score = {m: r_squared(render(lens, source, m, 32, pixel).values, stored) for m in METHODS}
+    assert score["seidel"] == pytest.approx(-0.599, abs=0.002)
+    assert score["seidel"] < score["gaussian"] < 0.998 < score["fitted"] < score["traced"] <= score["huygens"]
+
+
+@pytest.mark.parametrize("method", ["seidel", "fitted", "traced", "huygens"])
+def test_quality_passes_through(method):
+    lens, source, pixel, _ = off_axis()
+    preview, settled = (render(lens, source, method, 32, pixel, q) for q in ("preview", "settled"))
+    assert preview.tolerance is None and settled.tolerance is not None
+    # The preview of six coefficients is a 128² grid with a hard edge: 4e-2 of the light here (DESIGN.md section 7).
+    assert r_squared(preview.values, settled.values) > (0.9 if method == "seidel" else 0.9999)
+
+
+def test_auto_takes_the_rung_that_choose_names():
+    lens, source, _, _ = off_axis()
+    assert choose(lens, source, 0.99).method == "fitted" == render(lens, source, tolerance=0.99).method
+    slow = replace(lens, aperture=Aperture("stop_semi_diameter", 1.0))
+    assert choose(slow, replace(source, field_slope=0.0), 0.99).method == "seidel"
+
+
+def test_tighter_tolerances_cost_more_and_promise_more():
+    lens, source, _, _ = off_axis()
+    chosen = [choose(lens, source, t) for t in (0.9, 0.99, 0.999, 0.99999, 1 - 1e-7)]
+    assert [c.method for c in chosen] == ["fitted", "fitted", "fitted", "fitted", "huygens"]
+    assert [c.numbers for c in chosen] == [26, 26, 46, 46, 0]
+    errors = [c.predicted_error for c in chosen]
+    assert errors == sorted(errors, reverse=True)
+    assert all("1 − R²" in c.why for c in chosen)
+
+
+def test_a_fast_petzval_is_traced():
+    lens, source = case("petzval", huygens_rows("petzval")[1][0])
+    assert choose(lens, source, 0.999).method == "traced"
+
+
+def test_choose_never_picks_a_rung_below_the_tolerance(capsys):
+    outcomes = list(trials(20, seed=2))
+    with capsys.disabled():
+        print("\n" + summary(outcomes))
+    assert not [outcome for outcome in outcomes if outcome.wrong]
+
+
+def test_a_fit_takes_the_numbers_that_the_tolerance_asks_for():
+    lens, source, pixel, _ = off_axis()
+    coarse, fine = (render(lens, source, "fitted", 32, pixel, tolerance=t) for t in (0.99, 0.9999))
+    assert (coarse.numbers, fine.numbers) == (26, 46)
+    assert predicted_error(residual_for(0.9999), "fitted") == pytest.approx(1e-4)
+
+
+def test_clip_is_refused_by_rungs_that_know_no_edge():
+    lens, source, pixel, _ = off_axis()
+    for method in ("seidel", "fitted"):
+        with pytest.raises(GeometryError, match="choose traced or huygens"):
+            render(lens, source, method, 32, pixel, clip=True)
+        assert render(lens, replace(source, field_slope=0.0), method, 32, pixel, clip=True).method == method
+    auto = render(lens, source, "auto", 32, pixel, clip=True)
+    reference = huygens_psf(lens, source, 32, pixel, filling=Filling(clip=True))
+    assert auto.method == "traced" and r_squared(auto.values, reference.values) > 0.99
+
+
+def test_bad_words_and_tolerances_are_named():
+    lens, source, pixel, _ = off_axis()
+    with pytest.raises(RequestError, match="choose auto, gaussian, seidel"):
+        render(lens, source, "magic", 32, pixel)
+    with pytest.raises(SamplingError, match="settled"):
+        render(lens, source, "traced", 32, pixel, "quick")
+    with pytest.raises(RequestError, match="below 1"):
+        choose(lens, source, 1.0)
+    with pytest.raises(GeometryError, match="chief ray"):
+        choose(lens, Source(inf, 5.0, 0.6562725), 0.99)
+
+
+def test_the_trade_is_one_table_one_picture_and_one_json():
+    lens = replace(double_gauss(), fields_deg=(0.0, 14.0))
+    rows = tradeoff(lens, pixels=16)
+    assert {row.method for row in rows} == set(METHODS) and {row.field_deg for row in rows} == {0.0, 14.0}
+    plain = json.loads(to_json(rows))
+    assert len(plain) == len(rows) and plain[0]["depth_mm"] is None
+    assert all(row.seconds > 0 and row.bytes > 0 for row in rows)
+    lines = table(rows)
+    assert len(lines) == len(rows) + 1 and len({len(line) for line in lines}) == 1
+    picture = BytesIO()
+    draw(picture, rows, "Double Gauss")
+    assert picture.getvalue().startswith(b"\x89PNG")
+    best = front(rows)
+    assert [r.seconds for r in best] == sorted(r.seconds for r in best)
+    assert np.all(np.diff([error(r) for r in best]) < 0)

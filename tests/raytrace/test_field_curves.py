@@ -1,0 +1,94 @@
+"""Focal surfaces, distortion and colour shift: exact rays against the third order, and laws of symmetric lenses."""
+
+from math import inf
+
+import numpy as np
+import pytest
+
+from p2sf.glass.media import ConstantIndex
+from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.seidel import coefficients
+from p2sf.raytrace import field_curves as fieldcurves
+
+SMALL = np.array([0.01, 0.02])
+NAMES = ("double_gauss_28", "cooke_triplet", "landscape", "eye_navarro", "telephoto")
+
+
+def focused(name):
+    lens, source = find_lens(name), Source(inf, 0.0, 0.5875618)
+    return with_sensor(lens, float(image_distance(lens, inf, source.wavelength_um))), source
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("which", ["sagittal", "tangential"])
+def test_near_the_axis_exact_foci_are_the_third_orders(name, which):
+    lens, source = focused(name)
+    real = getattr(fieldcurves.real_foci(lens, source, SMALL), which)
+    third = getattr(fieldcurves.seidel_foci(coefficients(lens, inf, SMALL, source.wavelength_um)), which)
+    rest = np.abs(real - third)
+    # What is left is the spherical aberration of the pencil, NEAR² of W40's, and the fifth order, h⁴.
+    assert rest == pytest.approx(np.zeros(2), abs=2e-2 * np.abs(third).max())
+    assert third[1] / third[0] == pytest.approx(4, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_distortion_tends_to_the_third_orders_with_its_sign(name):
+    lens, source = focused(name)
+    found = fieldcurves.heights(lens, source, np.append(0.0, SMALL))
+    assert found.distortion[0] == found.third_order_distortion[0] == 0
+    assert found.distortion[1:] == pytest.approx(found.third_order_distortion[1:], rel=2e-2)  # the fifth order
+
+
+def test_a_stop_in_front_makes_a_barrel_and_one_behind_a_cushion():
+    """Welford 1986, §8: a singlet's distortion turns its sign with the side the stop is on."""
+    lens = find_lens("landscape")
+    assert lens.stop_surface == 1 or lens.stop_surface == len(lens.surfaces)
+    sign = fieldcurves.heights(lens, Source(), np.array([0.3])).distortion[0]
+    assert (sign > 0) == (lens.stop_surface == len(lens.surfaces))
+
+
+def test_a_symmetric_relay_at_unit_magnification_has_next_to_no_distortion():
+    lens = find_lens("relay")
+    found = fieldcurves.heights(lens, Source(95.0, 0.0, 0.5875618), np.array([1e-3]))
+    assert abs(found.distortion[0]) < 3e-6, "95 mm is near 1:1, not at it"
+
+
+def test_a_bare_plane_image_of_one_sphere_has_petzvals_curvature():
+    """One surface with the stop at its centre of curvature: no astigmatism, image on the sphere of radius n′·f′/n."""
+    index, radius = 1.5, 50.0
+    ball = Lens(
+        (Surface(radius, radius, ConstantIndex(index)), Surface(inf, 2 * radius, ConstantIndex(index))),
+        Aperture("stop_semi_diameter", 1.0),
+        stop_surface=2,
+    )
+    slope = np.array([0.05, 0.1])
+    foci = fieldcurves.real_foci(ball, Source(), slope)
+    assert foci.sagittal == pytest.approx(foci.tangential, abs=1e-6)
+    reach = index * radius / (index - 1) - radius  # from the centre of curvature to the focus
+    turn = np.arctan(slope)
+    assert foci.sagittal == pytest.approx(reach * np.cos(turn) - 2 * radius, abs=1e-4)
+
+
+def test_a_lost_chief_ray_is_no_number_and_spoils_no_other():
+    lens = find_lens("double_gauss_28")
+    slope = np.array([0.1, 3.0])
+    assert np.isnan(fieldcurves.real_foci(lens, Source(), slope).sagittal).tolist() == [False, True]
+    assert np.isnan(fieldcurves.heights(lens, Source(), slope).distortion).tolist() == [False, True]
+
+
+def test_blue_comes_first_in_a_simple_lens_and_the_paraxial_zone_is_the_limit():
+    lens, wave = find_lens("plano_convex"), np.array([0.4861327, 0.5875618, 0.6562725])
+    shift = fieldcurves.colour_shift(lens, inf, wave, (0.0, 1e-3, 1.0))
+    assert (np.diff(shift[0]) > 0).all()
+    assert shift[1] == pytest.approx(shift[0], abs=1e-5 * abs(shift[2] - shift[0]).max() + 1e-9)
+    assert (shift[2] < shift[0]).all(), "rim rays of an undercorrected lens meet first"
+
+
+def test_an_achromat_brings_two_colours_together():
+    lens = find_lens("achromat_f6")
+    shift = fieldcurves.colour_shift(lens, inf, np.array([0.4861327, 0.5875618, 0.6562725]), (0.0,))[0]
+    single = fieldcurves.colour_shift(find_lens("singlet_f6"), inf, np.array([0.4861327, 0.6562725]), (0.0,))[0]
+    assert abs(shift[0] - shift[2]) < 0.1 * abs(single[0] - single[1])

