@@ -16,7 +16,7 @@ from p2sf.io.psf_files import ENDINGS, write_psf
 from p2sf.io.record import describe, facts
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.metrics import centroid, radius_of_energy
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.request import Setup, set_up
 
 MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine

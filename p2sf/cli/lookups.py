@@ -9,7 +9,7 @@ from p2sf.database_files import Stored
 from p2sf.errors import RequestError
 from p2sf.files.writing import plain
 from p2sf.lens.source import Source
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.request import Request
 
 FROM_THE_LENS = {"object_height_mm": None, "focus_mm": None, "f_number": None, "stop": "file"}

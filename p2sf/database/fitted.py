@@ -19,7 +19,8 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.fitted import summed
 from p2sf.psf.plane_waves import Made, psf_from_intensity
-from p2sf.psf.seidel import Psf, suitable_pixel_um
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.zernike import basis, gradient, terms
 from p2sf.raytrace.fit import FittedPencil, Level, Steepness, level_rays

@@ -6,7 +6,8 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.lens.source import Source
-from p2sf.psf.seidel import Psf, check_image, check_window, seidel_psf
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import check_image, check_window, seidel_psf
 from p2sf.psf.seidel_stack import stack_of
 
 

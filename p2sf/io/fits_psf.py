@@ -11,7 +11,7 @@ from p2sf import __version__
 from p2sf.errors import ExportError
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.record import facts
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 
 META = "P2SFMETA"
 

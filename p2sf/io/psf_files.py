@@ -11,7 +11,7 @@ from p2sf.files.atomic import DAMAGED, read_arrays
 from p2sf.files.raster_size import first_page
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.record import CONVENTIONS, caption, facts
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 
 UM_PER_CM = 1e4
 ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom

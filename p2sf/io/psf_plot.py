@@ -6,7 +6,7 @@ import numpy as np
 
 from p2sf.colour.colorimetry import srgb_from_linear
 from p2sf.psf.polychromatic import faint_rgb
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 
 BAR_SHARE = 0.25  # the scale bar takes at most this share of the width
 

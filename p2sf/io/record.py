@@ -11,7 +11,7 @@ from p2sf import __version__
 from p2sf.conventions import NM_PER_UM
 from p2sf.files.writing import plain
 from p2sf.lens.lens import Lens
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.request import Setup
 
 CONVENTIONS = (

@@ -6,7 +6,7 @@ import numpy as np
 
 from p2sf.errors import SamplingError
 from p2sf.psf.metrics import centroid, radius_of_energy
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 
 SAME_PITCH = 1e-9  # relative: the rounding of a pitch written to a file and read again
 

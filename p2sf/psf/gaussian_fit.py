@@ -6,7 +6,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.psf.metrics import centroid
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 
 WIDTHS = (0.5, 1.0, 2.0)  # starts, times the reference's own spread: narrow core, whole, wide skirt
 NARROWEST = 0.3  # of a pixel: below it a sampled Gaussian is one sample and its width says nothing

@@ -16,7 +16,7 @@ from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.plane_waves import Made, counts_for, psf_from_intensity, pupil_amplitude, resolved
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.pencil import hexapolar, pencil

@@ -24,7 +24,8 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import Filling, huygens_psf
-from p2sf.psf.seidel import Psf, seidel_psf, suitable_pixel_um
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays

@@ -10,7 +10,8 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import SamplingError
-from p2sf.psf.seidel import AIRY_RADIUS, Psf
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import AIRY_RADIUS
 
 NEAR, FINER = 6, 5  # within how many pixels of its centre a PSF is interpolated, and how much finer, for its energy
 

@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import nodes_for
 from p2sf.raytrace.fit import Steepness

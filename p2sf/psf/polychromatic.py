@@ -16,7 +16,8 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import render
-from p2sf.psf.seidel import Psf, check_image, suitable_pixel_um
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import check_image, suitable_pixel_um
 from p2sf.raytrace.pencil import pencil
 
 COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm

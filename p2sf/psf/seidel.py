@@ -1,6 +1,5 @@
-"""The point spread function as a result: samples, scale, and how they came about; and the one Seidel gives."""
+"""The PSF of the six coefficients over a uniform circular pupil: the `seidel` method."""
 
-from dataclasses import dataclass
 from math import isfinite
 from time import perf_counter
 
@@ -11,6 +10,7 @@ from p2sf.errors import GeometryError, SamplingError
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf._seidel_sum import wave_number
+from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import Stack, corner_reach, stack_of
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
 from p2sf.pupil.transform import check_fft, padded_fft, sum_plane_waves
@@ -20,40 +20,6 @@ WINDOW_AIRY_RADII = 5
 LARGEST_SAMPLES = 2**28  # of all PSFs of a call: 2 GiB of float64
 FFT_RADIUS = {"preview": 64, "settled": 256}  # pupil radius in FFT samples: its rim is only second-order accurate
 LARGEST_FFT = 4096
-
-
-@dataclass(frozen=True)
-class Psf:
-    """One PSF, or a stack of them, and how it was made.
-
-    ``values``: (…, y, x), unit sum in the window, rows +y (the field's direction), sample N//2 the chief ray.
-    ``strehl``: peak over the unaberrated peak of the same pupil, None where no pupil is behind it. ``energy``: fraction
-    of all light that falls into the window. ``numbers``: how many coefficients describe it; ``rays``: how many traced.
-    ``sampling`` says in words what grid was used; ``seconds`` how long it took; ``tolerance`` what the method
-    itself promises (relative L2 in the window), None where it promises nothing.
-    """
-
-    values: np.ndarray
-    pixel_um: float
-    wavelength_um: float
-    method: str
-    strehl: float | np.ndarray | None
-    energy: float | np.ndarray | None = None
-    numbers: int = 0
-    rays: int = 0
-    sampling: str = ""
-    seconds: float = 0.0
-    tolerance: float | None = None
-
-    @property
-    def x_um(self) -> np.ndarray:
-        """Column positions, µm from the chief ray."""
-        return centred_axis(self.values.shape[-1], self.pixel_um)
-
-    @property
-    def y_um(self) -> np.ndarray:
-        """Row positions, µm from the chief ray, towards the field."""
-        return centred_axis(self.values.shape[-2], self.pixel_um)
 
 
 def seidel_psf(

@@ -17,7 +17,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.huygens import PLAIN, Filling, huygens_psf
 from p2sf.psf.plane_waves import Made, psf_from_intensity, resolved
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import FrequencyRows, rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import FittedPencil, fit

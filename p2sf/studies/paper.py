@@ -16,7 +16,8 @@ from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.seidel import Psf, seidel_psf
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.traced import traced_psf
 
 LENS, FIELDS_DEG, WAVELENGTH_NM = "double_gauss_28", (0.0, 10.0, 14.0), 656.3

@@ -16,7 +16,8 @@ from p2sf.psf.compare import Errors, compare
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import METHODS, render
-from p2sf.psf.seidel import Psf, suitable_pixel_um
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import suitable_pixel_um
 
 PIXELS = 64
 REPEATS = 9

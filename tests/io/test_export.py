@@ -14,7 +14,7 @@ from p2sf.errors import ExportError
 from p2sf.files.writing import check_place, plain, write_beside, write_json
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.io.psf_plot import edges_um, round_length
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 
 META = {"lens": {"name": "made_up"}, "setup": {"depth_mm": np.inf, "field_deg": 14.0}}
 
@@ -152,7 +152,7 @@ import matplotlib.font_manager  # it keeps a cache on disk, which is not to brea
 import numpy as np
 from p2sf.errors import ExportError
 from p2sf.io.psf_files import write_psf
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 noise = np.random.default_rng(1).random((64, 64))

@@ -5,8 +5,7 @@ import pytest
 
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import catalogue_glass
-from p2sf.lensfile.agf import Catalogue, FormulaGlass, read_agf
-from p2sf.lensfile.agf_formulas import refractive_index
+from p2sf.lensfile.agf import Catalogue, FormulaGlass, read_agf, refractive_index
 from p2sf.lensfile.importing import import_lens
 from tests.support.lens_files import FOLDER, read, text_of
 

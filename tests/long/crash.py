@@ -27,7 +27,7 @@ from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
 from p2sf.lensfile.writing import write_lens
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf_explorer.files import recent
 from p2sf_explorer.files.recent import remember
 from p2sf_explorer.files.snapshot import write_state

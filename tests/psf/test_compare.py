@@ -7,7 +7,7 @@ from p2sf.conventions import centred_axis, mirrored
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import compare, r_squared, relative_l2
 from p2sf.psf.gaussian_fit import gaussian, gaussian_psf
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from tests.support.reference import huygens_rows
 
 AXIS = centred_axis(64, 0.5)

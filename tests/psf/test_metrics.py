@@ -18,7 +18,8 @@ from p2sf.psf.metrics import (
     radius_of_energy,
     strehl,
 )
-from p2sf.psf.seidel import Psf, seidel_psf
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import seidel_psf
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
 AIRY = seidel_psf(waves(), 255, 0.5)

@@ -1,13 +1,18 @@
-"""A wavefront as a surface in space, seen from one side and above, by array arithmetic alone. No Qt in here.
-
-The surface is cut into slices across the line of sight. A pixel shows the first slice that passes its height: in rising
-the upper side, in falling the under side. How many slices come before is counted for all pixels at once.
-"""
+"""The wavefront as a surface that the mouse and the arrow keys turn."""
 
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QColor, QImage, QPainter, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from p2sf_explorer.charts.painting import pen, polygon, write
+from p2sf_explorer.charts.plots import EMPTY, as_indices, lookup
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.state.camera import Eye, turned
 
 HEIGHT = 0.6  # pupil radii that stand for the colour bar's end
 HALF = 1.2  # pupil radii from the middle of the picture to its edge
@@ -114,3 +119,140 @@ def neighbours(xi: np.ndarray, eta: np.ndarray, count: int) -> tuple[np.ndarray,
     both = [(j, i) for j in (0, 1) for i in (0, 1)]
     weights = [(up if j else 1 - up) * (right if i else 1 - right) for j, i in both]
     return np.array([(row + j) * count + column + i for j, i in both]), np.array(weights)
+
+
+COUNTS = {"preview": 128, "settled": 256}
+SHADES = 24
+TURN_DEG = 5.0
+KEYS = Qt.Key
+TURNS = {
+    KEYS.Key_Left: (-TURN_DEG, 0.0),
+    KEYS.Key_Right: (TURN_DEG, 0.0),
+    KEYS.Key_Up: (0.0, TURN_DEG),
+    KEYS.Key_Down: (0.0, -TURN_DEG),
+}
+DEG_PER_PX = 0.5
+FIRST = Eye(-30.0, 35.0)  # ξ to the right, η away from the eye
+AWAY = 1.12  # pupil radii from the middle to an axis's name
+AXES = (("ξ", (1.0, 0.0)), ("η", (0.0, 1.0)))
+
+
+class ReliefView(QWidget):
+    """Drag or arrow keys turn the surface, a double-click or Home goes back; ``turned`` tells of where it is let go."""
+
+    turned = Signal(float, float)
+    taken, released = Signal(), Signal()
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumSize(120, 90)
+        self.setAccessibleName(tr("The wavefront as a surface; drag it or use the arrow keys to turn it"))
+        self.setToolTip(tr("Drag or use the arrow keys to turn the surface; a double-click goes back"))
+        self._theme, self._map, self.eye = LIGHT, "CET-D1A", FIRST
+        self.pixels = np.zeros((1, 1), np.uint32)
+        self._held: tuple[QPointF, Eye] | None = None
+
+    def show_waves(self, waves: np.ndarray, limit: float, quality: str, eye: Eye) -> None:
+        """Show W in waves over the pupil, ``limit`` waves as high as the colour bar's end."""
+        self.eye = eye
+        seen = relief(waves, limit, View(eye.turn, eye.tilt, COUNTS[quality]))
+        shade = (seen.light * (SHADES - 1)).astype(np.intp)
+        self.pixels = shaded(self._map)[shade, as_indices(seen.waves, -limit, limit)][::-1].copy()
+        self.update()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.update()
+
+    def to_pixels(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return where a place of the picture lies, pupil radii from its middle, in pixels of the widget."""
+        side = min(self.width(), self.height()) / (2 * HALF)
+        return self.width() / 2 + side * x, self.height() / 2 - side * y
+
+    def paintEvent(self, event) -> None:
+        """Paint the pupil's plane, the surface above and below it, and the focus."""
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), QColor(self._theme.card))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._paint_plane(painter)
+        (left, right), (bottom, top) = self.to_pixels(np.array([-HALF, HALF]), np.array([-HALF, HALF]))
+        rows, columns = self.pixels.shape
+        image = QImage(self.pixels.data, columns, rows, 4 * columns, QImage.Format.Format_ARGB32)
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+        painter.drawImage(QRectF(left, top, right - left, bottom - top), image)
+        self._paint_names(painter)
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(self._theme.accent), 1))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+
+    def _paint_plane(self, painter: QPainter) -> None:
+        """Paint the rim at W = 0 and its two axes, which the surface may hide."""
+        turn = np.linspace(0, 2 * np.pi, 73)
+        painter.setPen(pen(self._theme.line))
+        painter.drawPolyline(polygon(*self.to_pixels(*self._level(np.cos(turn), np.sin(turn)))))
+        ends = np.array([-1.0, 1.0])
+        for _, (xi, eta) in AXES:
+            painter.drawPolyline(polygon(*self.to_pixels(*self._level(xi * ends, eta * ends))))
+
+    def _paint_names(self, painter: QPainter) -> None:
+        """Paint the axes' names at their ends, on top: a surface may stand before them."""
+        painter.setPen(pen(self._theme.text))
+        for name, (xi, eta) in AXES:
+            x, y = self.to_pixels(*self._level(AWAY * xi, AWAY * eta))
+            write(painter, QRectF(x - 20, y - 8, 40, 16), name)
+
+    def _level(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return where points of the plane W = 0 are seen, pupil radii from the picture's middle."""
+        turn, tilt = np.deg2rad(self.eye.turn), np.deg2rad(self.eye.tilt)
+        return xi * np.cos(turn) + eta * np.sin(turn), np.sin(tilt) * (eta * np.cos(turn) - xi * np.sin(turn))
+
+    def _turn(self, eye: Eye) -> None:
+        self.turned.emit(eye.turn, max(0.0, eye.tilt))
+
+    def mousePressEvent(self, event) -> None:
+        """Take hold of the surface."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._held = event.position(), self.eye
+            self.taken.emit()
+
+    def mouseMoveEvent(self, event) -> None:
+        """Turn it while held."""
+        if self._held:
+            start, eye = self._held
+            moved = event.position() - start
+            self._turn(turned(eye, -DEG_PER_PX * moved.x(), DEG_PER_PX * moved.y()))
+
+    def mouseReleaseEvent(self, event) -> None:
+        """Let go."""
+        if self._held:
+            self._held = None
+            self.released.emit()
+
+    def mouseDoubleClickEvent(self, event) -> None:
+        """Go back to the first view."""
+        self._turn(FIRST)
+
+    def keyPressEvent(self, event) -> None:
+        """Turn with the arrows, go back with Home."""
+        if event.key() in TURNS:
+            self._turn(turned(self.eye, *TURNS[event.key()]))
+        elif event.key() == KEYS.Key_Home:
+            self._turn(FIRST)
+        else:
+            super().keyPressEvent(event)
+
+
+@lru_cache(maxsize=4)
+def shaded(name: str) -> np.ndarray:
+    """Return a colour map in `SHADES` brightnesses, (shade, index) of 0xAARRGGBB; no value is transparent."""
+    colours = lookup(name)[None]
+    light = np.arange(SHADES)[:, None] / (SHADES - 1)
+    parts = [((colours >> shift & 255) * light).astype(np.uint32) << shift for shift in (0, 8, 16)]
+    table = np.uint32(0xFF000000) | parts[0] | parts[1] | parts[2]
+    table[:, EMPTY] = 0
+    return table

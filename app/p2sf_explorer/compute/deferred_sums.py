@@ -7,7 +7,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.huygens import Filling, all_reach, huygens_psf
 from p2sf.psf.plane_waves import counts_for
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import row_counts
 from p2sf.psf.traced import in_rows, traced_psf
 from p2sf.raytrace.fit import FittedPencil

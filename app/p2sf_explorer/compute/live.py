@@ -9,7 +9,7 @@ import numpy as np
 from p2sf.errors import P2SFError
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.metrics import airy_radius_um
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.raytrace.pencil import opd_map
 from p2sf_explorer.compute.deferred_sums import Asked, Done
 from p2sf_explorer.compute.layout import Layout, layout

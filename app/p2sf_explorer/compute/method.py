@@ -6,7 +6,8 @@ from math import floor, log10, sqrt
 from p2sf.errors import GeometryError
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.metrics import airy_radius_um
-from p2sf.psf.seidel import Psf, check_image, seidel_psf, suitable_pixel_um
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import check_image, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import in_rows
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import pencil

@@ -10,7 +10,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.plane_waves import Made, psf_from_intensity
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import rows_for
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import LEVELS, FittedPencil, fit, fit_rays, level_rays

@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.ranges import focused_distance
 from p2sf_explorer.compute.setup import Setting

@@ -8,7 +8,7 @@ from threading import Event
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.huygens import Filling, huygens_psf
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import PIXELS, window_um
 from p2sf_explorer.compute.warnings import remedy

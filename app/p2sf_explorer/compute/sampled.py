@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from p2sf.psf.seidel import Psf, seidel_psf
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.compute.deferred_sums import asked, by_rays
 from p2sf_explorer.compute.method import too_blurred
 from p2sf_explorer.compute.preview import quick, quick_psf

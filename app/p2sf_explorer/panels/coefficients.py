@@ -11,8 +11,7 @@ from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import PRESETS, SHORT_NOTE, UNTOUCHED, of_preset, toggled, with_added
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
-from p2sf_explorer.widgets.coefficient_mixer import Mixer
-from p2sf_explorer.widgets.coefficient_mixer_parts import NAMES
+from p2sf_explorer.widgets.coefficient_mixer import NAMES, Mixer
 
 TIP = "Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves."
 FREE_TIP = "Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients."

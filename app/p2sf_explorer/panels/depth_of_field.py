@@ -13,7 +13,7 @@ from p2sf_explorer.state.scales import told_apart, written_distance
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import NotedChart, legend
-from p2sf_explorer.widgets.quantity_edit import MicronEdit
+from p2sf_explorer.widgets.value_edit import MicronEdit
 
 TIP = (
     "Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's "

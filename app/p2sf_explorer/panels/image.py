@@ -28,10 +28,9 @@ from p2sf_explorer.results.image import (
 )
 from p2sf_explorer.results.photos import CHART_WORDS
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import chooser, select
+from p2sf_explorer.widgets.card import SideCard, chooser, select
 from p2sf_explorer.widgets.drop import PhotoDrop
 from p2sf_explorer.widgets.plan_note import PlanLine, Why, small_button
-from p2sf_explorer.widgets.side_card import SideCard
 from p2sf_explorer.widgets.split_view import Wipe
 from p2sf_explorer.workers.worker import LatestWins
 

@@ -5,7 +5,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
-from p2sf_explorer.widgets.quantity_edit import MicronEdit
+from p2sf_explorer.widgets.value_edit import MicronEdit
 
 TIP = "MTF: contrast left of a sine pattern, |FT of the PSF|; grey: a perfect lens, (2/π)(acos ν − ν√(1−ν²))."
 PIXEL_TIP = "Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch)."

@@ -11,7 +11,7 @@ from p2sf_explorer.results.pixels import Beside
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import ChartsCard
-from p2sf_explorer.widgets.quantity_edit import MicronEdit
+from p2sf_explorer.widgets.value_edit import MicronEdit
 
 TIP = (
     "The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated "

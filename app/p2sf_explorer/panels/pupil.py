@@ -4,7 +4,7 @@ import numpy as np
 
 from p2sf_explorer.charts.contour import contours, interval
 from p2sf_explorer.charts.plots import HeatMap
-from p2sf_explorer.charts.surface_view import ReliefView
+from p2sf_explorer.charts.surface_plot import ReliefView
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.state.camera import Eye

@@ -23,8 +23,62 @@ from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.pixels import samples_across
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Plan, Scene, Sensor, plan
-from p2sf_explorer.results.image_words import count_words, frame_words, plan_words
-from p2sf_explorer.results.photos import NOISE, channels_of, scene_values
+from p2sf_explorer.results.photos import NOISE, channels_of, cut_away, scene_values
+
+SEEN = 0.005  # of a photo's side: less is a pixel or two
+
+
+def count_words(made: Plan) -> tuple[str, str]:
+    """Return how many PSFs make the picture, and the product that it is."""
+    rows, columns = made.counts
+    waves = sum(len(colour.wavelengths_um) for colour in made.colours)
+    twins = made.scene.sensor.centred and rows * columns > 1
+    once = (-(-rows // 2)) * (-(-columns // 2)) if twins else rows * columns
+    text = f"{rows} × {columns} places × {waves} wavelengths"
+    many = f"{once * waves} PSFs"
+    return many, f"{text}, mirror images for nothing" if twins and once < rows * columns else text
+
+
+PLAIN = {  # in the order they are told
+    "field": "Places",
+    "colour": "Colour",
+    "rung": "Method",
+    "terms": "Phase",
+    "sampling": "Sampling",
+    "depth": "Depths",
+    "pupils": "Pupils",
+}
+
+
+def plan_words(made: Plan) -> tuple[tuple[str, str], ...]:
+    """Return every decision of a plan as (what, sentence); rings of the field that agree are told once."""
+    found: dict[tuple[str, str, str], list[float]] = {}
+    for decision in made.decisions:
+        kind, _, which = decision.what.partition(" ")
+        name = f"{PLAIN[kind]} {which}" if kind == "colour" else PLAIN[kind]
+        found.setdefault((name, decision.choice, decision.why), []).append(decision.error)
+    rows = [(name, f"{choice}: {why} (error {max(errors):.1g})") for (name, choice, why), errors in found.items()]
+    order = list(PLAIN.values())
+    rows.sort(key=lambda row: order.index(row[0].split(" ")[0]))
+    verdict = "keeps" if made.meets else "does not keep"
+    saved = made.naive.kernel_seconds / made.cost.kernel_seconds
+    kept = f"{made.predicted_error:.2g} relative, {verdict} {made.scene.relative_tolerance:g}"
+    promise = f"{kept}; the full grid takes {saved:.0f} times as long"
+    return (("Error", promise), *rows)
+
+
+def frame_words(photo: str, shape: tuple[int, int]) -> tuple[str, str]:
+    """Return what becomes of a photo of other proportions than the sensor's, in short and in a sentence; RequestError.
+
+    Nothing where all of it is taken.
+    """
+    for share, side, ends in zip(cut_away(photo, shape), ("height", "width"), ("top and bottom", "sides"), strict=True):
+        if share > SEEN:
+            why = f"The sensor has {shape[1]} × {shape[0]} pixels and the photo other proportions"
+            long = f"{why}, so that it fills the frame and its {ends} are cut off, {100 * share:.0f} % of its {side}."
+            return f"{ends} of the photo cut off", long
+    return "", ""
+
 
 ROWS, COLUMNS = 208, 312
 MOST_SAMPLES = 24  # of λ/2NA across a pixel: a plan of larger pixels takes minutes, and they hide what it is about

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf_explorer.results.profiles import airy_curves
 
 MOST_PIXELS = 201  # across the window; finer pixels are not told apart on screen

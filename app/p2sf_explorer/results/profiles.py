@@ -10,7 +10,8 @@ from p2sf.paraxial.wavefront import steepest_polar, wavefront
 from p2sf.psf.fitted import fit
 from p2sf.psf.metrics import centroid, encircled_energy
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
-from p2sf.psf.seidel import Psf, corner_reach
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import corner_reach
 from p2sf.pupil.quadrature import disc_nodes, nodes_for
 from p2sf.pupil.transform import sum_on_line
 from p2sf_explorer.compute.sampled import by_coefficients

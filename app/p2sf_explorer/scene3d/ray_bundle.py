@@ -8,7 +8,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf.raytrace.pencil import Pencil, hexapolar, opd_on_sphere, pencil, pupil_rays, trace
 from p2sf_explorer.compute.layout import Drawing
 from p2sf_explorer.compute.setup import Setting

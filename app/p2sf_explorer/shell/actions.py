@@ -18,8 +18,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.choices import everything, fill
 from p2sf_explorer.shell.command_palette import Palette
-from p2sf_explorer.shell.help import help_text
-from p2sf_explorer.shell.help_page import HelpPage
+from p2sf_explorer.shell.help import HelpPage, help_text
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.copying import card_in_hand, copy_data, copy_picture, png_of
 

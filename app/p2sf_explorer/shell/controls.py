@@ -2,6 +2,7 @@
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
+    QCheckBox,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -16,14 +17,47 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
 from p2sf_explorer.compute.setup import Ranges, default_state, prescription, ranges
 from p2sf_explorer.i18n.tr import tr, unbroken
-from p2sf_explorer.results.facts import OF_A, rows
+from p2sf_explorer.results.first_order import OF_A, rows
 from p2sf_explorer.shell.show import UNKNOWN
-from p2sf_explorer.shell.stop_row import StopRow
 from p2sf_explorer.state.scales import Vergence, short_distance, signed
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.readout import FactTable, Readout, scrolled
 from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.widgets.value_edit import PlayButton, ValueEdit
+
+STOP_TIP = "Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|."
+CLIP_TIP = "Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis."
+CHOICES = (("file", "as in the file"), ("auto", "found"))
+
+
+class StopRow(QWidget):
+    """Chooser and check box; they tell the store and follow the state."""
+
+    def __init__(self, store: Store, parent=None):
+        super().__init__(parent)
+        name = QLabel(tr("Stop"), self)
+        name.setToolTip(tr(STOP_TIP))
+        self.stop = chooser(CHOICES, STOP_TIP, self)
+        self.clip = QCheckBox(tr("Clip at rims"), self)
+        self.clip.setToolTip(tr(CLIP_TIP))
+        self.stop.activated.connect(lambda: store.update(stop=self.stop.currentData()))
+        self.clip.toggled.connect(lambda on: store.update(clip=on))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(name)
+        row.addWidget(self.stop)
+        row.addStretch(1)
+        row.addWidget(self.clip, 0, Qt.AlignmentFlag.AlignRight)
+
+    def show_state(self, state) -> None:
+        """Follow a state; no signal goes back."""
+        select(self.stop, state.stop)
+        if self.clip.isChecked() != state.clip:
+            self.clip.blockSignals(True)
+            self.clip.setChecked(state.clip)
+            self.clip.blockSignals(False)
+
 
 WIDTH = 292
 

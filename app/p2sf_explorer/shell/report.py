@@ -15,7 +15,7 @@ from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.i18n.tr import tr, unbroken
-from p2sf_explorer.results.facts import described_depth, rows
+from p2sf_explorer.results.first_order import described_depth, rows
 from p2sf_explorer.shell.lens_cards import shown_title
 from p2sf_explorer.state.scales import signed, significant
 from p2sf_explorer.state.state import State

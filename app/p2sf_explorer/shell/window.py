@@ -5,7 +5,7 @@ from time import perf_counter
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.charts.theme import SPACE, palette, stylesheet, tokens
@@ -29,9 +29,21 @@ from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.drop import dropped, is_photo
-from p2sf_explorer.widgets.splitting import splitter
 from p2sf_explorer.workers.deferred import Settling
 from p2sf_explorer.workers.live_accuracy import Measuring
+
+
+def splitter(orientation: Qt.Orientation, widgets: list[QWidget], shares: tuple[int, ...]) -> QSplitter:
+    """Return a splitter whose parts keep these shares of the room."""
+    made = QSplitter(orientation)
+    made.setHandleWidth(SPACE)
+    made.setChildrenCollapsible(False)
+    for k, (widget, share) in enumerate(zip(widgets, shares, strict=True)):
+        made.addWidget(widget)
+        made.setStretchFactor(k, share)
+    made.setSizes([100 * share for share in shares])
+    return made
+
 
 ENTRIES = {entry.key: entry for entry in REGISTRY}
 MAIN = tuple(entry.key for entry in REGISTRY if entry.place == "main")

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QObject
 
-from p2sf.psf.seidel import Psf
+from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import Asked, Done, by_rays
 from p2sf_explorer.i18n.messages import spoken
 from p2sf_explorer.state.state import State

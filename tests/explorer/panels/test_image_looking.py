@@ -25,14 +25,14 @@ from p2sf_explorer.results.image import (
     ROWS,
     TOO_LARGE,
     forming,
+    frame_words,
     local_psf,
     pixels,
     planning,
 )
-from p2sf_explorer.results.image_words import frame_words
 from p2sf_explorer.results.photos import cut_away, scene_values
 from p2sf_explorer.widgets.copying import png_of
-from p2sf_explorer.widgets.split_layout import close_up, rooms
+from p2sf_explorer.widgets.split_view import close_up, rooms
 
 
 def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):

@@ -8,9 +8,8 @@ from PySide6.QtWidgets import QApplication
 from p2sf_explorer.compute.setup import shipped, title
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.choices import everything
-from p2sf_explorer.shell.command_palette import named
-from p2sf_explorer.shell.fuzzy import ranked, score
-from p2sf_explorer.shell.help_page import HelpPage
+from p2sf_explorer.shell.command_palette import named, ranked, score
+from p2sf_explorer.shell.help import HelpPage
 from p2sf_explorer.state.what_if import PRESETS
 
 

@@ -20,7 +20,7 @@ from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, is_altered, of_preset, toggled, with_added
-from p2sf_explorer.widgets.coefficient_mixer_parts import NUMBER, waves
+from p2sf_explorer.widgets.coefficient_mixer import NUMBER, waves
 
 FIELD = State(method="fitted", field_deg=7.0)
 
