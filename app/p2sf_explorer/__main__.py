@@ -48,22 +48,22 @@ def _open(state: State, geometry: dict[str, str]) -> int:
     from PySide6.QtWidgets import QApplication
 
     from p2sf_explorer.charts.theme import configure_plots
-    from p2sf_explorer.files.session_keeper import Keeping
-    from p2sf_explorer.shell.language_switch import Speaking
-    from p2sf_explorer.shell.window import Window
+    from p2sf_explorer.files.session_keeper import SessionKeeper
+    from p2sf_explorer.shell.language_switch import LanguageSwitch
+    from p2sf_explorer.shell.window import MainWindow
 
     application = QApplication.instance() or QApplication(sys.argv[:1])
     application.setApplicationName("P2SF Explorer")
     application.setStyle("Fusion")
     configure_plots()
 
-    def made(state: State) -> Window:
-        window = Window(state)
-        Keeping(window, geometry)
+    def made(state: State) -> MainWindow:
+        window = MainWindow(state)
+        SessionKeeper(window, geometry)
         window.teaching.offer_once()
         return window
 
-    speaking = Speaking(state, made, application)
+    speaking = LanguageSwitch(state, made, application)
     speaking.window.show()
     return application.exec()
 

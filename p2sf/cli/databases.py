@@ -73,7 +73,7 @@ class Kind:
     Attributes
     ----------
     method
-        Rung of the accuracy ladder that the numbers describe.
+        Rung of the methods that the numbers describe.
     interpolant
         What stands between the nodes: exact polynomials, the paper's table 1, or straight lines.
     stack
@@ -171,12 +171,12 @@ def _check_ending(output: Path, ending: str) -> None:
 
 def _write_stack(database, lens, output: Path, kind: Kind) -> None:
     """Fill a stack, with a line of progress on a terminal."""
-    from p2sf.database_files.stack_write import Watch, write_stack
+    from p2sf.database_files.stack_write import StackProgress, write_stack
 
     def tell(done: int, total: int, seconds_left: float) -> None:
         print(f"\r{done} of {total} chunks, {seconds_left:.0f} s left ", end="", file=sys.stderr, flush=True)
 
-    watch = Watch(progress=tell) if sys.stderr.isatty() else Watch()
+    watch = StackProgress(progress=tell) if sys.stderr.isatty() else StackProgress()
     write_stack(database, lens, output, Sampling(kind.pixels, kind.pixel_um), watch, kind.scheduler)
     if sys.stderr.isatty():
         print(file=sys.stderr)

@@ -8,7 +8,7 @@ from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, magnification
-from p2sf.paraxial.lens_checks import oddities
+from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.pupils import f_number, numerical_aperture, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients, seidel_sums
 from p2sf.request import Setup, set_up
@@ -49,7 +49,7 @@ def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = 
     facts = first_order(setup)
     if as_json:
         return print_json(facts)
-    for sentence in (setup.stop.warning, *oddities(setup.prescription)):
+    for sentence in (setup.stop.warning, *lens_checks(setup.prescription)):
         warn(sentence)
     chosen = {"file": "as the file says", "auto": "the narrowest rim"}[setup.stop.chosen_by]
     notes = {"stop_surface": chosen}

@@ -29,7 +29,7 @@ class Picture:
     Attributes
     ----------
     method
-        Rung of the accuracy ladder; auto takes the cheapest one that holds the tolerance.
+        Rung of the methods; auto takes the cheapest one that holds the tolerance.
     tolerance
         Least R² against the exact reference that auto accepts.
     sampling
@@ -118,10 +118,10 @@ def render(setup: Setup, picture: Picture) -> Psf:
     method = picture.method or "auto"
     if picture.seidel:
         return _from_coefficients(setup, picture)
-    from p2sf.studies import ladder
+    from p2sf.psf import methods
 
     grid = {"pixels": picture.pixels, "pixel_um": picture.pixel_um}
-    return ladder.render(setup.lens, setup.source, method=method, tolerance=picture.tolerance, **grid)
+    return methods.render(setup.lens, setup.source, method=method, tolerance=picture.tolerance, **grid)
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:

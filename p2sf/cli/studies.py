@@ -38,19 +38,19 @@ def tradeoff(
     as_json: Json = False,
 ) -> None:
     """Measure every method against the exact reference: errors, numbers, rays, time and memory; .json, .csv or .png."""
-    from p2sf.studies import ladder
+    from p2sf.studies import tradeoff
 
     check_output(output, WRITTEN)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     depths = depths_mm or [inf]
     asked = set_up(find_lens(lens), Request(depth_mm=depths[0], stop=stop)).lens
-    rows = ladder.tradeoff(asked, fields_deg, depths, wavelengths_nm, pixels=pixels)
-    head, *lines = ladder.table(rows)
+    rows = tradeoff.tradeoff(asked, fields_deg, depths, wavelengths_nm, pixels=pixels)
+    head, *lines = tradeoff.table(rows)
     title = f"{asked.title or asked.name}: each method against the Huygens sum, {pixels} × {pixels} samples"
     if output:
         _write_tradeoff(output, rows, (head, *lines), title)
     if as_json:
-        return print(ladder.to_json(rows))
+        return print(tradeoff.to_json(rows))
     return print_table(title, head, lines)
 
 
@@ -72,12 +72,12 @@ def _check(pixels: int, fields_deg, depths_mm, wavelengths_nm) -> None:
 
 
 def _write_tradeoff(output: Path, rows, lines, title: str) -> None:
-    from p2sf.studies import ladder
+    from p2sf.studies import tradeoff
 
     contents = {
-        ".json": lambda handle: handle.write(ladder.to_json(rows).encode()),
+        ".json": lambda handle: handle.write(tradeoff.to_json(rows).encode()),
         ".csv": lambda handle: handle.write("".join(",".join(line) + "\n" for line in lines).encode()),
-        ".png": lambda handle: ladder.draw(handle, rows, title.replace(": ", "\n")),
+        ".png": lambda handle: tradeoff.draw(handle, rows, title.replace(": ", "\n")),
     }
     write_beside(output, contents[output.suffix.lower()])
 

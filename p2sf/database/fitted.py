@@ -1,4 +1,4 @@
-"""The `fitted` rung over a whole (depth, field, wavelength) space: a tensor of Chebyshev series.
+"""The `fitted` method over a whole (depth, field, wavelength) space: a tensor of Chebyshev series.
 
 The coefficients of a fit run smoothly with s = 1/(object to entrance pupil), with h² and with wavelength, h
 the field slope: under h → −h, η → −η nothing changes, so each coefficient is even or odd in h and an odd one
@@ -18,7 +18,7 @@ from p2sf.database.space import Space
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.fitted import summed
-from p2sf.psf.plane_waves import Made, psf_from_intensity
+from p2sf.psf.plane_waves import Origin, psf_from_intensity
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
@@ -77,7 +77,7 @@ class FittedDatabase:
         six = self.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
         pixel_um = pixel_um or float(suitable_pixel_um(six, pixels))
         intensity, words = summed(found, pixels, pixel_um)
-        made = Made("fitted", found.numbers, 0, words, started, SETTLED_TOLERANCE)
+        made = Origin("fitted", found.numbers, 0, words, started, SETTLED_TOLERANCE)
         return psf_from_intensity(intensity, pixel_um, source.wavelength_um, None, made)
 
     def rendered(self, points, sampling: Sampling, dtype=np.float32) -> np.ndarray:

@@ -15,7 +15,7 @@ import numpy as np
 from p2sf.conventions import vergence
 from p2sf.database.parts import KINDS, PARTS, Parts, assemble, traced_parts
 from p2sf.database.space import ROUNDING, Space
-from p2sf.database.stencil import Axis, crossed, placed, weighted
+from p2sf.database.stencil import NodeAxis, crossed, placed, weighted
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import Stop
@@ -57,7 +57,7 @@ KEPT = (*STORED, *PER_WAVELENGTH)
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class NodeGrid:
     """Traced nodes: ``depth`` (depths, wavelengths, 8) and ``wavelength`` (wavelengths, 2), mm, at unit slope."""
 
     depth: np.ndarray
@@ -74,7 +74,7 @@ class GridDatabase:
     """
 
     space: Space
-    grid: Grid
+    grid: NodeGrid
     interpolant: str
     errors: dict[str, float]
     method: str = "seidel"
@@ -171,14 +171,14 @@ class GridDatabase:
             )
 
     @cached_property
-    def _axes(self) -> dict[str, Axis]:
+    def _axes(self) -> dict[str, NodeAxis]:
         depths = self.space.depths_mm
         usable = depths[depths <= self.last_depth_mm]
         return {
-            "inverse": Axis(-vergence(usable)),
-            "depth": Axis(usable),
-            "field": Axis(self.space.field_slopes),
-            "wavelength": Axis(self.space.wavelengths_um),
+            "inverse": NodeAxis(-vergence(usable)),
+            "depth": NodeAxis(usable),
+            "field": NodeAxis(self.space.field_slopes),
+            "wavelength": NodeAxis(self.space.wavelengths_um),
         }
 
     @cached_property
@@ -197,9 +197,9 @@ class GridDatabase:
         return [table.T.tolist() for table in self._many]
 
 
-def traced_grid(lens: Lens, space: Space, stop: Stop) -> Grid:
+def traced_grid(lens: Lens, space: Space, stop: Stop) -> NodeGrid:
     """Trace a lens at every (depth, wavelength) node of a space."""
     parts = traced_parts(lens, space.depths_mm[:, None], space.wavelengths_um, stop)
     shape = (len(space.depths_mm), len(space.wavelengths_um))
     depth = np.stack([np.broadcast_to(getattr(parts, name), shape) for name in STORED], axis=-1)
-    return Grid(depth, np.stack([np.broadcast_to(getattr(parts, x), shape)[0] for x in PER_WAVELENGTH], axis=-1))
+    return NodeGrid(depth, np.stack([np.broadcast_to(getattr(parts, x), shape)[0] for x in PER_WAVELENGTH], axis=-1))

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 
-class Axis:
+class NodeAxis:
     """Ascending nodes that can be searched for one number or for many."""
 
     def __init__(self, nodes: np.ndarray):
@@ -32,16 +32,16 @@ class Axis:
         nodes = [self.nodes.take(first + k) for k in range(plan.count)]
         return first, lagrange(nodes, np.transpose(plan.scales).take(first, axis=1), at)
 
-    def _plan(self, count: int) -> "Plan":
+    def _plan(self, count: int) -> "StencilRule":
         """Return how points find their stencil of ``count`` nodes: where the nearest ones change."""
         middles = ((self.nodes[1:] + self.nodes[:-1]) / 2).tolist()
         last = len(self.numbers) - count
         stencils = (self.numbers[first : first + count] for first in range(last + 1))
         scales = [[1 / prod(x - y for y in some if y != x) for x in some] for some in stencils]
-        return Plan(count, middles if count % 2 else self.numbers, count // 2, last, scales)
+        return StencilRule(count, middles if count % 2 else self.numbers, count // 2, last, scales)
 
 
-class Plan(NamedTuple):
+class StencilRule(NamedTuple):
     """Stencils of ``count`` nodes: they change at ``breaks`` and begin ``before`` nodes earlier, at ``last`` at most.
 
     ``scales``: for every stencil 1/Π(node − other node), the constant part of Lagrange's weights.
@@ -55,7 +55,7 @@ class Plan(NamedTuple):
 
 
 def lagrange(nodes: list, scales: list, at) -> list:
-    """Return Lagrange's weights of the polynomial through ``nodes`` at a point; ``scales`` as `Axis` keeps them."""
+    """Return Lagrange's weights of the polynomial through ``nodes`` at a point; ``scales`` as `NodeAxis` keeps them."""
     if len(nodes) == 1:
         return [1.0]
     if len(nodes) == 2:  # by far the most frequent

@@ -8,7 +8,7 @@ import numpy as np
 from p2sf.database import ExactDatabase, GridDatabase, Space
 from p2sf.database.exact import NUMBERS
 from p2sf.database.fitted import FittedDatabase
-from p2sf.database.grid import PER_WAVELENGTH, STORED, Grid
+from p2sf.database.grid import PER_WAVELENGTH, STORED, NodeGrid
 from p2sf.database_files.provenance import Stored, provenance
 from p2sf.database_files.sealed import opened, read_sealed, sealed, write_sealed
 from p2sf.errors import DatabaseError
@@ -94,7 +94,7 @@ def _pack_grid(database: GridDatabase):
 
 def _unpack_grid(space: Space, arrays, meta) -> GridDatabase:
     depths, _, wavelengths = space.shape
-    grid = Grid(
+    grid = NodeGrid(
         _shaped(arrays["depth"], (depths, wavelengths, len(STORED))),
         _shaped(arrays["wavelength"], (wavelengths, len(PER_WAVELENGTH))),
     )

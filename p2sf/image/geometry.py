@@ -2,19 +2,19 @@
 
 import numpy as np
 
-from p2sf.pixel_kernels import Kernels, View
+from p2sf.pixel_kernels import Kernels, SensorMap
 from p2sf.scene.sensor import Sensor
 
 VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is left out
 
 
-def distortion_px(seen: View, sensor: Sensor) -> float:
+def distortion_px(seen: SensorMap, sensor: Sensor) -> float:
     """Return how far distortion moves the farthest displaced point, pixels."""
     heights = np.linspace(0, sensor.corners_mm()[1], 65)
     return float(np.abs(seen.ideal_height(heights) - heights).max() / sensor.pixel_mm)
 
 
-def distorted(values: np.ndarray, seen: View, sensor: Sensor, order: int = 3) -> np.ndarray:
+def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3) -> np.ndarray:
     """Return the picture as real chief rays place it, (rows, columns, channels) float32.
 
     ``values`` is the undistorted (paraxial) image on the same pixels; each pixel takes what lands on it, by a spline of

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.image.progress import Watch
+from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import nodes_along
 
 WORKERS = 2
@@ -42,7 +42,7 @@ def build_lattice(
     shape: tuple[int, int],
     counts: tuple[int, int],
     mirrored: bool = False,
-    watch: Watch | None = None,
+    watch: Progress | None = None,
 ) -> Lattice:
     """Return the lattice of ``kernel_at(row, column)`` over a picture of this shape.
 
@@ -51,7 +51,7 @@ def build_lattice(
     rows, columns = (nodes_along(n, c) for n, c in zip(shape, counts, strict=True))
     down, right = ((len(n) + 1) // 2 if mirrored else len(n) for n in (rows, columns))
     wanted = [(a, b) for a in range(down) for b in range(right)]
-    watch = watch or Watch()
+    watch = watch or Progress()
     watch.expect(len(wanted))
 
     def one(node):

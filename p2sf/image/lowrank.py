@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.image.lattice import Lattice, common_size
-from p2sf.image.progress import Watch
+from p2sf.image.progress import Progress
 
 TILE = 256
 
@@ -49,7 +49,9 @@ def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, rank: int
     )  # fmt: skip
 
 
-def low_rank_blur(values: np.ndarray, parts: list[LowRank], watch: Watch | None = None, border: int = 0) -> np.ndarray:
+def low_rank_blur(
+    values: np.ndarray, parts: list[LowRank], watch: Progress | None = None, border: int = 0
+) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
 
     Strengths are cubic splines between the nodes. ``border`` as in `overlap.overlap_add`. Tiles bound the memory.
@@ -57,7 +59,7 @@ def low_rank_blur(values: np.ndarray, parts: list[LowRank], watch: Watch | None 
     values, size = np.asarray(values, np.float32), parts[0].mean.shape[0]
     rows, columns, channels = values.shape
     out = np.zeros((rows + size - 1, columns + size - 1, channels), np.float32)
-    watch = watch or Watch()
+    watch = watch or Progress()
     watch.expect(channels * -(-rows // TILE) * -(-columns // TILE))
     for channel, part in enumerate(parts):
         maps = [_spline(n, np.arange(p) - border) for n, p in ((part.row_nodes, rows), (part.column_nodes, columns))]

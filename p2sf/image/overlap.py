@@ -9,11 +9,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from p2sf.image.lattice import WORKERS, Lattice
-from p2sf.image.progress import Watch
+from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
 
 
-def overlap_add(values: np.ndarray, lattice: Lattice, watch: Watch | None = None, border: int = 0) -> np.ndarray:
+def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = None, border: int = 0) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
 
     ``values``: (rows, columns, channels) float32, whose outer ``border`` pixels lie outside the lattice's picture and
@@ -27,7 +27,7 @@ def overlap_add(values: np.ndarray, lattice: Lattice, watch: Watch | None = None
     )
     out = np.zeros((len(planes), values.shape[0] + 2 * half, values.shape[1] + 2 * half), np.float32)
     jobs = [(a, b) for a in range(len(by_row)) for b in range(len(by_column))]
-    watch = watch or Watch()
+    watch = watch or Progress()
     watch.expect(len(jobs))
 
     def convolved(job):

@@ -31,10 +31,10 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
     coarse = replace(scene, sensor=_coarser(scene.sensor, times), depth_map=None)
     if depth_mm is not None:
         coarse = replace(coarse, near_mm=depth_mm, far_mm=depth_mm)
-    return form_image(quick_plan(camera, coarse), averaged(values, times), how=Forming(spline=1))
+    return form_image(preview_plan(camera, coarse), averaged(values, times), how=Forming(spline=1))
 
 
-def quick_plan(camera: Lens, scene: Scene) -> Plan:
+def preview_plan(camera: Lens, scene: Scene) -> Plan:
     """Return a plan that was not measured and promises nothing, of a lens already focused."""
     colours = tuple(reduced(channel, 1) for channel in scene.channels)
     middle = colours[len(colours) // 2].wavelengths_um[0]

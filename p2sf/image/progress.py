@@ -8,7 +8,7 @@ from p2sf.errors import Cancelled
 
 
 @dataclass(eq=False)
-class Watch:
+class Progress:
     """Counts steps done among those expected; ``progress`` is told the fraction, ``cancelled`` asked at each step."""
 
     progress: Callable[[float], None] | None = None

@@ -9,7 +9,7 @@ from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.paraxial.pupils import named_stop, stop_rim
 
 
-def oddities(lens: Lens) -> tuple[str, ...]:
+def lens_checks(lens: Lens) -> tuple[str, ...]:
     """Return a sentence for everything about a lens that no workshop could make or that does nothing, lengths in mm.
 
     Raises GlassError for a reference wavelength outside a glass's data.

@@ -8,15 +8,15 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM, vergence
 from p2sf.errors import P2SFError
-from p2sf.pixel_kernels.frequency_grid import PupilMap, pupil_map, without
-from p2sf.pixel_kernels.pixels import Window, half_width, pixel_kernel, samples_across
+from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, pupil_map, without
+from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.pixel_kernels.pupil_table import PupilTable
-from p2sf.pixel_kernels.sensor_points import View
+from p2sf.pixel_kernels.sensor_points import SensorMap
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """How kernels are made: rung, its numbers (None: as the residual asks), samples per λ/(2NA), margin of the window.
+    """How kernels are made: method, its numbers (None: as the residual asks), samples per λ/(2NA), window margin.
 
     ``margin`` is a share of the window's half width added on either side before the transform and cut off after it;
     ``drop_waves`` how much RMS phase the left-out terms may have together.
@@ -41,11 +41,11 @@ class Colour:
 class Kernels:
     """Kernels of one view, channel and pixel pitch; pupils are kept per height, since a ring shares them.
 
-    ``recipe_at(height_mm) -> Recipe`` lets the rung fall where a cheaper one holds; ``tables`` by wavelength, where
+    ``recipe_at(height_mm) -> Recipe`` lets the method fall where a cheaper one holds; ``tables`` by wavelength, where
     there are any, spare a fit for every height.
     """
 
-    seen: View
+    seen: SensorMap
     colour: Colour
     pixel_um: float
     recipe_at: Callable[[float], Recipe]
@@ -64,16 +64,16 @@ class Kernels:
             total = total + np.float32(weight) * self._one(pupil, angle, half, shift, self.recipe_at(height))
         return total / total.sum(dtype=float).astype(np.float32)
 
-    def _one(self, pupil: PupilMap, angle, half: int, shift, recipe: Recipe) -> np.ndarray:
+    def _one(self, pupil: FrequencyPupil, angle, half: int, shift, recipe: Recipe) -> np.ndarray:
         samples = samples_across(pupil, self.pixel_um, recipe.fineness)
         # A pencil wider than the window must not come in again on the other side.
         need = half_width(pupil, self.pixel_um, hypot(*shift))
         wide = max(half, need) + int(np.ceil(recipe.margin * half))
-        kernel = pixel_kernel(pupil, angle, Window(wide, self.pixel_um, samples), shift)
+        kernel = pixel_kernel(pupil, angle, PixelWindow(wide, self.pixel_um, samples), shift)
         cut = wide - half
         return kernel[cut : kernel.shape[0] - cut, cut : kernel.shape[1] - cut] if cut else kernel
 
-    def pupils(self, height_mm: float) -> list[tuple[PupilMap, float]]:
+    def pupils(self, height_mm: float) -> list[tuple[FrequencyPupil, float]]:
         """Return (pupil, lateral colour in mm) of every wavelength at one height."""
         key = round(height_mm, 9)
         if key not in self.kept:
@@ -81,7 +81,7 @@ class Kernels:
             self.kept[key] = [self._pupil(height_mm, w, recipe) for w in self.colour.wavelengths_um]
         return self.kept[key]
 
-    def _pupil(self, height_mm, wavelength_um, recipe: Recipe) -> tuple[PupilMap, float]:
+    def _pupil(self, height_mm, wavelength_um, recipe: Recipe) -> tuple[FrequencyPupil, float]:
         table = self.tables.get(wavelength_um)
         found = table and table.at(height_mm, float(vergence(self.seen.depth_mm)))
         pupil, shift = found or own_pupil(self.seen, height_mm, wavelength_um, recipe)
@@ -100,7 +100,7 @@ class Kernels:
         )
 
 
-def own_pupil(seen: View, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[PupilMap, float]:
+def own_pupil(seen: SensorMap, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[FrequencyPupil, float]:
     """Return the pupil of one height by its own rays, and its lateral colour in mm; P2SFError says where it failed."""
     try:
         pupil = pupil_map(seen.lens, seen.source(height_mm, wavelength_um), recipe.method, recipe.numbers)

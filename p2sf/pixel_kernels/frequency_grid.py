@@ -30,7 +30,7 @@ POINT_RESIDUAL = 5e-4  # of the pupil radius
 
 
 @dataclass(frozen=True, eq=False)
-class PupilMap:
+class FrequencyPupil:
     """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
 
     ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``light`` the pupil's area in
@@ -49,8 +49,8 @@ class PupilMap:
     numbers: int
 
 
-def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None) -> PupilMap:
-    """Return the pencil of one source by the rung ``method``, "seidel" or "fitted".
+def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None) -> FrequencyPupil:
+    """Return the pencil of one source by the method ``method``, "seidel" or "fitted".
 
     Raises GeometryError where rays do not arrive, or no polynomial follows them.
     """
@@ -59,7 +59,7 @@ def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = Non
     return _from_fit(fit(lens, source, numbers), source)
 
 
-def _from_seidel(lens: Lens, source: Source) -> PupilMap:
+def _from_seidel(lens: Lens, source: Source) -> FrequencyPupil:
     six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     scale = -float(six.reduced_slope) / source.wavelength_um
     if scale == 0:
@@ -70,10 +70,10 @@ def _from_seidel(lens: Lens, source: Source) -> PupilMap:
     found = _coefficients(*basis_by_powers(4, sign * nodes.xi, sign * nodes.eta), columns)
     reach = reach_of(4, found[0], abs(scale))
     light = np.pi * (abs(scale) * source.wavelength_um) ** 2
-    return PupilMap(4, abs(scale), *found, reach, float(light), 0.0, "seidel", 6)
+    return FrequencyPupil(4, abs(scale), *found, reach, float(light), 0.0, "seidel", 6)
 
 
-def _from_fit(found: FittedPencil, source: Source) -> PupilMap:
+def _from_fit(found: FittedPencil, source: Source) -> FrequencyPupil:
     nodes = disc_nodes(*NODES)
     even, odd, slopes, slopes_odd = _at_nodes(found.level.wave_order, found.level.map_order)
     phase, fx, fy = found.on(even, odd)
@@ -94,7 +94,7 @@ def _from_fit(found: FittedPencil, source: Source) -> PupilMap:
     light = float(nodes.weight @ np.abs(area)) * np.pi * source.wavelength_um**2
     left = float(np.hypot(residual, found.residual_waves))
     reach = reach_of(order, columns[0], radius)
-    return PupilMap(order, radius, *columns, reach, light, left, "fitted", found.numbers)
+    return FrequencyPupil(order, radius, *columns, reach, light, left, "fitted", found.numbers)
 
 
 @lru_cache(maxsize=8)
@@ -136,7 +136,7 @@ def _slopes(order: int):
     return gradient(order, nodes.xi, nodes.eta)
 
 
-def dropped_terms(pupil: PupilMap, waves: float) -> list[tuple[int, int, float]]:
+def dropped_terms(pupil: FrequencyPupil, waves: float) -> list[tuple[int, int, float]]:
     """Return (n, m, RMS waves) of the weakest phase terms that together stay below ``waves`` RMS, weakest first.
 
     The terms are orthonormal over the disc, so their squares add. Tilt, which moves the picture, is never one of them.
@@ -151,7 +151,7 @@ def dropped_terms(pupil: PupilMap, waves: float) -> list[tuple[int, int, float]]
     return out
 
 
-def without(pupil: PupilMap, waves: float) -> PupilMap:
+def without(pupil: FrequencyPupil, waves: float) -> FrequencyPupil:
     """Return the pupil without the terms of `dropped_terms`."""
     gone = {(n, m) for n, m, _ in dropped_terms(pupil, waves)}
     if not gone:
@@ -170,7 +170,7 @@ class Turned:
     xi: np.ndarray
 
 
-def turned(pupil: PupilMap, angle: float) -> Turned:
+def turned(pupil: FrequencyPupil, angle: float) -> Turned:
     """Return the pupil of a field ``angle`` radians from +y towards +x: θ becomes θ − angle in every term."""
     even, odd = (np.array([m for _, m in terms(pupil.order, flag)]) for flag in (False, True))
     keep = even > 0  # the odd terms are the even ones without m = 0, in the same order

@@ -7,7 +7,7 @@ from math import ceil
 import numpy as np
 
 from p2sf.errors import SamplingError
-from p2sf.pixel_kernels.frequency_grid import PupilMap, Turned, turned
+from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, Turned, turned
 
 TAIL = 8.0  # of λ/NA: what of diffraction's wings is kept beyond where rays land
 LARGEST_WINDOW = 4096
@@ -15,7 +15,7 @@ BLOCK = 32768  # samples of the pupil that are worked on at once
 
 
 @dataclass(frozen=True)
-class Window:
+class PixelWindow:
     """Pixels from the centre to the edge, their pitch in µm, and PSF samples across each pixel."""
 
     half: int
@@ -28,12 +28,12 @@ class Window:
         return 2 * self.half + 1
 
 
-def half_width(pupil: PupilMap, pixel_um: float, shift_um: float = 0.0) -> int:
+def half_width(pupil: FrequencyPupil, pixel_um: float, shift_um: float = 0.0) -> int:
     """Return how many pixels on either side of the centre hold the rays and the nearest rings around them."""
     return max(1, ceil((pupil.reach_um + abs(shift_um) + TAIL / pupil.radius) / pixel_um - 0.5))
 
 
-def samples_across(pupil: PupilMap, pixel_um: float, finest: float = 1.0) -> int:
+def samples_across(pupil: FrequencyPupil, pixel_um: float, finest: float = 1.0) -> int:
     """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 every fringe.
 
     At least three, so that a pixel's edge falls near enough to where it is.
@@ -41,7 +41,7 @@ def samples_across(pupil: PupilMap, pixel_um: float, finest: float = 1.0) -> int
     return max(3, ceil(2 * pupil.radius * pixel_um * finest))
 
 
-def pixel_kernel(pupil: PupilMap, angle: float, window: Window, shift_um=(0.0, 0.0)) -> np.ndarray:
+def pixel_kernel(pupil: FrequencyPupil, angle: float, window: PixelWindow, shift_um=(0.0, 0.0)) -> np.ndarray:
     """Return the share of a point's light per pixel, (size, size) float32 of unit sum, as a picture shows it.
 
     The field lies ``angle`` radians from +y towards +x; row 0 is the top. ``shift_um``: where the point's chief ray

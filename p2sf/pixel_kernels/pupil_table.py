@@ -11,11 +11,11 @@ from math import prod
 
 import numpy as np
 
-from p2sf.pixel_kernels.frequency_grid import PupilMap, reach_of
+from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, reach_of
 
 FORMS = "phase", "eta", "xi"
 SAME = 1e-9  # of the farthest node: places as near as this are one
-Made = tuple[PupilMap, float]  # and its lateral colour in mm
+Made = tuple[FrequencyPupil, float]  # and its lateral colour in mm
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class PupilTable:
     heights_mm: tuple[float, ...]
     vergences: tuple[float, ...]
     rows: np.ndarray
-    like: PupilMap
+    like: FrequencyPupil
 
     def at(self, height_mm: float, vergence: float) -> Made | None:
         """Return pupil and lateral colour in mm anywhere between the nodes, None beyond them."""
@@ -53,7 +53,7 @@ def pupil_table(make: Callable[[float, float], Made], heights_mm, vergences) -> 
     return PupilTable(tuple(map(float, heights_mm)), tuple(map(float, vergences)), rows, like)
 
 
-def _row(pupil: PupilMap, shift_mm: float, like: PupilMap) -> np.ndarray:
+def _row(pupil: FrequencyPupil, shift_mm: float, like: FrequencyPupil) -> np.ndarray:
     """Return all numbers of a pupil; the terms of higher degree that it lacks come last in each form and are zero."""
     forms = (np.pad(getattr(pupil, n), (0, getattr(like, n).size - getattr(pupil, n).size)) for n in FORMS)
     return np.concatenate([*forms, (pupil.radius, pupil.light, shift_mm)])

@@ -17,7 +17,7 @@ REACHES = (1.35, 1.15, 1.04, 1.0, 0.9, 0.75)  # of the paraxial slope: how far o
 
 
 @dataclass(frozen=True, eq=False)
-class View:
+class SensorMap:
     """One object plane seen through one lens: chief rays from the axis to the sensor's corner.
 
     ``heights_mm``: where real chief rays of ``slopes`` land, increasing from 0; ``scale_mm``: paraxial height per
@@ -59,7 +59,7 @@ class View:
         return (1 + close * here) / (1 + close * there)
 
 
-def view(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> View:
+def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> SensorMap:
     """Return the view out to radial ``height_mm`` on the sensor; GeometryError where no chief ray lands that far."""
     six = coefficients(lens, depth_mm, 1.0, wavelength_um)
     scale = float(six.image_height)
@@ -72,7 +72,7 @@ def view(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) ->
         except GeometryError:
             continue
         if heights[-1] >= height_mm and (np.diff(heights) > 0).all():
-            return View(lens, float(depth_mm), float(wavelength_um), slopes, heights, scale)
+            return SensorMap(lens, float(depth_mm), float(wavelength_um), slopes, heights, scale)
     depth = "∞" if np.isinf(depth_mm) else f"{depth_mm:g} mm"
     raise GeometryError(
         f"no chief ray of an object at {depth} lands {height_mm:.4g} mm from the axis, where the sensor's "
@@ -85,7 +85,7 @@ def chief_heights(lens: Lens, source: Source) -> np.ndarray:
     return pencil(lens, source, [0.0], [0.0]).chief_y[..., 0]
 
 
-def distortion_at(seen: View, height_mm) -> np.ndarray:
+def distortion_at(seen: SensorMap, height_mm) -> np.ndarray:
     """Return (real − paraxial)/paraxial height of what lands at these heights; 0 on the axis."""
     ideal = np.asarray(seen.ideal_height(height_mm))
     return np.where(ideal > 0, np.asarray(height_mm) / np.where(ideal > 0, ideal, 1) - 1, 0.0)

@@ -31,7 +31,7 @@ SINGLE_COLUMNS = 128  # that half a chord may have for phases of float32: they r
 
 
 @dataclass(frozen=True)
-class Kernels:
+class DftKernels:
     """Real kernels at offsets 0, 1, … samples: ``across`` (rows or 1, columns, x); cos and sin, ``up`` (y, rows)."""
 
     across: np.ndarray
@@ -157,11 +157,11 @@ def _modulus(field: np.ndarray, rows: slice, out: np.ndarray) -> None:
 
 
 @lru_cache(maxsize=8)
-def kernels_for(rows: RowNodes, cycles: float, pixels: int, dtype) -> Kernels:
+def kernels_for(rows: RowNodes, cycles: float, pixels: int, dtype) -> DftKernels:
     """Return the kernels of a picture whose samples are ``cycles`` per unit pupil radius apart."""
     step = np.arange(pixels // 2 + 1) * (TURN * cycles)
     up = (step[:, None] * rows.eta).astype(dtype)
-    return Kernels(_multiples(rows.xi * (TURN * cycles), len(step), dtype), np.cos(up), np.sin(up))
+    return DftKernels(_multiples(rows.xi * (TURN * cycles), len(step), dtype), np.cos(up), np.sin(up))
 
 
 def _multiples(angle: np.ndarray, count: int, dtype) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The `fitted` rung as a PSF: some tens of numbers from some tens of rays."""
+"""The `fitted` method as a PSF: some tens of numbers from some tens of rays."""
 
 from functools import lru_cache
 from time import perf_counter
@@ -8,7 +8,7 @@ import numpy as np
 from p2sf.conventions import centred_axis
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.plane_waves import Made, counts_for, psf_from_intensity, pupil_amplitude, resolved
+from p2sf.psf.plane_waves import Origin, counts_for, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
@@ -30,7 +30,7 @@ def fitted_psf(
     quality: str = "settled",
     aim: str = "paraxial",
 ) -> Psf:
-    """Return the PSF of the `fitted` rung, with ``numbers`` coefficients or as many as the residual asks for.
+    """Return the PSF of the `fitted` method, with ``numbers`` coefficients or as many as the residual asks for.
 
     "settled" sums in float64 to a relative L2 error of 1e-4 of what the fit describes, "preview" fewer nodes in
     float32. The nodes lie in rows (`rows`); a pupil map too curved for rows is summed node by node.
@@ -44,7 +44,7 @@ def psf_of_fit(found: FittedPencil, wavelength_um: float, window, quality: str, 
     """Return the PSF that a fit describes in a window (pixels, pixel_um); ``started`` is a `perf_counter` reading."""
     intensity, words = summed(found, *window, quality)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
-    made = Made("fitted", found.numbers, found.rays, words, started, tolerance)
+    made = Origin("fitted", found.numbers, found.rays, words, started, tolerance)
     blur = found.blur_um2 if resolved(found.steepness.spread, window[1]) else None
     return psf_from_intensity(intensity, window[1], wavelength_um, blur, made)
 

@@ -1,4 +1,4 @@
-"""The `huygens` rung, the reference: every traced ray a plane wavelet at the sensor, summed directly.
+"""The `huygens` method, the reference: every traced ray a plane wavelet at the sensor, summed directly.
 
 The nodes are Gauss–Legendre radii times uniform directions, so that there is no edge to converge; their
 count rises until two successive pictures agree. Clear apertures (`vignetting`) end each radius at the rim it meets.
@@ -15,7 +15,7 @@ from p2sf.conventions import centred_axis
 from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.plane_waves import Made, counts_for, psf_from_intensity, pupil_amplitude, resolved
+from p2sf.psf.plane_waves import Origin, counts_for, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.psf.result import Psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
@@ -77,7 +77,7 @@ def huygens_psf(
         watch = _Watch(progress, cancelled)
         found, counts, reached, rays = _settle(lens, source, window, filling, tolerance, watch)
     words = _words(counts, found, filling, reached, tolerance)
-    made = Made("huygens", 0, rays, words, started, reached)
+    made = Origin("huygens", 0, rays, words, started, reached)
     intensity = found.values.real**2 + found.values.imag**2
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, found.blur_um2, made)
 

@@ -1,4 +1,4 @@
-"""The rungs of the accuracy ladder, what each will cost in error, and the cheapest that is good enough.
+"""The methods, what each will cost in error, and the cheapest that is good enough.
 
 The prediction needs no reference. Where two descriptions of the same ray differ by a phase e(ray), the fields differ by
 2πe and 1 − R² is of the order (2πσ)², σ the RMS of e over the pupil. For a ray that lands at x,
@@ -42,7 +42,7 @@ EDGE_ERROR = 1e-4  # over a pupil that ends at rims or where rays are lost (`tra
 
 @dataclass(frozen=True)
 class Choice:
-    """The rung to use, its predicted 1 − R², how many numbers it needs (0: rays), and a sentence why."""
+    """The method to use, its predicted 1 − R², how many numbers it needs (0: rays), and a sentence why."""
 
     method: str
     predicted_error: float
@@ -61,7 +61,7 @@ def residual_for(tolerance: float) -> float:
 
 
 def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = False) -> Choice:
-    """Return the cheapest rung whose predicted R² is at least ``tolerance``, without running the reference.
+    """Return the cheapest method whose predicted R² is at least ``tolerance``, without running the reference.
 
     For the window that shows the whole PSF; one that shows only its core may do worse. Raises GeometryError where the
     chief ray does not reach the sensor, RequestError for a tolerance that is not below 1.
@@ -91,7 +91,7 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
 
 
 def _for_lost_rays(lost: int, count: int, allowed: float) -> Choice:
-    """Return the rung that knows an edge: neither six coefficients nor a fit do."""
+    """Return the method that knows an edge: neither six coefficients nor a fit do."""
     return _by_rays(allowed, EDGE_ERROR, f"{lost} of {count} rays are lost, and a smooth pupil does not describe that")
 
 
@@ -128,10 +128,10 @@ def render(
     tolerance: float = 0.99,
     clip: bool = False,
 ) -> Psf:
-    """Return the PSF of one source by one rung, or by the cheapest one that holds R² ≥ ``tolerance`` ("auto").
+    """Return the PSF of one source by one method, or by the cheapest one that holds R² ≥ ``tolerance`` ("auto").
 
     Without ``pixel_um`` the pitch at which the six coefficients show the whole PSF. A fit takes as many numbers as
-    ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters; rungs that describe the whole
+    ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters; methods that describe the whole
     pupil refuse it where a rim does clip. Raises P2SFError's kinds: an unknown method, no image, no rays.
     """
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)

@@ -23,7 +23,7 @@ class Energy(NamedTuple):
     fraction: np.ndarray
 
 
-class Profiles(NamedTuple):
+class Cuts(NamedTuple):
     """Cuts through one point: positions (n,) in µm from the chief ray and values (…, n), along x and along y."""
 
     x_um: np.ndarray
@@ -161,7 +161,7 @@ def _radius_within(inner, outer, value, fraction) -> float:
     return float(np.interp(fraction * energy[-1], energy, corners))
 
 
-def profiles(psf: Psf, through: str = "chief") -> Profiles:
+def profiles(psf: Psf, through: str = "chief") -> Cuts:
     """Return the row and column through the chief ray ("chief") or the highest sample ("peak").
 
     Raises SamplingError for another word.
@@ -175,7 +175,7 @@ def profiles(psf: Psf, through: str = "chief") -> Profiles:
         row, column = _peak_samples(psf)
     along_x = np.take_along_axis(values, row[..., None, None], -2)[..., 0, :]
     along_y = np.take_along_axis(values, column[..., None, None], -1)[..., 0]
-    return Profiles(psf.x_um, along_x, psf.y_um, along_y)
+    return Cuts(psf.x_um, along_x, psf.y_um, along_y)
 
 
 def mtf(psf: Psf, frequency_per_mm=None) -> Mtf:

@@ -13,7 +13,7 @@ from p2sf.raytrace.fit import Steepness
 
 
 @dataclass(frozen=True)
-class Made:
+class Origin:
     """How a PSF came about, for its labels; ``started`` is a `perf_counter` reading."""
 
     method: str
@@ -44,7 +44,7 @@ def counts_for(steepness: Steepness, pixels: int, pixel_um: float) -> tuple[int,
     return nodes_for(steepness.radial, reach, steepness.angular)
 
 
-def psf_from_intensity(intensity, pixel_um: float, wavelength_um: float, blur_um2: float | None, made: Made) -> Psf:
+def psf_from_intensity(intensity, pixel_um: float, wavelength_um: float, blur_um2: float | None, made: Origin) -> Psf:
     """Return the PSF of an intensity in units of the unaberrated peak.
 
     ``blur_um2`` is the integral of that intensity over the whole plane, None if unknown. A sum of samples is an

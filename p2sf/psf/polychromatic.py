@@ -67,14 +67,14 @@ def colour_psf(
 ) -> ColourPsf:
     """Return the PSF of a point with this spectrum over (pixels, µm per pixel), centred on the source's own wavelength.
 
-    ``method``: a rung of the ladder or what makes one PSF. Each wavelength's PSF is shifted by where its chief ray
+    ``method``: a method or what makes one PSF. Each wavelength's PSF is shifted by where its chief ray
     lands (lateral colour), by straight lines between samples, which keeps light and sign. Raises RequestError for
     a count that is none, GlassError for a line outside the glasses' data.
     """
     started = perf_counter()
     if not 1 <= count <= MOST:
         raise RequestError(f"{count} wavelengths for a colour PSF; give a whole number from 1 to {MOST}")
-    make = method if callable(method) else by_ladder(method)
+    make = method if callable(method) else by_method(method)
     wavelengths, weights = bands(spectrum, count, *_limits(lens))
     shifts = chief_shifts_um(lens, source, wavelengths)
     made = [make(lens, replace(source, wavelength_um=float(wave)), *window) for wave in wavelengths]
@@ -98,8 +98,8 @@ def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: in
     return float(np.max(suitable_pixel_um(c, pixels) + 2 * shift / pixels))
 
 
-def by_ladder(method: str) -> Renderer:
-    """Return what renders by a rung of the ladder."""
+def by_method(method: str) -> Renderer:
+    """Return what renders by a method."""
     return lambda lens, source, pixels, pixel_um: render(lens, source, method, pixels, pixel_um)
 
 

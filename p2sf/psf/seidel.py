@@ -11,7 +11,7 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf._seidel_sum import wave_number
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel_stack import Stack, corner_reach, stack_of
+from p2sf.psf.seidel_stack import SummedStack, corner_reach, stack_of
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
 from p2sf.pupil.transform import check_fft, padded_fft, sum_plane_waves
 
@@ -64,7 +64,7 @@ def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) ->
     return np.abs(sum_plane_waves(pupil, scale * nodes.xi, scale * nodes.eta, axis, axis)) ** 2
 
 
-def _by_fft(coefficients, pixels, pixel_um, quality) -> Stack:
+def _by_fft(coefficients, pixels, pixel_um, quality) -> SummedStack:
     """Return the stack by the paper's FFT, one PSF at a time."""
     shape = np.broadcast_shapes(*(np.shape(x) for x in vars(coefficients).values()))
     samples = fft_samples(coefficients, pixels, pixel_um, quality) if 0 not in shape else 0
@@ -72,7 +72,7 @@ def _by_fft(coefficients, pixels, pixel_um, quality) -> Stack:
     planes = [fft_intensity(Coefficients(*one), pixels, pixel_um, samples) for one in zip(*flat, strict=True)]
     values = np.reshape(planes, (*shape, pixels, pixels))
     total, peak = values.sum((-2, -1)), values.max((-2, -1))
-    return Stack(values / total[..., None, None], total, peak, f"FFT of {samples} × {samples} pupil samples")
+    return SummedStack(values / total[..., None, None], total, peak, f"FFT of {samples} × {samples} pupil samples")
 
 
 def fft_samples(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str = "preview") -> int:
@@ -100,7 +100,7 @@ def fft_intensity(coefficients: Coefficients, pixels: int, pixel_um: float, pupi
     return np.abs(padded_fft(pupil, pupil_samples, pixels)) ** 2
 
 
-def _result(coefficients, stack: Stack, pixel_um, tolerance, start) -> Psf:
+def _result(coefficients, stack: SummedStack, pixel_um, tolerance, start) -> Psf:
     wavelength, single = coefficients.wavelength_um, stack.values.ndim == 2
     energy = energy_fraction(coefficients, stack.total, pixel_um)
     return Psf(

@@ -23,7 +23,7 @@ SORTED_AT_ONCE = 512  # PSFs whose slopes are looked for together: some mebibyte
 
 
 @dataclass(frozen=True)
-class Stack:
+class SummedStack:
     """PSFs (…, pixels, pixels) of unit sum; ``total`` and ``peak`` in units of the unaberrated peak; ``words``."""
 
     values: np.ndarray
@@ -32,13 +32,13 @@ class Stack:
     words: str
 
 
-def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str, dtype) -> Stack:
+def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str, dtype) -> SummedStack:
     """Return the PSFs of broadcast coefficients by the fast path. Raises SamplingError where samples get too many."""
     terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
     values = np.empty((len(terms), pixels, pixels), dtype)
     total, peak, most = np.empty(len(terms)), np.empty(len(terms)), None
-    for some, rows in batches(terms, pixels, pixel_um, quality):
+    for some, rows in stack_parts(terms, pixels, pixel_um, quality):
         found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
         flat = found.reshape(len(found), -1)
         total[some], peak[some] = np.add.reduce(flat, 1, float), np.maximum.reduce(flat, 1)
@@ -46,10 +46,10 @@ def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: 
         values[some] = found
         most = rows if most is None or rows.weight.size > most.weight.size else most
     words = f"{'' if len(terms) <= 1 else 'up to '}{most.name if most else 'no nodes'}, {values.dtype.type.__name__}"
-    return Stack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), words)
+    return SummedStack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), words)
 
 
-def batches(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> Iterator[tuple]:
+def stack_parts(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> Iterator[tuple]:
     """Yield indices of PSFs that are summed together and the pupil samples they need; ``terms`` (PSFs, 5)."""
     if len(terms) == 1:
         reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)

@@ -1,4 +1,4 @@
-"""The `traced` rung: exact rays, thousands of them, at the speed of a separable sum.
+"""The `traced` method: exact rays, thousands of them, at the speed of a separable sum.
 
 The rays go through pupil points that a fit puts in rows of equal spatial frequency (`rows`). A ray's true fy misses
 its row's by what the fit leaves; since the phase over frequency has the gradient −x (Hamilton), moving its
@@ -16,7 +16,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.huygens import PLAIN, Filling, huygens_psf
-from p2sf.psf.plane_waves import Made, psf_from_intensity, resolved
+from p2sf.psf.plane_waves import Origin, psf_from_intensity, resolved
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import FrequencyRows, rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
@@ -57,7 +57,7 @@ def traced_psf(
     intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     words = f"{nodes.words}, {intensity.dtype.name}"
-    made = Made("traced", 0, found.rays + nodes.xi.size, words, started, tolerance)
+    made = Origin("traced", 0, found.rays + nodes.xi.size, words, started, tolerance)
     blur = found.blur_um2 if resolved(found.steepness.spread, pixel_um) else None
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made)
 

@@ -24,7 +24,7 @@ from p2sf.raytrace.pencil import pencil
 
 
 @dataclass(frozen=True)
-class Vocabulary:
+class EffectiveSeidel:
     """The exact wavefront in the paper's words beside Seidel's, waves at the rim.
 
     ``fitted`` has w40, w31, w22, w20 and w11 from real rays, everything else as in ``seidel``. ``remainder_waves`` is
@@ -39,7 +39,7 @@ class Vocabulary:
     squeeze_y: float
 
 
-def vocabulary(lens: Lens, source: Source, numbers: int | None = None) -> Vocabulary:
+def effective_seidel(lens: Lens, source: Source, numbers: int | None = None) -> EffectiveSeidel:
     """Return the wavefront of one source in the paper's words. Raises as `rayfit.fit` and `seidel.coefficients` do."""
     six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     found = fit(lens, source, numbers)
@@ -51,7 +51,7 @@ def vocabulary(lens: Lens, source: Source, numbers: int | None = None) -> Vocabu
     words = {"w40": w40, "w31": w31, "w22": w22, "w20": square - float(six.wd), "w11": w11}
     fitted = replace(six, **{word: np.asarray(value) for word, value in words.items()})
     slopes = _mean_slopes(found)
-    return Vocabulary(fitted, six, _remainder(found), slopes[0] / scale, slopes[1] / scale)
+    return EffectiveSeidel(fitted, six, _remainder(found), slopes[0] / scale, slopes[1] / scale)
 
 
 @lru_cache(maxsize=8)

@@ -9,21 +9,21 @@ from math import hypot
 import numpy as np
 
 from p2sf.lens.lens import Lens
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, View, view
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap, sensor_map
 from p2sf.pixel_kernels.channel import own_pupil
 from p2sf.pixel_kernels.frequency_grid import dropped_terms
 from p2sf.pixel_kernels.pupil_table import PupilTable, few_nodes, pupil_table
 from p2sf.scene.bounds import refuse_colours, refuse_wide
 from p2sf.scene.cost import Cost, predicted_cost
 from p2sf.scene.nodes import depth_error, depth_places, field_counts, field_error, field_places
-from p2sf.scene.pricing import dearest_rung, naive_work, plan_work, rung_seconds, single_seconds
+from p2sf.scene.pricing import dearest_method, method_seconds, naive_work, plan_work, single_seconds
 from p2sf.scene.scene import Scene, depth_of
 from p2sf.scene.sharing import few_depths, few_heights, node_heights, share_pupils
 from p2sf.scene.spectrum import reduced
 from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, RUNGS, SAMPLINGS, Study, from_phase, least
 
 # What part of the tolerance each decision may use. The errors have nothing in common, so their squares add.
-SHARES = {"rung": 0.5, "terms": 0.1, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.1}
+SHARES = {"method": 0.5, "terms": 0.1, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.1}
 SAFETY = 1.3  # between the places where an error was measured
 
 
@@ -73,12 +73,12 @@ class Plan:
 
     def kernels(self, channel: int, vergence: float) -> Kernels:
         """Return the kernels of one channel at one depth."""
-        seen, colour, tables = self.view(vergence), self.colours[channel], {}
+        seen, colour, tables = self.sensor_map(vergence), self.colours[channel], {}
         if self.pupil_nodes:
             tables = {wave: pupils_between(self, wave) for wave in colour.wavelengths_um}
         return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe_at, tables=tables)
 
-    def view(self, vergence: float) -> View:
+    def sensor_map(self, vergence: float) -> SensorMap:
         """Return where the points of one depth land."""
         return _view(self.lens, depth_of(vergence), self.reference_um, self.scene.sensor.corners_mm()[1])
 
@@ -89,14 +89,14 @@ def pupils_between(planned: Plan, wavelength_um: float) -> PupilTable:
     heights, vergences = planned.pupil_nodes
 
     def own(height: float, vergence: float):
-        return own_pupil(planned.view(vergence), height, wavelength_um, planned.recipe_at(height))
+        return own_pupil(planned.sensor_map(vergence), height, wavelength_um, planned.recipe_at(height))
 
     return pupil_table(own, heights, vergences)
 
 
 @lru_cache(maxsize=32)
-def _view(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> View:
-    return view(lens, depth_mm, wavelength_um, height_mm)
+def _view(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> SensorMap:
+    return sensor_map(lens, depth_mm, wavelength_um, height_mm)
 
 
 def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> Plan:
@@ -112,7 +112,7 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     refuse_wide(study)
     share_pupils(study)
     budget = scene.relative_tolerance
-    rings, rung = _rings(study, budget)
+    rings, method = _rings(study, budget)
     colours, colour = _colours(study, budget)
     sampling, sampled = _sampling(study, budget)
     counts, field = _field(study, budget)
@@ -121,7 +121,7 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     waves = sum(len(one.wavelengths_um) for one in colours)
     nodes, seconds, pupils = _pupils(study, budget, (rings, counts, vergences, waves))
     rings = tuple((rim, Recipe(*RUNGS[n], *SAMPLINGS[sampling], drop)) for rim, n in _shared(rings, nodes))
-    decisions = (*rung, terms, sampled, field, depth, *colour, pupils)
+    decisions = (*method, terms, sampled, field, depth, *colour, pupils)
     errors = (max((d.error for d in decisions if d.what.startswith(what)), default=0.0) for what in SHARES)
     error = hypot(*errors, study.tables_error)
     work = plan_work(study, rings, colours, counts, len(vergences), seconds)
@@ -137,18 +137,18 @@ def _first(choices, measure, places, allowed: float) -> tuple[int, float]:
 
 
 def _rings(study: Study, budget: float):
-    """Return (rim, rung) of every ring, and the decisions."""
+    """Return (rim, method) of every ring, and the decisions."""
     heights, found, decisions = study.heights(), [], []
     for inner, outer in pairwise(heights):
-        number, error = _first(RUNGS, study.rung_error, study.places((outer, inner)), SHARES["rung"] * budget)
+        number, error = _first(RUNGS, study.method_error, study.places((outer, inner)), SHARES["method"] * budget)
         found.append((float(outer), number))
         method, numbers = RUNGS[number]
         why = (
             "the six Seidel coefficients keep the pixels' error here"
             if method == "seidel"
-            else (f"{numbers} fitted numbers are the fewest that keep it; the next cheaper rung does not")
+            else (f"{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not")
         )
-        decisions.append(Decision(f"rung {inner:.3g}–{outer:.3g} mm", method, why, error))
+        decisions.append(Decision(f"method {inner:.3g}–{outer:.3g} mm", method, why, error))
     return found, decisions
 
 
@@ -224,9 +224,9 @@ def _pupils(study: Study, budget: float, asked):
         few_depths(study, len(vergences), allowed / 2),
     )
     shared, every = high * deep * waves, len(heights) * len(vergences) * waves
-    seconds = shared * rung_seconds(dearest_rung(rings))
+    seconds = shared * method_seconds(dearest_method(rings))
     if seconds >= alone:
-        why = "fewer of the dearest rung with the others in between would cost no less"
+        why = "fewer of the dearest method with the others in between would cost no less"
         return None, alone, Decision("pupils", f"{every} fits", why, 0.0)
     nodes = tuple(few_nodes(heights, high).tolist()), tuple(few_nodes(vergences, deep).tolist())
     why = f"heights × depths in each wavelength: {high} × {deep}; the others of {every} lie on polynomials through them"
@@ -234,5 +234,5 @@ def _pupils(study: Study, budget: float, asked):
 
 
 def _shared(rings, nodes):
-    """Return (rim, rung) of every ring: one rung for all where their pupils are interpolated together."""
-    return [(rim, dearest_rung(rings)) for rim, _ in rings] if nodes else rings
+    """Return (rim, method) of every ring: one method for all where their pupils are interpolated together."""
+    return [(rim, dearest_method(rings)) for rim, _ in rings] if nodes else rings

@@ -13,23 +13,23 @@ from p2sf.scene.study import RUNGS, Study
 NAIVE_FINENESS, NAIVE_MARGIN = 2.0, 0.5  # every fringe of the light (λ/4NA), and half a window against what folds over
 
 
-def dearest_rung(rings) -> int:
-    """Return the dearest rung of (rim, rung) pairs: the cheapest that holds at the worst place."""
-    return max(rung for _, rung in rings)
+def dearest_method(rings) -> int:
+    """Return the dearest method of (rim, method) pairs: the cheapest that holds at the worst place."""
+    return max(method for _, method in rings)
 
 
-def rung_seconds(rung: int) -> float:
-    """Return what one pupil of a rung costs, seconds."""
-    method, numbers = RUNGS[rung]
+def method_seconds(method: int) -> float:
+    """Return what one pupil of a method costs, seconds."""
+    method, numbers = RUNGS[method]
     return pupil_seconds(method, numbers or 6)
 
 
 def single_seconds(study: Study, rings, counts, layers: int, waves: int) -> float:
-    """Return the seconds of fitting each height of each layer by its own ring's rung."""
+    """Return the seconds of fitting each height of each layer by its own ring's method."""
     rims = np.array([rim for rim, _ in rings])
     heights = node_heights(study.scene.sensor, counts)
     which = np.minimum(np.searchsorted(rims, heights), len(rims) - 1)
-    return layers * waves * float(sum(rung_seconds(rings[n][1]) for n in which))
+    return layers * waves * float(sum(method_seconds(rings[n][1]) for n in which))
 
 
 def plan_work(study: Study, rings, colours, counts, layers: int, pupil_cost: float) -> Work:
@@ -58,7 +58,7 @@ def naive_work(study: Study, rings, counts, layers: int) -> Work:
 
 
 def naive_recipe(rings) -> Recipe:
-    """Return the recipe of the full grid: the dearest rung of (rim, recipe) pairs, all terms, every fringe."""
+    """Return the recipe of the full grid: the dearest method of (rim, recipe) pairs, all terms, every fringe."""
     dearest = max((recipe for _, recipe in rings), key=lambda recipe: recipe.numbers or 0)
     return Recipe(dearest.method, dearest.numbers, NAIVE_FINENESS, NAIVE_MARGIN)
 

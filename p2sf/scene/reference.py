@@ -6,7 +6,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM, centred_axis
 from p2sf.lens.source import Source
-from p2sf.pixel_kernels import View
+from p2sf.pixel_kernels import SensorMap
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.pupil.transform import sum_plane_waves
@@ -18,7 +18,9 @@ PROBE = 12, 36
 LEAST_POINTS = 4
 
 
-def reference_kernel(seen: View, channel: Channel, x_mm: float, y_mm: float, half: int, pixel_um: float) -> np.ndarray:
+def reference_kernel(
+    seen: SensorMap, channel: Channel, x_mm: float, y_mm: float, half: int, pixel_um: float
+) -> np.ndarray:
     """Return the light per pixel of the point that lands at (x, y) in all its wavelengths, unit sum, row 0 the top."""
     height, angle = float(np.hypot(x_mm, y_mm)), float(np.arctan2(x_mm, y_mm))
     total = 0.0

@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.seidel import coefficients
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, View, view
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap, sensor_map
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.raytrace.fit import LEVELS, fit
 from p2sf.scene.scene import Scene, depth_of
@@ -51,11 +51,11 @@ class Study:
         middles = [float(channel.wavelengths_um @ channel.shares) for channel in self.scene.channels]
         self.waves = tuple(sorted({min(middles), self.reference_um, max(middles)}))
 
-    def seen(self, vergence: float) -> View:
+    def seen(self, vergence: float) -> SensorMap:
         """Return the view of one depth out to the sensor's corner."""
         key = ("view", round(vergence, 15))
         if key not in self.made:
-            self.made[key] = view(self.lens, depth_of(vergence), self.reference_um, self.farthest_mm)
+            self.made[key] = sensor_map(self.lens, depth_of(vergence), self.reference_um, self.farthest_mm)
         return self.made[key]
 
     def heights(self) -> np.ndarray:
@@ -100,7 +100,7 @@ class Study:
 
     def _enough(self, recipe: Recipe, height_mm: float) -> Recipe:
         """Return the converged recipe with no more numbers than converge at this height."""
-        return recipe if self.tables else replace(recipe, numbers=RUNGS[self.rung_at(height_mm)][1])
+        return recipe if self.tables else replace(recipe, numbers=RUNGS[self.method_at(height_mm)][1])
 
     @staticmethod
     def colour_of(wave: float) -> Colour:
@@ -109,11 +109,11 @@ class Study:
 
     @cached_property
     def top(self) -> int:
-        """Return the first rung that is converged at both ends of field and depth, in the colour that asks most."""
-        return max(self.rung_at(height) for height in (self.farthest_mm, self.nearest_mm))
+        """Return the first method that is converged at both ends of field and depth, in the colour that asks most."""
+        return max(self.method_at(height) for height in (self.farthest_mm, self.nearest_mm))
 
-    def rung_at(self, height_mm: float) -> int:
-        """Return the first rung whose fit leaves next to nothing of the phase at both ends of the depths."""
+    def method_at(self, height_mm: float) -> int:
+        """Return the first method whose fit leaves next to nothing of the phase at both ends of the depths."""
         self.check()
         ends, wave = {float(v) for v in self.scene.vergences(2)}, min(self.waves)
         good = (
@@ -125,19 +125,19 @@ class Study:
         """Return the converged recipe."""
         return Recipe(*RUNGS[self.top], *sampling)
 
-    def rung_error(self, rung: int, height_mm: float, vergence: float, wave: float) -> float:
-        """Return the relative error of a rung's kernel against the converged one, and that one's own."""
-        if rung >= self.top:
+    def method_error(self, method: int, height_mm: float, vergence: float, wave: float) -> float:
+        """Return the relative error of a method's kernel against the converged one, and that one's own."""
+        if method >= self.top:
             return from_phase(self.residual(self.top, height_mm, vergence, wave))
-        tried = Recipe(*RUNGS[rung], *SHARP)
+        tried = Recipe(*RUNGS[method], *SHARP)
         return self.distance(tried, self.recipe(SHARP), height_mm, vergence, wave)
 
-    def residual(self, rung: int, height_mm: float, vergence: float, wave: float) -> float:
+    def residual(self, method: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the phase residual of a fit in waves."""
-        key = ("residual", rung, round(height_mm, 9), round(vergence, 15), wave)
+        key = ("residual", method, round(height_mm, 9), round(vergence, 15), wave)
         if key not in self.made:
             source = self.seen(vergence).source(height_mm, wave)
-            self.made[key] = fit(self.lens, source, RUNGS[rung][1]).residual_waves
+            self.made[key] = fit(self.lens, source, RUNGS[method][1]).residual_waves
         return self.made[key]
 
     def distance(self, tried: Recipe, good: Recipe, height_mm: float, vergence: float, wave: float) -> float:

@@ -59,7 +59,7 @@ def error_at(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: 
     half = max(own, kernel.shape[-1] // 2)
     sensor, channels = planned.scene.sensor, planned.scene.channels
     started = process_time()
-    good = reference_kernel(planned.view(vergence), channels[channel], x_mm, y_mm, half, sensor.pixel_um)
+    good = reference_kernel(planned.sensor_map(vergence), channels[channel], x_mm, y_mm, half, sensor.pixel_um)
     return distance(kernel, good), process_time() - started
 
 

@@ -1,4 +1,4 @@
-"""What every rung costs in time and in error, measured on this machine: one table, one picture, one JSON."""
+"""What every method costs in time and in error, measured on this machine: one table, one picture, one JSON."""
 
 import json
 import tracemalloc
@@ -25,7 +25,7 @@ SLOW_SECONDS = 0.5  # a method this slow is timed once
 
 
 @dataclass(frozen=True)
-class Row:
+class MethodCost:
     """One method at one point: its errors, numbers and rays used, median CPU seconds and peak memory of a call."""
 
     method: str
@@ -50,7 +50,7 @@ def tradeoff(
     methods=METHODS,
     pixels: int = PIXELS,
     pixel_um: float | None = None,
-) -> list[Row]:
+) -> list[MethodCost]:
     """Return a row per (depth, field, wavelength) and method, each against the settled Huygens sum at that point.
 
     Fields and wavelengths default to the lens file's. `fitted` and `traced` have a second row for their preview. The
@@ -77,21 +77,21 @@ def _window(lens: Lens, source: Source, pixels: int) -> float:
 
 
 def _ways(methods):
-    """Yield (method, quality): every rung settled, those with a live form as preview too."""
+    """Yield (method, quality): every method settled, those with a live form as preview too."""
     for method in methods:
         if method in ("seidel", "fitted", "traced"):
             yield method, "preview"
         yield method, "settled"
 
 
-def _row(lens, source, window, place, reference: Psf, method: str, quality: str) -> Row:
+def _row(lens, source, window, place, reference: Psf, method: str, quality: str) -> MethodCost:
     def once() -> Psf:
         return _made(lens, source, window, reference, method, quality)
 
     psf, seconds = _timed(once)
     errors = compare(psf, reference)
     counts = psf.numbers, psf.rays, seconds, _peak_bytes(once)
-    return Row(method, quality, *place, errors, *counts, psf.sampling, psf.tolerance)
+    return MethodCost(method, quality, *place, errors, *counts, psf.sampling, psf.tolerance)
 
 
 def _made(lens, source, window, reference: Psf, method: str, quality: str) -> Psf:
@@ -123,19 +123,19 @@ def _peak_bytes(once) -> int:
     return max(0, peak - before)
 
 
-def to_json(rows: list[Row]) -> str:
+def to_json(rows: list[MethodCost]) -> str:
     """Return the rows as a JSON list; an infinite depth is null."""
     plain = [{**asdict(row), "depth_mm": None if isinf(row.depth_mm) else row.depth_mm} for row in rows]
     return json.dumps(plain, indent=1, allow_nan=False)
 
 
-def table(rows: list[Row]) -> list[tuple[str, ...]]:
+def table(rows: list[MethodCost]) -> list[tuple[str, ...]]:
     """Return the rows as text, headings first."""
     head = ("method", "depth mm", "field °", "λ nm", "R²", "rel. L2", "Strehl", "r50 µm", "r80 µm", "shift µm")
     return [(*head, "numbers", "rays", "ms", "kB"), *(_texts(row) for row in rows)]
 
 
-def _texts(row: Row) -> tuple[str, ...]:
+def _texts(row: MethodCost) -> tuple[str, ...]:
     e = row.errors
     place = "∞" if isinf(row.depth_mm) else f"{row.depth_mm:g}", f"{row.field_deg:g}", f"{row.wavelength_nm:g}"
     r_squared = f"{e.r_squared:.4f}" if e.r_squared < 0.999 else f"1 − {1 - e.r_squared:.0e}"
@@ -146,7 +146,7 @@ def _texts(row: Row) -> tuple[str, ...]:
     return name, *place, r_squared, f"{e.relative_l2:.1e}", strehl, *radii, *cost
 
 
-def front(rows: list[Row]) -> list[Row]:
+def front(rows: list[MethodCost]) -> list[MethodCost]:
     """Return the Pareto front, by time: rows that no other beats in both time and error."""
     best, out = inf, []
     for row in sorted(rows, key=lambda row: (row.seconds, error(row))):
@@ -156,7 +156,7 @@ def front(rows: list[Row]) -> list[Row]:
     return out
 
 
-def draw(handle, rows: list[Row], title: str = "") -> None:
+def draw(handle, rows: list[MethodCost], title: str = "") -> None:
     """Write time against error, log–log with the Pareto front marked, as a PNG into an open binary file."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -176,11 +176,11 @@ def draw(handle, rows: list[Row], title: str = "") -> None:
     FigureCanvasAgg(figure).print_png(handle)
 
 
-def _points(rows: list[Row]):
+def _points(rows: list[MethodCost]):
     return [1e3 * row.seconds for row in rows], [error(row) for row in rows]
 
 
-def error(row: Row) -> float:
+def error(row: MethodCost) -> float:
     """Return the relative L2 error; of the reference itself, the agreement that it reached."""
     own = row.tolerance if row.method == "huygens" and row.tolerance else 0.0
     return max(row.errors.relative_l2, own, 1e-12)

@@ -18,7 +18,7 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State
 
 FRAMES = 200
@@ -30,7 +30,7 @@ def window(qapp):
     qapp.setStyle("Fusion")
     configure_plots()
     with threadpool_limits(1):
-        made = Window(State(theme="light", method="seidel"), measured=False)
+        made = MainWindow(State(theme="light", method="seidel"), measured=False)
         made.resize(1440, 900)
         made.show()
         qapp.processEvents()

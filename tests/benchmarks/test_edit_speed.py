@@ -16,7 +16,7 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State
 
 EDITS, EDIT_MS = 60, 30.0
@@ -27,7 +27,7 @@ def window(qapp):
     qapp.setStyle("Fusion")
     configure_plots()
     with threadpool_limits(1):
-        made = Window(State(theme="light", tab="lens"), measured=False)
+        made = MainWindow(State(theme="light", tab="lens"), measured=False)
         made.resize(1440, 900)
         made.show()
         qapp.processEvents()

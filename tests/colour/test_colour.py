@@ -114,7 +114,7 @@ def lines(lens, source, *nm, window=(48, 1.0)):
 def test_one_line_is_the_plain_psf():
     lens = find_lens("double_gauss_28")
     source = Source(field_slope=0.1)
-    plain = polychromatic.by_ladder("seidel")(lens, source, 48, 1.0)
+    plain = polychromatic.by_method("seidel")(lens, source, 48, 1.0)
     found = lines(lens, source, 587.5618)
     assert found.xyz[..., 1] == pytest.approx(plain.energy * plain.values, abs=1e-12)
     assert found.light_in_window == pytest.approx(plain.energy)

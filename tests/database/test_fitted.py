@@ -1,4 +1,4 @@
-"""The fitted rung as a database: looked up equals fitted, to the error it states."""
+"""The fitted method as a database: looked up equals fitted, to the error it states."""
 
 import numpy as np
 import pytest

@@ -16,7 +16,7 @@ from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
 from p2sf.database.render import Sampling, rendered
 from p2sf.database_files.stack import chunk_shape, open_stack, read_psfs
-from p2sf.database_files.stack_write import Watch, write_stack
+from p2sf.database_files.stack_write import StackProgress, write_stack
 from p2sf.errors import DatabaseError
 from p2sf.lensfile.library import find_lens
 
@@ -74,14 +74,14 @@ def test_chunks_are_about_a_mebibyte_along_the_field_first():
 def test_progress_and_cancel_between_chunks_and_going_on_gives_the_same_bytes(stack, tmp_path):
     told = []
     database, lens = small()
-    watch = Watch(lambda *now: told.append(now), lambda: len(told) >= 1)
+    watch = StackProgress(lambda *now: told.append(now), lambda: len(told) >= 1)
     half = write_stack(database, lens, tmp_path / "half.zarr", SAMPLING, watch)
     assert not half.complete
     assert 0 < told[0][0] < told[0][1] == len(half.chunks)
     assert told[0][2] > 0
     with pytest.raises(DatabaseError, match="is not complete; build it again with the same command, it resumes"):
         read_psfs(half, ...)
-    again = write_stack(database, lens, tmp_path / "half.zarr", SAMPLING, Watch(lambda *now: told.append(now)))
+    again = write_stack(database, lens, tmp_path / "half.zarr", SAMPLING, StackProgress(lambda *now: told.append(now)))
     assert told[-1] == (len(half.chunks), len(half.chunks), 0)
     assert again.complete
     assert contents(again.path) == contents(stack.path)

@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State
 
 
@@ -27,7 +27,7 @@ FIRST = State(method="seidel", theme="light")
 def only_window(qapp):
     qapp.setStyle("Fusion")
     configure_plots()
-    made = Window(FIRST, measured=False)
+    made = MainWindow(FIRST, measured=False)
     made.resize(1440, 900)
     made.show()
     yield made
@@ -37,6 +37,7 @@ def only_window(qapp):
 @pytest.fixture
 def window(only_window, qtbot):
     """Return the one window, back in the first state: to make a new one each time takes a second."""
+    only_window.resize(1440, 900)
     only_window.store.replace(FIRST)
     only_window.refresh(FIRST)
     if focused := QApplication.focusWidget():

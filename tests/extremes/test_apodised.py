@@ -1,6 +1,6 @@
 """Pupils of uneven amplitude: the plain sums take any, so they are held to closed forms and to each other.
 
-The rungs fill a pupil evenly, or up to its rims; whoever brings an amplitude gives it to the sums with the weights.
+The methods fill a pupil evenly, or up to its rims; whoever brings an amplitude gives it to the sums with the weights.
 """
 
 from math import factorial

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from p2sf.errors import Cancelled, RequestError
-from p2sf.image import Forming, Watch, form_image, preview, with_noise
+from p2sf.image import Forming, Progress, form_image, preview, with_noise
 from p2sf.image.charts import draw_chart
 from p2sf.image.direct import direct_sum
 from p2sf.image.form import blur
 from p2sf.image.geometry import distorted, distortion_px, illumination
 from p2sf.image.lattice import build_lattice
 from p2sf.image.lowrank import decompose
-from p2sf.image.preview import quick_plan
+from p2sf.image.preview import preview_plan
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, view
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
 from p2sf.psf.huygens import huygens_psf
 from p2sf.scene import Channel, Scene, Sensor
 
@@ -59,7 +59,7 @@ def test_both_ways_equal_the_direct_sum_and_keep_the_light(by_definition, method
 def test_a_real_lens_equals_its_direct_sum():
     """400 bright pixels anywhere in 128 × 128 at 18 mm of the Double Gauss, each sent out with its own kernel."""
     sensor = Sensor(SIDE, SIDE, 8.0, (0.0, 18.0))
-    seen = view(find_lens("double_gauss_28"), np.inf, 0.5876, sensor.corners_mm()[1])
+    seen = sensor_map(find_lens("double_gauss_28"), np.inf, 0.5876, sensor.corners_mm()[1])
     kernels = Kernels(seen, Colour((0.5876,), (1.0,)), 8.0, lambda height: Recipe("fitted", 26), half=14)
 
     def kernel_at(row, column):
@@ -92,7 +92,7 @@ def test_mirrored_quarters_are_the_whole():
 
 def quick(sensor: Sensor, lens="double_gauss_28", f_number=None):
     scene = Scene(sensor, GREEN, f_number=f_number)
-    return quick_plan(scene.camera(find_lens(lens)), scene)
+    return preview_plan(scene.camera(find_lens(lens)), scene)
 
 
 def test_the_slanted_edge_has_the_psfs_contrast():
@@ -116,7 +116,7 @@ def test_the_slanted_edge_has_the_psfs_contrast():
     f = np.linspace(0.02, 0.45, 20)
     places = np.arange(len(line)) / bins
     edge = np.abs(np.exp(-2j * np.pi * np.outer(f, places)) @ line) / line.sum() / np.sinc(f / bins) ** 2
-    seen = planned.view(0.0)
+    seen = planned.sensor_map(0.0)
     psf = huygens_psf(seen.lens, seen.source(8.0, 0.54), 256, 0.7)
     along = np.cos(angle) * psf.x_um + np.sin(angle) * psf.y_um[:, None]
     wave = np.exp(-2j * np.pi * f[:, None, None] / pixel * along)
@@ -128,7 +128,7 @@ def test_the_slanted_edge_has_the_psfs_contrast():
 
 def test_distortion_puts_points_where_real_chief_rays_land():
     sensor = Sensor(400, 400, 80.0)
-    seen = view(find_lens("double_gauss_28"), np.inf, 0.54, sensor.corners_mm()[1])
+    seen = sensor_map(find_lens("double_gauss_28"), np.inf, 0.54, sensor.corners_mm()[1])
     assert 1 < distortion_px(seen, sensor) < 5
     row, column = np.mgrid[:400, :400]
     blob = np.exp(-((row - 40.0) ** 2 + (column - 330.0) ** 2) / 18)[..., None].astype(np.float32)
@@ -150,7 +150,7 @@ def test_light_falls_off_as_the_cosines_fourth_power_for_a_thin_stop():
     """E ∝ cos⁴ for a stop that nothing magnifies; the landscape lens, whose stop stands before it, is close to that."""
     planned = quick(Sensor(100, 100, 60.0), "landscape")
     shade = illumination(planned.kernels(0, 0.0), planned.scene.sensor)
-    slope = planned.view(0.0).slope(planned.scene.sensor.corners_mm()[1])
+    slope = planned.sensor_map(0.0).slope(planned.scene.sensor.corners_mm()[1])
     assert shade[50, 50] == pytest.approx(1, abs=1e-3)
     assert shade[0, 0] == pytest.approx((1 + slope**2) ** -2, abs=0.03)
 
@@ -169,7 +169,7 @@ def test_a_preview_shows_the_same_picture():
     picture = draw_chart("landscape", 660, 660)
     small = preview(find_lens("double_gauss_28"), scene, picture)
     assert small.shape == (220, 220, 3)
-    whole = form_image(quick_plan(find_lens("double_gauss_28"), scene), picture)
+    whole = form_image(preview_plan(find_lens("double_gauss_28"), scene), picture)
     blocks = whole.reshape(220, 3, 220, 3, 3).mean((1, 3))
     assert np.sqrt(np.mean((small - blocks) ** 2)) < 0.01
 
@@ -177,10 +177,10 @@ def test_a_preview_shows_the_same_picture():
 def test_progress_is_told_and_cancelling_is_heard():
     planned, told = quick(Sensor(40, 50, 10.0)), []
     picture = np.ones((40, 50, 1), np.float32)
-    form_image(planned, picture, watch=Watch(told.append))
+    form_image(planned, picture, watch=Progress(told.append))
     assert told[-1] == 1 and all(0 < part <= 1 for part in told)
     with pytest.raises(Cancelled):
-        form_image(planned, picture, watch=Watch(cancelled=lambda: len(told) > 0))
+        form_image(planned, picture, watch=Progress(cancelled=lambda: len(told) > 0))
 
 
 def test_noise_is_apart_and_has_the_variance_of_its_electrons():

@@ -8,7 +8,7 @@ import pytest
 from p2sf.image import Forming, form_image
 from p2sf.image.layers import layer_weights, merged
 from p2sf.image.lowrank import _spline
-from p2sf.image.preview import quick_plan
+from p2sf.image.preview import preview_plan
 from p2sf.lensfile.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor
 from p2sf.scene.verify import planned_kernel
@@ -20,7 +20,7 @@ BLUR = Forming(geometry=False)
 def planned(focus_mm: float, vergences: tuple[float, ...]):
     """Return the Double Gauss at f/4 on 41 × 41 pixels of 20 µm, nodes at these vergences."""
     scene = Scene(Sensor(41, 41, 20.0), GREEN, 4000.0, focus_mm=focus_mm, f_number=4.0)
-    return replace(quick_plan(scene.camera(find_lens("double_gauss_28")), scene), vergences=vergences)
+    return replace(preview_plan(scene.camera(find_lens("double_gauss_28")), scene), vergences=vergences)
 
 
 def test_shares_are_linear_in_one_over_the_distance_and_the_ends_beyond_the_nodes():

@@ -1,7 +1,7 @@
 """Try the chooser on random lenses and sources: ``python -m tests.long.method_choice --points 300``.
 
 A point is a shipped lens (or a witness's, glass as listed), its f-number, depth, focus, field and wavelength drawn at
-random. Every rung that was cheaper than the chosen one, and the chosen one, is rendered and measured against the
+random. Every method that was cheaper than the chosen one, and the chosen one, is rendered and measured against the
 reference. Never may the chosen one fall below the tolerance; how often a cheaper one would have done is printed.
 """
 
@@ -25,13 +25,13 @@ from p2sf.psf.methods import QUICK_LEVELS, Choice, choose, render
 from p2sf.psf.seidel import suitable_pixel_um
 
 PIXELS = 64
-STEEPEST = 80.0  # waves per pupil radius: beyond it a reference takes seconds, and no rung is harder to choose
+STEEPEST = 80.0  # waves per pupil radius: beyond it a reference takes seconds, and no method is harder to choose
 TOLERANCES = (0.9, 0.99, 0.999, 0.9999)
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One point: what was chosen, what was predicted and measured (1 − R²), and what cheaper rungs measured."""
+    """One point: what was chosen, what was predicted and measured (1 − R²), and what cheaper methods measured."""
 
     lens: str
     source: Source
@@ -43,12 +43,12 @@ class Trial:
 
     @property
     def wrong(self) -> bool:
-        """Return whether the chosen rung is worse than was asked."""
+        """Return whether the chosen method is worse than was asked."""
         return 1 - self.measured < self.tolerance
 
     @property
     def needless(self) -> bool:
-        """Return whether a cheaper rung would have done."""
+        """Return whether a cheaper method would have done."""
         return any(1 - error >= self.tolerance for error in self.cheaper)
 
 
@@ -88,7 +88,7 @@ def trial(lens: Lens, source: Source, tolerance: float) -> Trial | None:
 
 
 def _cheaper(lens: Lens, source: Source, choice: Choice, pixel: float):
-    """Yield the PSFs of all rungs below the chosen one; a fit that lost rays forbid is none."""
+    """Yield the PSFs of all methods below the chosen one; a fit that lost rays forbid is none."""
     if choice.method != "seidel":
         yield render(lens, source, "seidel", PIXELS, pixel)
     for level in QUICK_LEVELS:
@@ -108,7 +108,7 @@ def trials(points: int, seed: int = 1):
 
 
 def summary(outcomes: list[Trial]) -> str:
-    """Return in words how often each rung was chosen, wrong and needlessly expensive, per tolerance."""
+    """Return in words how often each method was chosen, wrong and needlessly expensive, per tolerance."""
     lines = []
     for tolerance in TOLERANCES:
         some = [o for o in outcomes if o.tolerance == tolerance]
@@ -117,7 +117,7 @@ def summary(outcomes: list[Trial]) -> str:
         wrong, needless = sum(o.wrong for o in some), sum(o.needless for o in some)
         lines.append(f"R² ≥ {tolerance}: {len(some)} points, {used}; {wrong} wrong, {needless} needlessly expensive")
     ratio = max(o.measured / o.predicted for o in outcomes)
-    return "\n".join([*lines, f"largest measured/predicted error of a chosen rung: {ratio:.2f}"])
+    return "\n".join([*lines, f"largest measured/predicted error of a chosen method: {ratio:.2f}"])
 
 
 def main() -> None:

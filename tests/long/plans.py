@@ -119,7 +119,7 @@ def trial(lens, scene, seed: int = 0) -> dict:
 
 def check_affordable(planned: Plan) -> None:
     """Raise GeometryError for a scene whose reference sum is hours of work, as of a relay far out of focus."""
-    sensor, seen = planned.scene.sensor, planned.view(planned.vergences[0])
+    sensor, seen = planned.scene.sensor, planned.sensor_map(planned.vergences[0])
     half = planned.kernels(0, planned.vergences[0]).half_width(sensor.corners_mm()[1])
     source = seen.source(sensor.corners_mm()[1], min(planned.colours[0].wavelengths_um))
     probe = disc_nodes(*PROBE)
@@ -134,9 +134,9 @@ def check_affordable(planned: Plan) -> None:
 def plan_seconds(planned: Plan) -> float:
     """Return the CPU seconds of all kernels of a plan, its pupils included: of one depth times the depths."""
     for vergence in planned.vergences:
-        planned.view(vergence)
+        planned.sensor_map(vergence)
     for vergence in (planned.pupil_nodes or ((), ()))[1]:
-        planned.view(vergence)
+        planned.sensor_map(vergence)
     started = process_time()
     for number in range(len(planned.colours)):
         planned.kernels(number, planned.vergences[0])  # makes the pupils that are shared
@@ -153,7 +153,7 @@ def naive_seconds(planned: Plan) -> float:
     ends, rim = (planned.vergences[0], planned.vergences[-1]), sensor.corners_mm()[1]
     half = max(planned.kernels(0, v).half_width(rim) for v in ends)
     picked = [places[n] for n in np.linspace(0, len(places) - 1, min(SAMPLE, len(places))).astype(int)]
-    views = {v: planned.view(v) for v, *_ in picked}
+    views = {v: planned.sensor_map(v) for v, *_ in picked}
     started = process_time()
     for v, channel, row, column in picked:
         colour = Colour(tuple(channel.wavelengths_um.tolist()), tuple(channel.shares.tolist()))

@@ -29,7 +29,7 @@ from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.shell.memory_trim import REST_MS
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State
 from tests.support.lens_files import FILES, FOLDER
 from tests.support.monkey import STALL_MS, Ledger, Person
@@ -68,10 +68,10 @@ class Verdict:
         )
 
 
-def soak(seconds: float, events: int, seed: int = 0, tell=lambda line: None) -> Verdict:
+def stress(seconds: float, events: int, seed: int = 0, tell=lambda line: None) -> Verdict:
     """Let random hands work on a window for so long or so many events, whichever ends first."""
     with tempfile.TemporaryDirectory() as folder, own_files(Path(folder), seed), overheard(tell) as errors:
-        window = Window(FIRST)
+        window = MainWindow(FIRST)
         window.show()
         person, begun = Person(window, random.Random(seed)), perf_counter()
         warm, minute = None, 0
@@ -151,9 +151,9 @@ def main(minutes: float = 60.0, events: int = 200_000, seed: int = 0) -> int:
     application.setStyle("Fusion")
     configure_plots()
     with threadpool_limits(limits=1):
-        found = soak(60 * minutes, events, seed, lambda line: print(line, flush=True))
+        found = stress(60 * minutes, events, seed, lambda line: print(line, flush=True))
     print(found.words())
-    print(", ".join(f"{name} {count}" for name, count in found.ledger.done.most_common()))
+    print(", ".join(f"{name} {count}" for name, count in found.ledger.cache.most_common()))
     judged = minutes >= JUDGED and (found.growth >= GROWTH or bool(found.ledger.slow))
     return int(bool(found.errors) or judged)
 

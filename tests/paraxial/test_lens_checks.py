@@ -8,7 +8,7 @@ from p2sf.cli import main
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.paraxial.lens_checks import edge, oddities
+from p2sf.paraxial.lens_checks import edge, lens_checks
 
 GLASS = ConstantIndex(1.5)
 
@@ -21,7 +21,7 @@ def singlet(rim=5.0, stop=2.0, conic=0.0, glass=GLASS, stop_surface=1) -> Lens:
 @pytest.mark.parametrize("name", shipped_lenses())
 def test_the_shipped_lenses_have_no_oddities(name):
     """But for the relay, a drawing-board lens whose published rims reach beyond its spheres."""
-    found = oddities(find_lens(name))
+    found = lens_checks(find_lens(name))
     assert len(found) == (4 if name == "relay" else 0), found
 
 
@@ -38,18 +38,18 @@ def test_the_shipped_lenses_have_no_oddities(name):
     ],
 )
 def test_an_impossible_lens_is_told_in_a_sentence(lens, words):
-    found = oddities(lens)
+    found = lens_checks(lens)
     assert any(words in sentence for sentence in found), found
     assert all("; " in sentence for sentence in found)
 
 
 def test_at_the_edge_itself_a_rim_is_possible():
-    assert oddities(singlet(rim=10.0, stop=10.0)) == ()
+    assert lens_checks(singlet(rim=10.0, stop=10.0)) == ()
 
 
 def test_planes_parabolas_and_hyperbolas_never_end():
     assert edge(Surface()) == edge(Surface(10.0, conic=-1.0)) == edge(Surface(10.0, conic=-2.0)) == inf
-    assert oddities(singlet(rim=100.0, conic=-1.0)) == ()
+    assert lens_checks(singlet(rim=100.0, conic=-1.0)) == ()
 
 
 def test_info_warns_and_still_answers(tmp_path, capsys):

@@ -6,10 +6,10 @@ import pytest
 from p2sf.errors import GeometryError
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, distortion_at, view
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, distortion_at, sensor_map
 from p2sf.pixel_kernels.channel import own_pupil
 from p2sf.pixel_kernels.frequency_grid import dropped_terms, pupil_map, without
-from p2sf.pixel_kernels.pixels import Window, _binned, half_width, pixel_kernel
+from p2sf.pixel_kernels.pixels import PixelWindow, _binned, half_width, pixel_kernel
 from p2sf.pixel_kernels.pupil_table import chebyshev, few_nodes, lagrange, pupil_table
 from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.zernike import basis, basis_by_powers
@@ -35,7 +35,7 @@ def test_the_fft_of_a_fitted_pupil_is_the_huygens_sum_of_exact_rays(degrees):
     lens = find_lens("double_gauss_28")
     pupil = pupil_map(lens, source(degrees), "fitted", 46)
     half = half_width(pupil, PIXEL)
-    wide = pixel_kernel(pupil, 0.0, Window(2 * half, PIXEL, 14))
+    wide = pixel_kernel(pupil, 0.0, PixelWindow(2 * half, PIXEL, 14))
     kernel = wide[half:-half, half:-half] / wide[half:-half, half:-half].sum()
     assert relative(kernel, exact_pixels(lens, source(degrees), 0.0, half, PIXEL, 0.0)) < 5e-3
 
@@ -50,7 +50,7 @@ def test_the_reference_of_pixels_is_the_reference_of_the_house_added_up():
 @pytest.mark.parametrize("method", ["seidel", "fitted"])
 def test_a_field_to_the_right_is_the_field_upwards_turned(method):
     pupil = pupil_map(find_lens("cooke_triplet"), source(12), method)
-    window = Window(12, 4.0, 5)
+    window = PixelWindow(12, 4.0, 5)
     up = pixel_kernel(pupil, 0.0, window)
     for quarter in (1, 2, 3):
         turned = pixel_kernel(pupil, quarter * np.pi / 2, window)
@@ -61,7 +61,7 @@ def test_oblique_directions_are_turned_as_the_reference_is():
     lens, angle = find_lens("cooke_triplet"), 0.7
     pupil = pupil_map(lens, source(12), "fitted", 46)
     half = half_width(pupil, PIXEL)
-    wide = pixel_kernel(pupil, angle, Window(2 * half, PIXEL, 8))[half:-half, half:-half]
+    wide = pixel_kernel(pupil, angle, PixelWindow(2 * half, PIXEL, 8))[half:-half, half:-half]
     good = exact_pixels(lens, source(12), angle, half, PIXEL, 0.0)
     assert relative(wide / wide.sum(), good) < 1e-2
     assert relative(wide[:, ::-1] / wide.sum(), good) > 0.1  # and the mirror image, a wrong sense of turning, is not
@@ -71,7 +71,7 @@ def test_a_shift_moves_the_kernel_by_that_much():
     pupil = pupil_map(find_lens("cooke_triplet"), source(0), "fitted")
     centre = np.arange(-12, 13)
     for shift in ((0.0, 0.0), (3.0, -2.0)):  # the rings' wings, cut on one side sooner, weigh a tenth of a µm or so
-        kernel = pixel_kernel(pupil, 0.0, Window(12, 4.0, 6), shift)
+        kernel = pixel_kernel(pupil, 0.0, PixelWindow(12, 4.0, 6), shift)
         x, y = (kernel.sum(0) @ centre) * 4, (kernel.sum(1) @ -centre) * 4
         assert np.allclose((x, y), shift, atol=0.2)
         assert kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
@@ -81,13 +81,13 @@ def test_dropped_terms_stay_below_their_bound_and_change_as_little():
     pupil = pupil_map(find_lens("double_gauss_28"), source(10), "fitted")
     gone = dropped_terms(pupil, 1e-3)
     assert gone and sum(size**2 for *_, size in gone) <= 1e-6
-    one, two = (pixel_kernel(p, 0.3, Window(20, PIXEL, 6)) for p in (pupil, without(pupil, 1e-3)))
+    one, two = (pixel_kernel(p, 0.3, PixelWindow(20, PIXEL, 6)) for p in (pupil, without(pupil, 1e-3)))
     assert 0 < relative(two, one) < 4 * np.pi * 1e-3
 
 
 def test_a_view_finds_the_field_that_lands_where_it_says():
     lens = find_lens("double_gauss_28")
-    seen = view(lens, np.inf, WAVE, 24.0)
+    seen = sensor_map(lens, np.inf, WAVE, 24.0)
     from p2sf.pixel_kernels.sensor_points import chief_heights
 
     landed = chief_heights(lens, Source(np.inf, seen.slope(np.array([3.0, 20.0])), WAVE))
@@ -95,7 +95,7 @@ def test_a_view_finds_the_field_that_lands_where_it_says():
     assert distortion_at(seen, 0.0) == 0 and -0.02 < distortion_at(seen, 24.0) < -0.005
     assert seen.shift_mm(10.0, WAVE) == 0 and seen.shift_mm(10.0, 0.45) != 0
     with pytest.raises(GeometryError, match="sensor's corner"):
-        view(lens, np.inf, WAVE, 500.0)
+        sensor_map(lens, np.inf, WAVE, 500.0)
 
 
 def test_fewer_wavelengths_keep_the_spectrums_moments():
@@ -110,7 +110,7 @@ def test_fewer_wavelengths_keep_the_spectrums_moments():
 
 
 def test_kernels_of_a_channel_have_unit_sum_and_carry_lateral_colour():
-    seen = view(find_lens("landscape"), np.inf, WAVE, 15.0)
+    seen = sensor_map(find_lens("landscape"), np.inf, WAVE, 15.0)
     colours = Colour((0.45, 0.65), (0.5, 0.5))
     kernel = Kernels(seen, colours, 8.0, lambda height: Recipe()).at(0.0, 12.0)
     assert kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
@@ -128,7 +128,7 @@ def test_pupils_between_a_few_are_the_ones_that_rays_give():
     """Four heights and three depths: phase RMS 2e-4 waves, 4πσ = 2.5e-3 of a kernel; at the nodes, the fit itself."""
     lens, recipe = find_lens("double_gauss_28"), Recipe("fitted", 46)
     depths = 1 / chebyshev(1e-5, 2e-4, 3)
-    seen = {1 / d: view(lens, d, WAVE, 16.0) for d in (*depths, 9000.0)}
+    seen = {1 / d: sensor_map(lens, d, WAVE, 16.0) for d in (*depths, 9000.0)}
     table = pupil_table(lambda h, v: own_pupil(seen[v], h, 0.55, recipe), chebyshev(2.0, 15.0, 4), list(seen)[:3])
     for height in (3.1, 11.7):
         made, own = table.at(height, 1 / 9000.0), own_pupil(seen[1 / 9000.0], height, 0.55, recipe)

@@ -1,4 +1,4 @@
-"""The fitted rung: its polynomials, what it promises with 26 and 46 numbers, and when it asks for more."""
+"""The fitted method: its polynomials, what it promises with 26 and 46 numbers, and when it asks for more."""
 
 import numpy as np
 import pytest

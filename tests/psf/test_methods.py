@@ -1,4 +1,4 @@
-"""The ladder: every rung through one door, a choice that holds what it promises, and the measured trade."""
+"""The ladder: every method through one door, a choice that holds what it promises, and the measured trade."""
 
 import json
 from dataclasses import replace

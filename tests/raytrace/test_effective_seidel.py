@@ -7,7 +7,7 @@ import pytest
 
 from p2sf.lens.lens import Aperture, with_sensor
 from p2sf.paraxial.first_order import image_distance
-from p2sf.raytrace.effective_seidel import vocabulary
+from p2sf.raytrace.effective_seidel import effective_seidel
 from tests.raytrace.test_pencil import case
 from tests.support.reference import huygens_rows
 
@@ -29,7 +29,7 @@ def test_small_apertures_and_fields_give_seidels_numbers(name, index):
 
 def _departures(lens, source, scale, of=None):
     small = replace(lens, aperture=Aperture("stop_semi_diameter", lens.aperture.value * scale))
-    found = vocabulary(small, replace(source, field_slope=source.field_slope * scale), 46)
+    found = effective_seidel(small, replace(source, field_slope=source.field_slope * scale), 46)
     if of:
         return [abs(float(getattr(of(found), word))) for word in WORDS]
     return [abs(float(getattr(found.fitted, word) - getattr(found.seidel, word))) for word in WORDS]
@@ -37,7 +37,7 @@ def _departures(lens, source, scale, of=None):
 
 def test_off_axis_the_words_differ_and_the_remainder_says_that_six_are_not_enough():
     lens, source = case("double_gauss_28", huygens_rows("double_gauss_28")[2][0])
-    found = vocabulary(lens, source, 46)
+    found = effective_seidel(lens, source, 46)
     assert abs(float(found.fitted.w22 - found.seidel.w22)) > 1
     assert found.remainder_waves > 0.1
     # DESIGN.md section 2, from another program: NA × 0.979 sagittal, × 0.945 tangential at the chief ray.
@@ -46,5 +46,5 @@ def test_off_axis_the_words_differ_and_the_remainder_says_that_six_are_not_enoug
 
 def test_on_axis_there_is_no_field_term():
     lens, source = case("double_gauss_28", huygens_rows("double_gauss_28")[0][0])
-    found = vocabulary(lens, source)
+    found = effective_seidel(lens, source)
     assert found.fitted.w11 == 0 and abs(float(found.fitted.w31)) < 1e-9 and abs(float(found.fitted.w22)) < 1e-9

@@ -56,7 +56,7 @@ def test_a_plan_without_what_it_decided_would_not(planned):
 
 def test_every_decision_has_a_reason_and_an_error(planned):
     kinds = {decision.what.split()[0] for decision in planned.decisions}
-    assert kinds == {"rung", "terms", "sampling", "field", "depth", "colour", "pupils"}
+    assert kinds == {"method", "terms", "sampling", "field", "depth", "colour", "pupils"}
     assert all(len(d.why) > 20 and 0 <= d.error < 0.1 for d in planned.decisions)
     assert planned.naive.kernel_seconds > planned.cost.kernel_seconds
 

@@ -17,7 +17,7 @@ from PySide6.QtCore import QPoint, QSize, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication
 
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State
 from tests.support.events import send_key, turn_wheel, type_text
 
@@ -52,7 +52,7 @@ class Ledger:
 class Person:
     """Does one random thing after another to the window, by mouse and keys."""
 
-    def __init__(self, window: Window, chance: random.Random):
+    def __init__(self, window: MainWindow, chance: random.Random):
         self.window, self.chance, self.ledger, self.drawn = window, chance, Ledger(), False
 
     def act(self) -> None:

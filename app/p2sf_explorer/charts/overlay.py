@@ -10,7 +10,7 @@ COVER = 0.9  # of the light: so little is left of an earlier picture that nobody
 MARGIN = 12
 
 
-class Veil(QWidget):
+class Overlay(QWidget):
     """Covers its parent but for the title line; what is beneath still takes the mouse, for it may be the remedy."""
 
     def __init__(self, parent: QWidget):

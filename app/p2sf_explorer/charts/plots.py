@@ -19,7 +19,7 @@ NARROW_PX = 245  # below it, as beside a lesson, a heat map is nothing but its p
 EMPTY = 255  # the one index of a colour table that is kept for "no value"
 
 
-class Axis(pg.AxisItem):
+class PlotAxis(pg.AxisItem):
     """An axis that writes a true minus sign."""
 
     def tickStrings(self, values, scale, spacing):
@@ -40,7 +40,7 @@ class Axis(pg.AxisItem):
 
 def plot_widget(bottom: str = "", left: str = "", aspect: bool = False) -> pg.PlotWidget:
     """Return a still plot: labelled axes, no menus, no panning."""
-    plot = pg.PlotWidget(axisItems={side: Axis(side) for side in ("bottom", "left")})
+    plot = pg.PlotWidget(axisItems={side: PlotAxis(side) for side in ("bottom", "left")})
     item = plot.getPlotItem()
     item.setMenuEnabled(False)
     item.hideButtons()

@@ -12,7 +12,7 @@ from p2sf_explorer.charts.painting import pen, polygon, write
 from p2sf_explorer.charts.plots import EMPTY, as_indices, lookup
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.camera import Eye, turned
+from p2sf_explorer.state.camera import Camera, turned
 
 HEIGHT = 0.6  # pupil radii that stand for the colour bar's end
 HALF = 1.2  # pupil radii from the middle of the picture to its edge
@@ -22,7 +22,7 @@ UNDER, NET = 0.72, 0.62  # brightness of the under side and of the net, of what 
 
 
 @dataclass(frozen=True)
-class View:
+class Viewpoint:
     """Where the eye stands, degrees (0 and 90 see ξ to the right and η up), and the picture's pixels across."""
 
     turn_deg: float
@@ -31,7 +31,7 @@ class View:
 
 
 @dataclass(frozen=True)
-class Relief:
+class SurfacePicture:
     """What the pixels of a picture show, (count, count), rows upwards: W in waves, NaN for nothing; brightness to 1."""
 
     waves: np.ndarray
@@ -39,7 +39,7 @@ class Relief:
 
 
 @dataclass(frozen=True)
-class Grid:
+class SurfaceGrid:
     """The slices from the front, (slices, columns): four map samples and weights for each place (4, …), the net.
 
     ``nearest``: a place's slice where W is known, else the last one before it, else the first; ``met``: the columns
@@ -54,7 +54,7 @@ class Grid:
     depth: np.ndarray
 
 
-def relief(waves: np.ndarray, limit: float, view: View) -> Relief:
+def surface_picture(waves: np.ndarray, limit: float, view: Viewpoint) -> SurfacePicture:
     """Return the picture of W over the pupil, (n, n), NaN where there is none; ``limit`` waves stand `HEIGHT` high."""
     known, tilt = np.isfinite(waves), np.deg2rad(view.tilt_deg)
     grid = placed(known.tobytes(), len(waves), view)
@@ -64,7 +64,7 @@ def relief(waves: np.ndarray, limit: float, view: View) -> Relief:
     seen = (slices < len(level)) & grid.met[:, None]
     place = np.take_along_axis(grid.nearest, np.minimum(slices, len(level) - 1).T, 0), np.arange(view.count)
     light = np.where(under.T, UNDER, 1.0) * lighted(height * (HEIGHT / limit), grid)[place]
-    return Relief(np.where(seen.T, height[place], np.nan), light)
+    return SurfacePicture(np.where(seen.T, height[place], np.nan), light)
 
 
 def first_seen(level: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -83,7 +83,7 @@ def first_seen(level: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     return passed[0] + above, above > 0
 
 
-def lighted(height: np.ndarray, grid: Grid) -> np.ndarray:
+def lighted(height: np.ndarray, grid: SurfaceGrid) -> np.ndarray:
     """Return how bright the surface is: more where it faces front and left, less on the net."""
     step, column = np.maximum(grid.depth[1] - grid.depth[0], 1e-6), 2 * HALF / height.shape[1]
     back = np.gradient(height, axis=0) / step
@@ -93,7 +93,7 @@ def lighted(height: np.ndarray, grid: Grid) -> np.ndarray:
 
 
 @lru_cache(maxsize=4)
-def placed(known: bytes, count: int, view: View) -> Grid:
+def placed(known: bytes, count: int, view: Viewpoint) -> SurfaceGrid:
     """Return the slices' places over a map of ``count``² samples, of which those ``known`` have a value."""
     across = (np.arange(view.count) + 0.5) * 2 * HALF / view.count - HALF
     rim, turn = np.sqrt(np.maximum(0.0, 1 - across**2)), np.deg2rad(view.turn_deg)
@@ -109,7 +109,7 @@ def placed(known: bytes, count: int, view: View) -> Grid:
     number = np.arange(len(depth))[:, None]
     nearest = np.maximum(np.maximum.accumulate(np.where(found, number, -1), axis=0), found.argmax(axis=0))
     net = np.minimum(*(np.abs((v / MESH + 0.5) % 1 - 0.5) for v in (xi, eta))) * MESH < max(LINE, 1 / view.count)
-    return Grid(samples, weights, net, nearest, found.any(axis=0), depth)
+    return SurfaceGrid(samples, weights, net, nearest, found.any(axis=0), depth)
 
 
 def neighbours(xi: np.ndarray, eta: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -132,12 +132,12 @@ TURNS = {
     KEYS.Key_Down: (0.0, -TURN_DEG),
 }
 DEG_PER_PX = 0.5
-FIRST = Eye(-30.0, 35.0)  # ξ to the right, η away from the eye
+FIRST = Camera(-30.0, 35.0)  # ξ to the right, η away from the eye
 AWAY = 1.12  # pupil radii from the middle to an axis's name
 AXES = (("ξ", (1.0, 0.0)), ("η", (0.0, 1.0)))
 
 
-class ReliefView(QWidget):
+class SurfaceView(QWidget):
     """Drag or arrow keys turn the surface, a double-click or Home goes back; ``turned`` tells of where it is let go."""
 
     turned = Signal(float, float)
@@ -153,12 +153,12 @@ class ReliefView(QWidget):
         self.setToolTip(tr("Drag or use the arrow keys to turn the surface; a double-click goes back"))
         self._theme, self._map, self.eye = LIGHT, "CET-D1A", FIRST
         self.pixels = np.zeros((1, 1), np.uint32)
-        self._held: tuple[QPointF, Eye] | None = None
+        self._held: tuple[QPointF, Camera] | None = None
 
-    def show_waves(self, waves: np.ndarray, limit: float, quality: str, eye: Eye) -> None:
+    def show_waves(self, waves: np.ndarray, limit: float, quality: str, eye: Camera) -> None:
         """Show W in waves over the pupil, ``limit`` waves as high as the colour bar's end."""
         self.eye = eye
-        seen = relief(waves, limit, View(eye.turn, eye.tilt, COUNTS[quality]))
+        seen = surface_picture(waves, limit, Viewpoint(eye.turn, eye.tilt, COUNTS[quality]))
         shade = (seen.light * (SHADES - 1)).astype(np.intp)
         self.pixels = shaded(self._map)[shade, as_indices(seen.waves, -limit, limit)][::-1].copy()
         self.update()
@@ -211,7 +211,7 @@ class ReliefView(QWidget):
         turn, tilt = np.deg2rad(self.eye.turn), np.deg2rad(self.eye.tilt)
         return xi * np.cos(turn) + eta * np.sin(turn), np.sin(tilt) * (eta * np.cos(turn) - xi * np.sin(turn))
 
-    def _turn(self, eye: Eye) -> None:
+    def _turn(self, eye: Camera) -> None:
         self.turned.emit(eye.turn, max(0.0, eye.tilt))
 
     def mousePressEvent(self, event) -> None:

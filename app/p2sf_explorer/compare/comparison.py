@@ -9,8 +9,8 @@ import numpy as np
 
 from p2sf_explorer.compare.differences import WHY, subtracted
 from p2sf_explorer.compute import live as compute
-from p2sf_explorer.compute.deferred_sums import Asked, Done
-from p2sf_explorer.compute.live import Live, View
+from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
+from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.compute.pupil import PupilMap, pupil_map
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.state.pinning import side_b
@@ -42,55 +42,63 @@ class Answers:
     seen: Live
 
     @property
-    def owed(self) -> Asked | None:
+    def pending(self) -> SumRequest | None:
         """Return the sum of waves that A's picture stands in for, else B's."""
-        return self.a.owed or (self.b and self.b.owed)
+        return self.a.pending or (self.b and self.b.pending)
 
 
 def answers(
-    state: State, quality: str, views: Mapping[str, View], last: Answers | None = None, done: Done | None = None
+    state: State,
+    quality: str,
+    views: Mapping[str, ResultFunction],
+    last: Answers | None = None,
+    cache: SumCache | None = None,
 ) -> Answers:
-    """Return the answers for a state. While a slider moves, ``last`` tells which rung ``auto`` had chosen for each.
+    """Return the answers for a state. While a slider moves, ``last`` tells which method ``auto`` had chosen for each.
 
-    ``done`` as for `compute.live`.
+    ``cache`` as for `compute.live`.
 
     Raises P2SFError where there is no answer.
     """
     moving = quality == "preview"
     if not state.pinned:
-        a = compute.live(state, quality, views, held(last.a if last and moving else None, state), done=done)
+        a = compute.live(state, quality, views, kept_method(last.a if last and moving else None, state), cache=cache)
         return Answers(a, None, a)
     begun, other = perf_counter(), side_b(state)
-    a = compute.live(state, quality, {}, held(last.a if last and moving else None, state), done=done)
+    a = compute.live(state, quality, {}, kept_method(last.a if last and moving else None, state), cache=cache)
     asks = _Asks(
-        quality, held(last.b if last and moving else None, other), width_um(a), done, done.version if done else 0
+        quality,
+        kept_method(last.b if last and moving else None, other),
+        width_um(a),
+        cache,
+        cache.version if cache else 0,
     )
     b = _b(other, asks, prescription(other))
     if width_um(b) > width_um(a) * (1 + 1e-9):
-        a = compute.live(state, quality, {}, a.rung if state.method == "auto" else "", width_um(b), done)
+        a = compute.live(state, quality, {}, a.method if state.method == "auto" else "", width_um(b), cache)
     return Answers(a, b, seen(state, a, b, views, begun))
 
 
 @dataclass(frozen=True)
 class _Asks:
-    """What B's answer depends on beside its state; ``version`` is that of ``done``."""
+    """What B's answer depends on beside its state; ``version`` is that of ``cache``."""
 
     quality: str
     kept: str
     at_least_um: float
-    done: Done | None
+    cache: SumCache | None
     version: int
 
 
 @lru_cache(maxsize=4)
 def _b(state: State, asks: _Asks, lens) -> Live:
     """Return B's answer; it stands still while only A moves. ``lens`` tells of a file that has changed."""
-    return compute.live(state, asks.quality, {}, asks.kept, asks.at_least_um, asks.done)
+    return compute.live(state, asks.quality, {}, asks.kept, asks.at_least_um, asks.cache)
 
 
-def held(last: Live | None, state: State) -> str:
-    """Return the rung that ``auto`` had chosen in the last answer, if it is still in charge."""
-    return last.rung if last and state.method == "auto" and not last.setting.altered else ""
+def kept_method(last: Live | None, state: State) -> str:
+    """Return the method that ``auto`` had chosen in the last answer, if it is still in charge."""
+    return last.method if last and state.method == "auto" and not last.setup.altered else ""
 
 
 def width_um(live: Live) -> float:
@@ -98,7 +106,7 @@ def width_um(live: Live) -> float:
     return live.psf.values.shape[-1] * live.psf.pixel_um
 
 
-def seen(state: State, a: Live, b: Live, views: Mapping[str, View], begun: float) -> Live:
+def seen(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
     """Return the answer on screen, its views computed."""
     chosen = compute.with_views(b if state.shown == "b" else a, views, begun)
     if state.shown != "difference":
@@ -113,7 +121,7 @@ def difference(a: Live, b: Live) -> Difference:
     """Return what differs; B's wavefront on A's samples, straight lines between its own."""
     peak = max(float(a.psf.values.max()), float(b.psf.values.max())) or 1.0
     pupil = a.pupil.waves - resampled(b.pupil.waves, a.pupil.waves.shape[0])
-    six = {name: float(getattr(a.setting.coefficients, name) - getattr(b.setting.coefficients, name)) for name in TERMS}
+    six = {name: float(getattr(a.setup.coefficients, name) - getattr(b.setup.coefficients, name)) for name in TERMS}
     return Difference((a.psf.values - b.psf.values) / peak, pupil_map(pupil, np.isfinite(pupil), DIFFERENCE), six)
 
 

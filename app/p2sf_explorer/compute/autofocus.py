@@ -8,7 +8,7 @@ from p2sf.errors import GeometryError
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import displayed_opd
-from p2sf_explorer.compute.setup import Setting, setting
+from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import check_focusable, is_altered
 
@@ -23,13 +23,13 @@ def best_shift_um(state: State) -> float:
     check_focusable(state)
     by_coefficients = state.method == "seidel" or is_altered(state)
     for _ in range(1 if by_coefficients else STEPS):
-        set_up = setting(state)
-        focus = seidel_focus(set_up.coefficients) if by_coefficients else traced_focus(set_up)
-        na = float(set_up.coefficients.na)
+        setup = paraxial_setup(state)
+        focus = seidel_focus(setup.coefficients) if by_coefficients else traced_focus(setup)
+        na = float(setup.coefficients.na)
         if not na:
             raise GeometryError("the image is at infinity, so no sensor position is in focus; move the source")
-        index = float(set_up.coefficients.image_index)
-        shift = -focus * 2 * index * set_up.source.wavelength_um / na**2  # Wd = NA²Δz/(2n′λ)
+        index = float(setup.coefficients.image_index)
+        shift = -focus * 2 * index * setup.source.wavelength_um / na**2  # Wd = NA²Δz/(2n′λ)
         state = replace(state, sensor_shift_um=state.sensor_shift_um + shift)
     return round(state.sensor_shift_um, 3)
 
@@ -39,10 +39,10 @@ def seidel_focus(c: Coefficients) -> float:
     return float(c.w40 + c.w20 + c.wd + c.w22 / 2)
 
 
-def traced_focus(set_up: Setting) -> float:
+def traced_focus(setup: ParaxialSetup) -> float:
     """Return the ρ² part of the exact wavefront, tilt and piston set aside, in waves: its projection on 2ρ² − 1."""
     nodes = disc_nodes(8, 16)
-    waves = displayed_opd(set_up.lens, set_up.source, nodes.xi, nodes.eta, stop=set_up.stop)
+    waves = displayed_opd(setup.lens, setup.source, nodes.xi, nodes.eta, stop=setup.stop)
     kept = np.isfinite(waves)
     zernike = 2 * (nodes.xi**2 + nodes.eta**2) - 1
     weight = nodes.weight * kept

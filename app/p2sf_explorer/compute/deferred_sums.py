@@ -11,7 +11,7 @@ from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import row_counts
 from p2sf.psf.traced import in_rows, traced_psf
 from p2sf.raytrace.fit import FittedPencil
-from p2sf_explorer.compute.setup import Setting
+from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.state import State
 
 # As many nodes as are summed in some 40 ms, and on a busy machine in a few times that.
@@ -20,7 +20,7 @@ KEPT = 8
 
 
 @dataclass(frozen=True)
-class Asked:
+class SumRequest:
     """Everything a PSF over real rays depends on; ``window`` is (pixels, µm per pixel)."""
 
     lens: Lens
@@ -31,35 +31,35 @@ class Asked:
     clip: bool
 
 
-class Done:
+class SumCache:
     """The latest PSFs that were too slow for a frame, by what was asked; ``version`` rises with each.
 
     Of a sum that failed the sentence that says why is kept, so that nobody waits for it.
     """
 
     def __init__(self):
-        self._found: dict[Asked, Psf | str] = {}
+        self._found: dict[SumRequest, Psf | str] = {}
         self.version = 0
 
-    def get(self, asked: Asked) -> Psf | str | None:
+    def get(self, sum_request: SumRequest) -> Psf | str | None:
         """Return the PSF, or why there is none; None where it is not there."""
-        return self._found.get(asked)
+        return self._found.get(sum_request)
 
-    def keep(self, asked: Asked, found: Psf | str) -> None:
+    def keep(self, sum_request: SumRequest, found: Psf | str) -> None:
         """Keep a PSF or why there is none, and forget the oldest of too many."""
-        self._found[asked] = found
+        self._found[sum_request] = found
         self.version += 1
         for oldest in list(self._found)[:-KEPT]:
             del self._found[oldest]
 
 
-def asked(state: State, set_up: Setting, method: str, window: tuple[int, float]) -> Asked:
-    """Return what a state asks of one rung in a window."""
-    return Asked(set_up.lens, set_up.source, method, window, state.tolerance, state.clip)
+def sum_request(state: State, setup: ParaxialSetup, method: str, window: tuple[int, float]) -> SumRequest:
+    """Return what a state asks of one method in a window."""
+    return SumRequest(setup.lens, setup.source, method, window, state.tolerance, state.clip)
 
 
-def by_rays(wanted: Asked, quality: str = "settled", cancelled: Callable[[], bool] | None = None) -> Psf:
-    """Return the PSF of a rung that traces rays; huygens in one pass, its converged sum is the accuracy worker's.
+def by_rays(wanted: SumRequest, quality: str = "settled", cancelled: Callable[[], bool] | None = None) -> Psf:
+    """Return the PSF of a method that traces rays; huygens in one pass, its converged sum is the accuracy worker's.
 
     ``cancelled`` is asked between blocks of rays and ends the work with `Cancelled`. Raises P2SFError's kinds.
     """
@@ -73,7 +73,7 @@ def by_rays(wanted: Asked, quality: str = "settled", cancelled: Callable[[], boo
     return render(lens, source, wanted.method, *window, quality, wanted.tolerance, wanted.clip)
 
 
-def slow(wanted: Asked, found: FittedPencil | None) -> bool:
+def slow(wanted: SumRequest, found: FittedPencil | None) -> bool:
     """Return whether a settled sum would hold the window up, by a coarse fit to its rays; None where rays are lost.
 
     Nobody knows beforehand what rims and lost rays cost: following an outline takes a thousand pencils.

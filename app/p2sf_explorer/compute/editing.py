@@ -10,7 +10,7 @@ from p2sf.glass.media import AIR, Medium, model_glass, parse_medium
 from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
-from p2sf_explorer.compute.setup import load, setting
+from p2sf_explorer.compute.setup import load, paraxial_setup
 from p2sf_explorer.state.scales import INFINITE, MM_PER_UNIT, read_number
 from p2sf_explorer.state.state import State
 
@@ -23,7 +23,7 @@ def edited_state(state: State, lens: Lens) -> State:
     Raises P2SFError where the lens has no picture at the state's source, so that a bad edit never becomes a state.
     """
     made = replace(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
-    setting(made)
+    paraxial_setup(made)
     return made
 
 

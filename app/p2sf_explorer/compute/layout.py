@@ -9,7 +9,7 @@ from p2sf.lens.lens import Lens, indices
 from p2sf.raytrace.pencil import pupil_rays
 from p2sf_explorer.compute.glass_outlines import Glass, Outline, filling, glass_of, still, vertices, widest_exit
 from p2sf_explorer.compute.meridional import path
-from p2sf_explorer.compute.setup import Setting
+from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import nice
 
 HEIGHTS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
@@ -69,20 +69,20 @@ class Layout:
     sensor_half: float
 
 
-def layout(setting: Setting) -> Layout:
+def layout(setup: ParaxialSetup) -> Layout:
     """Return everything the layout panel draws."""
-    drawn = drawing(setting.lens, int(setting.stop.surface), float(setting.stop.semi_diameter))
-    depth, height = setting.source.depth_mm, setting.object_height_mm
-    rays = tuple(ray_paths(setting, drawn))
+    drawn = drawing(setup.lens, int(setup.stop.surface), float(setup.stop.semi_diameter))
+    depth, height = setup.source.depth_mm, setup.object_height_mm
+    rays = tuple(ray_paths(setup, drawn))
     return Layout(
         drawing=drawn,
         rays=rays,
-        marks=tuple(marks(setting)),
+        marks=tuple(marks(setup)),
         source=None if height is None else (-depth, -height),
-        image=_image_point(setting),
-        entrance_z=float(setting.pupils.entrance_from_first),
-        slope=setting.source.field_slope,
-        sensor_half=sensor_half(setting.lens, rays),
+        image=_image_point(setup),
+        entrance_z=float(setup.pupils.entrance_from_first),
+        slope=setup.source.field_slope,
+        sensor_half=sensor_half(setup.lens, rays),
     )
 
 
@@ -113,31 +113,31 @@ def widest_image(lens: Lens) -> float:
     return abs(y + slope * lens.sensor_mm)
 
 
-def _image_point(setting: Setting) -> tuple[float, float] | None:
-    distance = float(setting.coefficients.image_distance)
+def _image_point(setup: ParaxialSetup) -> tuple[float, float] | None:
+    distance = float(setup.coefficients.image_distance)
     if not isfinite(distance):
         return None
-    rays = setting.rays
+    rays = setup.rays
     unit = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * distance
-    return vertices(setting.lens)[-2] + distance, float(unit) * setting.source.field_slope
+    return vertices(setup.lens)[-2] + distance, float(unit) * setup.source.field_slope
 
 
 RAYS = (("marginal", 0, 1.0), ("marginal", 0, -1.0), ("rim", 1, 1.0), ("rim", 1, -1.0), ("chief", 1, 0.0))
 """The drawn rays: kind, which source (0 the axial point, 1 the field point), and η in the entrance pupil."""
 
 
-def ray_paths(setting: Setting, drawn: Drawing):
+def ray_paths(setup: ParaxialSetup, drawn: Drawing):
     """Yield the exact meridional rays of `RAYS`."""
-    source, etas = setting.source, np.array([1.0, -1.0, 0.0])
+    source, etas = setup.source, np.array([1.0, -1.0, 0.0])
     both = replace(source, field_slope=np.array([0.0, source.field_slope]))
-    rays = pupil_rays(setting.lens, both, np.zeros(3), etas)
+    rays = pupil_rays(setup.lens, both, np.zeros(3), etas)
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     starts = _start(origins, directions, min(source.depth_mm, REACH * (drawn.right - drawn.left)))
-    index = indices(setting.lens, source.wavelength_um).tolist()
+    index = indices(setup.lens, source.wavelength_um).tolist()
     for kind, row, eta in RAYS:
         at = row, etas.tolist().index(eta)
         start, direction = (a[at][:0:-1].tolist() for a in (starts, directions))  # z, y
-        z, y, passed = path(setting.lens, index, start, direction)
+        z, y, passed = path(setup.lens, index, start, direction)
         yield RayPath(kind, np.array([start[0], *z]), np.array([start[1], *y]), passed)
 
 
@@ -146,10 +146,10 @@ def _start(origins: np.ndarray, directions: np.ndarray, reach: float) -> np.ndar
     return origins - directions * ((origins[..., 2:] + reach) / directions[..., 2:])
 
 
-def marks(setting: Setting):
+def marks(setup: ParaxialSetup):
     """Yield the pupils and the principal and focal points that lie at a finite place."""
-    last = vertices(setting.lens)[-2]
-    c, p = setting.cardinal, setting.pupils
+    last = vertices(setup.lens)[-2]
+    c, p = setup.cardinal, setup.pupils
     places = (
         ("EnP", p.entrance_from_first, p.entrance_diameter / 2),
         ("ExP", last + p.exit_from_last, p.exit_diameter / 2),

@@ -11,11 +11,11 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.metrics import airy_radius_um
 from p2sf.psf.result import Psf
 from p2sf.raytrace.pencil import opd_map
-from p2sf_explorer.compute.deferred_sums import Asked, Done
+from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
 from p2sf_explorer.compute.layout import Layout, layout
 from p2sf_explorer.compute.method import rendered
 from p2sf_explorer.compute.pupil import PupilMap, disc, dominant, pupil_map
-from p2sf_explorer.compute.setup import Setting, setting
+from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.compute.warnings import warnings
 from p2sf_explorer.state.state import State
 
@@ -27,13 +27,13 @@ RAY_SAMPLES = {"preview": 40, "settled": 64}  # across the pupil where every sam
 class Live:
     """One answer: setting, drawing, pupil, PSF, sentences, and what the open panels asked for in ``views``.
 
-    ``rung`` is the method chosen, by a person or by ``auto``; ``milliseconds`` names what each part took; ``quality``
-    is "preview" while a slider moves, else "settled"; ``owed`` is the sum of waves that the PSF stands in for. With a
-    B pinned, ``side`` names what is on screen and ``difference`` is what A − B shows in place of this answer.
+    ``method`` is the method chosen, by a person or by ``auto``; ``milliseconds`` names what each part took; ``quality``
+    is "preview" while a slider moves, else "settled"; ``pending`` is the sum of waves that the PSF stands in for. With
+    a B pinned, ``side`` names what is on screen and ``difference`` is what A − B shows in place of this answer.
     """
 
     state: State
-    setting: Setting
+    setup: ParaxialSetup
     layout: Layout
     pupil: PupilMap
     psf: Psf
@@ -42,11 +42,11 @@ class Live:
     dominant: str
     warnings: tuple[str, ...]
     why: str
-    rung: str
+    method: str
     milliseconds: Mapping[str, float]
     views: Mapping[str, object] = field(default_factory=dict)
     side: str = ""
-    owed: Asked | None = None
+    pending: SumRequest | None = None
     difference: object = None
 
 
@@ -57,56 +57,56 @@ class Refused:
     sentence: str
 
 
-View = Callable[["Live"], object]
+ResultFunction = Callable[["Live"], object]
 """A function from the answer so far to what one panel shows; it names no Qt."""
 
 
 def live(
     state: State,
     quality: str = "settled",
-    views: Mapping[str, View] | None = None,
-    held: str = "",
+    views: Mapping[str, ResultFunction] | None = None,
+    kept_method: str = "",
     at_least_um: float = 0.0,
-    done: Done | None = None,
+    cache: SumCache | None = None,
 ) -> Live:
     """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest.
 
-    ``held`` names the rung that ``auto`` keeps while a slider moves; the PSF's window is ``at_least_um`` wide.
-    With ``done``, a sum of waves too slow for a frame is taken from there or left owing; without, waited for.
+    ``kept_method`` names the method that ``auto`` keeps while a slider moves; the PSF's window is ``at_least_um`` wide.
+    With ``cache``, a sum of waves too slow for a frame is taken from there or left owing; without, waited for.
     """
     begun = perf_counter()
-    set_up = setting(state)
-    drawn = layout(set_up)
+    setup = paraxial_setup(state)
+    drawn = layout(setup)
     placed = perf_counter()
-    made = rendered(state, set_up, quality, held, at_least_um, done)
+    made = rendered(state, setup, quality, kept_method, at_least_um, cache)
     psf, finished = made.psf, perf_counter()
     lost = sum(not ray.passed for ray in drawn.rays)
     answer = Live(
         state=state,
-        setting=set_up,
+        setup=setup,
         layout=drawn,
-        pupil=made.pupil or pupil(set_up, made.exact, quality),
+        pupil=made.pupil or pupil(setup, made.exact, quality),
         psf=psf,
         quality=quality,
-        airy_radius_um=float(airy_radius_um(set_up.source.wavelength_um, set_up.coefficients.na)),
-        dominant=dominant(set_up.coefficients),
-        warnings=warnings(set_up, made.exact, lost, psf.method == "geometric"),
+        airy_radius_um=float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na)),
+        dominant=dominant(setup.coefficients),
+        warnings=warnings(setup, made.exact, lost, psf.method == "geometric"),
         why=made.why,
-        rung=made.rung,
-        owed=made.owed,
+        method=made.method,
+        pending=made.pending,
         milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (finished - placed)},
     )
     return with_views(answer, views or {}, begun)
 
 
-def with_views(answer: Live, views: Mapping[str, View], begun: float) -> Live:
+def with_views(answer: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
     """Return the answer with the open panels' views and the time of it all."""
     results = {name: attempted(view, answer) for name, view in views.items()}
     total = 1e3 * (perf_counter() - begun)
     return replace(answer, views=results, milliseconds={**answer.milliseconds, "all": total})
 
 
-def attempted(view: View, answer: Live) -> object:
+def attempted(view: ResultFunction, answer: Live) -> object:
     """Return what one panel shows, or Refused: the other panels have their pictures all the same."""
     try:
         return view(answer)
@@ -114,11 +114,11 @@ def attempted(view: View, answer: Live) -> object:
         return Refused(str(error))
 
 
-def pupil(set_up: Setting, exact: bool, quality: str) -> PupilMap:
-    """Return the wavefront that made the PSF: of the six coefficients for seidel, of exact rays for the other rungs."""
+def pupil(setup: ParaxialSetup, exact: bool, quality: str) -> PupilMap:
+    """Return the wavefront that made the PSF: of the six coefficients for seidel, else of exact rays."""
     xi, eta, inside = disc(PUPIL_SAMPLES[quality])
     if not exact:
-        words = "what-if" if set_up.altered else "six coefficients"
-        return pupil_map(np.asarray(wavefront(set_up.coefficients, xi, eta)), inside, words)
+        words = "what-if" if setup.altered else "six coefficients"
+        return pupil_map(np.asarray(wavefront(setup.coefficients, xi, eta)), inside, words)
     count = RAY_SAMPLES[quality]
-    return pupil_map(opd_map(set_up.lens, set_up.source, count), disc(count)[2], "exact rays")
+    return pupil_map(opd_map(setup.lens, setup.source, count), disc(count)[2], "exact rays")

@@ -1,4 +1,4 @@
-"""Which rung of the ladder makes the picture, and the picture itself. No Qt in here."""
+"""Which method makes the picture, and the picture itself. No Qt in here."""
 
 from dataclasses import dataclass, replace
 from math import floor, log10, sqrt
@@ -11,20 +11,20 @@ from p2sf.psf.seidel import check_image, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import in_rows
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import pencil
-from p2sf_explorer.compute.deferred_sums import Asked, Done, asked, by_rays, row_nodes, slow
+from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest, by_rays, row_nodes, slow, sum_request
 from p2sf_explorer.compute.preview import (
     FAR,
     best_fit,
     clipped_psf,
     edge_points,
     landing_um,
-    quick,
-    quick_psf,
-    quick_pupil,
+    preview,
+    preview_psf,
+    preview_pupil,
 )
 from p2sf_explorer.compute.pupil import PupilMap
 from p2sf_explorer.compute.ray_density import geometric_psf, main_reach_um
-from p2sf_explorer.compute.setup import Setting
+from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import NOTE
@@ -45,162 +45,169 @@ ROOM = 5  # Airy radii around what rays say, for what diffraction adds
 
 
 @dataclass(frozen=True)
-class Made:
-    """A PSF, why this rung made it, whether exact rays describe it or six coefficients, and which ``rung`` was chosen.
+class Rendered:
+    """A PSF, why this method made it, whether by exact rays or six coefficients, and which ``method`` was chosen.
 
-    ``pupil`` is the wavefront where the picture's own rays gave it at once. ``owed`` is the sum of waves that this
+    ``pupil`` is the wavefront where the picture's own rays gave it at once. ``pending`` is the sum of waves that this
     picture stands in for.
     """
 
     psf: Psf
     why: str
     exact: bool
-    rung: str
+    method: str
     pupil: PupilMap | None = None
-    owed: Asked | None = None
+    pending: SumRequest | None = None
 
 
 def rendered(
-    state: State, set_up: Setting, quality: str, held: str = "", at_least_um: float = 0.0, done: Done | None = None
-) -> Made:
-    """Return the PSF by the state's method, or by the rung ``auto`` chooses, or by the one ``held`` while moving.
+    state: State,
+    setup: ParaxialSetup,
+    quality: str,
+    kept_method: str = "",
+    at_least_um: float = 0.0,
+    cache: SumCache | None = None,
+) -> Rendered:
+    """Return the PSF by the state's method, or by the one ``auto`` chooses, or by ``kept_method`` while moving.
 
     The window is as wide as the PSF asks for, and ``at_least_um``. What is altered by hand has no rays: the six
-    coefficients make its picture. A sum too slow for a frame is taken from ``done``, or owed; without ``done`` it is
+    coefficients make its picture. A sum too slow for a frame is taken from ``cache``, or owed; without ``cache`` it is
     waited for. Raises GeometryError for an image at infinity.
     """
-    check_image(set_up.coefficients)
-    if set_up.altered:
+    check_image(setup.coefficients)
+    if setup.altered:
         method, why = "seidel", f"seidel from the six coefficients ({NOTE})"
     else:
-        method, why = (held, "") if held else chosen(state, set_up)
+        method, why = (kept_method, "") if kept_method else chosen(state, setup)
     if quality == "preview" and method != "seidel":
-        return moving(state, set_up, method, at_least_um, done)
-    if too_blurred(set_up, at_least_um):
-        return blurred(state, set_up, method, quality, at_least_um)
+        return moving(state, setup, method, at_least_um, cache)
+    if too_blurred(setup, at_least_um):
+        return blurred(state, setup, method, quality, at_least_um)
     if method != "seidel":
-        return resting(state, set_up, (method, why), at_least_um, done)
-    pitch = max(at_least_um, window_um(set_up, method)) / PIXELS[quality]
-    return Made(seidel_psf(set_up.coefficients, PIXELS[quality], pitch, quality), why, False, method)
+        return resting(state, setup, (method, why), at_least_um, cache)
+    pitch = max(at_least_um, window_um(setup, method)) / PIXELS[quality]
+    return Rendered(seidel_psf(setup.coefficients, PIXELS[quality], pitch, quality), why, False, method)
 
 
-def resting(state: State, set_up: Setting, choice: tuple[str, str], at_least_um: float, done: Done | None) -> Made:
-    """Return the settled picture of a rung that traces rays; what stands in for it while it is owed, or failed."""
-    (method, why), made = choice, quick(set_up) if done else None
-    landing = landing_um(made.rays if made else edge_pencil(set_up))
-    if slope(set_up, landing) > FARTHEST:
-        return blurred(state, set_up, method, "settled", at_least_um)
+def resting(
+    state: State, setup: ParaxialSetup, choice: tuple[str, str], at_least_um: float, cache: SumCache | None
+) -> Rendered:
+    """Return the settled picture of a method that traces rays; what stands in for it while it is owed, or failed."""
+    (method, why), made = choice, preview(setup) if cache else None
+    landing = landing_um(made.rays if made else edge_pencil(setup))
+    if slope(setup, landing) > FARTHEST:
+        return blurred(state, setup, method, "settled", at_least_um)
     pixels = PIXELS["settled"]
-    wanted = asked(state, set_up, method, (pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels))
-    if done is None or not slow(wanted, best_fit(made) if made else None):
-        return Made(by_rays(wanted), why, True, method)
-    found = done.get(wanted)
+    wanted = sum_request(state, setup, method, (pixels, max(at_least_um, ray_window_um(setup, landing)) / pixels))
+    if cache is None or not slow(wanted, best_fit(made) if made else None):
+        return Rendered(by_rays(wanted), why, True, method)
+    found = cache.get(wanted)
     if isinstance(found, Psf):
-        return Made(found, why, True, method)
-    stand_in = moving(state, set_up, method, at_least_um, done, "settled")
-    return replace(stand_in, why=found or SOON.format(method), owed=None if found else wanted)
+        return Rendered(found, why, True, method)
+    stand_in = moving(state, setup, method, at_least_um, cache, "settled")
+    return replace(stand_in, why=found or SOON.format(method), pending=None if found else wanted)
 
 
 def moving(
     state: State,
-    set_up: Setting,
+    setup: ParaxialSetup,
     method: str,
     at_least_um: float = 0.0,
-    done: Done | None = None,
+    cache: SumCache | None = None,
     quality: str = "preview",
-) -> Made:
-    """Return what is shown in place of a slower rung: the density of rays where blur is large, else fitted.
+) -> Rendered:
+    """Return what is shown in place of a slower method: the density of rays where blur is large, else fitted.
 
-    Where rays are lost traced is waited for, without ``done``. ``quality`` tells how many samples the picture has.
+    Where rays are lost traced is waited for, without ``cache``. ``quality`` tells how many samples the picture has.
     """
-    pixels, made = PIXELS[quality], quick(set_up, state.clip)
-    pupil = quick_pupil(made) if made and quality == "preview" else None
-    landing = landing_um(made.rays if made else edge_pencil(set_up))
-    window = pixels, max(at_least_um, ray_window_um(set_up, landing)) / pixels
+    pixels, made = PIXELS[quality], preview(setup, state.clip)
+    pupil = preview_pupil(made) if made and quality == "preview" else None
+    landing = landing_um(made.rays if made else edge_pencil(setup))
+    window = pixels, max(at_least_um, ray_window_um(setup, landing)) / pixels
     found = best_fit(made) if made else None
-    if too_blurred(set_up, at_least_um) or (found and not quickly(set_up, found, window)):
-        return replace(blurred(state, set_up, method, quality, at_least_um), pupil=pupil)
+    if too_blurred(setup, at_least_um) or (found and not quickly(setup, found, window)):
+        return replace(blurred(state, setup, method, quality, at_least_um), pupil=pupil)
     why = MOVING.format(method) if method != "fitted" else ""
     if made:
-        return Made(quick_psf(made, *window, found), why, True, method, pupil)
-    if done is None:
-        return Made(by_rays(asked(state, set_up, "traced", window), "preview"), "", True, method)
-    return replace(rimmed(state, set_up, method, window, quality), why=why)
+        return Rendered(preview_psf(made, *window, found), why, True, method, pupil)
+    if cache is None:
+        return Rendered(by_rays(sum_request(state, setup, "traced", window), "preview"), "", True, method)
+    return replace(rimmed(state, setup, method, window, quality), why=why)
 
 
-def quickly(set_up: Setting, found: FittedPencil, window: tuple[int, float]) -> bool:
+def quickly(setup: ParaxialSetup, found: FittedPencil, window: tuple[int, float]) -> bool:
     """Return whether the sum of a fit, or of exact rays where it misses much, is done within a frame or two."""
     nodes = row_nodes(found, window, "preview")
     if found.error_waves > FAR:
-        return nodes < QUICK_NODES / 3 and in_rows(set_up.lens, set_up.source)
+        return nodes < QUICK_NODES / 3 and in_rows(setup.lens, setup.source)
     return nodes < QUICK_NODES
 
 
-def rimmed(state: State, set_up: Setting, method: str, window: tuple[int, float], quality: str) -> Made:
+def rimmed(state: State, setup: ParaxialSetup, method: str, window: tuple[int, float], quality: str) -> Rendered:
     """Return what moves where rims clip: the fit to all rays, summed over those that pass, else their density."""
-    made = quick(set_up)
+    made = preview(setup)
     try:
-        few = made is not None and quickly(set_up, best_fit(made), window)
+        few = made is not None and quickly(setup, best_fit(made), window)
         found = clipped_psf(made, *window) if few else None
     except GeometryError:  # every ray is clipped, or the fit is no map: the density says which
         found = None
     if found is None:
-        return blurred(state, set_up, method, quality, window[0] * window[1])
-    return Made(found, "", True, method)
+        return blurred(state, setup, method, quality, window[0] * window[1])
+    return Rendered(found, "", True, method)
 
 
-def blurred(state: State, set_up: Setting, method: str, quality: str, at_least_um: float) -> Made:
+def blurred(state: State, setup: ParaxialSetup, method: str, quality: str, at_least_um: float) -> Rendered:
     """Return the density of rays, in a window as wide as most of them reach."""
     exact, pixels = method != "seidel", PIXELS[quality]
-    wide = min(window_um(set_up, method), ray_window_um(set_up, main_reach_um(set_up, exact, state.clip)))
-    psf = geometric_psf(set_up, exact, (pixels, max(at_least_um, wide) / pixels), quality, state.clip)
-    return Made(psf, BLURRED if psf.energy > ALL_LIGHT else PARTLY.format(100 * psf.energy), exact, method)
+    wide = min(window_um(setup, method), ray_window_um(setup, main_reach_um(setup, exact, state.clip)))
+    psf = geometric_psf(setup, exact, (pixels, max(at_least_um, wide) / pixels), quality, state.clip)
+    return Rendered(psf, BLURRED if psf.energy > ALL_LIGHT else PARTLY.format(100 * psf.energy), exact, method)
 
 
-def too_blurred(set_up: Setting, across_um: float = 0.0) -> bool:
+def too_blurred(setup: ParaxialSetup, across_um: float = 0.0) -> bool:
     """Return whether a wave sum would take too long for a picture that shows only the density of rays anyway.
 
     Either the blur is large, or a window ``across_um`` wide, for another picture's sake, has coarse samples.
     """
-    steep, corner = float(steepest_slope(set_up.coefficients)), sqrt(2) * slope(set_up, across_um / 2)
+    steep, corner = float(steepest_slope(setup.coefficients)), sqrt(2) * slope(setup, across_um / 2)
     return steep > STEEPEST or steep + corner > STEEPEST_IN_ALL
 
 
-def slope(set_up: Setting, landing: float) -> float:
+def slope(setup: ParaxialSetup, landing: float) -> float:
     """Return the slope of the wavefront, waves per pupil radius, of a ray that lands so far from the chief ray, µm."""
-    return landing * float(set_up.coefficients.na) / set_up.source.wavelength_um
+    return landing * float(setup.coefficients.na) / setup.source.wavelength_um
 
 
-def window_um(set_up: Setting, method: str) -> float:
+def window_um(setup: ParaxialSetup, method: str) -> float:
     """Return the width of the shown window, µm: a round number, so that axes stand still while sliders move."""
     if method == "seidel":
-        return nice(float(suitable_pixel_um(set_up.coefficients, WHOLE)) * WHOLE, WINDOWS)
-    return ray_window_um(set_up, landing_um(edge_pencil(set_up)))
+        return nice(float(suitable_pixel_um(setup.coefficients, WHOLE)) * WHOLE, WINDOWS)
+    return ray_window_um(setup, landing_um(edge_pencil(setup)))
 
 
-def ray_window_um(set_up: Setting, landing: float) -> float:
+def ray_window_um(setup: ParaxialSetup, landing: float) -> float:
     """Return the width of a window that shows rays landing so far out, and what diffraction adds, µm."""
-    airy = float(airy_radius_um(set_up.source.wavelength_um, set_up.coefficients.na))
+    airy = float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na))
     return nice(2 * (landing + ROOM * airy), WINDOWS)
 
 
-def edge_pencil(set_up: Setting):
+def edge_pencil(setup: ParaxialSetup):
     """Return the few rays that tell how far light reaches."""
-    return pencil(set_up.lens, set_up.source, *edge_points())
+    return pencil(setup.lens, setup.source, *edge_points())
 
 
-def chosen(state: State, set_up: Setting) -> tuple[str, str]:
-    """Return the rung in use and why: a person's choice needs no reason."""
+def chosen(state: State, setup: ParaxialSetup) -> tuple[str, str]:
+    """Return the method in use and why: a person's choice needs no reason."""
     if state.method != "auto":
         return state.method, ""
     from p2sf.psf.methods import choose
 
-    choice = choose(set_up.lens, set_up.source, state.tolerance, state.clip)
+    choice = choose(setup.lens, setup.source, state.tolerance, state.clip)
     return choice.method, reason(choice, state.tolerance)
 
 
 def reason(choice, tolerance: float) -> str:
-    """Return in words why ``auto`` took this rung."""
+    """Return in words why ``auto`` took this method."""
     promise = f"predicted R² ≥ {at_least(1 - choice.predicted_error)}"
     if choice.method == "seidel":
         return f"seidel: six coefficients are enough, {promise}"

@@ -9,7 +9,7 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.psf.fitted import psf_of_fit
-from p2sf.psf.plane_waves import Made, psf_from_intensity
+from p2sf.psf.plane_waves import Origin, psf_from_intensity
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import rows_for
 from p2sf.pupil.zernike import basis
@@ -18,7 +18,7 @@ from p2sf.raytrace.pencil import Pencil, opd_on_sphere, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data
 from p2sf.raytrace.vignetting import CLIPPED
 from p2sf_explorer.compute.pupil import PupilMap, disc, pupil_map
-from p2sf_explorer.compute.setup import Setting
+from p2sf_explorer.compute.setup import ParaxialSetup
 
 LEVEL = LEVELS[0]  # 26 numbers
 CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS waves a fit may miss: by the least numbers, by all of the same rays, at all
@@ -27,19 +27,19 @@ EDGE = 9  # rays along the rim and as many at 0.7 of it, for how far light reach
 
 
 @dataclass(frozen=True)
-class Quick:
+class Preview:
     """Rays that all reached the sensor, at the level's points and then along the rim; ``begun`` when they set out."""
 
     rays: Pencil
-    set_up: Setting
+    setup: ParaxialSetup
     begun: float
 
 
-def quick(set_up: Setting, clip: bool = False) -> Quick | None:
+def preview(setup: ParaxialSetup, clip: bool = False) -> Preview | None:
     """Return the traced rays, None where one is lost: a fit knows no edge. Raises as `pencil` does."""
     begun = perf_counter()
-    rays = pencil(set_up.lens, set_up.source, *points(), clip=clip)
-    return Quick(rays, set_up, begun) if rays.passed.all() else None
+    rays = pencil(setup.lens, setup.source, *points(), clip=clip)
+    return Preview(rays, setup, begun) if rays.passed.all() else None
 
 
 @lru_cache(maxsize=1)
@@ -63,17 +63,17 @@ def landing_um(rays: Pencil) -> float:
     return UM_PER_MM * float(np.nanmax(reach)) if np.isfinite(reach).any() else 0.0
 
 
-def quick_psf(made: Quick, pixels: int, pixel_um: float, found: FittedPencil | None = None) -> Psf:
+def preview_psf(made: Preview, pixels: int, pixel_um: float, found: FittedPencil | None = None) -> Psf:
     """Return the PSF of the fit, ``found`` if it is at hand, float32; of exact rays where it misses more than `FAR`."""
-    found, set_up = found or best_fit(made), made.set_up
+    found, setup = found or best_fit(made), made.setup
     if found.error_waves > FAR:
         from p2sf.psf.methods import render
 
-        return render(set_up.lens, set_up.source, "traced", pixels, pixel_um, "preview")
-    return psf_of_fit(found, set_up.source.wavelength_um, (pixels, pixel_um), "preview", made.begun)
+        return render(setup.lens, setup.source, "traced", pixels, pixel_um, "preview")
+    return psf_of_fit(found, setup.source.wavelength_um, (pixels, pixel_um), "preview", made.begun)
 
 
-def best_fit(made: Quick) -> FittedPencil:
+def best_fit(made: Preview) -> FittedPencil:
     """Return the fit of fewest numbers that misses little; more rays are traced only where the first do not do."""
     data, count = ray_data(made.rays), level_rays(LEVEL)[0].size
     own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
@@ -83,35 +83,35 @@ def best_fit(made: Quick) -> FittedPencil:
     if found.error_waves <= NEAR:
         return found
     try:
-        return fit(made.set_up.lens, made.set_up.source, residual_waves=NEAR)
+        return fit(made.setup.lens, made.setup.source, residual_waves=NEAR)
     except GeometryError:  # one of the rays more is lost
         return found
 
 
-def clipped_psf(made: Quick, pixels: int, pixel_um: float) -> Psf | None:
+def clipped_psf(made: Preview, pixels: int, pixel_um: float) -> Psf | None:
     """Return the PSF of the fit to all rays, summed over the nodes whose own rays pass the rims; None without rows.
 
     A yes or no at each node makes a ragged edge, good for a picture that moves. Raises GeometryError where none passes.
     """
-    found, set_up = best_fit(made), made.set_up
+    found, setup = best_fit(made), made.setup
     nodes = rows_for(found, pixels, pixel_um, "preview", every=True)
     if nodes is None:
         return None
-    rays = pencil(set_up.lens, set_up.source, nodes.xi.ravel(), nodes.eta.ravel(), clip=True)
+    rays = pencil(setup.lens, setup.source, nodes.xi.ravel(), nodes.eta.ravel(), clip=True)
     weight = np.where(rays.passed.reshape(nodes.xi.shape), nodes.weight, 0.0)
     if not weight.any():
         raise GeometryError(CLIPPED)
     clear = replace(nodes, weight=weight / weight.sum())
     intensity = clear.intensity(*found.at_points(nodes.xi, nodes.eta), pixels, pixel_um, np.float32)
     words = f"{nodes.words}, those that the rims let pass"
-    label = Made("fitted", found.numbers, found.rays + nodes.xi.size, words, made.begun)
-    return psf_from_intensity(intensity, pixel_um, set_up.source.wavelength_um, None, label)
+    label = Origin("fitted", found.numbers, found.rays + nodes.xi.size, words, made.begun)
+    return psf_from_intensity(intensity, pixel_um, setup.source.wavelength_um, None, label)
 
 
-def quick_pupil(made: Quick) -> PupilMap:
+def preview_pupil(made: Preview) -> PupilMap:
     """Return the displayed wavefront over the pupil: a polynomial through that of the level's rays."""
-    set_up, project = made.set_up, _projection()
-    back = set_up.lens.sensor_mm - set_up.pupils.exit_from_last
+    setup, project = made.setup, _projection()
+    back = setup.lens.sensor_mm - setup.pupils.exit_from_last
     waves = opd_on_sphere(made.rays, back / made.rays.chief_kz)
     shown = np.full(project.inside.shape, np.nan)
     shown[project.inside] = project.matrix @ waves
@@ -119,7 +119,7 @@ def quick_pupil(made: Quick) -> PupilMap:
 
 
 @dataclass(frozen=True)
-class Projection:
+class MapProjection:
     """What turns the rays' waves into a map: (samples inside, rays)."""
 
     matrix: np.ndarray
@@ -127,8 +127,8 @@ class Projection:
 
 
 @lru_cache(maxsize=1)
-def _projection() -> Projection:
+def _projection() -> MapProjection:
     xi, eta, inside = disc(SAMPLES)
     rays = basis(LEVELS[1].wave_order, *points())
     shown = basis(LEVELS[1].wave_order, xi[inside], eta[inside])
-    return Projection(shown.T @ np.linalg.pinv(rays.T), inside)
+    return MapProjection(shown.T @ np.linalg.pinv(rays.T), inside)

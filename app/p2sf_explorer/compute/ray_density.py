@@ -14,7 +14,7 @@ from p2sf.errors import GeometryError
 from p2sf.psf.result import Psf
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.ranges import focused_distance
-from p2sf_explorer.compute.setup import Setting
+from p2sf_explorer.compute.setup import ParaxialSetup
 
 GRIDS = {"preview": (64, 180), "settled": (128, 360)}  # radii, directions of the half disc
 TOO_FAR = 2.0  # times the distance a lens is focused at
@@ -23,38 +23,38 @@ TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated 
 
 
 def geometric_psf(
-    set_up: Setting, exact: bool, window: tuple[int, float], quality: str = "settled", clip: bool = False
+    setup: ParaxialSetup, exact: bool, window: tuple[int, float], quality: str = "settled", clip: bool = False
 ) -> Psf:
     """Return the ray density over a window (pixels, µm per pixel): of exact rays, or of the Seidel wavefront's.
 
     Raises GeometryError where no ray reaches the window.
     """
     begun, (pixels, pixel_um) = perf_counter(), window
-    x, y, weight = exact_landing(set_up, quality, clip) if exact else seidel_landing(set_up, quality)
+    x, y, weight = exact_landing(setup, quality, clip) if exact else seidel_landing(setup, quality)
     values = density(x, y, weight, pixels, pixel_um)
     energy = float(values.sum())
     if not energy:
-        raise GeometryError(f"no ray reaches the sensor; {way_back(set_up, clip)}")
-    strehl = float(values.max()) / unaberrated(set_up, pixel_um)
+        raise GeometryError(f"no ray reaches the sensor; {way_back(setup, clip)}")
+    strehl = float(values.max()) / unaberrated(setup, pixel_um)
     words = "density of {} × {} rays; diffraction is too fine to see here".format(*GRIDS[quality])
-    seconds, wavelength = perf_counter() - begun, set_up.source.wavelength_um
+    seconds, wavelength = perf_counter() - begun, setup.source.wavelength_um
     rays = TRACED[quality][0] * TRACED[quality][1] if exact else 2
     return Psf(values / energy, pixel_um, wavelength, "geometric", strehl, energy, 0, rays, words, seconds)
 
 
-def way_back(set_up: Setting, clip: bool) -> str:
+def way_back(setup: ParaxialSetup, clip: bool) -> str:
     """Return what lets light through again: for a source far beyond what a lens is made for, coming nearer."""
-    if set_up.source.depth_mm > TOO_FAR * focused_distance(set_up.lens):
+    if setup.source.depth_mm > TOO_FAR * focused_distance(setup.lens):
         return "this lens is for near objects, so choose a nearer depth"
     return "choose a smaller field, stop down, or leave clipping off" if clip else "choose a smaller field or stop down"
 
 
-def main_reach_um(set_up: Setting, exact: bool, clip: bool = False) -> float:
+def main_reach_um(setup: ParaxialSetup, exact: bool, clip: bool = False) -> float:
     """Return the half width of the square about the chief ray that holds most of the light, and some room, µm.
 
     A fast lens throws a few rays ten times as far as the rest; a window as wide as they reach would show one dot.
     """
-    x, y, weight = exact_landing(set_up, "preview", clip) if exact else seidel_landing(set_up, "preview")
+    x, y, weight = exact_landing(setup, "preview", clip) if exact else seidel_landing(setup, "preview")
     out = np.maximum(np.abs(x), np.abs(y)).ravel()
     order = np.argsort(out)
     light = np.cumsum(np.where(np.isfinite(out), weight.ravel(), 0.0)[order])
@@ -63,24 +63,24 @@ def main_reach_um(set_up: Setting, exact: bool, clip: bool = False) -> float:
     return AROUND * float(out[order][np.searchsorted(light, MOST_LIGHT * light[-1])])
 
 
-def seidel_landing(set_up: Setting, quality: str = "settled"):
+def seidel_landing(setup: ParaxialSetup, quality: str = "settled"):
     """Return where the rays of W land, µm from the chief ray, and their weights: −∇W·λ/(n′u′) (Welford 1986, §7.2)."""
-    c = set_up.coefficients
+    c = setup.coefficients
     xi, eta, weight = polar(*GRIDS[quality])
     square, focus = xi * xi + eta * eta, float(c.w20 + c.wd)
     along_xi = 4 * c.w40 * square * xi + 2 * c.w31 * xi * eta + 2 * focus * xi
     along_eta = 4 * c.w40 * square * eta + c.w31 * (square + 2 * eta * eta) + 2 * c.w22 * eta + 2 * focus * eta
-    scale = set_up.source.wavelength_um / float(c.reduced_slope)
+    scale = setup.source.wavelength_um / float(c.reduced_slope)
     return scale * along_xi, scale * along_eta, weight
 
 
-def exact_landing(set_up: Setting, quality: str = "settled", clip: bool = False):
+def exact_landing(setup: ParaxialSetup, quality: str = "settled", clip: bool = False):
     """Return where exact rays land, µm from the chief ray, and their weights, interpolated between traced ones.
 
     A cell of the pupil with a lost ray at a corner is lost: its place is infinite.
     """
     xi, eta, _ = polar(*TRACED[quality])
-    rays = pencil(set_up.lens, set_up.source, xi.ravel(), eta.ravel(), clip=clip)
+    rays = pencil(setup.lens, setup.source, xi.ravel(), eta.ravel(), clip=clip)
     places = (UM_PER_MM * values.reshape(xi.shape) for values in (rays.dx, rays.dy))
     return *(finely(values, GRIDS[quality]) for values in places), polar(*GRIDS[quality])[2]
 
@@ -137,6 +137,6 @@ def density(x, y, weight, pixels: int, pixel_um: float) -> np.ndarray:
     return (half + half[:, ::-1])[:, :pixels]
 
 
-def unaberrated(set_up: Setting, pixel_um: float) -> float:
+def unaberrated(setup: ParaxialSetup, pixel_um: float) -> float:
     """Return the share of light on one pixel at the peak of the unaberrated PSF, π(NA·pixel/λ)², by Parseval."""
-    return np.pi * (float(set_up.coefficients.na) * pixel_um / set_up.source.wavelength_um) ** 2
+    return np.pi * (float(setup.coefficients.na) * pixel_um / setup.source.wavelength_um) ** 2

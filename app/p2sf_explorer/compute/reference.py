@@ -15,12 +15,12 @@ from p2sf_explorer.compute.warnings import remedy
 from p2sf_explorer.state.what_if import NO_REFERENCE
 
 REFERENCE_TOLERANCE = 1e-3  # relative L2: R² is then known to 1e-6 or better
-REPEATS = 3  # of each rung, for a median time
+REPEATS = 3  # of each method, for a median time
 RUNGS = ("gaussian", "seidel", "fitted", "traced", "huygens")
 
 
 @dataclass(frozen=True)
-class Rung:
+class MethodResult:
     """One method at this point: R² and relative L2 against the reference, median time, numbers and rays used."""
 
     method: str
@@ -43,21 +43,21 @@ class Accuracy:
     picture: Psf
     reference: Psf
     r_squared: float
-    rungs: tuple[Rung, ...] = ()
+    results: tuple[MethodResult, ...] = ()
 
 
 def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[float], None]) -> Accuracy:
-    """Return the accuracy of an answer; ``ladder`` renders every rung too. Raises P2SFError, Cancelled among them."""
-    if live.setting.altered:
+    """Return the accuracy of an answer; ``ladder`` renders every method too. Raises P2SFError, Cancelled among them."""
+    if live.setup.altered:
         raise SamplingError(NO_REFERENCE)
     if live.psf.method == "geometric":
-        raise SamplingError(f"the blur is too large for a reference here; {remedy(live.setting)}")
+        raise SamplingError(f"the blur is too large for a reference here; {remedy(live.setup)}")
     share = 0.5 if ladder else 1.0
     reference = huygens_psf(
-        live.setting.lens,
-        live.setting.source,
+        live.setup.lens,
+        live.setup.source,
         PIXELS["settled"],
-        window_um(live.setting, "huygens") / PIXELS["settled"],
+        window_um(live.setup, "huygens") / PIXELS["settled"],
         REFERENCE_TOLERANCE,
         lambda part: progress(share * part),
         cancelled.is_set,
@@ -65,8 +65,8 @@ def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[floa
     )
     shown = in_window(live, reference)
     found = r_squared(shown.values, reference.values)
-    rungs = tuple(climb(live, reference, cancelled, lambda part: progress(0.5 + part / 2))) if ladder else ()
-    return Accuracy(live, shown, reference, found, rungs)
+    results = tuple(climb(live, reference, cancelled, lambda part: progress(0.5 + part / 2))) if ladder else ()
+    return Accuracy(live, shown, reference, found, results)
 
 
 def in_window(live: Live, reference: Psf) -> Psf:
@@ -78,7 +78,7 @@ def in_window(live: Live, reference: Psf) -> Psf:
 
 
 def climb(live: Live, reference: Psf, cancelled: Event, progress: Callable[[float], None]):
-    """Yield every rung's error and time at this point, until cancelled."""
+    """Yield every method's error and time at this point, until cancelled."""
     for number, method in enumerate(RUNGS):
         if cancelled.is_set():
             return
@@ -87,7 +87,7 @@ def climb(live: Live, reference: Psf, cancelled: Event, progress: Callable[[floa
         error = relative_l2(psf.values, reference.values)
         if method == "huygens":
             error = reference.tolerance or error
-        yield Rung(method, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays)
+        yield MethodResult(method, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays)
         progress((number + 1) / len(RUNGS))
 
 
@@ -102,5 +102,5 @@ def one(live: Live, method: str, reference: Psf) -> Psf:
     from p2sf.psf.methods import render
 
     pixels, pitch = reference.values.shape[-1], reference.pixel_um
-    made, state = live.setting, live.state
+    made, state = live.setup, live.state
     return render(made.lens, made.source, method, pixels, pitch, tolerance=state.tolerance, clip=state.clip)

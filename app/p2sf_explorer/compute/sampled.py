@@ -4,11 +4,11 @@ from dataclasses import replace
 
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf_explorer.compute.deferred_sums import asked, by_rays
+from p2sf_explorer.compute.deferred_sums import by_rays, sum_request
 from p2sf_explorer.compute.method import too_blurred
-from p2sf_explorer.compute.preview import quick, quick_psf
+from p2sf_explorer.compute.preview import preview, preview_psf
 from p2sf_explorer.compute.ray_density import geometric_psf
-from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import State
 
 OPTICS = (
@@ -24,7 +24,7 @@ def optics(state: State) -> State:
 
 def by_coefficients(live) -> bool:
     """Return whether the six coefficients make the present point's picture, and so what is shown of that point."""
-    return live.rung == "seidel" or live.setting.altered
+    return live.method == "seidel" or live.setup.altered
 
 
 def everywhere_by_coefficients(live) -> bool:
@@ -32,7 +32,7 @@ def everywhere_by_coefficients(live) -> bool:
 
     What ``auto`` has chosen holds for the present point alone, and says nothing of other fields and sensor positions.
     """
-    return live.state.method == "seidel" or live.setting.altered
+    return live.state.method == "seidel" or live.setup.altered
 
 
 def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
@@ -41,10 +41,10 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     Where rays are lost they are summed one by one; where blur dwarfs diffraction their density is shown. Raises
     P2SFError's kinds where there is no PSF.
     """
-    set_up = setting(state)
-    if too_blurred(set_up):
-        return geometric_psf(set_up, not six, window, "preview", state.clip)
-    if six or set_up.altered:
-        return seidel_psf(set_up.coefficients, *window, "preview")
-    made = quick(set_up, state.clip)
-    return quick_psf(made, *window) if made else by_rays(asked(state, set_up, "traced", window), "preview")
+    setup = paraxial_setup(state)
+    if too_blurred(setup):
+        return geometric_psf(setup, not six, window, "preview", state.clip)
+    if six or setup.altered:
+        return seidel_psf(setup.coefficients, *window, "preview")
+    made = preview(setup, state.clip)
+    return preview_psf(made, *window) if made else by_rays(sum_request(state, setup, "traced", window), "preview")

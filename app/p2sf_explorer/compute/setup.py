@@ -24,7 +24,7 @@ from p2sf_explorer.state.what_if import altered
 
 
 @dataclass(frozen=True)
-class Setting:
+class ParaxialSetup:
     """One lens, opened and focused as the state says, and everything paraxial about it at this source.
 
     ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand.
@@ -106,7 +106,7 @@ def shipped() -> tuple[str, ...]:
     return tuple(shipped_lenses())
 
 
-def setting(state: State) -> Setting:
+def paraxial_setup(state: State) -> ParaxialSetup:
     """Return everything paraxial about the state; a P2SFError in a sentence where there is no answer."""
     fixed = _fixed(prescription(state), _request(state))
     slope = float(slope_from_degrees(state.field_deg))
@@ -114,7 +114,7 @@ def setting(state: State) -> Setting:
     depth = source.depth_mm
     gap = depth + float(fixed["pupils"].entrance_from_first)
     own = coefficients(fixed["lens"], depth, slope, source.wavelength_um, fixed["stop"])
-    return Setting(
+    return ParaxialSetup(
         **fixed
         | {
             "source": source,
@@ -144,7 +144,7 @@ def _fixed(prescription: Lens, request: Request) -> MappingProxyType:
     )
 
 
-def setup(state: State) -> Setup:
+def request_setup(state: State) -> Setup:
     """Return the state as the library's own setup, field included: what a file says about where it comes from."""
     return set_up(prescription(state), replace(_request(state), field_deg=state.field_deg))
 

@@ -8,7 +8,7 @@ OWN = "own "  # before a panel's key: the window it stands in
 LATER_MS = 1500  # after the last change, so that a crash costs no more than that
 
 
-class Keeping(QObject):
+class SessionKeeper(QObject):
     """Writes the session a moment after every change, and when the window closes."""
 
     def __init__(self, window, geometry: dict[str, str]):

@@ -8,7 +8,7 @@ from p2sf.files.writing import write_beside
 from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe, versions
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.setup import setup
+from p2sf_explorer.compute.setup import request_setup
 from p2sf_explorer.files.embedded_state import with_state
 from p2sf_explorer.state.state import State, state_to_json
 
@@ -37,7 +37,7 @@ def write_data(live: Live | None, path, state: State | None = None) -> tuple[Pat
     if Path(path).suffix.lower() not in DATA_ENDINGS:
         ending = Path(path).suffix
         raise ExportError(f'{path}: PSF data has no ending "{ending}"; choose {", ".join(DATA_ENDINGS)}')
-    meta = {**describe(setup(live.state)), "state": _entries(state)}
+    meta = {**describe(request_setup(live.state)), "state": _entries(state)}
     written = _writer(path)(live.psf, path, meta)
     return written, write_state(state, side_car(path), exported=Path(path).name)
 

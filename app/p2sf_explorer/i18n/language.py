@@ -25,7 +25,7 @@ STANDS = {"{number}": FIGURE, "{count}": FIGURE, "{path}": PATH, "{why}": ANYTHI
 NAMES = {ENGLISH: "English"}  # Qt would say of which country
 
 
-class Spoken(QTranslator):
+class Translation(QTranslator):
     """A language read from its .ts file: no compiled file has to be kept beside it."""
 
     def __init__(self, code: str, parent=None):
@@ -106,22 +106,22 @@ def languages() -> dict[str, str]:
     return {code: NAMES.get(code) or QLocale(code).nativeLanguageName().capitalize() for code in codes}
 
 
-def chosen(choice: str) -> str:
+def language_of(choice: str) -> str:
     """Return the language meant by a State's ``language``: the system's for "system", English where there is none."""
     code = QLocale.system().name().split("_")[0] if choice == "system" else choice
     return code if (FOLDER / f"{code}.ts").is_file() else ENGLISH
 
 
-def spoken() -> str:
+def current_language() -> str:
     """Return the language the application speaks now."""
-    found = QCoreApplication.instance().findChild(Spoken)
+    found = QCoreApplication.instance().findChild(Translation)
     return found.code if found else ENGLISH
 
 
-def speak(choice: str) -> None:
+def set_language(choice: str) -> None:
     """Have everything that is built from now on speak a language; Qt's own words go with it."""
-    code, application = chosen(choice), QCoreApplication.instance()
-    if code == spoken():
+    code, application = language_of(choice), QCoreApplication.instance()
+    if code == current_language():
         return
     for translator in application.findChildren(QTranslator):
         application.removeTranslator(translator)
@@ -129,6 +129,6 @@ def speak(choice: str) -> None:
     if code != ENGLISH:
         own = QTranslator(application)
         own.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath))
-        for translator in (own, Spoken(code, application)):
+        for translator in (own, Translation(code, application)):
             application.installTranslator(translator)
     forget()

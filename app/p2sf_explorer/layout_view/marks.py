@@ -32,7 +32,7 @@ class Placed:
 
 def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
     """Paint ticks for points, bars for pupils, a disc for the image, and a name for each that has room."""
-    placed = places(layout.marks, Frame.of(chart, layout))
+    placed = places(layout.marks, MarkFrame.of(chart, layout))
     painter.setPen(pen(chart.theme.mark))
     painter.drawLines([mark.bar for mark in placed])
     named = [mark for mark in placed if mark.room]
@@ -47,7 +47,7 @@ def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
 
 
 @dataclass(frozen=True)
-class Frame:
+class MarkFrame:
     """What places depend on, in pixels: the axis, pixels per mm, the picture's size, the glass's rim, the sensor."""
 
     left: float
@@ -59,7 +59,7 @@ class Frame:
     sensor: tuple[float, float]
 
     @classmethod
-    def of(cls, chart: Chart, layout: Layout) -> "Frame":
+    def of(cls, chart: Chart, layout: Layout) -> "MarkFrame":
         """Return the frame of a chart that shows this layout."""
         drawing = layout.drawing
         (left, axis), (right, rim) = chart.to_pixels(0.0, 0.0), chart.to_pixels(1.0, drawing.half_height)
@@ -68,7 +68,7 @@ class Frame:
 
 
 @lru_cache(maxsize=4)
-def places(marks: tuple[Mark, ...], frame: Frame) -> tuple[Placed, ...]:
+def places(marks: tuple[Mark, ...], frame: MarkFrame) -> tuple[Placed, ...]:
     """Return where marks and names go; most sliders leave them where they are."""
     x, half = frame.sensor
     taken, found = [QRectF(x - 1, frame.axis - half, 2, 2 * half)], []
@@ -92,7 +92,7 @@ def paint_name(painter: QPainter, chart: Chart, room: QRectF, name: str) -> None
     write(painter, room, name)
 
 
-def row_of(mark: Mark, frame: Frame) -> float:
+def row_of(mark: Mark, frame: MarkFrame) -> float:
     """Return the top of a name's row in pixels: of pupils above glass and stop, of points under them."""
     if mark.radius:
         return max(0.0, frame.axis - frame.rim - LINE_PX - GAP_PX / 2)

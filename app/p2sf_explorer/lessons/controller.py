@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.files import recent
-from p2sf_explorer.i18n.language import spoken
+from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from p2sf_explorer.lessons.lesson_panel import LessonPanel, tool
@@ -21,7 +21,7 @@ NOTHING_BEFORE = "The window began with this lesson, so there is nothing to put 
 UNTRANSLATED = "This lesson has not been translated and stands here as it was written"
 
 
-class Teaching(QObject):
+class LessonController(QObject):
     """Owns the lesson's page, made when the first lesson begins; the state says which lesson and step are on."""
 
     def __init__(self, window):
@@ -47,7 +47,7 @@ class Teaching(QObject):
     def lessons(self) -> dict[str, Lesson]:
         """Return the lessons by name; a bad file is told in the banner and costs only itself."""
         if not self._lessons:
-            self._lessons, faults = found_lessons((FOLDER, own_folder()), spoken())
+            self._lessons, faults = found_lessons((FOLDER, own_folder()), current_language())
             if faults:  # after the picture of the step, which takes the banner away
                 QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
         return self._lessons
@@ -113,7 +113,7 @@ class Teaching(QObject):
 
     def _own_up(self, lesson: Lesson) -> None:
         """Say once that a lesson is in another language than the window, after the picture of its step is there."""
-        if not self._owned_up and lesson.language != spoken():
+        if not self._owned_up and lesson.language != current_language():
             self._owned_up = True
             QTimer.singleShot(0, lambda: self.store.said.emit(tr(UNTRANSLATED)))
 

@@ -17,7 +17,7 @@ from p2sf.psf.metrics import centroid, mtf, radius_of_energy
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.setup import Setting, setting
+from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.state import State
 
 CONTRAST_PER_MM = 50.0  # the frequency at which contrast is quoted: a line pair of 20 µm
@@ -26,9 +26,9 @@ BLUE_RED_NM = 486.1327, 656.2725  # Fraunhofer's F and C
 Measure = Callable[[State], float]
 
 
-def of_setting(value: Callable[[Setting], float]) -> Measure:
+def of_setting(value: Callable[[ParaxialSetup], float]) -> Measure:
     """Return a measure of the paraxial setting."""
-    return lambda state: float(value(setting(state)))
+    return lambda state: float(value(paraxial_setup(state)))
 
 
 def of_live(value: Callable[[Live], float]) -> Measure:
@@ -52,7 +52,7 @@ ASTIGMATISM = {"petzval": -0.5, "sagittal": 0.0, "tangential": 1.0}  # of W22 in
 def focus_um(which: str) -> Measure:
     """Return where a fan comes to focus, µm behind the sensor: Δz = −2n′λW/NA² (Welford 1986, ch. 8)."""
 
-    def shift(made: Setting) -> float:
+    def shift(made: ParaxialSetup) -> float:
         c = made.coefficients
         waves = c.w20 + c.wd + ASTIGMATISM[which] * c.w22
         return -2 * c.image_index * c.wavelength_um * waves / c.na**2
@@ -66,7 +66,7 @@ def ray_focus_um(which: str) -> Measure:
     def shift(state: State) -> float:
         from p2sf.raytrace.field_curves import real_foci
 
-        made = setting(state)
+        made = paraxial_setup(state)
         return UM_PER_MM * float(getattr(real_foci(made.lens, made.source, made.source.field_slope, made.stop), which))
 
     return shift
@@ -76,14 +76,14 @@ def distortion_percent(state: State) -> float:
     """Return how much farther out than the paraxial image the real chief ray lands, %."""
     from p2sf.pixel_kernels.sensor_points import chief_heights
 
-    made = setting(state)
+    made = paraxial_setup(state)
     real = float(chief_heights(made.lens, made.source))
     return 100 * (real / float(made.coefficients.image_height) - 1)
 
 
 def axial_colour_um(state: State) -> float:
     """Return how far red (C) comes to focus behind blue (F) on the axis, µm."""
-    made = setting(state)
+    made = paraxial_setup(state)
     blue, red = (float(image_distance(made.lens, state.depth_mm, nm / NM_PER_UM)) for nm in BLUE_RED_NM)
     return UM_PER_MM * (red - blue)
 
@@ -98,7 +98,7 @@ def r_squared(state: State) -> float:
 
 def r_squared_narrow(state: State) -> float:
     """Return R² of the state's method against the Huygens sum, in the paper's window of 32² samples over 22.12 µm."""
-    made = setting(state)
+    made = paraxial_setup(state)
     window = {"pixels": PIXELS, "pixel_um": WINDOW_UM / PIXELS}
     shown = render(made.lens, made.source, method=state.method, **window)
     return float(fidelity(shown.values, _reference(made.lens, made.source).values))

@@ -12,7 +12,7 @@ from typing import Protocol
 from PySide6.QtWidgets import QWidget
 
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.live import Live, View
+from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 
@@ -30,7 +30,7 @@ class Panel(Protocol):
 
 
 @dataclass(frozen=True)
-class Entry:
+class PanelEntry:
     """One registered panel: module:class, place "main" or "tab", module:function of its view.
 
     ``group``: the one of `GROUPS` whose tabs it stands among.
@@ -47,16 +47,18 @@ class Entry:
 GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
 
 
-def tab(group: str, key: str, title: str, panel: str, view: str = "") -> Entry:
+def tab(group: str, key: str, title: str, panel: str, view: str = "") -> PanelEntry:
     """Return the line of a tab: its group, key and title, and module:name of panel and view in their folders."""
-    return Entry(key, title, f"p2sf_explorer.panels.{panel}", "tab", view and f"p2sf_explorer.results.{view}", group)
+    return PanelEntry(
+        key, title, f"p2sf_explorer.panels.{panel}", "tab", view and f"p2sf_explorer.results.{view}", group
+    )
 
 
 REGISTRY = (
-    Entry("layout", "Layout", "p2sf_explorer.panels.layout:LayoutPanel", "main"),
-    Entry("pupil", "Pupil", "p2sf_explorer.panels.pupil:PupilPanel", "main"),
-    Entry("psf", "PSF", "p2sf_explorer.panels.psf:PsfPanel", "main"),
-    Entry("coefficients", "Coefficients", "p2sf_explorer.panels.coefficients:CoefficientsPanel", "main"),
+    PanelEntry("layout", "Layout", "p2sf_explorer.panels.layout:LayoutPanel", "main"),
+    PanelEntry("pupil", "Pupil", "p2sf_explorer.panels.pupil:PupilPanel", "main"),
+    PanelEntry("psf", "PSF", "p2sf_explorer.panels.psf:PsfPanel", "main"),
+    PanelEntry("coefficients", "Coefficients", "p2sf_explorer.panels.coefficients:CoefficientsPanel", "main"),
     tab("PSF", "profiles", "Profiles", "profiles:ProfilesPanel", "profiles:profiles"),
     tab("PSF", "mtf", "MTF", "mtf:MtfPanel", "mtf:contrast"),
     tab("PSF", "through_focus", "Through focus", "through_focus:ThroughFocusPanel", "through_focus:strip"),
@@ -75,7 +77,9 @@ REGISTRY = (
     tab(
         "Lens", "depth_of_field", "Depth of field", "depth_of_field:DepthOfFieldPanel", "depth_of_field:depth_of_field"
     ),
-    Entry("solid", "3D", "p2sf_explorer.panels.solid:SolidPanel", "tab", "p2sf_explorer.scene3d.scene:scene", "Lens"),
+    PanelEntry(
+        "solid", "3D", "p2sf_explorer.panels.solid:SolidPanel", "tab", "p2sf_explorer.scene3d.scene:scene", "Lens"
+    ),
     tab("Lens", "import", "Import", "import_report:ImportReportPanel", "import_report:report"),
     tab("Tools", "image", "Image", "image:ImagePanel", "image:question"),
     tab("Tools", "database", "Database", "database:DatabasePanel", "database:question"),
@@ -83,12 +87,12 @@ REGISTRY = (
 )
 
 
-def build(entry: Entry, store: Store) -> Panel:
+def build(entry: PanelEntry, store: Store) -> Panel:
     """Return a new panel of a registry line; what it shows of B it does not put into A."""
     return _named(entry.panel)(PanelStore(store))
 
 
-def view_of(entry: Entry) -> View | None:
+def view_of(entry: PanelEntry) -> ResultFunction | None:
     """Return the view function of a registry line, None when it needs none."""
     return _named(entry.view) if entry.view else None
 

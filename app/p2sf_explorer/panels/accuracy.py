@@ -10,7 +10,7 @@ from p2sf_explorer.charts.painting import set_text, small_font
 from p2sf_explorer.charts.plots import HeatMap, plot_widget, restyle_plot
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.reference import Accuracy, Rung
+from p2sf_explorer.compute.reference import Accuracy, MethodResult
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.psf import PSF_MAP
 from p2sf_explorer.state.scales import nice, significant, written_r_squared
@@ -96,18 +96,18 @@ class AccuracyPanel:
         self.difference.bar.show_scale(DIFFERENCE_MAP, "of peak", labels)
         for chart in (self.reference, self.difference):
             chart.set_extent(count * step / 2)
-        self._show_ladder(accuracy.rungs, psf.method)
+        self._show_methods(accuracy.results, psf.method)
         r2 = written_r_squared(accuracy.r_squared)
         text = f"{psf.method} vs Huygens: R² {r2} in {significant(count * step, 3)} µm"
         text += f" · reference from {reference.rays} rays, {reference.seconds:.2f} s"
         self.message.set_text(text + (" · earlier picture" if stale else ""), "muted" if stale else "text")
 
-    def _show_ladder(self, rungs: tuple[Rung, ...], shown: str) -> None:
+    def _show_methods(self, results: tuple[MethodResult, ...], shown: str) -> None:
         for name in self.names:
             self.ladder.removeItem(name)
         self.names = []
-        brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in rungs]
-        places = [(np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in rungs]
+        brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in results]
+        places = [(np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in results]
         self.points.setData([x for x, _ in places], [y for _, y in places], brush=brushes, pen=None)  # in decades
         if not places:
             return
@@ -117,7 +117,7 @@ class AccuracyPanel:
         box = QRectF(left, min(y) - 0.5, right - left, max(y) - min(y) + 1)
         size = self.widget.width() * LADDER_SHARE - 70, max(60.0, self.widget.height() - 100.0)  # of its area, pixels
         dots = [((a - box.x()) / box.width() * size[0], (box.bottom() - b) / box.height() * size[1]) for a, b in places]
-        words = [rung_words(rung) for rung in rungs]
+        words = [method_words(method) for method in results]
         for text, place, anchor in zip(words, places, anchors(words, dots, size), strict=True):
             label = pg.TextItem(text, self._theme.muted, anchor=anchor)
             label.setFont(small_font())
@@ -135,9 +135,9 @@ class AccuracyPanel:
             name.setColor(theme.muted)
 
 
-def rung_words(rung: Rung) -> str:
+def method_words(method: MethodResult) -> str:
     """Return a method's name and R²; the reference has no R² against itself."""
-    return rung.method if rung.method == "huygens" else f"{rung.method}  R² {written_r_squared(rung.r_squared)}"
+    return method.method if method.method == "huygens" else f"{method.method}  R² {written_r_squared(method.r_squared)}"
 
 
 def anchors(words: list[str], dots: list[tuple[float, float]], size: tuple[float, float]) -> list[tuple[float, float]]:

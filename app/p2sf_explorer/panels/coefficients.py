@@ -77,8 +77,8 @@ class CoefficientsPanel:
 
     def show(self, live: Live) -> None:
         """Paint the coefficients."""
-        state, altered = live.state, live.setting.altered
-        values, own = (as_numbers(found) for found in (live.setting.coefficients, live.setting.own))
+        state, altered = live.state, live.setup.altered
+        values, own = (as_numbers(found) for found in (live.setup.coefficients, live.setup.own))
         own = dict.fromkeys(TERMS, 0.0) if state.free_pupil else own
         if live.difference:
             values = own = dict(live.difference.coefficients)

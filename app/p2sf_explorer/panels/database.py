@@ -10,7 +10,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import spoken
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.database import LOSSY, NODES, Answer, Question, answer
+from p2sf_explorer.results.database import LOSSY, NODES, DatabaseRequest, DatabaseResult, answer
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.terms import WORDS
 from p2sf_explorer.store.store import Store
@@ -47,8 +47,8 @@ class DatabasePanel:
             chart.taken.connect(store.begin)
             chart.released.connect(store.end)
             chart.picked.connect(lambda depth, angle: store.update(depth_mm=depth, field_deg=angle))
-        self._asked: Question | None = None
-        self._answer: Answer | None = None
+        self._asked: DatabaseRequest | None = None
+        self._answer: DatabaseResult | None = None
         self.worker = LatestWins(self.widget)
         self.worker.finished.connect(self._on_answer)
         self.worker.failed.connect(self._on_failure)
@@ -80,13 +80,13 @@ class DatabasePanel:
     def _stale(self) -> bool:
         return self._answer is None or self._answer.question != self._asked
 
-    def _on_answer(self, key: Question, found: Answer) -> None:
+    def _on_answer(self, key: DatabaseRequest, found: DatabaseResult) -> None:
         self._answer = found
         self._paint()
         if not self._stale():
             self.widget.set_readout(f"at {1000 * key.wavelength_um:.1f} nm")
 
-    def _on_failure(self, key: Question, sentence: str) -> None:
+    def _on_failure(self, key: DatabaseRequest, sentence: str) -> None:
         self.note.setText(tr(spoken(sentence)))
 
     def _paint(self) -> None:
@@ -106,7 +106,7 @@ class DatabasePanel:
         self.note.setText(tr(" · ".join(part for part in (text, found.why_no_atlas) if part)))
         self.note.setToolTip(self.note.text())
 
-    def _paint_map(self, found: Answer, term: str) -> None:
+    def _paint_map(self, found: DatabaseResult, term: str) -> None:
         """Paint signed square roots: near and far differ by a thousand waves."""
         values = found.maps[term]
         limit = nice(max(1e-6, float(np.nanmax(np.abs(values)))))
@@ -117,7 +117,7 @@ class DatabasePanel:
         labels = tuple(((1 + p) / 2, short(p * abs(p) * limit, "+")) for p in parts)
         self.bars[0].show_scale(VALUE_MAP, "λ", (*labels, (0.5, "0")))
 
-    def _paint_error(self, found: Answer, term: str, rule: str) -> None:
+    def _paint_error(self, found: DatabaseResult, term: str, rule: str) -> None:
         """Paint decades of the error."""
         values = found.errors[rule][term]
         top = np.log10(nice(max(1e-9, float(np.nanmax(values)))))
@@ -163,7 +163,7 @@ def name(term: str) -> str:
     return "Wd" if term == "wd" else f"W{term[1:]}"
 
 
-def grid_of(found: Answer, head: str, values: np.ndarray):
+def grid_of(found: DatabaseResult, head: str, values: np.ndarray):
     """Return a map as the clipboard takes it: its head, 1/depth in 1/m, fields in degrees, and values."""
     return (
         f"{head}: {tr('field, °')} \\ {tr('1/depth, 1/m (0 is ∞)')}",
@@ -173,7 +173,7 @@ def grid_of(found: Answer, head: str, values: np.ndarray):
     )
 
 
-def places(found: Answer):
+def places(found: DatabaseResult):
     """Return the map's ends and its nodes: 1/depth in 1/m, field in degrees."""
     near, fields = PER_METRE * found.near, found.fields_deg
     nodes = PER_METRE / found.nodes.depths_mm, degrees_from_slope(found.nodes.field_slopes)

@@ -8,15 +8,15 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QLabel
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.charts.overlay import Veil
+from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.files.snapshot import side_car, write_state
 from p2sf_explorer.i18n.messages import spoken
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.image import (
-    Answer,
-    Question,
+    ImageRequest,
+    ImageResult,
     coarse,
     fine_enough,
     local_psf,
@@ -31,7 +31,7 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import SideCard, chooser, select
 from p2sf_explorer.widgets.drop import PhotoDrop
 from p2sf_explorer.widgets.plan_note import PlanLine, Why, small_button
-from p2sf_explorer.widgets.split_view import Wipe
+from p2sf_explorer.widgets.split_view import SplitView
 from p2sf_explorer.workers.worker import LatestWins
 
 TIP = (
@@ -59,16 +59,16 @@ class ImagePanel:
         self.show_box = chooser(tuple((k, v[0]) for k, v in SHOWS.items()), "Which picture is made", self.widget)
         self.open = small_button("Photo…", "Choose a PNG or TIFF to photograph", self._ask_photo)
         self.save = small_button("Save…", "Save the picture as PNG or TIFF, the state beside it", self._ask_save)
-        self.wipe, self.headline, self.plan_line, self.words = Wipe(), QLabel(), PlanLine(), Why()
-        self.veil = Veil(self.wipe)
+        self.split_view, self.headline, self.plan_line, self.words = SplitView(), QLabel(), PlanLine(), Why()
+        self.overlay = Overlay(self.split_view)
         self._lay_out()
         self._connect()
-        self._asked: Question | None = None
-        self._answer: Answer | None = None
-        self._planned: Answer | None = None  # the last one by a plan
-        self._ordered: Question | None = None  # what a plan is being made for,
-        self._stopped: Question | None = None  # what it was cancelled for,
-        self._unplanned: Question | None = None  # and what none could be made for, so that none is tried again
+        self._asked: ImageRequest | None = None
+        self._answer: ImageResult | None = None
+        self._planned: ImageResult | None = None  # the last one by a plan
+        self._ordered: ImageRequest | None = None  # what a plan is being made for,
+        self._stopped: ImageRequest | None = None  # what it was cancelled for,
+        self._unplanned: ImageRequest | None = None  # and what none could be made for, so that none is tried again
         self._refusal = ""
         self._settled, self._place = True, (0.5, 0.5)
         self.quick, self.fine = LatestWins(self.widget), LatestWins(self.widget)
@@ -85,7 +85,7 @@ class ImagePanel:
         self.headline.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.widget.add_line(self.plan_line)
         self.widget.add_rest(self.headline)
-        self.widget.set_body(self.wipe)
+        self.widget.set_body(self.split_view)
 
     def _connect(self) -> None:
         store = self._store
@@ -93,10 +93,10 @@ class ImagePanel:
         self.show_box.activated.connect(lambda: store.update(photo_show=self.show_box.currentData()))
         self.pixel.activated.connect(self._choose_pixel)
         self.plan_line.turned.connect(self._turn)
-        self.wipe.taken.connect(store.begin)
-        self.wipe.released.connect(store.end)
-        self.wipe.moved.connect(lambda part: store.update(photo_split=part))
-        self.wipe.looked.connect(self._look)
+        self.split_view.taken.connect(store.begin)
+        self.split_view.released.connect(store.end)
+        self.split_view.moved.connect(lambda part: store.update(photo_split=part))
+        self.split_view.looked.connect(self._look)
         self.drop = PhotoDrop(self.widget)
         self.drop.photo.connect(lambda path: store.update(photo=path))
         self.drop.refused.connect(store.refused)
@@ -106,7 +106,7 @@ class ImagePanel:
         asked, state = live.views["image"], live.state
         self._settled = live.quality == "settled"
         self._show_choices(state)
-        self.wipe.show_split(state.photo_split)
+        self.split_view.show_split(state.photo_split)
         if asked != self._asked:
             self._asked = asked
             self._call_off()
@@ -124,7 +124,7 @@ class ImagePanel:
         for box, value in ((self.photo, state.photo), (self.pixel, size), (self.show_box, state.photo_show)):
             select(box, value)
 
-    def _quickest(self, asked: Question):
+    def _quickest(self, asked: ImageRequest):
         """Return what makes a picture at once: the plan there is, where only the photo or what is shown is another."""
         known = self._planned
         return partial(planned, known=known) if known and same_optics(known.question, asked) else coarse
@@ -160,16 +160,16 @@ class ImagePanel:
         self.widget.set_readout(self._quality())
         for button in (self.words.button, self.save):  # in a drag the earlier picture keeps them, and the keys on them
             button.setEnabled(self._quality() not in ("working", NONE))
-        self.veil.say(self._refusal if self._stale() and self._unplanned == self._asked else "", 0)
+        self.overlay.say(self._refusal if self._stale() and self._unplanned == self._asked else "", 0)
         self.plan_line.show_stage(doing, stopped)
-        self.headline.setHidden(doing or stopped or bool(self.veil.text))
+        self.headline.setHidden(doing or stopped or bool(self.overlay.text))
 
     def _quality(self) -> str:
         if not self._stale():
             return self._answer.quality
         return NONE if self._unplanned == self._asked else WORKING if self._answer else "working"
 
-    def _on_answer(self, key: Question, found: Answer) -> None:
+    def _on_answer(self, key: ImageRequest, found: ImageResult) -> None:
         if found.quality == "planned":
             self._planned = found if found.plan.decisions else None
             self._ordered = None if key == self._ordered else self._ordered
@@ -181,7 +181,7 @@ class ImagePanel:
             self._refine()
         self._show_readout()
 
-    def _on_failure(self, key: Question, sentence: str) -> None:
+    def _on_failure(self, key: ImageRequest, sentence: str) -> None:
         if key != self._asked:
             return
         self._ordered, self._unplanned, self._refusal = None, key, spoken(sentence)
@@ -196,7 +196,7 @@ class ImagePanel:
 
     def _paint(self) -> None:
         found = self._answer
-        self.wipe.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
+        self.split_view.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
         sensor = found.plan.scene.sensor
         wide = f"{sensor.columns} × {sensor.rows} pixels of {sensor.pixel_um:.3g} µm"
         many = f"{found.headline} · {found.seconds:.2g} s"
@@ -210,7 +210,7 @@ class ImagePanel:
         if self._answer:
             rows, columns = self._answer.after.shape[:2]
             self._place = row / (rows - 1), column / (columns - 1)
-            self.wipe.show_loupe(pixels(np.sqrt(local_psf(self._answer, row, column))), (row, column))
+            self.split_view.show_loupe(pixels(np.sqrt(local_psf(self._answer, row, column))), (row, column))
 
     def _choose_pixel(self) -> None:
         size = self.pixel.currentData()
@@ -241,7 +241,7 @@ class ImagePanel:
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        self.wipe.restyle(theme)
+        self.split_view.restyle(theme)
 
     def stop(self) -> None:
         """End the workers' threads."""

@@ -135,7 +135,7 @@ class LayoutChart(Chart):
     def paint_over(self, painter: QPainter) -> None:
         """Paint marks, names and the source."""
         if self.live:
-            self.light.paint(painter, self.live.setting.lens)
+            self.light.paint(painter, self.live.setup.lens)
             self._paint_bars(painter)
             paint_marks(painter, self, self.live.layout)
             self.handle.paint(painter, self)
@@ -163,7 +163,7 @@ class LayoutChart(Chart):
         """Move the source while held; show that it can be held."""
         self.handle.move(self, event.position())
         if self.live:
-            self.light.point(self.live.setting.lens, event.position())
+            self.light.point(self.live.setup.lens, event.position())
         over = self.live and self.handle.near(self, event.position())
         self.setCursor(Qt.CursorShape.SizeAllCursor if over else Qt.CursorShape.ArrowCursor)
 

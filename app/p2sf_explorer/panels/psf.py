@@ -64,7 +64,7 @@ class PsfPanel:
             self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.psf_units], labels(state, psf, peak))
         self.airy.token = self.arrow.token = "muted" if live.difference else WHITE
         self._frame(count * step / 2, live)
-        self.show_badge(live, self._r_squared, not live.setting.altered)
+        self.show_badge(live, self._r_squared, not live.setup.altered)
 
     def _frame(self, half: float, live: Live) -> None:
         if half != self._half:
@@ -74,7 +74,7 @@ class PsfPanel:
             self._airy = live.airy_radius_um
             turn = np.linspace(0, 2 * np.pi, 73)
             self.airy.set_data(self._airy * np.cos(turn), self._airy * np.sin(turn))
-        side = int(np.sign(live.setting.coefficients.image_height))
+        side = int(np.sign(live.setup.coefficients.image_height))
         self.map.chart.name_axes("x, µm", Y_WORDS[side or 1])
         shown = half if side else np.nan
         self.arrow.set_data(shown * ARROW[0], shown * side * ARROW[1])
@@ -91,7 +91,7 @@ class PsfPanel:
             self.badge.set_text(tr("A − B · at most {share} % of the higher peak", share=largest), "text")
             return
         self._times[live.quality] = significant(1e3 * psf.seconds, 2)
-        measured = None if live.setting.altered or psf.method == "geometric" else r_squared
+        measured = None if live.setup.altered or psf.method == "geometric" else r_squared
         whole, short = badge_words(
             live, {name: self._times[name] for name in QUALITIES if name in self._times}, measured
         )
@@ -106,7 +106,7 @@ class PsfPanel:
 
 def badge_words(live: Live, times: dict[str, str], r_squared: float | None) -> tuple[str, str]:
     """Return the picture's birth certificate whole, and short where there is little room."""
-    before = tuple(filter(None, (live.side, tr("what-if") if live.setting.altered else "")))
+    before = tuple(filter(None, (live.side, tr("what-if") if live.setup.altered else "")))
     accuracy = () if r_squared is None else (f"R² {written_r_squared(r_squared)}",)
     method, named = live.psf.method, " / ".join(f"{name} {time}" for name, time in times.items())
     whole = (*before, METHOD_WORDS.get(method, method), f"{named} ms", *(f"{words} vs Huygens" for words in accuracy))

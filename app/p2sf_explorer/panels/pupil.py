@@ -4,10 +4,10 @@ import numpy as np
 
 from p2sf_explorer.charts.contour import contours, interval
 from p2sf_explorer.charts.plots import HeatMap
-from p2sf_explorer.charts.surface_plot import ReliefView
+from p2sf_explorer.charts.surface_plot import SurfaceView
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.state.camera import Eye
+from p2sf_explorer.state.camera import Camera
 from p2sf_explorer.state.scales import nice, significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser, select
@@ -31,7 +31,7 @@ class PupilPanel:
         turn = np.linspace(0, 2 * np.pi, 121)
         self.map.chart.add_curve("muted").set_data(np.cos(turn), np.sin(turn))
         self.map.set_extent(1.0)
-        self.surface = ReliefView(self.map)
+        self.surface = SurfaceView(self.map)
         self.surface.turned.connect(lambda turn, tilt: store.update(relief_turn_deg=turn, relief_tilt_deg=tilt))
         self.surface.taken.connect(store.begin)
         self.surface.released.connect(store.end)
@@ -60,7 +60,7 @@ class PupilPanel:
             self._paint(shown, (-limit, limit), labels)
             self.map.means(pupil.waves, "W, waves")
             if mode == "surface":
-                eye = Eye(live.state.relief_turn_deg, live.state.relief_tilt_deg)
+                eye = Camera(live.state.relief_turn_deg, live.state.relief_tilt_deg)
                 self.surface.show_waves(pupil.waves, limit, live.quality, eye)
         numbers = f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ"
         lines = f"line every {step:g} λ" if mode == "contour" else pupil.kind

@@ -11,7 +11,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.scene3d import opengl_probe as probe
-from p2sf_explorer.scene3d.widget import StageView
+from p2sf_explorer.scene3d.widget import SceneView
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
@@ -29,7 +29,7 @@ class SolidPanel:
 
     def __init__(self, store: Store):
         self.widget, self._store = Card("3D", TIP), store
-        self.view = StageView(store, self.widget)
+        self.view = SceneView(store, self.widget)
         self.words = Readout(self.widget, pill=True, colour="text")
         self.save_button = QPushButton(tr("Save…"), self.widget)
         self.save_button.setObjectName("small")
@@ -54,7 +54,7 @@ class SolidPanel:
         words = tr(
             WORDS,
             front=f"{view.front.factor:g}",
-            psf=f"{view.relief.factor:g}",
+            psf=f"{view.psf_surface.factor:g}",
             scale=tr(SCALES[live.state.psf_scale]),
             wavelength=significant(live.state.wavelength_nm, 4),
         )
@@ -83,7 +83,7 @@ class SolidPanel:
             self.process.kill()
             self.process.waitForFinished()
         if self.stage:
-            self.view.set_stage(None)
+            self.view.set_renderer(None)
             self.stage.close()
 
     def _probe(self) -> None:
@@ -103,12 +103,12 @@ class SolidPanel:
 
     def _load(self) -> None:
         try:
-            from p2sf_explorer.scene3d.renderer import Stage
+            from p2sf_explorer.scene3d.renderer import Renderer
         except ImportError:
             self.view.say(tr(probe.NOT_INSTALLED), final=True)
             return
-        self.stage = Stage(self.view.pixels())
-        self.view.set_stage(self.stage)
+        self.stage = Renderer(self.view.pixels())
+        self.view.set_renderer(self.stage)
         self.save_button.setEnabled(True)
 
     def _ask_save(self) -> None:

@@ -40,7 +40,7 @@ class YBarPanel:
         self.axes[0].set_data((left, right), (0, 0))
         self.axes[1].set_data((0, 0), (low, high))
         self._mark(view, (right - left) / 90, (high - low) / 30)
-        invariant = float(live.setting.rays.invariant) * live.setting.source.field_slope
+        invariant = float(live.setup.rays.invariant) * live.setup.source.field_slope
         words = "the source is on the axis: no chief ray, so the diagram is a line" if field_free(view) else ""
         self.widget.set_readout(words or f"Lagrange invariant H = {signed(invariant, 4)} mm · stop ▪")
 

@@ -19,7 +19,7 @@ PATIENCE_S = 0.1
 
 
 @dataclass(frozen=True)
-class Frame:
+class FilmFrame:
     """One picture: width, height, and rows of RGB bytes."""
 
     width: int
@@ -31,18 +31,18 @@ class Reel:
     """The frames on their way from the window to the writer, a few at a time."""
 
     def __init__(self):
-        self._frames: Queue[Frame | None] = Queue(WAITING)
+        self._frames: Queue[FilmFrame | None] = Queue(WAITING)
 
     @property
     def full(self) -> bool:
         """Return whether the writer is behind."""
         return self._frames.full()
 
-    def put(self, frame: Frame | None) -> None:
+    def put(self, frame: FilmFrame | None) -> None:
         """Hand over a frame, None after the last; call only while not `full`."""
         self._frames.put_nowait(frame)
 
-    def frames(self, cancelled: Event) -> Iterator[Frame]:
+    def frames(self, cancelled: Event) -> Iterator[FilmFrame]:
         """Yield the frames as they come, until the last; ExportError once ``cancelled``."""
         while True:
             if cancelled.is_set():
@@ -63,7 +63,7 @@ def check_film(path) -> None:
     check_place(path)
 
 
-def write_film(frames: Iterator[Frame], path, frame_ms: int) -> tuple[Path, ...]:
+def write_film(frames: Iterator[FilmFrame], path, frame_ms: int) -> tuple[Path, ...]:
     """Write frames as one .gif, or as numbered .png files, whole or not at all; return the paths. ExportError."""
     check_film(path)
     if Path(path).suffix.lower() == ".gif":
@@ -71,13 +71,13 @@ def write_film(frames: Iterator[Frame], path, frame_ms: int) -> tuple[Path, ...]
     return _write_pngs(frames, Path(path))
 
 
-def _picture(frame: Frame):
+def _picture(frame: FilmFrame):
     from PIL import Image
 
     return Image.frombytes("RGB", (frame.width, frame.height), frame.rgb)
 
 
-def _write_gif(frames: Iterator[Frame], handle, frame_ms: int) -> None:
+def _write_gif(frames: Iterator[FilmFrame], handle, frame_ms: int) -> None:
     """Write a GIF that repeats for ever; each frame has its own 256 colours."""
     from PIL import Image
 
@@ -88,7 +88,7 @@ def _write_gif(frames: Iterator[Frame], handle, frame_ms: int) -> None:
     first.save(handle, "GIF", save_all=True, append_images=pictures, duration=frame_ms, loop=0)
 
 
-def _write_pngs(frames: Iterator[Frame], path: Path) -> tuple[Path, ...]:
+def _write_pngs(frames: Iterator[FilmFrame], path: Path) -> tuple[Path, ...]:
     folder = path.resolve().with_name(f".{secrets.token_hex(6)}.part")
     made = []
     try:

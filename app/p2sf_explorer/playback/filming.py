@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QWidget
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.playback.film import Frame, Reel, check_film, write_film
+from p2sf_explorer.playback.film import FilmFrame, Reel, check_film, write_film
 from p2sf_explorer.playback.sweep import changes, sweep
 from p2sf_explorer.state.pinning import with_links
 from p2sf_explorer.state.state import State
@@ -120,10 +120,10 @@ def moments(state: State) -> tuple[State, ...]:
     return tuple(replace(state, **with_links(state, each)) for each in moved)
 
 
-def frame_of(widget: QWidget) -> Frame:
+def frame_of(widget: QWidget) -> FilmFrame:
     """Return a widget's picture."""
     image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
     rows = bytes(image.constBits())
     line, width = image.bytesPerLine(), 3 * image.width()
     packed = rows if line == width else b"".join(rows[k * line : k * line + width] for k in range(image.height()))
-    return Frame(image.width(), image.height(), packed)
+    return FilmFrame(image.width(), image.height(), packed)

@@ -27,9 +27,9 @@ class Chromatic:
 
 def chromatic(live) -> Chromatic:
     """Return the focal shift of every colour at this depth."""
-    setting = live.setting
+    setup = live.setup
     nm = np.linspace(*wavelength_range(prescription(live.state)), WAVELENGTHS[live.quality])
-    shift = 1e3 * colour_shift(setting.lens, setting.source.depth_mm, nm / NM_PER_UM, ZONES, setting.stop)
-    c = setting.own
-    half = float(c.image_index) * setting.source.wavelength_um / (2 * float(c.na) ** 2) if float(c.na) else np.inf
+    shift = 1e3 * colour_shift(setup.lens, setup.source.depth_mm, nm / NM_PER_UM, ZONES, setup.stop)
+    c = setup.own
+    half = float(c.image_index) * setup.source.wavelength_um / (2 * float(c.na) ** 2) if float(c.na) else np.inf
     return Chromatic(nm, shift, half)

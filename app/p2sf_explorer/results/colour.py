@@ -12,7 +12,7 @@ from p2sf.psf.polychromatic import ColourPsf, colour_psf, faint_rgb, suitable_pi
 from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import by_coefficients, in_window, optics
-from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
 
@@ -52,7 +52,7 @@ class Colours:
 
 def question(live) -> ColourQuestion | str:
     """Return what to show for the present point, or why there is nothing, in a sentence."""
-    s, pixels = live.setting, PIXELS[live.quality]
+    s, pixels = live.setup, PIXELS[live.quality]
     spectrum = spectrum_of(live.state.spectrum)
     try:
         pitch = suitable_pitch_um(s.lens, s.source, spectrum, pixels, s.stop)
@@ -64,14 +64,14 @@ def question(live) -> ColourQuestion | str:
 
 def answer(asked: ColourQuestion, stopped, tell) -> Colours:
     """Return the colour PSF; P2SFError where a wavelength has no PSF."""
-    set_up, spectrum = setting(asked.state), spectrum_of(asked.spectrum)
+    setup, spectrum = paraxial_setup(asked.state), spectrum_of(asked.spectrum)
 
     def one(lens, source, pixels, pixel_um):
         return in_window(at_wavelength(asked.state, NM_PER_UM * source.wavelength_um), (pixels, pixel_um), asked.six)
 
     # A free pupil has no glass: the axis of the lens, where no colour lands beside another, stands for it.
-    source = replace(set_up.source, field_slope=0.0) if asked.state.free_pupil else set_up.source
-    found = colour_psf(set_up.lens, source, spectrum, asked.window, one, asked.count)
+    source = replace(setup.source, field_slope=0.0) if asked.state.free_pupil else setup.source
+    found = colour_psf(setup.lens, source, spectrum, asked.window, one, asked.count)
     waves = np.array(spectrum.numbers) / NM_PER_UM if spectrum.kind == "lines" else FINE_UM
     power = np.ones(waves.size) if spectrum.kind == "lines" else relative_power(spectrum, waves)
     return Colours(found, NM_PER_UM * waves, power * matching(waves)[:, 1], hues(waves))

@@ -31,7 +31,7 @@ SHORT_OF_PUPIL = 0.8  # of the way to an entrance pupil that stands among the de
 
 
 @dataclass(frozen=True)
-class Question:
+class DatabaseRequest:
     """Everything the maps depend on; a moved source is not among it."""
 
     lens: Lens
@@ -54,14 +54,14 @@ class Atlas:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class DatabaseResult:
     """Maps over (field, 1/depth) by coefficient, and errors by interpolant and coefficient, in waves.
 
     ``near``: the map's columns as 1/depth in 1/mm, ``fields_deg`` its rows; errors are NaN where a rule has none.
     ``largest`` are the databases' own figures. ``atlas`` is None with ``why_no_atlas`` in a sentence.
     """
 
-    question: Question
+    question: DatabaseRequest
     near: np.ndarray
     fields_deg: np.ndarray
     nodes: Space
@@ -72,25 +72,25 @@ class Answer:
     why_no_atlas: str = ""
 
 
-def question(live) -> Question:
+def question(live) -> DatabaseRequest:
     """Return what the database panel must know of the present state."""
-    setting, limits = live.setting, ranges(prescription(live.state))
-    pupil = -float(setting.pupils.entrance_from_first)
+    setup, limits = live.setup, ranges(prescription(live.state))
+    pupil = -float(setup.pupils.entrance_from_first)
     far = SHORT_OF_PUPIL * pupil if limits.closest_mm / SHORT_OF_PUPIL < pupil < inf else inf
-    nm = setting.source.wavelength_um * NM_PER_UM
+    nm = setup.source.wavelength_um * NM_PER_UM
     low, high = limits.wavelength_nm
-    return Question(
-        setting.lens,
-        int(setting.stop.surface),
-        float(setting.stop.semi_diameter),
-        setting.source.wavelength_um,
+    return DatabaseRequest(
+        setup.lens,
+        int(setup.stop.surface),
+        float(setup.stop.semi_diameter),
+        setup.source.wavelength_um,
         (limits.closest_mm, far),
         limits.field_deg,
         (min(low, nm), max(high, nm)),
     )
 
 
-def answer(asked: Question, stopped=lambda: False) -> Answer:
+def answer(asked: DatabaseRequest, stopped=lambda: False) -> DatabaseResult:
     """Return maps, errors and atlas; raises P2SFError where the lens has no database, Cancelled when stopped."""
     fields = np.linspace(0.0, asked.field_deg, MAP[0])
     space = nodes(asked)
@@ -110,10 +110,10 @@ def answer(asked: Question, stopped=lambda: False) -> Answer:
         made, why = atlas(exact, asked), ""
     except P2SFError as error:
         made, why = None, str(error)
-    return Answer(asked, near, fields, space, maps, errors, largest, made, why)
+    return DatabaseResult(asked, near, fields, space, maps, errors, largest, made, why)
 
 
-def nodes(asked: Question) -> Space:
+def nodes(asked: DatabaseRequest) -> Space:
     """Return the nodes the databases are built on."""
     depths, fields, wavelengths = NODES
     low, high = asked.wavelengths_nm
@@ -124,7 +124,7 @@ def nodes(asked: Question) -> Space:
     )
 
 
-def stop(asked: Question) -> Stop:
+def stop(asked: DatabaseRequest) -> Stop:
     """Return the stop in use, one for all depths."""
     surface = np.asarray(asked.stop_surface)
     return Stop(surface, np.asarray(asked.stop_rim), surface, "file")
@@ -143,7 +143,7 @@ def mapped(database, near, fields_deg, wavelength_um: float) -> dict[str, np.nda
     return maps
 
 
-def atlas(exact: ExactDatabase, asked: Question) -> Atlas:
+def atlas(exact: ExactDatabase, asked: DatabaseRequest) -> Atlas:
     """Return PSFs over the lens's own field and the depths sharp within `ATLAS_DEFOCUS`; NaN where all is blur.
 
     Raises P2SFError where none of them can be sampled.
@@ -165,7 +165,7 @@ def atlas(exact: ExactDatabase, asked: Question) -> Atlas:
     return Atlas(psfs / psfs.max((-2, -1), keepdims=True), depths, fields, pitch)
 
 
-def sharp_range(exact: ExactDatabase, asked: Question) -> np.ndarray:
+def sharp_range(exact: ExactDatabase, asked: DatabaseRequest) -> np.ndarray:
     """Return 1/depth, 1/mm, of the atlas's columns, around the depth in focus, where Wd runs nearly straight."""
     low, high = 1 / asked.depths_mm[1], 1 / asked.depths_mm[0]
     near = np.linspace(low, high, 2001)

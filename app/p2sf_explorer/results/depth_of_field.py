@@ -44,7 +44,7 @@ class DepthOfField:
 
 def depth_of_field(live) -> DepthOfField:
     """Return the blur at every depth with the sensor where it stands."""
-    s, tolerated = live.setting, live.state.blur_um
+    s, tolerated = live.setup, live.state.blur_um
     clear = sharp(s, tolerated)
     near = np.linspace(*shown(live, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
     if focus := sharp(s, FOCUS_UM):
@@ -68,10 +68,10 @@ def shown(live, closest: float) -> tuple[float, float]:
     exact rays' least blur is larger, up to that; and out to where they have it, unless that is too far off.
     """
     blur = max(SEEN * live.state.blur_um, 2 * least_axial(live, closest))
-    ends = within(live.setting, blur, closest)
+    ends = within(live.setup, blur, closest)
     least = np.nanmin(probed(live, ends)[1], initial=inf)
     if blur < least < inf:
-        ends = within(live.setting, least, closest)
+        ends = within(live.setup, least, closest)
     vertex, air = vertex_of(*probed(live, ends)), AIR * (ends[1] - ends[0])
     if not -FAR_OFF < (vertex - ends[0]) / (ends[1] - ends[0]) < 1 + FAR_OFF:
         return ends
@@ -86,9 +86,9 @@ def highest(view: DepthOfField) -> float:
     return nice(max(SEEN * view.tolerated_um, 2 * least), (1, 1.5, 2, 3, 4, 6, 8))
 
 
-def within(setting, blur_um: float, closest: float) -> tuple[float, float]:
+def within(setup, blur_um: float, closest: float) -> tuple[float, float]:
     """Return between which 1/depth, 1/mm, the paraxial blur is below this, up to ``closest`` or just beyond its own."""
-    clear = sharp(setting, blur_um)
+    clear = sharp(setup, blur_um)
     if clear is None or not clear[0]:
         return 0.0, closest
     low, high = (1 / depth for depth in clear[::-1])
@@ -97,9 +97,9 @@ def within(setting, blur_um: float, closest: float) -> tuple[float, float]:
 
 def least_axial(live, closest: float) -> float:
     """Return the least paraxial blur from infinity to 1/``closest``, µm; 0 where any depth is sharp."""
-    if sharp(live.setting, live.state.blur_um):
+    if sharp(live.setup, live.state.blur_um):
         return 0.0
-    return 2 * UM_PER_MM * float(np.abs(axial_heights(live.setting, np.array([inf, 1 / closest]))).min())
+    return 2 * UM_PER_MM * float(np.abs(axial_heights(live.setup, np.array([inf, 1 / closest]))).min())
 
 
 def probed(live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
@@ -118,16 +118,16 @@ def vertex_of(near: np.ndarray, blur: np.ndarray) -> float:
     return float(near[1] + (near[1] - near[0]) * (first - last) / (2 * bend)) if bend > 0 else nan
 
 
-def axial_heights(setting, depths, sensor_mm: float | None = None) -> np.ndarray:
+def axial_heights(setup, depths, sensor_mm: float | None = None) -> np.ndarray:
     """Return where the marginal ray of each depth meets the sensor, mm; its double is the blur's diameter."""
-    sensor_mm = setting.lens.sensor_mm if sensor_mm is None else sensor_mm
-    rays = paraxial_rays(setting.lens, np.asarray(depths), setting.source.wavelength_um, setting.stop)
+    sensor_mm = setup.lens.sensor_mm if sensor_mm is None else sensor_mm
+    rays = paraxial_rays(setup.lens, np.asarray(depths), setup.source.wavelength_um, setup.stop)
     return rays.y[-1] + rays.nu[-1] / rays.index[-1] * sensor_mm
 
 
 def real_blur(live, depths, rings: int) -> np.ndarray:
     """Return twice the RMS radius of the exact rays' spot at the present field, µm, per depth."""
-    s = live.setting
+    s = live.setup
     source = Source(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
     try:
         rays = pencil(s.lens, source, *hexapolar(rings), clip=live.state.clip)
@@ -140,16 +140,16 @@ def real_blur(live, depths, rings: int) -> np.ndarray:
     return np.where(lost, np.nan, 2 * UM_PER_MM * np.sqrt(np.maximum(square, 0.0)))
 
 
-def sharp(setting, tolerated_um: float) -> tuple[float, float] | None:
+def sharp(setup, tolerated_um: float) -> tuple[float, float] | None:
     """Return nearest and farthest depth in mm with a blur within ``tolerated_um``; None if no real depth has one.
 
     In s = 1/(object to entrance pupil) the marginal ray is linear (DESIGN.md section 2): h = h∞ + k·s. The nearest is
     0 where an object on the first surface is still sharp.
     """
-    pupil, half_mm = float(setting.pupils.entrance_from_first), tolerated_um / 2 / UM_PER_MM
-    roots = linear_roots(setting, pupil, half_mm)
+    pupil, half_mm = float(setup.pupils.entrance_from_first), tolerated_um / 2 / UM_PER_MM
+    roots = linear_roots(setup, pupil, half_mm)
     if not roots:  # the same blur everywhere
-        return (0.0, inf) if abs(float(axial_heights(setting, np.array([inf]))[0])) <= half_mm else None
+        return (0.0, inf) if abs(float(axial_heights(setup, np.array([inf]))[0])) <= half_mm else None
     for low, high in real_depths(pupil):
         far, near = max(low, min(roots)), min(high, max(roots))
         if far < near:
@@ -166,22 +166,22 @@ def _depth(s: float, pupil: float) -> float:
     return max(0.0, 1 / s - pupil) if s else inf
 
 
-def linear_roots(setting, pupil: float, half_mm: float, sensor_mm: float | None = None) -> list[float]:
+def linear_roots(setup, pupil: float, half_mm: float, sensor_mm: float | None = None) -> list[float]:
     """Return the two s at which |h| is ``half_mm``; none where the blur is the same at every depth."""
-    far, one = axial_heights(setting, np.array([inf, ELSEWHERE_MM]), sensor_mm)
+    far, one = axial_heights(setup, np.array([inf, ELSEWHERE_MM]), sensor_mm)
     slope = (one - far) * (ELSEWHERE_MM + pupil)
     return [float((side * half_mm - far) / slope) for side in (-1, 1)] if slope else []
 
 
-def hyperfocal(setting, tolerated_um: float) -> float:
+def hyperfocal(setup, tolerated_um: float) -> float:
     """Return the depth to focus on so that infinity has just the tolerated blur, mm; infinite for an afocal lens.
 
     The sensor then stands blur/(2|u′|) behind the rear focus.
     """
-    pupil, focus = (float(v) for v in (setting.pupils.entrance_from_first, setting.cardinal.back_focal_distance))
-    at_focus, behind = (float(axial_heights(setting, np.array([inf]), focus + step)[0]) for step in (0.0, 1.0))
+    pupil, focus = (float(v) for v in (setup.pupils.entrance_from_first, setup.cardinal.back_focal_distance))
+    at_focus, behind = (float(axial_heights(setup, np.array([inf]), focus + step)[0]) for step in (0.0, 1.0))
     if not isfinite(focus) or behind == at_focus:
         return inf
     sensor = focus + tolerated_um / 2 / UM_PER_MM / abs(behind - at_focus)
-    roots = linear_roots(setting, pupil, 0.0, sensor)
+    roots = linear_roots(setup, pupil, 0.0, sensor)
     return 1 / roots[0] - pupil if roots and roots[0] else inf

@@ -38,7 +38,7 @@ class FieldView:
 
 def field_curves(live) -> FieldView:
     """Return the curves of the lens at this depth and wavelength; the same object while only the field moves."""
-    s = live.setting
+    s = live.setup
     rim = int(s.stop.surface), float(s.stop.semi_diameter)
     return curves_of(s.lens, replace(s.source, field_slope=0.0), rim, widest_slope(live), FIELDS[live.quality])
 
@@ -64,7 +64,7 @@ def exaggeration(distortion: np.ndarray) -> int:
 
 def widest_slope(live) -> float:
     """Return the field's edge: that of the lens's file, or the present field where it lies beyond."""
-    degrees = (AT_LEAST_DEG, *map(abs, live.setting.lens.fields_deg), abs(live.state.field_deg))
+    degrees = (AT_LEAST_DEG, *map(abs, live.setup.lens.fields_deg), abs(live.state.field_deg))
     return float(slope_from_degrees(max(degrees)))
 
 

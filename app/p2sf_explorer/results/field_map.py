@@ -10,7 +10,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
-from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.results.field import widest_slope
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
@@ -34,7 +34,7 @@ class FieldMap:
 def field_map(live) -> FieldMap:
     """Return what to show; it does not depend on the present field, so it stands still while that is dragged."""
     corner, pixels = widest_slope(live), PIXELS[live.quality]
-    s = live.setting
+    s = live.setup
     slopes = np.array([0.0, 0.5, 1.0]) * corner
     c = coefficients(s.lens, s.source.depth_mm, slopes, s.source.wavelength_um, s.stop)
     wide = nice(MOST_OF * pixels * float(np.max(suitable_pixel_um(c, pixels))), WINDOWS)
@@ -77,7 +77,7 @@ def one(asked: FieldMap, ring: float) -> np.ndarray:
         values = in_window(state, asked.window, asked.six).values
     except P2SFError:  # rays lost at the edge of the field: an empty place says so
         return np.full((asked.window[0],) * 2, np.nan)
-    outward = values if float(setting(state).coefficients.image_height) >= 0 else turned(values, np.pi)
+    outward = values if float(paraxial_setup(state).coefficients.image_height) >= 0 else turned(values, np.pi)
     return outward / (float(values.max()) or 1.0)
 
 

@@ -21,7 +21,7 @@ EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the 
 
 def rows(live) -> tuple[tuple[str, str, str], ...]:
     """Return (name, value with unit, definition) of what a person asks first."""
-    s = live.setting
+    s = live.setup
     c, p = s.coefficients, s.pupils
     na = float(c.na)
     return (
@@ -77,7 +77,7 @@ def first_order(live) -> tuple[tuple[Row, ...], ...]:
 
 def lens_rows(live) -> tuple[Row, ...]:
     """Return focal, principal and nodal points, Petzval radius and track of the lens."""
-    s, p = live.setting, live.setting.cardinal
+    s, p = live.setup, live.setup.cardinal
     return (
         ("Focal length f′", length(s.focal_length_mm), "f′ = −1/C of the system matrix."),
         (
@@ -117,7 +117,7 @@ def lens_rows(live) -> tuple[Row, ...]:
 
 def pupil_rows(live) -> tuple[Row, ...]:
     """Return stop, pupils, apertures and the invariant."""
-    s = live.setting
+    s = live.setup
     p, na = s.pupils, float(s.own.na)
     number = float(f_number(s.lens, s.source.wavelength_um, s.stop))
     invariant = float(s.rays.invariant) * s.source.field_slope
@@ -136,7 +136,7 @@ def pupil_rows(live) -> tuple[Row, ...]:
 
 def source_rows(live) -> tuple[Row, ...]:
     """Return what the lens makes of this source."""
-    s = live.setting
+    s = live.setup
     c, height = s.own, s.object_height_mm
     gap = s.lens.sensor_mm - float(c.image_distance)
     ratio = float(magnification(s.lens, s.source.depth_mm, s.source.wavelength_um))
@@ -157,14 +157,14 @@ def source_rows(live) -> tuple[Row, ...]:
     )
 
 
-def petzval_radius(setting) -> float:
+def petzval_radius(setup) -> float:
     """Return the Petzval radius in mm, negative when it bends towards the lens (Welford 1986, eq. 8.47)."""
-    index = setting.rays.index
-    curvature = np.array([surface.curvature for surface in setting.lens.surfaces])
+    index = setup.rays.index
+    curvature = np.array([surface.curvature for surface in setup.lens.surfaces])
     total = float((curvature * (1 / index[1:] - 1 / index[:-1])).sum()) * float(index[-1])
     return 1 / total if total else np.inf
 
 
-def track(setting) -> float:
+def track(setup) -> float:
     """Return first vertex to sensor, mm."""
-    return sum(surface.thickness for surface in setting.lens.surfaces)
+    return sum(surface.thickness for surface in setup.lens.surfaces)

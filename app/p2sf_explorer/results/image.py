@@ -12,10 +12,10 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM, slope_from_degrees
 from p2sf.errors import GeometryError, SamplingError
-from p2sf.image import Forming, Watch, form_image, plan_lattice
+from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.deblur import psnr, wiener, with_one_kernel
 from p2sf.image.lattice import Lattice
-from p2sf.image.preview import quick_plan
+from p2sf.image.preview import preview_plan
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -42,7 +42,7 @@ def count_words(made: Plan) -> tuple[str, str]:
 PLAIN = {  # in the order they are told
     "field": "Places",
     "colour": "Colour",
-    "rung": "Method",
+    "method": "Method",
     "terms": "Phase",
     "sampling": "Sampling",
     "depth": "Depths",
@@ -99,7 +99,7 @@ Result = tuple[np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
-class Question:
+class ImageRequest:
     """Everything the picture depends on; ``pixel_um`` None takes the lens's whole field."""
 
     lens: Lens
@@ -111,14 +111,14 @@ class Question:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class ImageResult:
     """Pictures in linear light (rows, columns, 3), ``before`` and ``after`` the lens (or the sharpening).
 
     ``quality`` is "coarse" or "planned"; ``headline`` and ``words``, (what, sentence), say what was computed and why,
     ``cut`` what of the photo is not taken, ``no_plan`` why a coarse picture stays so.
     """
 
-    question: Question
+    question: ImageRequest
     before: np.ndarray
     after: np.ndarray
     quality: str
@@ -131,54 +131,56 @@ class Answer:
     no_plan: str = ""
 
 
-def question(live) -> Question:
+def question(live) -> ImageRequest:
     """Return what the image panel must know of the present state."""
-    state, setting = live.state, live.setting
+    state, setup = live.state, live.setup
     whole = state.photo_pixel_um is None
-    centre = 0.0 if whole else round(float(setting.coefficients.image_height), 6)
-    return Question(setting.lens, state.depth_mm, state.photo, state.photo_show, state.photo_pixel_um, centre)
+    centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
+    return ImageRequest(setup.lens, state.depth_mm, state.photo, state.photo_show, state.photo_pixel_um, centre)
 
 
-def coarse(asked: Question, watch: Watch | None = None) -> Answer:
+def coarse(asked: ImageRequest, watch: Progress | None = None) -> ImageResult:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
     begun, scene = perf_counter(), scene_of(asked)
-    made = affordable(quick_plan(scene.camera(asked.lens), scene))
+    made = affordable(preview_plan(scene.camera(asked.lens), scene))
     why_not = no_plan(made)
     words = ("Coarse", f"Unmeasured. {PLANLESS.get(why_not, 'When the sliders rest a plan follows.')}")
-    return replace(_answer(asked, made, watch or Watch(), begun, (words,)), no_plan=why_not)
+    return replace(_answer(asked, made, watch or Progress(), begun, (words,)), no_plan=why_not)
 
 
-def planned(asked: Question, watch: Watch | None = None, known: Answer | None = None) -> Answer:
+def planned(asked: ImageRequest, watch: Progress | None = None, known: ImageResult | None = None) -> ImageResult:
     """Return the picture by a plan that keeps TOLERANCE; raises P2SFError, Cancelled among them.
 
     ``known``: a planned picture of the same optics, whose plan and kernels are this one's too.
     """
-    begun, watch = perf_counter(), watch or Watch()
+    begun, watch = perf_counter(), watch or Progress()
     if known:
         return _answer(asked, known.plan, watch, begun, plan_words(known.plan), known.lattice)
     made = plan(asked.lens, scene_of(asked), planning(watch))
     return _answer(asked, made, forming(watch), begun, plan_words(made))
 
 
-def same_optics(one: Question, two: Question) -> bool:
+def same_optics(one: ImageRequest, two: ImageRequest) -> bool:
     """Return whether two pictures differ in what is photographed and shown alone."""
     return replace(one, photo=two.photo, show=two.show) == two
 
 
-def planning(watch: Watch) -> Callable[[], None]:
+def planning(watch: Progress) -> Callable[[], None]:
     """Return what a plan calls before each measurement; its share nears PLANNING ever slower, since no end is known."""
     tell = watch.progress
-    steps = Watch(tell and (lambda _: tell(PLANNING * (1 - exp(-steps.done / USUAL_STEPS)))), watch.cancelled)
+    steps = Progress(tell and (lambda _: tell(PLANNING * (1 - exp(-steps.done / USUAL_STEPS)))), watch.cancelled)
     return steps.advance
 
 
-def forming(watch: Watch) -> Watch:
+def forming(watch: Progress) -> Progress:
     """Return what watches the picture being formed by a plan that is made."""
     tell = watch.progress
-    return Watch(tell and (lambda part: tell(PLANNING + (1 - PLANNING) * part)), watch.cancelled)
+    return Progress(tell and (lambda part: tell(PLANNING + (1 - PLANNING) * part)), watch.cancelled)
 
 
-def _answer(asked: Question, made: Plan, watch: Watch, begun: float, said, lattice: Lattice | None = None) -> Answer:
+def _answer(
+    asked: ImageRequest, made: Plan, watch: Progress, begun: float, said, lattice: Lattice | None = None
+) -> ImageResult:
     values = scene_values(asked.photo, (ROWS, COLUMNS))
     lattice = lattice or plan_lattice(made, made.vergences[0], watch)
     before, after, more = shown(asked.show, made, values, lattice, watch)
@@ -186,10 +188,10 @@ def _answer(asked: Question, made: Plan, watch: Watch, begun: float, said, latti
     many, product = count_words(made)
     short, cut = frame_words(asked.photo, (ROWS, COLUMNS))
     words = (*more, *((("Frame", cut),) if cut else ()), ("PSFs", product), *said)
-    return Answer(asked, before, after, quality, made, lattice, perf_counter() - begun, many, words, short)
+    return ImageResult(asked, before, after, quality, made, lattice, perf_counter() - begun, many, words, short)
 
 
-def shown(show: str, made: Plan, values, lattice: Lattice, watch: Watch):
+def shown(show: str, made: Plan, values, lattice: Lattice, watch: Progress):
     """Return the two pictures to compare, and sentences about them."""
     if show == "lens":
         return values, form_image(made, values, watch=watch, lattice=lattice), ()
@@ -220,7 +222,7 @@ def affordable(made: Plan) -> Plan:
     return replace(made, counts=next(counts for most, counts in COUNTS if side <= most))
 
 
-def fine_enough(answer: Answer) -> bool:
+def fine_enough(answer: ImageResult) -> bool:
     """Return whether a plan is worth its time."""
     return not no_plan(answer.plan)
 
@@ -240,7 +242,7 @@ def axis_kernel(made: Plan, lattice: Lattice) -> np.ndarray:
     return np.stack([k.at(0.0, 0.0, lattice.half) for k in kernels])
 
 
-def scene_of(asked: Question) -> Scene:
+def scene_of(asked: ImageRequest) -> Scene:
     """Return the scene: one depth, the lens's colours, and a sensor at the field point or over the whole field.
 
     A sensor that would stand out over the lens's field is moved in.
@@ -268,7 +270,7 @@ def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:
     raise GeometryError("no chief ray of this lens's field reaches the sensor; choose a part of the field instead")
 
 
-def local_psf(answer: Answer, row: float, column: float) -> np.ndarray:
+def local_psf(answer: ImageResult, row: float, column: float) -> np.ndarray:
     """Return the PSF of a place in the picture as the picture uses it, (size, size, 3), its peak at 1."""
     lattice, size = answer.lattice, 2 * answer.lattice.half + 1
     down = hats(lattice.row_nodes, np.array([row]))[:, 0]
@@ -287,12 +289,12 @@ def pixels(values: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(0xFF000000 | levels[..., 0] << 16 | levels[..., 1] << 8 | levels[..., 2], np.uint32)
 
 
-def work(make: Callable[[Question, Watch], Answer], asked: Question):
+def work(make: Callable[[ImageRequest, Progress], ImageResult], asked: ImageRequest):
     """Return a worker's job for one way of making the picture."""
-    return lambda cancelled, progress: make(asked, Watch(progress, cancelled.is_set))
+    return lambda cancelled, progress: make(asked, Progress(progress, cancelled.is_set))
 
 
-def save_picture(answer: Answer, path) -> None:
+def save_picture(answer: ImageResult, path) -> None:
     """Write the picture at the right of the split as .png or .tif; ExportError."""
     from p2sf.io.photo_files import write_photo
 

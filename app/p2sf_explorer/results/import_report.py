@@ -25,7 +25,7 @@ def report(live) -> Report:
     """Return the import report of the state's lens."""
     state = live.state
     path = str(lenses_folder() / f"{state.lens}.toml") if state.lens in shipped_lenses() else state.lens
-    heading = live.setting.lens.title or live.setting.lens.name
+    heading = live.setup.lens.title or live.setup.lens.name
     if not is_file(path):
         return Report(heading, tr(AWAY, path=path), ())
     try:

@@ -21,7 +21,7 @@ class Contrast:
 
 def contrast(live) -> Contrast:
     """Return the MTF of the PSF on screen up to its pitch's Nyquist frequency or the lens's cut-off."""
-    c, wavelength = live.setting.coefficients, live.setting.source.wavelength_um
+    c, wavelength = live.setup.coefficients, live.setup.source.wavelength_um
     nyquist, cut_off = 500 / live.psf.pixel_um, 2000 * float(c.na) / wavelength
     found = mtf(live.psf, np.linspace(0, min(nyquist, cut_off), INTERVALS + 1))
     perfect = diffraction_mtf(found.frequency_per_mm, float(c.na), wavelength)

@@ -22,7 +22,7 @@ MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
 
 
 @dataclass(frozen=True)
-class Profiles:
+class ProfileCurves:
     """Positions in µm from the chief ray; PSF along x and along y over its peak, and the Airy pattern.
 
     ``energy`` and ``perfect_energy``: share of the light within |position| of the centroid, of the window's light and
@@ -37,7 +37,7 @@ class Profiles:
     perfect_energy: np.ndarray
 
 
-def profiles(live) -> Profiles:
+def profiles(live) -> ProfileCurves:
     """Return sections finer than the picture's samples: summed at the points themselves once the sliders rest."""
     psf = live.psf
     half = (psf.values.shape[-1] // 2) * psf.pixel_um
@@ -45,7 +45,7 @@ def profiles(live) -> Profiles:
     lines = fine_lines(live, position) if live.quality == "settled" else None
     along_x, along_y = lines or between_samples(psf, position)
     peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl)) or 1.0
-    return Profiles(position, along_x / peak, along_y / peak, airy, energy(live, position), perfect)
+    return ProfileCurves(position, along_x / peak, along_y / peak, airy, energy(live, position), perfect)
 
 
 def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -78,7 +78,7 @@ def fine_lines(live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | No
 
 def seidel_nodes(live):
     """Return amplitude and spatial frequencies (cycles per µm) of the six coefficients' pupil."""
-    c, psf = live.setting.coefficients, live.psf
+    c, psf = live.setup.coefficients, live.psf
     slope, twist = (float(x) for x in steepest_polar(c))
     scale = -float(c.reduced_slope) / float(c.wavelength_um)
     counts = nodes_for(slope, corner_reach(abs(scale), on_axes(psf), psf.pixel_um), twist)
@@ -90,7 +90,7 @@ def seidel_nodes(live):
 
 def fitted_nodes(live):
     """Return amplitude and spatial frequencies of a fit to exact rays; P2SFError where rays are lost."""
-    found, psf = fit(live.setting.lens, live.setting.source), live.psf
+    found, psf = fit(live.setup.lens, live.setup.source), live.psf
     counts = counts_for(found.steepness, on_axes(psf), psf.pixel_um)
     if counts[0] * counts[1] > MOST_NODES:
         return None

@@ -8,15 +8,15 @@ FAN_RAYS = 41
 
 def spots(live) -> Spot:
     """Return where hexapolar rays meet the sensor, µm from the chief ray; fewer rays while a slider moves."""
-    setting = live.setting
-    return spot(setting.lens, setting.source, RINGS[live.quality], clip=live.state.clip)
+    setup = live.setup
+    return spot(setup.lens, setup.source, RINGS[live.quality], clip=live.state.clip)
 
 
 def ray_errors(live) -> Fan:
     """Return transverse ray errors along the two axes of the pupil, µm."""
-    return ray_fan(live.setting.lens, live.setting.source, FAN_RAYS)
+    return ray_fan(live.setup.lens, live.setup.source, FAN_RAYS)
 
 
 def path_errors(live) -> Fan:
     """Return optical path differences along the two axes of the pupil, waves."""
-    return opd_fan(live.setting.lens, live.setting.source, FAN_RAYS)
+    return opd_fan(live.setup.lens, live.setup.source, FAN_RAYS)

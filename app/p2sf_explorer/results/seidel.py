@@ -18,9 +18,9 @@ class PerSurface:
 
 def per_surface(live) -> PerSurface:
     """Return W40, W31, W22, W20 and W11 split over the surfaces (DESIGN.md section 3)."""
-    setting = live.setting
-    sums = seidel_sums(setting.lens, setting.rays, setting.source.field_slope)
-    waves = UM_PER_MM / setting.source.wavelength_um
+    setup = live.setup
+    sums = seidel_sums(setup.lens, setup.rays, setup.source.field_slope)
+    waves = UM_PER_MM / setup.source.wavelength_um
     split = {
         "w40": sums.spherical / 8,
         "w31": sums.coma / 2,
@@ -28,4 +28,4 @@ def per_surface(live) -> PerSurface:
         "w20": (sums.astigmatism + sums.petzval) / 4,
         "w11": sums.distortion / 2,
     }
-    return PerSurface({name: column * waves for name, column in split.items()}, int(setting.stop.surface))
+    return PerSurface({name: column * waves for name, column in split.items()}, int(setup.stop.surface))

@@ -10,7 +10,7 @@ from p2sf.raytrace.field_curves import real_foci, seidel_foci
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
-from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import check_focusable
@@ -58,25 +58,25 @@ def strip(live) -> Strip | str:
     except GeometryError as error:
         return str(error)
     state = replace(optics(live.state), sensor_shift_um=0.0)
-    set_up = setting(state)
-    low, high, half = reach(set_up)
+    setup = paraxial_setup(state)
+    low, high, half = reach(setup)
     shifts = tuple(np.linspace(low, high, COUNT[live.quality]).tolist())
     pixels = PIXELS[live.quality]
     return Strip(state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), everywhere_by_coefficients(live))
 
 
-def reach(set_up) -> tuple[float, float, float]:
+def reach(setup) -> tuple[float, float, float]:
     """Return the shifts to show, µm, around sensor and foci, and half the width of a window that holds the blur, µm."""
-    c = set_up.coefficients
+    c = setup.coefficients
     na, index = float(c.na), float(c.image_index)
-    unit = 1e3 * index * set_up.source.wavelength_um / 1e3 / na**2  # n′λ/NA², the depth of focus, µm
+    unit = 1e3 * index * setup.source.wavelength_um / 1e3 / na**2  # n′λ/NA², the depth of focus, µm
     sagittal, tangential = (1e3 * float(place) for place in seidel_foci(c))
     balanced = (sagittal + tangential) / 2 - 2 * unit * float(c.w40)
     low, high = (side(0.0, sagittal, tangential, balanced) for side in (min, max))
     step = nice((high - low + 2 * AIR * unit) / 8)
     low, high = step * np.floor((low - AIR * unit) / step), step * np.ceil((high + AIR * unit) / step)
     blur = 0.35 * (high - low) * na / index
-    return float(low), float(high), blur + ROOM * float(airy_radius_um(set_up.source.wavelength_um, na))
+    return float(low), float(high), blur + ROOM * float(airy_radius_um(setup.source.wavelength_um, na))
 
 
 def answer(asked: Strip, stopped, tell) -> Focused:
@@ -108,11 +108,11 @@ def outwards(count: int) -> list[int]:
 
 def foci(asked: Strip) -> tuple[float, float, float]:
     """Return sagittal, tangential and best focus as sensor shifts, µm: of the six coefficients or of exact rays."""
-    set_up = setting(asked.state)
+    setup = paraxial_setup(asked.state)
     if asked.six:
-        near = seidel_foci(set_up.coefficients)
+        near = seidel_foci(setup.coefficients)
     else:
-        near = real_foci(set_up.lens, set_up.source, set_up.source.field_slope, set_up.stop)
+        near = real_foci(setup.lens, setup.source, setup.source.field_slope, setup.stop)
     try:
         best = best_shift_um(replace(asked.state, method="seidel" if asked.six else "fitted"))
     except P2SFError:

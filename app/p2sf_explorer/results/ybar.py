@@ -18,9 +18,9 @@ class YBar:
 
 def ybar(live) -> YBar:
     """Return the polygon from the object (or, from infinity, the first surface) through every surface to the sensor."""
-    setting = live.setting
-    rays, slope, depth = setting.rays, setting.source.field_slope, setting.source.depth_mm
-    reach = setting.lens.sensor_mm / rays.index[-1]
+    setup = live.setup
+    rays, slope, depth = setup.rays, setup.source.field_slope, setup.source.depth_mm
+    reach = setup.lens.sensor_mm / rays.index[-1]
     y, chief = (
         [*rays.y, rays.y[-1] + reach * rays.nu[-1]],
         [*rays.chief_y, rays.chief_y[-1] + reach * rays.chief_nu[-1]],
@@ -30,7 +30,7 @@ def ybar(live) -> YBar:
         y.insert(0, y[0] - depth * rays.nu[0] / rays.index[0])
         chief.insert(0, chief[0] - depth * rays.chief_nu[0] / rays.index[0])
         names.insert(0, "object")
-    stop = int(setting.stop.surface) - 1 + isfinite(depth)
+    stop = int(setup.stop.surface) - 1 + isfinite(depth)
     return YBar(slope * np.array(chief, float), np.array(y, float), tuple(names), stop)
 
 

@@ -11,7 +11,7 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.result import Psf
 from p2sf.raytrace.pencil import Pencil, hexapolar, opd_on_sphere, pencil, pupil_rays, trace
 from p2sf_explorer.compute.layout import Drawing
-from p2sf_explorer.compute.setup import Setting
+from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.scene3d.meshes import Mesh, grid_faces
 from p2sf_explorer.state.scales import nice
 
@@ -34,7 +34,7 @@ class Front:
 
 
 @dataclass(frozen=True)
-class Relief:
+class PsfSurface:
     """The PSF as a surface on the sensor, brightness 0 to 1 at its points, and how often its width is magnified."""
 
     mesh: Mesh
@@ -42,36 +42,36 @@ class Relief:
     factor: float
 
 
-def bundle(setting: Setting, drawn: Drawing) -> np.ndarray:
+def ray_bundle(setup: ParaxialSetup, drawn: Drawing) -> np.ndarray:
     """Return the source's rays, (ray, place, 3) mm, the chief ray first: origin, every surface, sensor.
 
     A lost ray stays where it last was. Raises GeometryError.
     """
     xi, eta = hexapolar(RINGS)
-    rays = pupil_rays(setting.lens, setting.source, xi, eta)
-    reach = min(setting.source.depth_mm, BEFORE * (drawn.right - drawn.left) - drawn.left)
+    rays = pupil_rays(setup.lens, setup.source, xi, eta)
+    reach = min(setup.source.depth_mm, BEFORE * (drawn.right - drawn.left) - drawn.left)
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     starts = origins - directions * ((origins[..., 2:] + reach) / directions[..., 2:])
-    points = trace(setting.lens, starts, directions, setting.source.wavelength_um).points
+    points = trace(setup.lens, starts, directions, setup.source.wavelength_um).points
     for number in range(1, len(points)):
         points[number] = np.where(np.isnan(points[number]), points[number - 1], points[number])
     return points.swapaxes(0, 1)
 
 
-def front(setting: Setting, drawn: Drawing, last_z: float) -> Front:
+def front(setup: ParaxialSetup, drawn: Drawing, last_z: float) -> Front:
     """Return the wavefront behind the lens: the sphere about the image point, W·λ·factor ahead of it along the rays.
 
     A positive W is a shorter path, so the light is ahead. ``last_z``: where the last surface ends, mm; the wavefront
     is drawn as it leaves the exit pupil, or the lens where the pupil lies inside. What is altered by hand has no rays:
     W is then that of the six coefficients. Raises GeometryError.
     """
-    rays = pencil(setting.lens, setting.source, *_polar())
-    exact = None if setting.altered else opd_on_sphere(rays, _exit_radius(setting, rays))
-    waves = np.asarray(wavefront(setting.coefficients, *_polar())) if exact is None else np.nan_to_num(exact)
+    rays = pencil(setup.lens, setup.source, *_polar())
+    exact = None if setup.altered else opd_on_sphere(rays, _exit_radius(setup, rays))
+    waves = np.asarray(wavefront(setup.coefficients, *_polar())) if exact is None else np.nan_to_num(exact)
     kx, ky, kz = (np.where(rays.passed, k, chief) for k, chief in _cosines(rays))
-    radius = _drawn_radius(setting, drawn, last_z, float(rays.chief_kz[0]))
+    radius = _drawn_radius(setup, drawn, last_z, float(rays.chief_kz[0]))
     swing = SWING * radius * float(np.hypot(kx, ky - rays.chief_ky).max())
-    wave_mm = setting.source.wavelength_um / UM_PER_MM
+    wave_mm = setup.source.wavelength_um / UM_PER_MM
     factor = _round_down(swing / max(float(np.ptp(waves)) * wave_mm, 1e-9)) if swing else 1.0  # else no ray has passed
     along = (radius - factor * wave_mm * waves)[:, None]
     image = np.array([0.0, float(rays.chief_y[0]), drawn.sensor_z])
@@ -91,21 +91,21 @@ def _cosines(rays: Pencil):
     return (rays.kx, 0.0), (rays.ky, rays.chief_ky[0]), (rays.kz, rays.chief_kz[0])
 
 
-def _exit_radius(setting: Setting, rays: Pencil) -> float:
-    return float((setting.lens.sensor_mm - setting.pupils.exit_from_last) / rays.chief_kz[0])
+def _exit_radius(setup: ParaxialSetup, rays: Pencil) -> float:
+    return float((setup.lens.sensor_mm - setup.pupils.exit_from_last) / rays.chief_kz[0])
 
 
-def _drawn_radius(setting: Setting, drawn: Drawing, last_z: float, chief_kz: float) -> float:
+def _drawn_radius(setup: ParaxialSetup, drawn: Drawing, last_z: float, chief_kz: float) -> float:
     """Return how far from the image the wavefront is drawn, mm: at the exit pupil, or just behind the lens.
 
     The sensor may touch the last glass or stand within: then just before the image.
     """
     room = max(RIM * (drawn.sensor_z - last_z), LEAST * drawn.half_height) / chief_kz
-    pupil = (setting.lens.sensor_mm - float(setting.pupils.exit_from_last)) / chief_kz
+    pupil = (setup.lens.sensor_mm - float(setup.pupils.exit_from_last)) / chief_kz
     return min(room, pupil) if isfinite(pupil) and pupil > 0 else room
 
 
-def relief(psf: Psf, brightness: np.ndarray, drawn: Drawing, sensor_half: float, image_y: float) -> Relief:
+def psf_surface(psf: Psf, brightness: np.ndarray, drawn: Drawing, sensor_half: float, image_y: float) -> PsfSurface:
     """Return the PSF as a surface that rises from the sensor towards the lens about the chief ray's point.
 
     ``brightness``: of the PSF's samples, 0 to 1, (y, x); ``image_y``: of the chief ray on the sensor, mm.
@@ -118,7 +118,7 @@ def relief(psf: Psf, brightness: np.ndarray, drawn: Drawing, sensor_half: float,
     axis = (np.arange(RELIEF) - RELIEF // 2) * (width * factor / RELIEF)
     x, y = np.meshgrid(axis, axis + image_y)
     z = drawn.sensor_z - HEIGHT * width * factor * values - 2e-3 * sensor_half
-    return Relief(Mesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(RELIEF, RELIEF)), values.ravel(), factor)
+    return PsfSurface(Mesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(RELIEF, RELIEF)), values.ravel(), factor)
 
 
 @lru_cache(maxsize=16)

@@ -20,8 +20,8 @@ from p2sf.files.writing import check_place, write_beside
 from p2sf_explorer.charts.plots import as_indices, lookup
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.scene3d.meshes import Mesh
-from p2sf_explorer.scene3d.scene import Scene
-from p2sf_explorer.state.camera import Eye
+from p2sf_explorer.scene3d.scene import Scene3D
+from p2sf_explorer.state.camera import Camera
 
 VIEW_DEG = 16.0  # the eye's angle: small, so that lengths along the axis compare
 ROOM = 1.02
@@ -38,7 +38,7 @@ LOOKS = {
 WRITERS = {".gltf": "export_gltf", ".obj": "export_obj"}
 
 
-class Stage:
+class Renderer:
     """Renders scenes; what keeps its triangles only moves, and only what changes is made anew."""
 
     def __init__(self, size: tuple[int, int]):
@@ -53,7 +53,7 @@ class Stage:
         self._box = np.zeros((2, 3))
         self.remade = 0
 
-    def follow(self, scene: Scene, theme: Tokens, maps: tuple[str, str]) -> None:
+    def follow(self, scene: Scene3D, theme: Tokens, maps: tuple[str, str]) -> None:
         """Take a new scene; ``maps`` name the colours of the wavefront and of the PSF."""
         self._follow_glass(scene, theme)
         self._put("stop", scene.stop, theme.text)
@@ -61,10 +61,10 @@ class Stage:
         self._put("rays", scene.rays, scene.colour)
         limit = float(np.abs(scene.front.waves).max()) or 1.0
         self._put("front", scene.front.mesh, painted(scene.front.waves, (-limit, limit), maps[0]))
-        self._put("relief", scene.relief.mesh, painted(scene.relief.values, (0.0, 1.0), maps[1]))
+        self._put("relief", scene.psf_surface.mesh, painted(scene.psf_surface.values, (0.0, 1.0), maps[1]))
         self._box = _box(scene)
 
-    def look(self, eye: Eye) -> None:
+    def look(self, eye: Camera) -> None:
         """Set the eye so that the whole scene fits, then come nearer."""
         middle, back = self._box.mean(axis=0), direction(eye)
         width, height = self._plotter.window_size
@@ -100,7 +100,7 @@ class Stage:
         """Give the graphics memory back."""
         self._plotter.close()
 
-    def _follow_glass(self, scene: Scene, theme: Tokens) -> None:
+    def _follow_glass(self, scene: Scene3D, theme: Tokens) -> None:
         asked = *map(id, scene.glass), theme
         if asked == self._asked:
             return
@@ -162,7 +162,7 @@ def _fill(array, values: np.ndarray) -> None:
     array.Modified()
 
 
-def direction(eye: Eye) -> np.ndarray:
+def direction(eye: Camera) -> np.ndarray:
     """Return the unit vector from the scene to the eye; turn 0 sees light go from left to right."""
     turn, tilt = radians(eye.turn), radians(eye.tilt)
     return np.array([-cos(tilt) * cos(turn), sin(tilt), -cos(tilt) * sin(turn)])
@@ -184,7 +184,7 @@ def reach(box: np.ndarray, back: np.ndarray, aspect: float) -> float:
     return float((np.maximum(across, up) + corners @ back).max())
 
 
-def _box(scene: Scene) -> np.ndarray:
+def _box(scene: Scene3D) -> np.ndarray:
     """Return the corners of what must be in sight, (2, 3): glass, stop, sensor, and rays some way before the lens."""
     parts = [scene.stop, scene.sensor, *(piece.mesh for piece in scene.glass)]
     low = np.min([part.points.min(axis=0) for part in parts], axis=0)

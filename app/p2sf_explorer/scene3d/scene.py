@@ -8,13 +8,13 @@ from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.compute.glass_outlines import still
 from p2sf_explorer.compute.quantities import visible_colour
 from p2sf_explorer.scene3d.meshes import Element, Mesh, elements, filling, plate, ring
-from p2sf_explorer.scene3d.ray_bundle import Front, Relief, bundle, front, relief
+from p2sf_explorer.scene3d.ray_bundle import Front, PsfSurface, front, psf_surface, ray_bundle
 
 THIN = 0.012  # of the lens's half height: how thick stop and sensor are drawn
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene3D:
     """Everything the 3D view shows, mm; ``rays`` (ray, place, 3); ``colour`` of the light, #rrggbb."""
 
     glass: tuple[Element, ...]
@@ -23,24 +23,24 @@ class Scene:
     rays: np.ndarray
     colour: str
     front: Front
-    relief: Relief
+    psf_surface: PsfSurface
 
 
-def scene(live) -> Scene:
+def scene(live) -> Scene3D:
     """Return the scene of an answer. Raises GeometryError where the chief ray does not reach the sensor."""
-    set_up, drawn = live.setting, live.layout.drawing
-    standing = still(set_up.lens)
+    setup, drawn = live.setup, live.layout.drawing
+    standing = still(setup.lens)
     wedge, thick = 0.18 * drawn.half_height + 0.25 * drawn.stop_rim, THIN * drawn.half_height
-    rays = bundle(set_up, drawn)
+    rays = ray_bundle(setup, drawn)
     half = live.layout.sensor_half
-    return Scene(
+    return Scene3D(
         glass=elements(standing) + filling(standing, drawn.sensor_z),
         stop=ring(drawn.stop_rim, drawn.stop_rim + wedge, drawn.stop_z, thick),
         sensor=plate(half, drawn.sensor_z, thick),
         rays=rays,
         colour=visible_colour(live.state.wavelength_nm),
-        front=front(set_up, drawn, float(drawn.glass.last[0].max())),
-        relief=relief(live.psf, brightness(live), drawn, half, float(rays[0, -1, 1])),
+        front=front(setup, drawn, float(drawn.glass.last[0].max())),
+        psf_surface=psf_surface(live.psf, brightness(live), drawn, half, float(rays[0, -1, 1])),
     )
 
 

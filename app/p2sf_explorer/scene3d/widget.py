@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from p2sf.files.writing import write_beside
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.state.camera import EYE, Eye, nearer, turned
+from p2sf_explorer.state.camera import CAMERA, Camera, nearer, turned
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.copying import png_of
 
@@ -25,7 +25,7 @@ TURNS = {
 ZOOMS = {Qt.Key.Key_Plus: 1.25, Qt.Key.Key_Equal: 1.25, Qt.Key.Key_Minus: 0.8}
 
 
-class StageView(QWidget):
+class SceneView(QWidget):
     """Drag to turn, wheel or + and − to come nearer, double-click to go back; before there is a stage, a sentence."""
 
     def __init__(self, store: Store, parent=None):
@@ -37,7 +37,7 @@ class StageView(QWidget):
         self._store, self._theme, self._stage = store, LIGHT, None
         self._live: Live | None = None
         self._message, self.message_is_final = "", False
-        self._held, self._eye = None, EYE
+        self._held, self._eye = None, CAMERA
         self.image: QImage | None = None
 
     def say(self, sentence: str, final: bool = False) -> None:
@@ -46,7 +46,7 @@ class StageView(QWidget):
         self.setAccessibleDescription(sentence)
         self.update()
 
-    def set_stage(self, stage) -> None:
+    def set_renderer(self, stage) -> None:
         """Show what this stage renders from now on."""
         self._stage = stage
         self._forget()
@@ -55,7 +55,7 @@ class StageView(QWidget):
         """Show an answer's scene."""
         self._live = live
         if not self._held:
-            self._eye = Eye(live.state.eye_turn_deg, live.state.eye_tilt_deg, live.state.eye_near)
+            self._eye = Camera(live.state.eye_turn_deg, live.state.eye_tilt_deg, live.state.eye_near)
         self._forget()
 
     def restyle(self, theme: Tokens) -> None:
@@ -113,7 +113,7 @@ class StageView(QWidget):
         self._forget()
         super().resizeEvent(event)
 
-    def _keep(self, eye: Eye) -> None:
+    def _keep(self, eye: Camera) -> None:
         """Make this the eye of the state."""
         self._held = None
         self._store.update(eye_turn_deg=eye.turn, eye_tilt_deg=eye.tilt, eye_near=eye.near)
@@ -139,7 +139,7 @@ class StageView(QWidget):
 
     def mouseDoubleClickEvent(self, event) -> None:
         """Go back to the first view."""
-        self._keep(EYE)
+        self._keep(CAMERA)
 
     def wheelEvent(self, event) -> None:
         """Come nearer or go away."""
@@ -152,6 +152,6 @@ class StageView(QWidget):
         elif event.key() in ZOOMS:
             self._keep(nearer(self._eye, ZOOMS[event.key()]))
         elif event.key() == Qt.Key.Key_Home:
-            self._keep(replace(EYE))
+            self._keep(replace(CAMERA))
         else:
             super().keyPressEvent(event)

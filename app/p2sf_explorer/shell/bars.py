@@ -190,7 +190,7 @@ class StatusLine(QWidget):
 
 def facts(live: Live, frame_ms: float | None) -> str:
     """Return the line of figures at the right."""
-    c = live.setting.coefficients
+    c = live.setup.coefficients
     parts = [tr("image height {h} mm", h=signed(float(c.image_height), 3)), f"NA {float(c.na):.4f}"]
     parts.append(tr("{ms} ms computing", ms=f"{live.milliseconds['all']:.1f}"))
     if frame_ms is not None:

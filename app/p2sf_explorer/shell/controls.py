@@ -62,7 +62,7 @@ class StopRow(QWidget):
 WIDTH = 292
 
 
-class Row(QWidget):
+class QuantityRow(QWidget):
     """One quantity: name and number above, slider below; tells the store, follows the state."""
 
     swept, grasped = Signal(str), Signal(str)
@@ -182,7 +182,7 @@ class Controls(QWidget):
         self.setObjectName("controls")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedWidth(WIDTH)
-        self.rows = {quantity.key: Row(quantity, store, self) for quantity in QUANTITIES}
+        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in QUANTITIES}
         for row in self.rows.values():
             row.swept.connect(self.swept)
             row.grasped.connect(self.grasped)
@@ -234,8 +234,8 @@ class Controls(QWidget):
 
     def show_live(self, live: Live) -> None:
         """Show what follows from the state: heights, sensor position, the dominant term."""
-        height = live.setting.object_height_mm
-        image = float(live.setting.coefficients.image_height)
+        height = live.setup.object_height_mm
+        image = float(live.setup.coefficients.image_height)
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
         apart = live.state.shown != "a"  # B or A − B is on screen, and this column stays A's

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QByteArray, QObject
 from PySide6.QtWidgets import QLabel, QWidget
 
-from p2sf_explorer.panels import Entry
+from p2sf_explorer.panels import PanelEntry
 from p2sf_explorer.shell.tabs import OwnWindow
 from p2sf_explorer.store.store import Store
 
@@ -17,7 +17,7 @@ class Floating(QObject):
     window: a new style is worked out for every widget within, on show or not, and most are not.
     """
 
-    def __init__(self, window: QWidget, store: Store, homes: dict[str, QWidget], entries: tuple[Entry, ...]):
+    def __init__(self, window: QWidget, store: Store, homes: dict[str, QWidget], entries: tuple[PanelEntry, ...]):
         super().__init__(window)
         self._window, self._store, self._homes = window, store, homes
         self._titles = {entry.key: entry.title for entry in entries}

@@ -8,10 +8,10 @@ from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.i18n.language import ENGLISH, speak
+from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.panels import REGISTRY
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import State
 
@@ -38,7 +38,7 @@ def states() -> dict[str, State]:
     return shown | {f"tab_{tab}": State(tab=tab, theme="light") for tab in tabs}
 
 
-def settle(window: Window) -> None:
+def settle(window: MainWindow) -> None:
     """Let the window paint, and its background measurement end."""
     loop, looking, longest = QEventLoop(), QTimer(), QTimer()
     looking.timeout.connect(lambda: None if working(window) else loop.quit())
@@ -49,7 +49,7 @@ def settle(window: Window) -> None:
     loop.exec()
 
 
-def working(window: Window) -> bool:
+def working(window: MainWindow) -> bool:
     """Return whether anything is still computed in the background."""
     panels = tuple(window.panels.values())
     owners = (window.measuring, *panels, *(getattr(panel, "asking", None) for panel in panels))
@@ -60,8 +60,8 @@ def working(window: Window) -> bool:
 
 def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
     """Save a picture of the window in a state, its accuracy ``measured`` or not."""
-    speak(ENGLISH if state.language == "system" else state.language)  # the same pictures on every machine
-    window = Window(state, measured)
+    set_language(ENGLISH if state.language == "system" else state.language)  # the same pictures on every machine
+    window = MainWindow(state, measured)
     window.resize(*size)
     window.show()
     settle(window)

@@ -4,17 +4,17 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QTimer
 
-from p2sf_explorer.i18n.language import chosen, speak, spoken
+from p2sf_explorer.i18n.language import current_language, language_of, set_language
 from p2sf_explorer.state.state import State
 
 
-class Speaking(QObject):
+class LanguageSwitch(QObject):
     """Holds the one window; ``make`` builds a window for a state, shown or not."""
 
     def __init__(self, state: State, make: Callable, parent: QObject | None = None):
         super().__init__(parent)
         self._make = make
-        speak(state.language)
+        set_language(state.language)
         self.window = self._made(state)
 
     def _made(self, state: State):
@@ -23,15 +23,15 @@ class Speaking(QObject):
         return window
 
     def _listen(self, state: State) -> None:
-        if chosen(state.language) != spoken():
+        if language_of(state.language) != current_language():
             QTimer.singleShot(0, self.reopen)
 
     def reopen(self) -> None:
         """Put a window in the state's language in the place of the old one; undo still goes back all the way."""
         old = self.window
-        if chosen(old.store.state.language) == spoken():
+        if language_of(old.store.state.language) == current_language():
             return
-        speak(old.store.state.language)
+        set_language(old.store.state.language)
         self.window = self._made(old.store.state)
         self.window.store.take_over(old.store)
         self.window.restoreGeometry(old.saveGeometry())

@@ -11,7 +11,7 @@ REST_MS = 2_000  # so long after the last change a hand is taken to rest
 LATEST_MS = 20_000  # a hand that never rests waits for the allocator's lock this seldom, some ms at a time
 
 
-class Thrift(QObject):
+class MemoryTrim(QObject):
     """Gives freed memory back when the window rests, off the GUI thread; ``touch`` it at every change."""
 
     def __init__(self, parent: QObject | None = None):

@@ -78,7 +78,7 @@ def pdf(answer: Live, over_field: list[Live]) -> bytes:
     writer.setPageSize(QPageSize(QPageSize.PageSizeId.A4))
     writer.setPageMargins(QMarginsF(0, 0, 0, 0))
     writer.setResolution(DPI)
-    writer.setTitle(answer.setting.lens.name)
+    writer.setTitle(answer.setup.lens.name)
     painter = QPainter(writer)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     paint(Page(painter, DPI / 25.4), answer, over_field)
@@ -116,7 +116,7 @@ def paint(page: Page, answer: Live, over_field: list[Live]) -> None:
 
 
 def _coefficients(answer: Live) -> list[tuple[str, str]]:
-    values = {term: float(getattr(answer.setting.coefficients, term)) for term in TERMS}
+    values = {term: float(getattr(answer.setup.coefficients, term)) for term in TERMS}
     return [(f"{NAMES[t]}  {tr(WORDS[t])}, {FORMULAS[t]}", f"{signed(values[t], 3)} λ") for t in TERMS]
 
 

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 
 from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.panels import GROUPS, Entry
+from p2sf_explorer.panels import GROUPS, PanelEntry
 
 OWN_WINDOW = "Open in its own window (double-click the tab or drag it out, or Ctrl+D)"
 OUT_PX = 40  # so far off the bar a dragged tab is out
@@ -31,7 +31,7 @@ class Tabs(QTabWidget):
     detach_asked = Signal(str)
     chosen = Signal(str)
 
-    def __init__(self, entries: tuple[Entry, ...], parent=None):
+    def __init__(self, entries: tuple[PanelEntry, ...], parent=None):
         super().__init__(parent)
         self._groups = {entry.key: entry.group for entry in entries}
         self._last: dict[str, str] = {}
@@ -102,7 +102,7 @@ class Tabs(QTabWidget):
         for k in range(self.count()):
             self.setTabVisible(k, self._groups[self.widget(k).objectName()] == group)
 
-    def _all_panels(self, entries: tuple[Entry, ...]) -> QMenu:
+    def _all_panels(self, entries: tuple[PanelEntry, ...]) -> QMenu:
         menu = QMenu(self)
         for group in GROUPS:
             menu.addSection(tr(group))

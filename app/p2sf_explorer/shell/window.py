@@ -13,14 +13,14 @@ from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.lessons.controller import Teaching
+from p2sf_explorer.lessons.controller import LessonController
 from p2sf_explorer.panels import REGISTRY, Panel, build, view_of
 from p2sf_explorer.playback.play_bar import PlayBar
 from p2sf_explorer.shell.actions import Actions
 from p2sf_explorer.shell.bars import Banner, StatusLine, TopBar
 from p2sf_explorer.shell.controls import Controls
 from p2sf_explorer.shell.floating_panels import Floating
-from p2sf_explorer.shell.memory_trim import Thrift
+from p2sf_explorer.shell.memory_trim import MemoryTrim
 from p2sf_explorer.shell.sharing import Sharing
 from p2sf_explorer.shell.show import WHY, drawn, paint
 from p2sf_explorer.shell.tabs import Tabs, page
@@ -29,8 +29,8 @@ from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.drop import dropped, is_photo
-from p2sf_explorer.workers.deferred import Settling
-from p2sf_explorer.workers.live_accuracy import Measuring
+from p2sf_explorer.workers.deferred import DeferredWorker
+from p2sf_explorer.workers.live_accuracy import LiveAccuracy
 
 
 def splitter(orientation: Qt.Orientation, widgets: list[QWidget], shares: tuple[int, ...]) -> QSplitter:
@@ -50,7 +50,7 @@ MAIN = tuple(entry.key for entry in REGISTRY if entry.place == "main")
 TABS = tuple(entry for entry in REGISTRY if entry.place != "main")
 
 
-class Window(QMainWindow):
+class MainWindow(QMainWindow):
     """Top bar, controls, panels, status line; ``refresh`` is the whole live path.
 
     ``measured`` False leaves the accuracy of the picture unmeasured: no background work.
@@ -75,9 +75,9 @@ class Window(QMainWindow):
         self.frame_ms: float | None = None
         self._theme, self._styled = None, {}
         self._lay_out()
-        self.actions, self.measuring = Actions(self), Measuring(self, measured)
-        self.sharing, self.settling, self.thrift = Sharing(self), Settling(self), Thrift(self)
-        self.teaching = Teaching(self)
+        self.actions, self.measuring = Actions(self), LiveAccuracy(self, measured)
+        self.sharing, self.settling, self.memory_trim = Sharing(self), DeferredWorker(self), MemoryTrim(self)
+        self.teaching = LessonController(self)
         for command in (*self.compare.commands(), *self.play.commands(), *self.teaching.commands()):
             self.actions.add(command)
         self.top.pin.clicked.connect(self.compare.turn)
@@ -119,7 +119,7 @@ class Window(QMainWindow):
     def refresh(self, state: State) -> None:
         """Compute an answer and paint it; where there is none, say so over what is of another set-up."""
         begun = perf_counter()
-        self.thrift.touch()
+        self.memory_trim.touch()
         self._restyle(state)
         self._bring_up(state)
         try:
@@ -137,7 +137,7 @@ class Window(QMainWindow):
         for key in self._visible():
             paint(self.panels[key], key, live)
         self.status.show_live(live, self.frame_ms)
-        self.settling.watch(state, self._answers.owed)
+        self.settling.watch(state, self._answers.pending)
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._painted(begun))
 
@@ -151,15 +151,15 @@ class Window(QMainWindow):
         self.controls.show_none()
         self.status.show_none(sentence)
         for panel in self.panels.values():
-            panel.widget.show_veil(WHY)
+            panel.widget.show_overlay(WHY)
         if lens := drawn(state):
             self.panels["layout"].show(lens)
-            self.panels["layout"].widget.show_veil("")
+            self.panels["layout"].widget.show_overlay("")
 
     def _answer(self, state: State) -> Answers:
-        """Return the settled answers, or while a slider moves previews by the rungs that ``auto`` had chosen."""
+        """Return the settled answers, or while a slider moves previews by the methods that ``auto`` had chosen."""
         quality = "preview" if self.store.moving else "settled"
-        return answers(state, quality, self._wanted(), self._answers, self.settling.done)
+        return answers(state, quality, self._wanted(), self._answers, self.settling.cache)
 
     def refuse(self, sentence: str) -> None:
         """Say in the banner why something cannot be; the last good picture stays."""
@@ -178,7 +178,7 @@ class Window(QMainWindow):
         """Return the panels on show: the main ones, the open tab, and those in windows of their own."""
         return tuple(dict.fromkeys((*MAIN, self.tabs.current(), *self.floating.open)))
 
-    def _wanted(self) -> dict[str, compute.View]:
+    def _wanted(self) -> dict[str, compute.ResultFunction]:
         views = {key: view_of(ENTRIES[key]) for key in self._visible()}
         return {key: view for key, view in views.items() if view}
 
@@ -228,7 +228,7 @@ class Window(QMainWindow):
         self.play.stop()
         self.measuring.stop()
         self.settling.stop()
-        self.thrift.stop()
+        self.memory_trim.stop()
         self.floating.stop()
         for panel in self.panels.values():
             getattr(panel, "stop", lambda: None)()

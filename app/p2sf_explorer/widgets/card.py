@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from p2sf_explorer.charts.overlay import Veil
+from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.widgets.copying import copy_menu
 
@@ -55,7 +55,7 @@ class Card(QFrame):
         self.column.addLayout(self.head)
         self.column.addLayout(self.under)
         self.column.addWidget(self.note)
-        self.veil = Veil(self)
+        self.overlay = Overlay(self)
 
     def resizeEvent(self, event) -> None:
         """Put the tools on a line of their own where they do not fit beside the title, and back where they do."""
@@ -104,11 +104,11 @@ class Card(QFrame):
             self.note.setText(note)
             self.note.setVisible(bool(why))
 
-    def show_veil(self, sentence: str) -> None:
+    def show_overlay(self, sentence: str) -> None:
         """Cover everything but the title with a sentence on why there is nothing to show; uncover it for ""."""
-        if unbroken(tr(sentence)) != self.veil.text:
+        if unbroken(tr(sentence)) != self.overlay.text:
             self.readout.setVisible(not sentence)
-            self.veil.say(sentence, self.head.geometry().bottom() + 1)
+            self.overlay.say(sentence, self.head.geometry().bottom() + 1)
 
     def set_body(self, widget: QWidget) -> None:
         """Put the picture under the title line."""

@@ -77,7 +77,7 @@ class Places:
         return min(1.0, max(-1.0, (2 * x - left - right) / max(1.0, right - left)))
 
 
-def held(value: float, limit: float) -> float:
+def clamped(value: float, limit: float) -> float:
     """Return a value as a part of the limit, not beyond it."""
     return max(-1.0, min(1.0, value / limit))
 
@@ -263,14 +263,14 @@ class Mixer(QWidget):
         for number, name in enumerate(TERMS):
             if not event.region().intersects(places.row(number).toAlignedRect()):
                 continue
-            value, part = self.values[name], held(self.values[name], self.limit)
+            value, part = self.values[name], clamped(self.values[name], self.limit)
             paint_value(painter, places, self._theme, number, part, waves(value))
             if abs(value) > self.limit:
                 paint_overflow(painter, places.bar(number, part), self._theme, value > 0)
             if self.own[name] != value:
                 painter.setPen(QPen(QColor(self._theme.muted), 1, Qt.PenStyle.DotLine))
                 painter.setBrush(Qt.BrushStyle.NoBrush)
-                painter.drawRect(places.bar(number, held(self.own[name], self.limit)))
+                painter.drawRect(places.bar(number, clamped(self.own[name], self.limit)))
 
     def _painted_ground(self) -> QPixmap:
         ratio, theme, places = self.devicePixelRatioF(), self._theme, self.places
@@ -283,7 +283,7 @@ class Mixer(QWidget):
         for number, name in enumerate(TERMS):
             focused = self.hasFocus() and number == self.row
             paint_names(painter, places, theme, number)
-            paint_slider(painter, places, theme, number, held(self.waves[name], self.limit), focused)
+            paint_slider(painter, places, theme, number, clamped(self.waves[name], self.limit), focused)
             for kind, letter, colour in LETTERS:
                 on = name in self.on.get(kind, ())
                 paint_button(painter, places.button(number, kind), theme, letter, colour, on)

@@ -10,7 +10,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QMenu, QTableView, QWidget
 
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.overlay import Veil
+from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.plots import HeatMap
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.readout import FactTable
@@ -68,8 +68,8 @@ def data_of(widget: QWidget) -> str:
 
     Nothing where there are no numbers, and where a veil covers those of an earlier set-up.
     """
-    veil = widget.findChild(Veil, options=Qt.FindChildOption.FindDirectChildrenOnly)
-    if veil and veil.text:
+    overlay = widget.findChild(Overlay, options=Qt.FindChildOption.FindDirectChildrenOnly)
+    if overlay and overlay.text:
         return ""
     tables = [rows for rows in map(table, [widget, *widget.findChildren(QWidget)]) if rows]
     out = io.StringIO()

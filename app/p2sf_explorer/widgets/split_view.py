@@ -73,7 +73,7 @@ TIP = (
 BLACK = np.full((1, 1), 0xFF000000, np.uint32)
 
 
-class Wipe(QWidget):
+class SplitView(QWidget):
     """``before`` at the left of the split, ``after`` at its right; drag the split, hover or press arrows to look.
 
     ``moved`` tells where the split is wanted, 0 to 1; ``looked`` the row and column under the pointer.

@@ -10,7 +10,7 @@ from p2sf_explorer.state.what_if import NO_REFERENCE
 from p2sf_explorer.workers.worker import LatestWins
 
 
-class Measuring(QObject):
+class LiveAccuracy(QObject):
     """Owns the worker; ``watch`` is told every answer, results go to the panels that show accuracy."""
 
     def __init__(self, window, enabled: bool = True):
@@ -29,9 +29,9 @@ class Measuring(QObject):
 
     def watch(self, live: Live) -> None:
         """Measure a settled answer that stands in for no other; show an earlier figure in grey meanwhile."""
-        if not self._enabled or self._resting or live.quality != "settled" or live.owed:
+        if not self._enabled or self._resting or live.quality != "settled" or live.pending:
             return
-        if live.setting.altered:
+        if live.setup.altered:
             self._refuse_altered(live)
             return
         ladder = asked_for(live.state)
@@ -52,9 +52,9 @@ class Measuring(QObject):
 
     def _tell(self, accuracy: Accuracy) -> None:
         live = self._window.live
-        if live is None or live.setting.altered:
+        if live is None or live.setup.altered:
             return
-        stale = not fits(accuracy, live, False) or live.quality != "settled" or live.owed is not None
+        stale = not fits(accuracy, live, False) or live.quality != "settled" or live.pending is not None
         self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
         self._each("show_accuracy", accuracy, stale)
 
@@ -84,10 +84,10 @@ def fits(known: Accuracy, live: Live, ladder: bool) -> bool:
 
     Two fits of one method differ in their ``numbers``, which the tolerance decides.
     """
-    return picture(known.live) == picture(live) and bool(known.rungs or not ladder)
+    return picture(known.live) == picture(live) and bool(known.results or not ladder)
 
 
 def picture(live: Live) -> tuple:
     """Return everything that R² of a settled picture depends on."""
-    made, psf = live.setting, live.psf
+    made, psf = live.setup, live.psf
     return made.lens, made.source, psf.method, psf.numbers, live.state.clip, psf.values.shape, psf.pixel_um

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from p2sf_explorer.charts.surface_plot import HALF, HEIGHT, View, relief
+from p2sf_explorer.charts.surface_plot import HALF, HEIGHT, Viewpoint, surface_picture
 from p2sf_explorer.compute.pupil import disc
 from p2sf_explorer.widgets.copying import data_of
 
@@ -16,7 +16,7 @@ Y = (np.arange(COUNT) + 0.5) * PIXEL - HALF
 
 def seen(function, turn, tilt, limit=10.0):
     xi, eta, inside = disc(96)
-    return relief(np.where(inside, function(xi, eta), np.nan), limit, View(turn, tilt, COUNT)).waves
+    return surface_picture(np.where(inside, function(xi, eta), np.nan), limit, Viewpoint(turn, tilt, COUNT)).waves
 
 
 def column(waves, x=0.0):

@@ -62,7 +62,7 @@ def test_what_is_on_screen_is_a_or_b_or_their_difference():
     assert np.array_equal(d.difference.psf, (a.psf.values - b.psf.values) / peak)
     assert d.difference.psf.sum() == approx(0, abs=1e-5 / peak)  # both of unit sum in float32
     for name in TERMS:
-        six = [float(getattr(side.setting.coefficients, name)) for side in (a, b)]
+        six = [float(getattr(side.setup.coefficients, name)) for side in (a, b)]
         assert d.difference.coefficients[name] == approx(six[0] - six[1], abs=1e-12)
     assert np.allclose(d.difference.pupil.waves, a.pupil.waves - b.pupil.waves, equal_nan=True)
     for name in ("along_x", "along_y"):

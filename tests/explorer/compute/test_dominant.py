@@ -7,11 +7,11 @@ import pytest
 
 from p2sf.paraxial.wavefront import wavefront
 from p2sf_explorer.compute.pupil import disc, dominant, strongest, variance_parts
-from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER, remedy
 from p2sf_explorer.state.state import State
 
-ZERO = replace(setting(State()).coefficients, w40=0.0, w31=0.0, w22=0.0, w20=0.0, wd=0.0, w11=0.0)
+ZERO = replace(paraxial_setup(State()).coefficients, w40=0.0, w31=0.0, w22=0.0, w20=0.0, wd=0.0, w11=0.0)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -57,5 +57,5 @@ def test_what_pulls_against_the_blur_has_no_share_of_it():
     ],
 )
 def test_the_advice_fits_what_is_said_to_blur_most(state, words, advice):
-    made = setting(state)
+    made = paraxial_setup(state)
     assert dominant(made.coefficients).startswith(f"Mostly {words}: ") and remedy(made) == advice

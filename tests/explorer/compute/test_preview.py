@@ -10,33 +10,33 @@ from p2sf.psf.methods import render
 from p2sf.raytrace.fit import fit
 from p2sf_explorer.compute import preview as quick
 from p2sf_explorer.compute.method import ray_window_um
-from p2sf_explorer.compute.preview import best_fit, landing_um, quick_psf
-from p2sf_explorer.compute.setup import default_state, setting
+from p2sf_explorer.compute.preview import best_fit, landing_um, preview_psf
+from p2sf_explorer.compute.setup import default_state, paraxial_setup
 
 PIXELS = 64
 
 
 def moving(lens, **changes):
     """Return what moves, its window, and the exact picture in it."""
-    set_up = setting(replace(default_state(lens), **changes))
-    made = quick.quick(set_up)
-    window = PIXELS, ray_window_um(set_up, landing_um(made.rays)) / PIXELS
-    return made, window, render(set_up.lens, set_up.source, "traced", *window).values
+    setup = paraxial_setup(replace(default_state(lens), **changes))
+    made = quick.preview(setup)
+    window = PIXELS, ray_window_um(setup, landing_um(made.rays)) / PIXELS
+    return made, window, render(setup.lens, setup.source, "traced", *window).values
 
 
 @pytest.mark.parametrize(("shift", "few"), [(0.0, 0.9), (-100.0, 0.95)])
 def test_where_few_numbers_are_wrong_more_are_taken(shift, few):
     made, window, exact = moving("petzval", f_number=1.6, field_deg=0.0, sensor_shift_um=shift)
-    alone = psf_of_fit(fit(made.set_up.lens, made.set_up.source, 26), 0.5876, window, "preview", 0.0)
+    alone = psf_of_fit(fit(made.setup.lens, made.setup.source, 26), 0.5876, window, "preview", 0.0)
     assert r_squared(alone.values, exact) < few
-    shown = quick_psf(made, *window)
+    shown = preview_psf(made, *window)
     assert (shown.method, shown.numbers) == ("fitted", 46)
     assert r_squared(shown.values, exact) > 0.999  # a residual below 0.02 λ leaves (2π·0.02)² = 0.016 at most
 
 
 def test_where_few_numbers_do_no_more_are_taken():
     made, window, exact = moving("double_gauss_28")
-    shown = quick_psf(made, *window)
+    shown = preview_psf(made, *window)
     assert shown.numbers == 26
     assert r_squared(shown.values, exact) > 0.999
 
@@ -44,13 +44,13 @@ def test_where_few_numbers_do_no_more_are_taken():
 def test_where_no_fit_comes_near_exact_rays_make_the_picture(monkeypatch):
     made, window, exact = moving("tessar")
     monkeypatch.setattr(quick, "FAR", 0.0)
-    shown = quick_psf(made, *window)
+    shown = preview_psf(made, *window)
     assert shown.method == "traced"
     assert r_squared(shown.values, exact) > 0.999
 
 
 def test_a_fit_of_more_rays_is_left_where_one_of_them_is_lost(monkeypatch):
-    made = quick.quick(setting(replace(default_state("telephoto"), f_number=4.5, field_deg=0.0)))
+    made = quick.preview(paraxial_setup(replace(default_state("telephoto"), f_number=4.5, field_deg=0.0)))
     assert best_fit(made).numbers == 72
 
     def lost(*_, **__):

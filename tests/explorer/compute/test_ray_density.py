@@ -8,7 +8,7 @@ from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.ray_density import density, exact_landing, finely, geometric_psf, polar
-from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import State
 
@@ -24,13 +24,13 @@ def moments(psf) -> np.ndarray:
 
 
 def test_the_density_has_the_moments_of_the_spot():
-    set_up, nodes = setting(BLURRED), disc_nodes(24, 48)
-    rays = pencil(set_up.lens, set_up.source, nodes.xi, nodes.eta)
+    setup, nodes = paraxial_setup(BLURRED), disc_nodes(24, 48)
+    rays = pencil(setup.lens, setup.source, nodes.xi, nodes.eta)
     x, y = UM_PER_MM * rays.dx, UM_PER_MM * rays.dy
     mean = nodes.weight @ y
     exact = np.array([mean, nodes.weight @ x**2, nodes.weight @ (y - mean) ** 2])
     pixel = 2.2 * max(np.abs(x).max(), np.abs(y).max()) / 128
-    psf = geometric_psf(set_up, True, (128, pixel))
+    psf = geometric_psf(setup, True, (128, pixel))
     assert psf.values.sum() == pytest.approx(1)
     assert psf.energy == pytest.approx(1)
     found = moments(psf)
@@ -41,10 +41,10 @@ def test_the_density_has_the_moments_of_the_spot():
 
 
 def test_pure_defocus_is_an_even_disc_of_the_known_size():
-    set_up = setting(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
-    c = set_up.coefficients
-    radius = abs(2 * float(c.wd + c.w40) * set_up.source.wavelength_um / float(c.reduced_slope))
-    psf = geometric_psf(set_up, False, (64, 2.4 * radius / 64))
+    setup = paraxial_setup(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
+    c = setup.coefficients
+    radius = abs(2 * float(c.wd + c.w40) * setup.source.wavelength_um / float(c.reduced_slope))
+    psf = geometric_psf(setup, False, (64, 2.4 * radius / 64))
     assert moments(psf)[1] == pytest.approx(radius**2 / 4, rel=0.01)  # W40 is a thousandth of Wd here
     lit = psf.values[psf.values > 0.5 * psf.values.max()]
     assert lit.size == pytest.approx(np.pi * radius**2 / psf.pixel_um**2, rel=0.03)
@@ -54,10 +54,10 @@ def test_pure_defocus_is_an_even_disc_of_the_known_size():
     ("exact", "quality", "pixels"), [(True, "settled", 128), (False, "settled", 128), (True, "preview", 64)]
 )
 def test_an_even_blur_has_neither_a_hole_nor_rings(exact, quality, pixels):
-    set_up = setting(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
-    c = set_up.coefficients
-    radius = abs(2 * float(c.wd + c.w40) * set_up.source.wavelength_um / float(c.reduced_slope))
-    psf = geometric_psf(set_up, exact, (pixels, 2.4 * radius / pixels), quality)
+    setup = paraxial_setup(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
+    c = setup.coefficients
+    radius = abs(2 * float(c.wd + c.w40) * setup.source.wavelength_um / float(c.reduced_slope))
+    psf = geometric_psf(setup, exact, (pixels, 2.4 * radius / pixels), quality)
     axis = centred_axis(pixels, psf.pixel_um)
     inner = psf.values[np.hypot(*np.meshgrid(axis, axis)) < 0.85 * radius] / np.median(psf.values[psf.values > 0])
     # Each ray is shared by four pixels, so a pattern of rays some two to a pixel leaves a few per cent, and no more.
@@ -87,11 +87,11 @@ def test_lost_rays_leave_less_light_and_stay_where_they_are_lost():
 
 
 def test_interpolated_rays_land_where_traced_ones_do():
-    set_up = setting(BLURRED)
-    x, y, weight = exact_landing(set_up)
+    setup = paraxial_setup(BLURRED)
+    x, y, weight = exact_landing(setup)
     xi, eta, _ = polar(*x.shape)
     some = slice(None, None, 997)
-    rays = pencil(set_up.lens, set_up.source, xi.ravel()[some], eta.ravel()[some])
+    rays = pencil(setup.lens, setup.source, xi.ravel()[some], eta.ravel()[some])
     reach = UM_PER_MM * np.abs(rays.dy).max()
     assert 2 * weight.sum() == pytest.approx(1)
     # Straight lines between 20 × 48 rays: the curvature of a blur of aberrations leaves some thousandths of its reach.

@@ -18,7 +18,7 @@ from p2sf_explorer.files import recent
 from p2sf_explorer.files.opening import imported
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.snapshot import write_state
-from p2sf_explorer.i18n.language import Spoken
+from p2sf_explorer.i18n.language import Translation
 from p2sf_explorer.results.import_report import described
 from p2sf_explorer.state.state import State
 
@@ -59,7 +59,7 @@ def test_every_kind_of_file_dropped_shows_its_lens_and_report(window, name):
 
 
 def test_a_report_is_in_german_where_the_window_is():
-    german = Spoken("de")
+    german = Translation("de")
     for path in (*(FILES / name for name in FOREIGN), lenses_folder() / "tessar.toml"):
         for title, sentences in described("", imported(str(path)).report).groups:
             for english in (title, *sentences):
@@ -126,7 +126,7 @@ def test_substitutes_need_consent_and_then_count_as_an_edit(window, qtbot, obsol
     assert "With consent: substituted" in report.text.toPlainText()
     qtbot.mouseClick(report.accept, Qt.MouseButton.LeftButton)
     assert window.live.state.lens == str(obsolete)
-    assert window.live.setting.lens.surfaces[0].medium.label == "SCHOTT N-BK7"
+    assert window.live.setup.lens.surfaces[0].medium.label == "SCHOTT N-BK7"
     assert window.top.edited.isVisible()
     assert not report.accept.isVisible()
 
@@ -146,9 +146,9 @@ def test_a_file_changed_on_disk_is_read_again(window, qtbot, zemax):
     beside.write_text(zemax.read_text().replace("DISZ 6.0", "DISZ 6.5"))
     os.replace(beside, zemax)
     qtbot.waitUntil(lambda: prescription(window.live.state).surfaces[0].thickness == 6.5, timeout=5000)
-    qtbot.waitUntil(lambda: window.live.setting.lens.surfaces[0].thickness == 6.5, timeout=5000)
+    qtbot.waitUntil(lambda: window.live.setup.lens.surfaces[0].thickness == 6.5, timeout=5000)
     zemax.write_text(zemax.read_text().replace("DISZ 6.5", "DISZ 7.5"))  # and written in place, a second time
-    qtbot.waitUntil(lambda: window.live.setting.lens.surfaces[0].thickness == 7.5, timeout=5000)
+    qtbot.waitUntil(lambda: window.live.setup.lens.surfaces[0].thickness == 7.5, timeout=5000)
     assert "read again" in window.status.warning.text()
 
 
@@ -167,7 +167,7 @@ def test_edits_outlive_a_change_on_disk(window, qtbot, zemax):
     model.setData(model.index(0, 0), "70")
     zemax.write_text(zemax.read_text().replace("DISZ 6.0", "DISZ 6.5"))
     qtbot.waitUntil(lambda: "your edits are kept" in window.status.warning.text(), timeout=5000)
-    assert window.live.setting.lens.surfaces[0].radius == 70
+    assert window.live.setup.lens.surfaces[0].radius == 70
 
 
 def test_recent_files_are_listed_newest_first_and_open(window, tmp_path):

@@ -14,7 +14,7 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.i18n import language as languages
-from p2sf_explorer.i18n.language import FOLDER, JOINTS, Spoken, speak, spoken, template, texts
+from p2sf_explorer.i18n.language import FOLDER, JOINTS, Translation, current_language, set_language, template, texts
 from p2sf_explorer.i18n.messages import spoken as in_the_windows_words
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
@@ -23,8 +23,8 @@ from p2sf_explorer.scene3d import opengl_probe as probe
 from p2sf_explorer.shell.choices import everything
 from p2sf_explorer.shell.command_palette import named
 from p2sf_explorer.shell.help import help_text
-from p2sf_explorer.shell.language_switch import Speaking
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.language_switch import LanguageSwitch
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State
 
 ROOT = Path(__file__).parents[3]
@@ -63,7 +63,7 @@ def test_no_text_in_the_source_is_missing():
     assert not missing, "\n".join(missing)
 
 
-class Listening(Spoken):
+class Listening(Translation):
     """Speaks, and notes what it could not say and what it said."""
 
     missing: set[str]
@@ -86,10 +86,10 @@ def german(only_window):
     """Return a German window, every panel of which was opened, and its translator."""
     only_window.store.replace(State(method="seidel"))  # a file's warnings left there would be heard in English
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(languages, "Spoken", Listening)
+        patch.setattr(languages, "Translation", Listening)
         patch.setattr(SolidPanel, "_probe", lambda panel: None)  # the renderer says nothing
-        speak("de")
-        made = Window(State(method="seidel", theme="light", language="de", f_number=8.0), measured=False)
+        set_language("de")
+        made = MainWindow(State(method="seidel", theme="light", language="de", f_number=8.0), measured=False)
         made.resize(1440, 900)
         made.show()
         for entry in REGISTRY:
@@ -101,7 +101,7 @@ def german(only_window):
             named(command)
         yield made, QApplication.instance().findChild(Listening)
         made.close()
-        speak("en")
+        set_language("en")
 
 
 def test_nothing_shown_is_missing(german):
@@ -168,39 +168,39 @@ def test_what_is_sharp_is_said_whole_beside_the_german_curves(german):
 
 
 def test_qts_own_words_are_its_own_or_its_translators(qapp):
-    speak("de")
+    set_language("de")
     try:
         assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Abbrechen"
         assert QCoreApplication.translate("nobody's", "words %1") == "words %1"
     finally:
-        speak("en")
+        set_language("en")
     assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Cancel"
 
 
 def test_english_needs_no_file_and_an_unknown_language_is_english(qapp):
     assert languages.languages() == {"en": "English", "de": "Deutsch"}
-    assert languages.chosen("xx") == "en" and languages.chosen("de") == "de"
+    assert languages.language_of("xx") == "en" and languages.language_of("de") == "de"
 
 
 def test_a_change_of_language_reopens_the_window_and_undo_brings_it_back(only_window, qtbot):
     def made(state):
-        return Window(state, measured=False)
+        return MainWindow(state, measured=False)
 
-    speaking = Speaking(State(method="seidel", language="en"), made)
+    speaking = LanguageSwitch(State(method="seidel", language="en"), made)
     try:
         first = speaking.window
         first.store.update(field_deg=7.0)
         first.store.update(language="de")
         speaking.reopen()
-        assert spoken() == "de" and tr("Undo") == "Rückgängig"
+        assert current_language() == "de" and tr("Undo") == "Rückgängig"
         assert speaking.window is not first and speaking.window.top.undo.text() == "Rückgängig"
         speaking.window.store.undo()
         speaking.reopen()
-        assert spoken() == "en" and speaking.window.top.undo.text() == "Undo"
+        assert current_language() == "en" and speaking.window.top.undo.text() == "Undo"
         speaking.window.store.undo()
         assert speaking.window.store.state.field_deg == 10.0
     finally:
-        speak("en")
+        set_language("en")
         speaking.window.close()
 
 
@@ -217,12 +217,12 @@ def test_a_change_of_language_reopens_the_window_and_undo_brings_it_back(only_wi
 def test_refusals_of_the_library_are_said_in_german(only_window, changes, german_words):
     with pytest.raises(P2SFError) as refused:
         live(replace(State(method="seidel"), **changes))
-    assert german_words in Spoken("de").said(in_the_windows_words(str(refused.value)))
+    assert german_words in Translation("de").said(in_the_windows_words(str(refused.value)))
 
 
 def test_a_refusal_at_infinity_is_german_as_one_at_a_depth():
     corner = "No chief ray of an object at ∞ lands 5 mm from the axis, where the sensor's corner is; take"
-    assert "eines Objekts bei ∞ landet 5 mm" in Spoken("de").said(corner + " a smaller sensor")
+    assert "eines Objekts bei ∞ landet 5 mm" in Translation("de").said(corner + " a smaller sensor")
 
 
 def test_every_sentence_about_opengl_is_in_german():
@@ -232,18 +232,18 @@ def test_every_sentence_about_opengl_is_in_german():
 
 
 def test_a_reason_of_two_clauses_is_said_in_german_within_its_row():
-    row = "26 numbers: 26 fitted numbers are the fewest that keep it; the next cheaper rung does not (error 0.004)"
-    assert "angepasste Zahlen" in Spoken("de").said(row) and "(Fehler 0.004)" in Spoken("de").said(row)
+    row = "26 numbers: 26 fitted numbers are the fewest that keep it; the next cheaper method does not (error 0.004)"
+    assert "angepasste Zahlen" in Translation("de").said(row) and "(Fehler 0.004)" in Translation("de").said(row)
 
 
 def test_oddities_of_a_lens_are_said_in_german(only_window):
     stop = "The stop on surface 3 has a semi-diameter of 9 mm, but a radius of 8 mm ends that surface at 8 mm; "
     nothing = "Every medium of this lens has the index 1, so no surface bends light; name its glasses."
-    speak("de")
+    set_language("de")
     try:
         for sentence in live(with_lens(State(), "relay")).warnings:
             assert is_german(tr(sentence)) and tr(sentence) != sentence, sentence
         assert "8 mm enden; abblenden" in tr(stop + "stop the lens down or move the stop.")
         assert "den Brechungsindex 1, also" in tr(nothing)
     finally:
-        speak("en")
+        set_language("en")

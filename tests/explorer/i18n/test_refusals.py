@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from p2sf_explorer.i18n.language import Spoken
+from p2sf_explorer.i18n.language import Translation
 from p2sf_explorer.i18n.messages import spoken
 
 ROOT = Path(__file__).parents[3]
@@ -18,7 +18,7 @@ ELSEWHERE = re.compile(
 )
 ENGLISH = re.compile(r"\b(the|is|are|give|write|of|and|with|not|has|holds|choose|to|it|must|or|from|which|that)\b")
 QUOTED = re.compile(r'"[^"]*"|field_deg 10, tab mtf|field="height"')
-GERMAN = Spoken("de")
+GERMAN = Translation("de")
 
 
 def text_of(node) -> str | None:

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
-from p2sf_explorer.lessons.controller import Teaching
+from p2sf_explorer.lessons.controller import LessonController
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
 
@@ -127,7 +127,7 @@ def test_every_step_of_every_lesson_is_painted(window, teaching, lesson):
         teaching.move(1)
 
 
-def test_paragraphs_stand_apart_and_emphasis_is_seen():
+def test_paragraphs_stand_apart_and_emphasis_is_seen(qapp):
     made = rich("One *two*.\n\nThree **four**.")
     assert made.count("<p ") == 2 and "margin-top:8px" in made and "font-weight:700" in made and "*" not in made
 
@@ -143,7 +143,7 @@ def test_a_state_that_names_an_unknown_lesson_opens_without_one(window, teaching
 def test_a_bad_lesson_is_one_sentence_in_the_banner_and_the_others_stay(window, qtbot, monkeypatch, tmp_path):
     (tmp_path / "99_bad.md").write_text("no lesson", encoding="utf-8")
     monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
-    made = Teaching(window)
+    made = LessonController(window)
     assert len(made.lessons()) == len(shipped_lessons())
     qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text(), timeout=2000)
     window.store.changed.disconnect(made.follow)
@@ -156,7 +156,8 @@ def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, 
     assert offer.isVisible()
     qtbot.mouseClick(offer.start, Qt.MouseButton.LeftButton)
     assert window.store.state.lesson == FIRST.name and not offer.isVisible()
-    again = Teaching(window)
+    teaching.leave()
+    again = LessonController(window)  # no lesson is on, so it makes no page of its own
     again.offer_once()
     assert again.offer is None
     window.store.changed.disconnect(again.follow)

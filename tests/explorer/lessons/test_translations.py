@@ -6,9 +6,9 @@ import pytest
 from PySide6.QtWidgets import QApplication, QStyle, QStyleOptionComboBox
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.i18n.language import speak, texts
+from p2sf_explorer.i18n.language import set_language, texts
 from p2sf_explorer.lessons import controller as teaching
-from p2sf_explorer.lessons.controller import Teaching
+from p2sf_explorer.lessons.controller import LessonController
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, read_lesson, with_words
 from p2sf_explorer.lessons.lesson_panel import LessonPanel
 
@@ -91,10 +91,10 @@ def teaching_german(window, monkeypatch, tmp_path):
     (tmp_path / "99_own.md").write_bytes((FOLDER / NAMES[2]).read_bytes())
     monkeypatch.setattr(teaching, "own_folder", lambda: tmp_path)
     window.store.changed.disconnect(window.teaching.follow)
-    speak("de")
-    made = Teaching(window)
+    set_language("de")
+    made = LessonController(window)
     yield made
-    speak("en")
+    set_language("en")
     made.leave()
     made.panel.setParent(None)
     window.store.changed.disconnect(made.follow)

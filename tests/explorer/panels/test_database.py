@@ -12,7 +12,7 @@ from p2sf.database.parts import KINDS
 from p2sf.errors import Cancelled
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute import live as compute
-from p2sf_explorer.compute.setup import setting, shipped
+from p2sf_explorer.compute.setup import paraxial_setup, shipped
 from p2sf_explorer.results.database import ATLAS_DEFOCUS, answer, question
 from p2sf_explorer.state.state import State
 
@@ -32,7 +32,7 @@ def panel(window, qtbot):
 @pytest.mark.parametrize("lens", ["double_gauss_28", "eye_navarro", "wide_angle_35"])
 def test_the_map_is_the_direct_evaluation(lens):
     found = answer(asked(lens=lens))
-    made = setting(State(lens=lens, depth_mm=inf))
+    made = paraxial_setup(State(lens=lens, depth_mm=inf))
     with np.errstate(divide="ignore"):
         depths = np.minimum(1 / found.near, found.nodes.depths_mm[-1])
     slopes = slope_from_degrees(found.fields_deg)[:, None]
@@ -66,7 +66,7 @@ def test_every_shipped_lens_has_maps_and_an_atlas(lens):
 def test_the_atlas_stands_around_the_depth_in_focus():
     found = answer(asked(focus_mm=2000.0))
     depths = found.atlas.depths_mm
-    made = setting(State(focus_mm=2000.0, depth_mm=2000.0))
+    made = paraxial_setup(State(focus_mm=2000.0, depth_mm=2000.0))
     wd = coefficients(made.lens, depths, 0.0, made.source.wavelength_um, made.stop).wd
     assert depths[len(depths) // 2] == pytest.approx(2000, rel=1e-3)  # Wd runs straight to that over the columns
     assert np.abs(wd).max() == pytest.approx(ATLAS_DEFOCUS, rel=0.05)
@@ -194,4 +194,4 @@ def test_an_edited_lens_has_its_own_maps(window, panel, qtbot):
     before, state = panel._answer, window.store.state
     window.store.replace(edited_state(state, with_value(prescription(state), 1, "radius", "57")))
     qtbot.waitUntil(lambda: panel._answer is not before and not panel._stale(), timeout=20000)
-    assert panel._answer.question.lens == replace(window.live.setting.lens)
+    assert panel._answer.question.lens == replace(window.live.setup.lens)

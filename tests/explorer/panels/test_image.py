@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from p2sf.errors import Cancelled, RequestError, SamplingError
-from p2sf.image import Watch, form_image
+from p2sf.image import Progress, form_image
 from p2sf.image.lattice import Lattice
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.lens.lens import lens_range_um
@@ -74,7 +74,7 @@ def test_the_whole_field_uses_mirror_images_and_reaches_the_widest_chief_ray():
     assert scene.sensor.centred
     farthest = scene.sensor.corners_mm()[1]
     widest = np.tan(np.deg2rad(max(find_lens("singlet_f6").fields_deg)))
-    focal = compute.live(State(lens="singlet_f6", method="seidel")).setting.focal_length_mm
+    focal = compute.live(State(lens="singlet_f6", method="seidel")).setup.focal_length_mm
     assert farthest == pytest.approx(focal * widest, rel=0.05)  # 3 % kept back, and some distortion
     assert "12 PSFs" in coarse(whole).headline  # 2 × 2 of 3 × 3 in three colours
 
@@ -112,7 +112,7 @@ def test_the_loupe_interpolates_the_kernels_between_nodes():
 
 def coarse_stub():
     empty = np.zeros((2, 2, 3), np.float32)
-    return image.Answer(asked(), empty, empty, "coarse", None, None, 0.0, "", ())
+    return image.ImageResult(asked(), empty, empty, "coarse", None, None, 0.0, "", ())
 
 
 def test_pixels_are_srgb_with_red_first():
@@ -140,7 +140,7 @@ def test_colours_stay_where_the_glasses_have_data():
 
 def test_a_cancelled_picture_stops_in_the_plan_too():
     with pytest.raises(Cancelled):
-        image.planned(asked(), Watch(cancelled=lambda: True))
+        image.planned(asked(), Progress(cancelled=lambda: True))
 
 
 def test_a_blur_too_wide_to_wait_for_is_one_sentence():
@@ -156,8 +156,8 @@ def test_other_lenses_have_a_picture(name):
 
 
 def test_the_panel_shows_the_split_picture_and_marks_an_earlier_one(window, image_panel, qtbot):
-    assert np.array_equal(image_panel.wipe.before, pixels(scene_values("text", (ROWS, COLUMNS))))
-    assert image_panel.wipe.names == ("scene", "image")
+    assert np.array_equal(image_panel.split_view.before, pixels(scene_values("text", (ROWS, COLUMNS))))
+    assert image_panel.split_view.names == ("scene", "image")
     window.store.update(field_deg=3.0)
     assert "earlier picture" in image_panel.widget.readout.text()
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
@@ -167,29 +167,29 @@ def test_the_panel_shows_the_split_picture_and_marks_an_earlier_one(window, imag
 
 
 def test_what_is_painted_is_the_scene_left_of_the_split_and_the_image_right_of_it(window, image_panel):
-    wipe = image_panel.wipe
+    split_view = image_panel.split_view
     before, after = np.full((20, 30), 0xFF204060, np.uint32), np.full((20, 30), 0xFFA08060, np.uint32)
-    wipe.show_pictures(before, after, ("", ""))
-    painted, area, x = wipe.grab().toImage(), wipe.area(), wipe.split_x()
+    split_view.show_pictures(before, after, ("", ""))
+    painted, area, x = split_view.grab().toImage(), split_view.area(), split_view.split_x()
     y = int(area.bottom()) - 12  # below the loupe
     assert painted.pixel(int(x) - 30, y) == 0xFF204060 and painted.pixel(int(x) + 30, y) == 0xFFA08060
     image_panel._paint()
 
 
 def test_dragging_the_split_is_one_undo_and_hovering_moves_the_loupe(window, image_panel, qtbot):
-    wipe, first = image_panel.wipe, window.store.state
-    area = wipe.area()
+    split_view, first = image_panel.split_view, window.store.state
+    area = split_view.area()
     places = [QPointF(area.left() + part * area.width(), area.center().y()).toPoint() for part in (0.5, 0.3, 0.25)]
-    qtbot.mousePress(wipe, Qt.MouseButton.LeftButton, pos=places[0])
+    qtbot.mousePress(split_view, Qt.MouseButton.LeftButton, pos=places[0])
     for place in places[1:]:
-        qtbot.mouseMove(wipe, place)
-    qtbot.mouseRelease(wipe, Qt.MouseButton.LeftButton, pos=places[-1])
+        qtbot.mouseMove(split_view, place)
+    qtbot.mouseRelease(split_view, Qt.MouseButton.LeftButton, pos=places[-1])
     assert window.store.state.photo_split == pytest.approx(0.25, abs=1.5 / area.width())
     window.store.undo()
-    assert window.store.state == first and wipe.split == first.photo_split
+    assert window.store.state == first and split_view.split == first.photo_split
     image_panel._look(0.0, 0.0)
-    assert wipe.place == (0.0, 0.0)
-    qtbot.keyClick(wipe, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    assert split_view.place == (0.0, 0.0)
+    qtbot.keyClick(split_view, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
     assert window.store.state.photo_split == pytest.approx(first.photo_split + 0.05)
 
 
@@ -203,7 +203,7 @@ def test_saving_writes_the_picture_and_the_state(window, image_panel, tmp_path):
 
 def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     window.store.update(photo="/nowhere/photo.png")
-    qtbot.waitUntil(lambda: "cannot be read" in image_panel.veil.text, timeout=10000)
+    qtbot.waitUntil(lambda: "cannot be read" in image_panel.overlay.text, timeout=10000)
     assert image_panel.widget.readout.text() == "no picture"
     window.store.update(psf_scale="log")  # nothing the picture depends on
     assert image_panel.widget.readout.text() == "no picture" and not image_panel.headline.isVisible()
@@ -212,11 +212,11 @@ def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     assert "there is no picture yet" in window.banner.text.text().lower()
     window.store.update(photo="text")
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=10000)
-    assert not image_panel.veil.text and image_panel.save.isEnabled() and image_panel.words.button.isEnabled()
+    assert not image_panel.overlay.text and image_panel.save.isEnabled() and image_panel.words.button.isEnabled()
 
 
 def test_shown_pictures_have_the_scene_left_and_the_image_right(found):
-    before, after, more = shown("lens", found.plan, found.before, found.lattice, Watch())
+    before, after, more = shown("lens", found.plan, found.before, found.lattice, Progress())
     assert before is found.before and more == () and not np.array_equal(before, after)
 
 

@@ -11,12 +11,12 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
 from p2sf.errors import Cancelled
-from p2sf.image import Watch
+from p2sf.image import Progress
 from p2sf.io.photo_files import write_photo
 from p2sf.scene.cost import Cost
 from p2sf.scene.plan import Decision
 from p2sf_explorer.files.snapshot import write_picture
-from p2sf_explorer.i18n.language import Spoken
+from p2sf_explorer.i18n.language import Translation
 from p2sf_explorer.i18n.tr import unbroken
 from p2sf_explorer.results.image import (
     COLUMNS,
@@ -36,16 +36,16 @@ from p2sf_explorer.widgets.split_view import close_up, rooms
 
 
 def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):
-    wipe, split = image_panel.wipe, window.store.state.photo_split
+    split_view, split = image_panel.split_view, window.store.state.photo_split
     image_panel._look(100.0, 150.0)
     for key, place in (("Down", (108.0, 150.0)), ("Right", (108.0, 158.0)), ("Up", (100.0, 158.0))):
-        qtbot.keyClick(wipe, getattr(Qt.Key, f"Key_{key}"))
-        assert wipe.place == pytest.approx(place)
+        qtbot.keyClick(split_view, getattr(Qt.Key, f"Key_{key}"))
+        assert split_view.place == pytest.approx(place)
     image_panel._look(0.0, COLUMNS - 1.0)
-    qtbot.keyClick(wipe, Qt.Key.Key_Right)
-    assert wipe.place == pytest.approx((0.0, COLUMNS - 1.0)) and window.store.state.photo_split == split
+    qtbot.keyClick(split_view, Qt.Key.Key_Right)
+    assert split_view.place == pytest.approx((0.0, COLUMNS - 1.0)) and window.store.state.photo_split == split
     wanted = local_psf(image_panel._answer, 0.0, COLUMNS - 1.0)
-    assert np.array_equal(wipe.loupe, pixels(np.sqrt(wanted)))
+    assert np.array_equal(split_view.loupe, pixels(np.sqrt(wanted)))
 
 
 def test_a_low_panel_has_details_and_the_psf_beside_the_picture_and_a_narrow_one_the_psf_on_it():
@@ -61,12 +61,12 @@ def test_a_low_panel_has_details_and_the_psf_beside_the_picture_and_a_narrow_one
 
 
 def test_the_details_are_the_two_pictures_at_the_place_looked_at(window, image_panel):
-    wipe = image_panel.wipe
-    wipe.resize(900, 160)
+    split_view = image_panel.split_view
+    split_view.resize(900, 160)
     before, after = np.full((ROWS, COLUMNS), 0xFF204060, np.uint32), np.full((ROWS, COLUMNS), 0xFFA08060, np.uint32)
-    wipe.show_pictures(before, after, ("", ""))
-    painted = wipe.grab().toImage()
-    for room, colour in zip(wipe.rooms().details, (0xFF204060, 0xFFA08060), strict=True):
+    split_view.show_pictures(before, after, ("", ""))
+    painted = split_view.grab().toImage()
+    for room, colour in zip(split_view.rooms().details, (0xFF204060, 0xFFA08060), strict=True):
         assert painted.pixel(room.center().toPoint()) == colour
     image_panel._paint()
 
@@ -89,7 +89,7 @@ def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_th
     assert drop(image_panel.widget, tmp_path / "grey.png").isAccepted()
     assert window.store.state.photo == str(tmp_path / "grey.png")
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
-    assert image_panel.wipe.before[5, 5] & 0xFF == pytest.approx(188, abs=1)  # sRGB of half the light
+    assert image_panel.split_view.before[5, 5] & 0xFF == pytest.approx(188, abs=1)  # sRGB of half the light
     said = []
     window.store.refused.connect(said.append)
     drop(image_panel.widget, tmp_path / "holiday.jpg")
@@ -139,7 +139,7 @@ def orders(window, image_panel, qtbot, monkeypatch):
 def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_words_say_why(window, image_panel, orders):
     image_panel._on_failure(image_panel._asked, "points 500 mm away blur over 2.4 mm; stop down")
     assert image_panel.headline.text().startswith("Points 500\u00a0mm away")
-    assert image_panel.widget.readout.text() == "coarse" and not image_panel.veil.text
+    assert image_panel.widget.readout.text() == "coarse" and not image_panel.overlay.text
     image_panel._refine()
     assert not orders  # a second try would end the same
     image_panel._on_failure(image_panel._asked, "points inf mm away blur over 6 mm; stop down")
@@ -149,7 +149,7 @@ def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_words_say_wh
 def test_a_picture_without_a_plan_says_why_under_the_controls(window, image_panel, orders):
     image_panel._on_answer(image_panel._asked, replace(image_panel._answer, no_plan=TOO_LARGE))
     assert image_panel.headline.text().startswith("No plan: these pixels hide")
-    said = Spoken("de").said
+    said = Translation("de").said
     for short, sentence in PLANLESS.items():
         assert said(short).startswith("Kein Plan") and said(f"Unmeasured. {sentence}").startswith("Ungemessen. Für so")
 
@@ -206,7 +206,7 @@ def test_another_photo_is_made_by_the_plan_there_is(window, image_panel, orders,
 
 def test_the_share_of_a_plan_grows_to_where_that_of_its_picture_begins():
     told = []
-    watch = Watch(told.append)
+    watch = Progress(told.append)
     step, picture = planning(watch), forming(watch)
     for _ in range(1000):
         step()
@@ -215,14 +215,14 @@ def test_the_share_of_a_plan_grows_to_where_that_of_its_picture_begins():
     picture.advance()
     assert told == sorted(told) and told[0] < 0.05 and told[999] <= PLANNING and told[-1] == pytest.approx(1.0)
     with pytest.raises(Cancelled):
-        planning(Watch(told.append, lambda: True))()
+        planning(Progress(told.append, lambda: True))()
 
 
 def test_a_docked_panel_in_a_small_window_gives_the_picture_its_height(window, image_panel):
     window.resize(1280, 800)
     QApplication.processEvents()
-    assert image_panel.wipe.area().height() > 0.85 * image_panel.widget.height()
-    assert len(image_panel.wipe.rooms().details) == 2
+    assert image_panel.split_view.area().height() > 0.85 * image_panel.widget.height()
+    assert len(image_panel.split_view.rooms().details) == 2
     window.resize(1440, 900)
 
 

@@ -29,7 +29,7 @@ def test_the_focal_surfaces_meet_on_the_axis_and_part_by_the_astigmatism(window)
     panel = opened(window, "field", f_number=8.0)
     sagittal, tangential = (panel.curves[name].data() for name in ("S", "T"))
     assert sagittal[0][0] == pytest.approx(tangential[0][0], abs=1e-6)
-    c = window.live.setting.coefficients
+    c = window.live.setup.coefficients
     here = np.interp(10.0, sagittal[1], sagittal[0]) - np.interp(10.0, tangential[1], tangential[0])
     third = 2 * float(c.w22) * float(c.wavelength_um) / float(c.na) ** 2 / 1e3
     # T − S = −2n′λW22/NA²: sign and size of the third order, to the fifth's share at 10°.
@@ -66,7 +66,7 @@ def test_blue_green_and_red_foci_of_the_double_gauss(window):
     assert place[486.1327] < 0 < place[656.2725]
     window.store.update(f_number=11.0)  # where the third order is all there is
     rim = np.interp(587.5618, *panel.curves["rim"].data())
-    c = window.live.setting.coefficients
+    c = window.live.setup.coefficients
     # Longitudinal spherical of the rim ray is −2·2λW40/NA² to third order.
     assert rim == pytest.approx(-4 * float(c.wavelength_um) * float(c.w40) / float(c.na) ** 2, rel=0.05)
 
@@ -82,11 +82,11 @@ def test_the_stop_lies_on_the_axis_of_the_ybar_diagram_and_the_image_on_the_othe
     stop = window.live.views["ybar"].stop
     assert chief[stop] == pytest.approx(0, abs=1e-9)
     assert marginal[-1] == pytest.approx(0, abs=2e-3), "the file's sensor is rounded to a µm"
-    assert chief[-1] == pytest.approx(float(window.live.setting.coefficients.image_height))
+    assert chief[-1] == pytest.approx(float(window.live.setup.coefficients.image_height))
     # Twice the area of the triangle from the origin to two neighbours is the Lagrange invariant over n/t (Delano).
     first = chief[1] * marginal[0] - chief[0] * marginal[1]
-    gap = window.live.setting.lens.surfaces[0].thickness / window.live.setting.rays.index[1]
-    invariant = float(window.live.setting.rays.invariant) * window.live.setting.source.field_slope
+    gap = window.live.setup.lens.surfaces[0].thickness / window.live.setup.rays.index[1]
+    invariant = float(window.live.setup.rays.invariant) * window.live.setup.source.field_slope
     assert first == pytest.approx(invariant * gap)
 
 
@@ -153,7 +153,7 @@ def test_what_is_called_sharp_is_what_the_blur_at_each_depth_says(lens, blur):
     state = replace(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
     found = live(state, "preview")
     answer, depths = depth_of_field(found), np.geomspace(1e-3, 1e7, 400)
-    sharp = 2e3 * np.abs(axial_heights(found.setting, depths)) <= blur
+    sharp = 2e3 * np.abs(axial_heights(found.setup, depths)) <= blur
     near, far = answer.sharp_mm or (inf, 0.0)
     assert np.array_equal((depths >= near) & (depths <= far), sharp)
     assert np.isfinite(answer.near).all()
@@ -196,7 +196,7 @@ def test_the_petzval_radius_is_what_its_tip_says(window):
     rows = {name: (value, tip) for column in first_order(window.live) for name, value, tip in column}
     value, tip = rows["Petzval radius"]
     radius = float(value.split()[0].replace("−", "-"))
-    s = window.live.setting
+    s = window.live.setup
     n = s.rays.index
     total = sum(surface.curvature * (1 / n[k + 1] - 1 / n[k]) for k, surface in enumerate(s.lens.surfaces)) * n[-1]
     sign = -1 if tip.startswith("−") else 1

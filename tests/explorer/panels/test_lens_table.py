@@ -13,7 +13,7 @@ from p2sf.lensfile import load_lens
 from p2sf.paraxial.pupils import f_number
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute.editing import deleted, edited_state, inserted, with_stop, with_value
-from p2sf_explorer.compute.setup import load, prescription, setting
+from p2sf_explorer.compute.setup import load, paraxial_setup, prescription
 from p2sf_explorer.state.state import State, state_from_json, state_to_json
 from p2sf_explorer.widgets.surface_table import KEYS
 from tests.explorer.shell.test_window import changed, pictures
@@ -22,8 +22,8 @@ LENS = "double_gauss_28"
 
 
 def speed_of(window) -> float:
-    setting = window.live.setting
-    return float(f_number(setting.lens, setting.lens.reference_wavelength_um, setting.stop))
+    setup = window.live.setup
+    return float(f_number(setup.lens, setup.lens.reference_wavelength_um, setup.stop))
 
 
 def editor_of(table) -> QLineEdit:
@@ -94,9 +94,9 @@ def test_a_typed_value_is_one_undo_and_moves_every_panel(window, typed, key, tex
 
 @pytest.mark.parametrize("glass", ["SCHOTT N-BK7", "1.6", "nd 1.62 vd 36.4", "N-BK7"])
 def test_a_typed_glass_is_live(window, typed, glass):
-    before = float(window.live.setting.coefficients.w40)
+    before = float(window.live.setup.coefficients.w40)
     typed(0, "medium", glass)
-    assert float(window.live.setting.coefficients.w40) != before
+    assert float(window.live.setup.coefficients.w40) != before
 
 
 @pytest.mark.parametrize(
@@ -145,7 +145,7 @@ def test_clicking_the_stop_column_moves_the_stop_and_keeps_the_f_number(window, 
     table.view.scrollTo(index)
     speed = speed_of(window)
     qtbot.mouseClick(table.view.viewport(), Qt.MouseButton.LeftButton, pos=table.view.visualRect(index).center())
-    assert int(window.live.setting.stop.surface) == 4
+    assert int(window.live.setup.stop.surface) == 4
     assert speed_of(window) == pytest.approx(speed, rel=1e-12)  # one division and its inverse
 
 
@@ -216,7 +216,7 @@ def test_the_edited_lens_goes_through_a_state_file():
     again = state_from_json(state_to_json(made))
     assert again == made
     assert prescription(again).surfaces[0].radius == 57
-    assert setting(again).coefficients.w40 == setting(made).coefficients.w40
+    assert paraxial_setup(again).coefficients.w40 == paraxial_setup(made).coefficients.w40
 
 
 @pytest.mark.parametrize("ending", [".toml", ".zmx", ".json"])

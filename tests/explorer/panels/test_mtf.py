@@ -20,9 +20,9 @@ def between(frequency_per_mm: np.ndarray) -> np.ndarray:
 
 def test_a_perfect_lens_has_the_closed_form_between_the_samples():
     answer = live(replace(ALONE, added_waves=(1e-9, 0.0, 0.0, 0.0, 0.0, 0.0)))
-    found, source = contrast(answer), answer.setting.source
+    found, source = contrast(answer), answer.setup.source
     asked = between(found.frequency_per_mm)
-    exact = diffraction_mtf(asked, float(answer.setting.coefficients.na), source.wavelength_um)
+    exact = diffraction_mtf(asked, float(answer.setup.coefficients.na), source.wavelength_um)
     for curve in (found.tangential, found.sagittal):
         painted = np.interp(asked, found.frequency_per_mm, curve)
         assert np.abs(painted - exact).max() < 1.5 * (1 - answer.psf.energy) + 1e-3  # the light outside the window

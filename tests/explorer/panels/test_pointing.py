@@ -26,7 +26,7 @@ def choose(panel, term):
 def on_surface(window, surface):
     """Return a point of the layout on a surface, above the axis."""
     chart = window.panels["layout"].chart
-    z, y = section(window.live.setting.lens, surface)
+    z, y = section(window.live.setup.lens, surface)
     x, row = chart.to_pixels(z[-4], y[-4])
     return chart, QPointF(float(x), float(row)).toPoint()
 

@@ -72,7 +72,7 @@ def test_defocus_spreads_the_energy(window):
     window.store.update(added_waves=(0.0, 0.0, 0.0, 0.0, 3.0, 0.0))
     assert np.interp(10.0, *panel.within.data()) < 0.6 * sharp
     # 3 λ of defocus: rays land up to 2·3·λ/NA from the chief ray.
-    edge = 6 * window.live.setting.source.wavelength_um / float(window.live.setting.coefficients.na)
+    edge = 6 * window.live.setup.source.wavelength_um / float(window.live.setup.coefficients.na)
     assert np.interp(1.3 * edge, *panel.within.data()) > 0.9
 
 

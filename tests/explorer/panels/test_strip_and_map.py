@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, Qt
 from p2sf.conventions import degrees_from_slope
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.sampled import in_window, optics
-from p2sf_explorer.compute.setup import setting, with_lens
+from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.panels.field_map import FieldMapPanel
 from p2sf_explorer.results import field_map, through_focus
 from p2sf_explorer.state.state import State
@@ -42,7 +42,7 @@ def test_the_brightest_picture_is_at_the_medial_focus(strip):
     peaks = found.light.max((1, 2))
     shifts = np.array(asked.shifts_um)
     assert abs(shifts[peaks.argmax()] - found.best) <= (shifts[1] - shifts[0])
-    c = setting(asked.state).coefficients
+    c = paraxial_setup(asked.state).coefficients
     unit = float(c.wavelength_um) / float(c.na) ** 2
     # Best focus Wd = −(W40 + W20 + W22/2) (Mahajan 1991), Δz = 2λWd/NA².
     assert found.best == pytest.approx(-2 * unit * float(c.w40 + c.w20 + c.w22 / 2 + c.wd), abs=0.01)
@@ -53,14 +53,14 @@ def test_lines_stand_across_each_other_at_the_two_foci():
     """At the tangential focus the light is a line along x, at the sagittal one along y (Welford 1986, §8.4)."""
     state = replace(FIRST, f_number=11.0, field_deg=14.0)
     first = live(state)
-    c = setting(state).own
+    c = paraxial_setup(state).own
     places = through_focus.seidel_foci(c)
     shapes = []
     for place in (places.tangential, places.sagittal):
         psf = in_window(replace(optics(state), sensor_shift_um=1e3 * float(place)), (64, 1.0), True)
         x, y = psf.values.sum(0), psf.values.sum(1)
         shapes.append((x @ psf.x_um**2) / (y @ psf.y_um**2))
-    assert first.rung == "seidel" and shapes[0] > 1 > shapes[1]
+    assert first.method == "seidel" and shapes[0] > 1 > shapes[1]
 
 
 def test_pictures_and_marks_stand_at_their_sensor_positions(strip):
@@ -111,7 +111,7 @@ def test_defocus_alone_is_symmetric_about_focus():
     question = through_focus.strip(live(lens))
     found, told = worked(question, through_focus)
     shifts = np.array(question.shifts_um)
-    centre = float(through_focus.seidel_foci(setting(question.state).coefficients).sagittal) * 1e3
+    centre = float(through_focus.seidel_foci(paraxial_setup(question.state).coefficients).sagittal) * 1e3
     pair = [in_window(replace(question.state, sensor_shift_um=centre + d), (32, 1.0), True).values for d in (60, -60)]
     assert pair[0] == pytest.approx(pair[1], abs=1e-6)  # the preview's float32
     assert shifts[0] < centre < shifts[-1] and told[-1] <= 1 and np.isfinite(found.light).all()
@@ -200,7 +200,7 @@ def test_the_top_of_the_map_is_the_field_that_lands_there():
     for side in (1, -1):
         one = replace(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
         values = in_window(one, question.window, True).values
-        lands[float(setting(one).coefficients.image_height) > 0] = values / values.max()
+        lands[float(paraxial_setup(one).coefficients.image_height) > 0] = values / values.max()
     shown = field_map.one(question, 1.0)
     assert shown[1:, 1:] == pytest.approx(lands[True][1:, 1:], abs=1e-4)
     assert np.abs(shown - lands[False]).max() > 0.1, "coma tells the two apart"
@@ -210,7 +210,9 @@ def test_the_top_of_the_map_is_the_field_that_lands_there():
 def test_the_arrow_points_to_where_farther_fields_land(window, lens, field, up):
     state = with_lens(window.store.state, lens) if lens else window.store.state
     window.store.replace(replace(state, field_deg=field))
-    near, far = (float(setting(replace(state, field_deg=part * field)).coefficients.image_height) for part in (1, 1.1))
+    near, far = (
+        float(paraxial_setup(replace(state, field_deg=part * field)).coefficients.image_height) for part in (1, 1.1)
+    )
     panel = window.panels["psf"]
     tip = panel.arrow.data()[1][1]
     assert np.sign(far - near) == up == (0 if np.isnan(tip) else np.sign(tip))
@@ -236,7 +238,7 @@ def test_what_auto_chose_for_one_point_does_not_make_the_pictures_of_all(ask, po
     """Six coefficients do near the axis and where all is blurred, and miss elsewhere: `auto` changes its mind."""
     state = replace(FIRST, method="auto", field_deg=2.0, f_number=5.6)
     answers = [live(replace(state, **point)) for point in points]
-    assert {answer.rung for answer in answers} == {"seidel", "fitted"}
+    assert {answer.method for answer in answers} == {"seidel", "fitted"}
     first, second = map(ask, answers)
     assert first == second and not first.six
 

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from pytest import approx
 
 from p2sf.errors import ExportError, P2SFError
-from p2sf_explorer.playback.film import Frame, Reel, write_film
+from p2sf_explorer.playback.film import FilmFrame, Reel, write_film
 from p2sf_explorer.playback.filming import frame_of
 from p2sf_explorer.playback.play_bar import seconds
 from p2sf_explorer.playback.sweep import changes, present, sweep
@@ -47,7 +47,7 @@ def test_nonsense_is_no_duration():
 
 
 def frames(count: int):
-    return [Frame(4, 2, bytes([20 * k] * 24)) for k in range(count)]
+    return [FilmFrame(4, 2, bytes([20 * k] * 24)) for k in range(count)]
 
 
 def test_a_gif_has_every_frame_in_order_and_repeats(tmp_path):

@@ -59,7 +59,7 @@ def test_a_solid_is_closed_and_faces_outwards(mesh):
 
 @pytest.mark.parametrize("name", LENSES)
 def test_glass_is_where_the_lens_has_it(name):
-    lens = still(live(default_state(name), "preview").setting.lens)
+    lens = still(live(default_state(name), "preview").setup.lens)
     for piece in elements(lens):
         assert volume(piece.mesh) > 0
         x, y, z = piece.mesh.points.T
@@ -72,7 +72,7 @@ def test_glass_is_where_the_lens_has_it(name):
 @pytest.mark.parametrize("name", LENSES)
 def test_rays_meet_every_surface_and_end_at_the_image(name):
     answer = live(replace(default_state(name), method="seidel"), "preview")
-    shown, lens = scene(answer), answer.setting.lens
+    shown, lens = scene(answer), answer.setup.lens
     for number, (surface, vertex) in enumerate(zip(lens.surfaces, vertices(lens), strict=False), 1):
         x, y, z = shown.rays[:, number].T
         assert z == pytest.approx(vertex + sag(surface, np.hypot(x, y)), abs=1e-9)
@@ -99,11 +99,11 @@ def test_the_wavefront_is_a_sphere_about_the_image_that_defocus_bends(shift_um):
 def test_the_relief_stands_on_the_image_point_and_peaks_where_the_psf_does():
     answer = live(State(method="seidel", field_deg=0.0, f_number=11.0, psf_scale="linear"), "preview")
     shown = scene(answer)
-    highest = shown.relief.mesh.points[shown.relief.values.argmax()]
+    highest = shown.psf_surface.mesh.points[shown.psf_surface.values.argmax()]
     assert highest[:2] == pytest.approx(shown.rays[0, -1, :2], abs=1e-9)
     assert highest[2] < answer.layout.drawing.sensor_z
-    width = answer.psf.values.shape[0] * answer.psf.pixel_um * 1e-3 * shown.relief.factor
-    assert np.ptp(shown.relief.mesh.points[:, 0]) == pytest.approx(width * 63 / 64)
+    width = answer.psf.values.shape[0] * answer.psf.pixel_um * 1e-3 * shown.psf_surface.factor
+    assert np.ptp(shown.psf_surface.mesh.points[:, 0]) == pytest.approx(width * 63 / 64)
 
 
 def test_a_strip_that_crosses_itself_ends_where_it_does():

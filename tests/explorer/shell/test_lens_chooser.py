@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QApplication
 from p2sf_explorer.compute.setup import shipped
 from p2sf_explorer.shell.lens_cards import lens_card, shown_title
 from p2sf_explorer.shell.lens_chooser import NAME
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State
 
 
@@ -71,7 +71,7 @@ def test_letters_find_a_lens(window, gallery, qtbot):
 
 
 def test_a_new_window_has_worked_out_no_card(qapp):
-    made = Window(State(method="seidel", theme="light"), measured=False)
+    made = MainWindow(State(method="seidel", theme="light"), measured=False)
     made.show()
     QApplication.processEvents()
     assert made.top.lens.gallery is None

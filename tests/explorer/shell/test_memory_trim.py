@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from p2sf_explorer.shell import memory_trim as thrift
-from p2sf_explorer.shell.memory_trim import Thrift, trimming
+from p2sf_explorer.shell import memory_trim as memory_trim
+from p2sf_explorer.shell.memory_trim import MemoryTrim, trimming
 from tests.long.stress import resident_mb
 
 
@@ -29,8 +29,8 @@ def test_holes_are_given_back():
 def thrifty(qapp, monkeypatch, qtbot):
     """Thrift with short pauses, and how often it has given back."""
     given = []
-    monkeypatch.setattr(thrift, "trimming", lambda: lambda pad: given.append(pad))
-    made = Thrift()
+    monkeypatch.setattr(memory_trim, "trimming", lambda: lambda pad: given.append(pad))
+    made = MemoryTrim()
     made._rest.setInterval(20)
     made._latest.setInterval(60)
     yield made, given
@@ -57,8 +57,8 @@ def test_a_hand_that_never_rests_is_served_too(thrifty, qtbot):
 
 
 def test_the_window_gives_back_after_a_change(window):
-    window.thrift.stop()
+    window.memory_trim.stop()
     window.store.update(field_deg=3.0)
-    assert window.thrift._rest.isActive() and window.thrift._latest.isActive()
-    window.thrift.stop()
-    assert not window.thrift._rest.isActive() and not window.thrift._latest.isActive()
+    assert window.memory_trim._rest.isActive() and window.memory_trim._latest.isActive()
+    window.memory_trim.stop()
+    assert not window.memory_trim._rest.isActive() and not window.memory_trim._latest.isActive()

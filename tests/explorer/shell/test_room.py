@@ -11,8 +11,8 @@ from p2sf_explorer.charts.painting import fitting, width_of
 from p2sf_explorer.charts.plots import ColourBar, HeatMap
 from p2sf_explorer.compute.glass_outlines import clear_rims, glass_of, still
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.setup import default_state, load, setting, shipped
-from p2sf_explorer.i18n.language import speak
+from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shipped
+from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import spoken
 from p2sf_explorer.panels.lens_table import LensTablePanel
 from p2sf_explorer.shell.tabs import Tabs
@@ -56,7 +56,7 @@ def test_every_lens_opens_at_a_field_of_its_file(name):
 
 def test_the_relay_opens_with_an_object_its_glass_can_see(window):
     state = default_state("relay")
-    assert abs(setting(state).object_height_mm) < 10
+    assert abs(paraxial_setup(state).object_height_mm) < 10
     rims = clear_rims(still(load("relay")))
     assert max(rims) < 25, "the file's 69 mm are more than its glass could have"
     for outline in glass_of(still(load("relay"))).outlines:
@@ -182,7 +182,7 @@ def test_the_window_fits_a_screen_of_1920_by_1080_at_twice_the_size(window):
 
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_every_groups_tabs_fit_a_small_window_and_no_column_of_the_lens_is_cut(window, language):
-    speak(language)
+    set_language(language)
     try:
         tabs, table = Tabs(TABS), LensTablePanel(window.store)
         tabs.setStyleSheet(window.styleSheet())
@@ -196,5 +196,5 @@ def test_every_groups_tabs_fit_a_small_window_and_no_column_of_the_lens_is_cut(w
         head = table.view.horizontalHeader()
         assert all(head.sectionSize(k) >= head.sectionSizeHint(k) for k in range(head.count() - 1))
     finally:
-        speak("en")
+        set_language("en")
         tabs.close()

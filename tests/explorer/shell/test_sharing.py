@@ -12,7 +12,7 @@ from PySide6.QtGui import QCloseEvent, QGuiApplication
 from p2sf.errors import P2SFError
 from p2sf_explorer.__main__ import starting_state
 from p2sf_explorer.files.session import last_session, session_path
-from p2sf_explorer.files.session_keeper import Keeping
+from p2sf_explorer.files.session_keeper import SessionKeeper
 from p2sf_explorer.state.link import PREFIX, link, state_of_link
 from p2sf_explorer.state.state import State
 from tests.explorer.state.test_state import STATES
@@ -80,7 +80,7 @@ def test_copy_and_paste_by_keys(window, qtbot):
 
 
 def test_the_next_start_finds_the_last_window(window):
-    keeping = Keeping(window, {})
+    keeping = SessionKeeper(window, {})
     window.stack.setSizes([200, 300, 250])
     shares = window.stack.sizes()
     window.store.update(field_deg=2.5, method="fitted", tab="mtf")
@@ -89,7 +89,7 @@ def test_the_next_start_finds_the_last_window(window):
     window.stack.setSizes([300, 300, 150])
     state, geometry = last_session()
     assert state == kept
-    again = Keeping(window, geometry)
+    again = SessionKeeper(window, geometry)
     found = window.stack.sizes()
     assert [size / sum(found) for size in found] == pytest.approx([size / sum(shares) for size in shares], abs=0.01)
     for filtering in (keeping, again):

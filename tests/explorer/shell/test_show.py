@@ -8,7 +8,7 @@ import pytest
 from p2sf.errors import SamplingError
 from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compute.live import Refused
-from p2sf_explorer.compute.setup import setting, with_lens
+from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.results.mtf import contrast
 from p2sf_explorer.shell.show import UNKNOWN, WHY
 from p2sf_explorer.shell.window import MAIN
@@ -21,16 +21,16 @@ TOO_FAR = replace(with_lens(State(theme="light"), "relay"), depth_mm=inf, field_
 @pytest.fixture
 def without(window):
     window.store.replace(replace(with_lens(window.store.state, "double_gauss_28"), free_pupil=True))
-    assert window.live.setting.focal_length_mm == pytest.approx(100, rel=0.02)
+    assert window.live.setup.focal_length_mm == pytest.approx(100, rel=0.02)
     window.store.replace(TOO_FAR)
     return window
 
 
 def test_no_picture_and_no_figure_of_the_lens_before_is_left(without):
     for key in ("pupil", "psf", "coefficients", without.tabs.current()):
-        veil = without.panels[key].widget.veil
-        assert veil.isVisible() and veil.text == WHY
-        assert veil.geometry().contains(without.panels[key].widget.rect().center())
+        overlay = without.panels[key].widget.overlay
+        assert overlay.isVisible() and overlay.text == WHY
+        assert overlay.geometry().contains(without.panels[key].widget.rect().center())
         assert not data_of(without.panels[key].widget), "nor copied"
     assert {value for _, value, _ in without.controls.facts.rows} == {UNKNOWN}
     assert not without.controls.sentence.text() and without.controls.rows["field_deg"].note.text() == UNKNOWN
@@ -39,8 +39,8 @@ def test_no_picture_and_no_figure_of_the_lens_before_is_left(without):
 
 def test_the_new_lens_is_drawn_with_its_own_source(without):
     layout = without.panels["layout"]
-    assert not layout.widget.veil.isVisible()
-    assert layout.chart.live.setting.lens == setting(TOO_FAR).lens and layout.chart.live.layout.source is None
+    assert not layout.widget.overlay.isVisible()
+    assert layout.chart.live.setup.lens == paraxial_setup(TOO_FAR).lens and layout.chart.live.layout.source is None
 
 
 def test_the_reason_names_what_helps_and_outlasts_the_banner(without):
@@ -62,7 +62,7 @@ def test_the_psf_before_is_not_saved_under_the_new_name(without, tmp_path):
 def test_the_next_answer_lifts_every_veil(without):
     without.store.update(depth_mm=94.412)
     assert not without.banner.isVisible()
-    assert not any(without.panels[key].widget.veil.isVisible() for key in without._visible())
+    assert not any(without.panels[key].widget.overlay.isVisible() for key in without._visible())
     assert UNKNOWN not in {value for _, value, _ in without.controls.facts.rows}
 
 
@@ -84,9 +84,9 @@ def one_refusing(window, monkeypatch):
 
 
 def test_a_tab_that_has_nothing_to_show_veils_itself_alone(one_refusing):
-    window, veil = one_refusing, one_refusing.panels["mtf"].widget.veil
-    assert veil.isVisible() and veil.text == "The blur is too wide for a table; stop down"
-    assert not any(window.panels[key].widget.veil.isVisible() for key in MAIN)
+    window, overlay = one_refusing, one_refusing.panels["mtf"].widget.overlay
+    assert overlay.isVisible() and overlay.text == "The blur is too wide for a table; stop down"
+    assert not any(window.panels[key].widget.overlay.isVisible() for key in MAIN)
     assert window.live.state.field_deg == 7.0 and not window.banner.isVisible()
     assert UNKNOWN not in {value for _, value, _ in window.controls.facts.rows}
 
@@ -94,7 +94,7 @@ def test_a_tab_that_has_nothing_to_show_veils_itself_alone(one_refusing):
 def test_its_veil_goes_with_the_next_answer(one_refusing, monkeypatch):
     monkeypatch.undo()
     one_refusing.store.update(field_deg=5.0)
-    assert not one_refusing.panels["mtf"].widget.veil.isVisible() and data_of(one_refusing.panels["mtf"].widget)
+    assert not one_refusing.panels["mtf"].widget.overlay.isVisible() and data_of(one_refusing.panels["mtf"].widget)
 
 
 def test_a_difference_is_as_it_was_where_a_side_has_nothing(window):

@@ -9,9 +9,9 @@ from shiboken6 import isValid
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.files.session import last_session
-from p2sf_explorer.files.session_keeper import Keeping
+from p2sf_explorer.files.session_keeper import SessionKeeper
 from p2sf_explorer.panels import GROUPS, REGISTRY
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State, state_from_json, state_to_json
 
 TABS = [entry for entry in REGISTRY if entry.place != "main"]
@@ -128,7 +128,7 @@ def test_keys_go_on_to_the_panel_that_comes_to_the_front_by_itself(window):
 
 
 def test_a_panel_behind_its_tab_goes_with_its_window(qapp):
-    made = Window(State(method="seidel", theme="light", tab="mtf"), measured=False)
+    made = MainWindow(State(method="seidel", theme="light", tab="mtf"), measured=False)
     made.open_panel("profiles")
     behind = made.panels["mtf"].widget
     made.close()
@@ -204,12 +204,12 @@ def test_own_windows_stand_where_they_stood_when_opened_again_and_at_the_next_st
     window.store.update(windows=())
     window.store.update(windows=("mtf",))
     assert window.floating.open["mtf"].size() == QSize(433, 377)
-    keeping = Keeping(window, {})
+    keeping = SessionKeeper(window, {})
     keeping.keep()
     window.floating.open["mtf"].resize(800, 600)
     state, geometry = last_session()
     assert state.windows == ("mtf",)
-    again = Keeping(window, geometry)
+    again = SessionKeeper(window, geometry)
     assert window.floating.open["mtf"].size() == QSize(433, 377)
     for filtering in (keeping, again):
         window.removeEventFilter(filtering)

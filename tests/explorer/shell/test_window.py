@@ -120,10 +120,10 @@ def test_the_infinity_button(window, qtbot):
 
 def test_focus_follows_the_source(window):
     window.store.update(depth_mm=2000.0)
-    assert abs(float(window.live.setting.coefficients.wd)) > 10
+    assert abs(float(window.live.setup.coefficients.wd)) > 10
     assert any("10 λ" in sentence for sentence in window.live.warnings)
     window.store.update(focus_mm=2000.0)
-    assert abs(float(window.live.setting.coefficients.wd)) < 1e-6  # sensor at this depth's own image: round-off
+    assert abs(float(window.live.setup.coefficients.wd)) < 1e-6  # sensor at this depth's own image: round-off
     assert not any("10 λ" in sentence for sentence in window.live.warnings)
 
 
@@ -171,7 +171,7 @@ def test_seidel_bars_add_up_to_the_coefficients(window):
     window.open_panel("seidel")
     waves = window.live.views["seidel"].waves
     for name, column in waves.items():
-        assert column.sum() == pytest.approx(float(getattr(window.live.setting.coefficients, name)), abs=1e-9)
+        assert column.sum() == pytest.approx(float(getattr(window.live.setup.coefficients, name)), abs=1e-9)
 
 
 def test_light_and_dark(window):

@@ -14,7 +14,7 @@ from p2sf_explorer.charts.painting import set_text
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.reference import measure
-from p2sf_explorer.compute.setup import setting
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.panels import REGISTRY, view_of
 from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.state import State
@@ -26,7 +26,7 @@ FIELD = State(method="fitted", field_deg=7.0)
 
 
 def six(state) -> dict[str, float]:
-    found = setting(state).coefficients
+    found = paraxial_setup(state).coefficients
     return {term: float(getattr(found, term)) for term in TERMS}
 
 
@@ -52,11 +52,11 @@ def test_a_free_pupil_knows_no_lens():
 @pytest.mark.parametrize("changes", [{"added_waves": (0.0, 0.5, 0.0, 0.0, 0.0, 0.0)}, {"muted": ("w40",)}])
 def test_the_picture_is_of_the_altered_six_whatever_the_method(changes):
     live = compute.live(replace(FIELD, **changes))
-    expected = seidel_psf(live.setting.coefficients, *live.psf.values.shape[:1], live.psf.pixel_um, "settled")
+    expected = seidel_psf(live.setup.coefficients, *live.psf.values.shape[:1], live.psf.pixel_um, "settled")
     assert live.psf.method == "seidel"
     assert np.array_equal(live.psf.values, expected.values)
     # RMS over a square grid of 96 samples across against the exact integral: the edge's staircase leaves a percent.
-    assert live.pupil.rms == pytest.approx(float(rms(live.setting.coefficients, tilt_removed=False)), rel=0.02)
+    assert live.pupil.rms == pytest.approx(float(rms(live.setup.coefficients, tilt_removed=False)), rel=0.02)
     assert "coefficients altered by hand" in live.warnings[0]
     with pytest.raises(SamplingError, match="does not apply"):
         measure(live, False, None, None)
@@ -118,7 +118,7 @@ def test_coma_moves_the_peak_along_the_field_and_keeps_left_and_right_alike():
 
 def test_best_focus_of_spherical_has_a_sixteenth_of_the_variance():
     shown = [State(**of_preset(p)) for p in PRESETS if p.title.startswith("Spherical, 1 λ")]
-    paraxial, best, marginal = (float(rms(setting(state).coefficients)) for state in shown)
+    paraxial, best, marginal = (float(rms(paraxial_setup(state).coefficients)) for state in shown)
     assert best == pytest.approx(paraxial / 4)  # 4/45 against 1/180 waves² (Mahajan 1991, table 2-1)
     assert marginal == pytest.approx(paraxial)
 
@@ -131,7 +131,7 @@ def test_autofocus_refuses_where_the_sensor_moves_nothing(changes):
 
 def test_autofocus_of_altered_coefficients_balances_them():
     state = State(muted=("w31", "w22", "w20"), field_deg=5.0)
-    best = setting(replace(state, sensor_shift_um=best_shift_um(state))).coefficients
+    best = paraxial_setup(replace(state, sensor_shift_um=best_shift_um(state))).coefficients
     assert float(best.wd) == pytest.approx(-float(best.w40), abs=0.02)  # the shift is rounded to a nanometre
 
 

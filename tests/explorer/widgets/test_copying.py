@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.i18n.language import speak
+from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.shell.report import SHARES, fields, write_report
 from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.state.state import State
@@ -135,11 +135,11 @@ def test_the_picture_on_the_clipboard_is_the_panel(window, qtbot):
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_the_report_is_one_page_of_a4_with_drawing_numbers_and_pictures(qapp, tmp_path, language):
     state = State(method="seidel", f_number=8.0)
-    speak(language)
+    set_language(language)
     try:
         write_report(state, str(tmp_path / "page.pdf"))
     finally:
-        speak("en")
+        set_language("en")
     document = (tmp_path / "page.pdf").read_bytes()
     assert document.startswith(b"%PDF-")
     assert len(re.findall(rb"/Type\s*/Page\b", document)) == 1

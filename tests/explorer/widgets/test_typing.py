@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from p2sf.paraxial.first_order import image_distance
 from p2sf_explorer.compute.quantities import BEYOND, FOCUS
 from p2sf_explorer.compute.ranges import file_focus
-from p2sf_explorer.compute.setup import load, ranges, setting
+from p2sf_explorer.compute.setup import load, paraxial_setup, ranges
 from p2sf_explorer.state.state import State
 
 
@@ -16,7 +16,7 @@ def shown(state: State) -> str:
 
 def test_a_sensor_nearer_than_the_image_of_infinity_does_not_read_as_focused_there():
     own, far = State(lens="cooke_triplet"), State(lens="cooke_triplet", focus_mm=float("inf"))
-    assert setting(own).lens.sensor_mm < setting(far).lens.sensor_mm - 0.1
+    assert paraxial_setup(own).lens.sensor_mm < paraxial_setup(far).lens.sensor_mm - 0.1
     assert (shown(own), shown(far)) == (BEYOND, "∞")
     assert shown(State(lens="double_gauss_28")) == "∞"  # its sensor is 1 µm off, as six digits have it
 

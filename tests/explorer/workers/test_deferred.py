@@ -14,7 +14,7 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import Filling, huygens_psf
-from p2sf_explorer.compute.deferred_sums import KEPT, MOST_NODES, Asked, Done
+from p2sf_explorer.compute.deferred_sums import KEPT, MOST_NODES, SumCache, SumRequest
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.pinning import optics
@@ -27,7 +27,7 @@ WIDE = replace(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_
 
 @pytest.fixture
 def window(window):
-    window.settling.done = Done()
+    window.settling.cache = SumCache()
     return window
 
 
@@ -53,16 +53,16 @@ def test_a_slow_sum_is_never_made_by_the_thread_that_paints(window, qtbot, monke
     """The picture that stands in says what follows."""
     with noted(monkeypatch) as threads:
         window.store.replace(state)
-        assert window.live.owed and window.live.psf.method != state.method
+        assert window.live.pending and window.live.psf.method != state.method
         assert window.live.why == f"{state.method} follows: its sum of waves takes a moment"
-        qtbot.waitUntil(lambda: window.live.owed is None, timeout=20_000)
+        qtbot.waitUntil(lambda: window.live.pending is None, timeout=20_000)
         assert threads and get_ident() not in threads
     assert window.live.psf.method == "traced"
 
 
 def test_what_follows_is_what_waiting_would_have_given(window, qtbot):
     window.store.replace(WIDE)
-    qtbot.waitUntil(lambda: window.live.owed is None, timeout=20_000)
+    qtbot.waitUntil(lambda: window.live.pending is None, timeout=20_000)
     waited = live(WIDE).psf
     assert window.live.psf.method == waited.method
     np.testing.assert_array_equal(window.live.psf.values, waited.values)
@@ -70,45 +70,45 @@ def test_what_follows_is_what_waiting_would_have_given(window, qtbot):
 
 def test_what_stands_in_has_the_size_of_what_follows():
     """So that A − B finds the same samples."""
-    stand_in = live(CORNER, done=Done())
-    assert stand_in.owed.window == (stand_in.psf.values.shape[-1], stand_in.psf.pixel_um)
+    stand_in = live(CORNER, cache=SumCache())
+    assert stand_in.pending.window == (stand_in.psf.values.shape[-1], stand_in.psf.pixel_um)
 
 
 def test_a_sum_nobody_waits_for_any_more_is_not_shown(window, qtbot, monkeypatch):
     gate = Event()
     with noted(monkeypatch, gate):
         window.store.replace(replace(WIDE, field_deg=12.0))
-        first = window.live.owed
+        first = window.live.pending
         window.store.update(field_deg=13.0)
-        second = window.live.owed
+        second = window.live.pending
         gate.set()
-        qtbot.waitUntil(lambda: window.live.owed is None, timeout=20_000)
-        assert first != second and window.settling.done.get(second)
+        qtbot.waitUntil(lambda: window.live.pending is None, timeout=20_000)
+        assert first != second and window.settling.cache.get(second)
         with noted(monkeypatch) as threads:
             window.store.update(psf_scale="log")
             QApplication.processEvents()
-        assert window.live.owed is None and not threads, "what is done is not summed again"
+        assert window.live.pending is None and not threads, "what is done is not summed again"
 
 
 def test_a_sum_that_fails_says_so_and_nobody_waits_for_it(window, qtbot, monkeypatch):
     """The banner goes with the next answer; the column beside the picture says from then on why it stands in."""
 
-    def fail(owed, cancelled):
+    def fail(pending, cancelled):
         raise GeometryError("no ray passes; stop down.")
 
     monkeypatch.setattr(settling, "by_rays", fail)
     window.store.replace(WIDE)
     with qtbot.waitSignal(window.settling.worker.failed):
-        assert window.live.owed
+        assert window.live.pending
     assert window.banner.isVisible() and "stop down" in window.banner.text.text()
     monkeypatch.undo()
     window.store.update(psf_scale="log")
-    assert window.live.owed is None and not window.settling.worker.busy, "it would fail again"
+    assert window.live.pending is None and not window.settling.worker.busy, "it would fail again"
     assert window.live.psf.method != "huygens" and window.live.why == "No ray passes; stop down."
 
 
 def test_a_failure_nobody_waits_for_is_not_told(window):
-    window.settling.worker.failed.emit(live(CORNER, done=Done()).owed, "nothing to say.")
+    window.settling.worker.failed.emit(live(CORNER, cache=SumCache()).pending, "nothing to say.")
     assert not window.banner.isVisible()
 
 
@@ -116,12 +116,12 @@ def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch)
     """There and back at once: the first sum is stopped while its like waits behind it."""
     gate, ready, sums = Event(), live(State(method="seidel")).psf, []
 
-    def stoppable(owed, cancelled):
+    def stoppable(pending, cancelled):
         gate.wait(20)
         sums.append(cancelled())
         if cancelled():
             raise Cancelled("stopped")
-        return replace(ready, method="huygens", pixel_um=owed.window[1])
+        return replace(ready, method="huygens", pixel_um=pending.window[1])
 
     said = []
     monkeypatch.setattr(settling, "by_rays", stoppable)
@@ -130,7 +130,7 @@ def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch)
     window.store.update(field_deg=13.0)
     window.store.undo()
     gate.set()
-    qtbot.waitUntil(lambda: window.live.owed is None, timeout=20_000)
+    qtbot.waitUntil(lambda: window.live.pending is None, timeout=20_000)
     assert sums == [True, False] and said == []
 
 
@@ -138,16 +138,16 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
     """B's answer is kept while A moves, yet not the one that stood in for it."""
     ready, sums = live(State(method="seidel")).psf, []
 
-    def counted(owed, cancelled):
-        sums.append(owed)
+    def counted(pending, cancelled):
+        sums.append(pending)
         assert len(sums) < 4, "round and round"
-        values = np.full((owed.window[0],) * 2, owed.window[0] ** -2.0, np.float32)
-        return replace(ready, method="huygens", values=values, pixel_um=owed.window[1])
+        values = np.full((pending.window[0],) * 2, pending.window[0] ** -2.0, np.float32)
+        return replace(ready, method="huygens", values=values, pixel_um=pending.window[1])
 
     monkeypatch.setattr(settling, "by_rays", counted)
     window.store.replace(replace(FIRST, pinned=State(**optics(WIDE))))
-    assert window._answers.owed == window._answers.b.owed is not None
-    qtbot.waitUntil(lambda: not (window.settling.worker.busy or window._answers.owed), timeout=20_000)
+    assert window._answers.pending == window._answers.b.pending is not None
+    qtbot.waitUntil(lambda: not (window.settling.worker.busy or window._answers.pending), timeout=20_000)
     assert window._answers.b.psf.method == "huygens" and len(sums) == 1
 
 
@@ -157,24 +157,24 @@ def test_what_is_summed_at_once_is_small(method):
     for name in ("fast_gauss_f14", "telephoto", "landscape"):
         for shift in (0.0, 100.0, 300.0, 900.0):
             state = replace(with_lens(State(), name), method=method, sensor_shift_um=shift)
-            answer = live(state, done=Done())
-            assert answer.owed or answer.psf.rays <= 2 * MOST_NODES[method]
+            answer = live(state, cache=SumCache())
+            assert answer.pending or answer.psf.rays <= 2 * MOST_NODES[method]
 
 
 def test_the_latest_sums_are_kept_and_no_more():
-    done, psf = Done(), live(State(method="seidel"), "preview").psf
-    asks = [Asked(None, None, "traced", (8, float(number)), 0.99, False) for number in range(KEPT + 2)]
+    cache, psf = SumCache(), live(State(method="seidel"), "preview").psf
+    asks = [SumRequest(None, None, "traced", (8, float(number)), 0.99, False) for number in range(KEPT + 2)]
     for each in asks:
-        done.keep(each, psf)
-    assert [each for each in asks if done.get(each)] == asks[2:]
-    assert done.version == KEPT + 2
+        cache.keep(each, psf)
+    assert [each for each in asks if cache.get(each)] == asks[2:]
+    assert cache.version == KEPT + 2
 
 
 def test_what_moves_where_rims_clip_resembles_the_exact_picture():
     """A yes or no at each node leaves a ragged edge; without the rims R² is far lower."""
-    seen = live(CORNER, "preview", done=Done())
+    seen = live(CORNER, "preview", cache=SumCache())
     assert seen.psf.method == "fitted" and "rims" in seen.psf.sampling
-    lens, source, window = seen.setting.lens, seen.setting.source, (64, seen.psf.pixel_um)
+    lens, source, window = seen.setup.lens, seen.setup.source, (64, seen.psf.pixel_um)
     exact, whole = (huygens_psf(lens, source, *window, None, filling=Filling(clip=clip)) for clip in (True, False))
     alike, unlike = (r_squared(seen.psf.values, x.values) for x in (exact, whole))
     assert alike > 0.97 > unlike
@@ -183,8 +183,8 @@ def test_what_moves_where_rims_clip_resembles_the_exact_picture():
 def test_a_slow_rung_of_every_lens_has_something_that_stands_in():
     for name in shipped_lenses():
         state = replace(with_lens(State(), name), method="traced", clip=True)
-        answer = live(state, done=Done())
-        assert answer.owed or answer.psf.method == "geometric"
+        answer = live(state, cache=SumCache())
+        assert answer.pending or answer.psf.method == "geometric"
         assert np.isfinite(answer.psf.values).all() and answer.psf.values.sum() == pytest.approx(1.0)
 
 

@@ -10,7 +10,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.reference import Accuracy, measure
 from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.panels.accuracy import anchors
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.scales import written_r_squared
 from p2sf_explorer.state.state import State
 from p2sf_explorer.workers.live_accuracy import fits
@@ -19,7 +19,7 @@ from p2sf_explorer.workers.live_accuracy import fits
 @pytest.fixture
 def measured(qapp, qtbot):
     configure_plots()
-    made = Window(State(method="seidel", theme="light", field_deg=0.0, f_number=8.0, tab="accuracy"))
+    made = MainWindow(State(method="seidel", theme="light", field_deg=0.0, f_number=8.0, tab="accuracy"))
     made.show()
     yield made
     made.close()
@@ -29,11 +29,11 @@ def test_the_badge_and_the_ladder_arrive_by_themselves(measured, qtbot):
     badge = measured.panels["psf"].badge
     qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
     known = measured.measuring._last
-    rungs = {rung.method: rung for rung in known.rungs}
-    assert set(rungs) == {"gaussian", "seidel", "fitted", "traced", "huygens"}
-    assert rungs["fitted"].r_squared >= 0.998  # the rung's promise on every row
-    assert rungs["traced"].r_squared >= 0.9999
-    assert known.r_squared == pytest.approx(rungs["seidel"].r_squared, abs=1e-4)  # settled against its own repeat
+    results = {method.method: method for method in known.results}
+    assert set(results) == {"gaussian", "seidel", "fitted", "traced", "huygens"}
+    assert results["fitted"].r_squared >= 0.998  # the method's promise on every row
+    assert results["traced"].r_squared >= 0.9999
+    assert known.r_squared == pytest.approx(results["seidel"].r_squared, abs=1e-4)  # settled against its own repeat
     assert "vs Huygens" in measured.panels["accuracy"].message.text()
 
 
@@ -41,7 +41,7 @@ def test_the_panel_in_a_window_of_its_own_is_told_whatever_tab_is_in_front(measu
     measured.store.update(tab="mtf", windows=("accuracy",), field_deg=1.0)
     message = measured.panels["accuracy"].message
     qtbot.waitUntil(lambda: "vs Huygens" in message.text() and "earlier" not in message.text(), timeout=30000)
-    assert measured.measuring._last.live.state.field_deg == 1.0 and measured.measuring._last.rungs
+    assert measured.measuring._last.live.state.field_deg == 1.0 and measured.measuring._last.results
 
 
 def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
@@ -50,9 +50,9 @@ def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
     for method in ("seidel", "fitted"):
         shown = live(State(method=method, field_deg=10.0, wavelength_nm=656.3, f_number=4.0))
         accuracy = measure(shown, True, Event(), lambda part: None)
-        rungs = {rung.method: rung.r_squared for rung in accuracy.rungs}
-        assert accuracy.r_squared == pytest.approx(rungs[method], abs=1e-12)
-        found[method] = shown.psf.pixel_um, rungs
+        results = {method.method: method.r_squared for method in accuracy.results}
+        assert accuracy.r_squared == pytest.approx(results[method], abs=1e-12)
+        found[method] = shown.psf.pixel_um, results
     assert found["seidel"][0] != found["fitted"][0], "the state no longer tells one window from two"
     assert found["seidel"][1] == pytest.approx(found["fitted"][1], abs=1e-12)
 

@@ -483,14 +483,14 @@
 <message><source>{rows} × {columns} nodes</source><translation>{rows} × {columns} Knoten</translation></message>
 <message><source>Points {depth} away blur over {wide}, which takes {side}² samples of {most}² at most; bring the depths nearer to the focus or stop down</source><translation>Punkte in {depth} verschwimmen über {wide}, das braucht {side}² Abtastwerte von höchstens {most}²; die Abstände näher an den Fokus bringen oder abblenden</translation></message>
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
-<message><source>fewer of the dearest rung with the others in between would cost no less</source><translation>weniger davon auf der teuersten Stufe mit den übrigen dazwischen kosteten nicht weniger</translation></message>
+<message><source>fewer of the dearest method with the others in between would cost no less</source><translation>weniger davon auf der teuersten Stufe mit den übrigen dazwischen kosteten nicht weniger</translation></message>
 <message><source>heights × depths in each wavelength: {heights} × {depths}; the others of {count} lie on polynomials through them</source><translation>Höhen × Abstände je Wellenlänge: {heights} × {depths}; die übrigen von {count} liegen auf Polynomen durch diese</translation></message>
 <message><source>kernels in the middle of a cell are then the mean of its corners</source><translation>Kerne mitten in einer Zelle sind dann das Mittel ihrer Ecken</translation></message>
 <message><source>defocus grows with 1/distance, so nodes stand at equal steps of it</source><translation>die Defokussierung wächst mit 1/Abstand, daher stehen die Knoten in gleichen Schritten davon</translation></message>
 <message><source>at the corner {count} phase terms stay below {waves} waves RMS together, the strongest (n={n}, m={m}) has {most} waves</source><translation>in der Ecke bleiben {count} Phasenterme zusammen unter {waves} Wellen RMS, der stärkste (n={n}, m={m}) hat {most} Wellen</translation></message>
 <message><source>at the corner {count} phase terms stay below {waves} waves RMS together</source><translation>in der Ecke bleiben {count} Phasenterme zusammen unter {waves} Wellen RMS</translation></message>
 <message><source>{count} kept</source><translation>{count} behalten</translation></message>
-<message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper rung does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
+<message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
 <message><source>pixels of {pixel} µm average finer fringes; the window has a margin of {margin}</source><translation>Pixel von {pixel} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin}</translation></message>
 <message><source>PSF, √</source><translation>PSF, √</translation></message>
@@ -753,8 +753,8 @@
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>the blur is too large for a reference here; bring focus and source together to see waves</source><translation>die Unschärfe ist hier zu groß für eine Referenz; Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
 <message><source>the blur is too large for a reference here; stop down or go nearer the axis to see waves</source><translation>die Unschärfe ist hier zu groß für eine Referenz; abblenden oder näher an die Achse gehen, um Wellen zu sehen</translation></message>
-<message><source>{rung} follows: its sum of waves takes a moment</source><translation>{rung} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
-<message><source>fitted while the slider moves, {rung} when it rests</source><translation>fitted, solange der Regler sich bewegt, {rung}, wenn er ruht</translation></message>
+<message><source>{method} follows: its sum of waves takes a moment</source><translation>{method} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
+<message><source>fitted while the slider moves, {method} when it rests</source><translation>fitted, solange der Regler sich bewegt, {method}, wenn er ruht</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
 <message><source>reference from {count} rays, {seconds} s</source><translation>Referenz aus {count} Strahlen, {seconds} s</translation></message>
 <message><source>Surface {number} has a clear semi-diameter of {rim} mm, but its radius of {radius} mm ends it at {edge} mm; correct one of the two.</source><translation>Fläche {number} hat einen freien Halbmesser von {rim} mm, aber ihr Radius von {radius} mm lässt sie bei {edge} mm enden; eines von beiden berichtigen.</translation></message>
