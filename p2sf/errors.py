@@ -1,8 +1,23 @@
 """The failures a user can cause, each one sentence: what is wrong, where, the value, what to do."""
 
+from p2sf.messages import Message, ParameterName
+
 
 class P2SFError(ValueError):
-    """Any failure that a user's input can cause."""
+    """Any failure that a user's input can cause.
+
+    ``P2SFError("{parameter} is {value:g} mm; give a positive number", parameter="depth_mm", value=-1)``: ``message`` is
+    the sentence as data (`p2sf.messages`), ``str`` of the error is it in plain English. ``parameter`` is the Python
+    name of what is wrong; whoever shows the sentence puts the flag or the control in its place.
+    """
+
+    def __init__(self, template: str | Message, /, *, parameter: str = "", **values: object):
+        named = {"parameter": ParameterName(parameter)} if parameter else {}
+        self.message = template if isinstance(template, Message) else Message(template, **named, **values)
+        super().__init__(self.message)
+
+    def __str__(self) -> str:
+        return str(self.message)
 
 
 class GlassError(P2SFError):
@@ -32,10 +47,23 @@ class Cancelled(P2SFError):
 class LensFileError(P2SFError):
     """A lens file that cannot be read; ``path`` and ``line`` (from 1, None if unknown) say where."""
 
-    def __init__(self, message: str, path: str = "", line: int | None = None):
-        place = f"{path}, line {line}: " if line else f"{path}: " if path else ""
-        super().__init__(place + message)
+    def __init__(
+        self,
+        template: str | Message,
+        /,
+        path: object = "",
+        line: int | None = None,
+        *,
+        parameter: str = "",
+        **values: object,
+    ):
+        super().__init__(template, parameter=parameter, **values)
         self.path, self.line = str(path), line
+        if line:
+            self.message = Message("{path}, line {line}: {message}", path=self.path, line=line, message=self.message)
+        elif path:
+            self.message = Message("{path}: {message}", path=self.path, message=self.message)
+        self.args = (self.message,)
 
 
 class DatabaseError(P2SFError):

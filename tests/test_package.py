@@ -10,7 +10,8 @@ from tests.support.interpreter import loaded_by
 ROOT = Path(__file__).parents[1]
 # A folder imports from those on the lines above its own and from itself.
 LAYERS = (
-    "p2sf.conventions p2sf.errors",
+    "p2sf.conventions p2sf.messages p2sf.parameters",
+    "p2sf.errors",
     "p2sf.files p2sf.glass p2sf.colour p2sf.pupil",
     "p2sf.lens",
     "p2sf.paraxial",

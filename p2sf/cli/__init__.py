@@ -6,8 +6,11 @@ from collections.abc import Sequence
 
 from p2sf import __version__
 from p2sf.errors import P2SFError
+from p2sf.messages import Style
+from p2sf.parameters import flag
 
 FAILED, INTERRUPTED = 2, 130
+STYLE = Style(parameter=flag)
 COMMANDS = {
     "info": ("first_order:info", "First-order data of a lens: focal and principal points, stop, pupils, image."),
     "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
@@ -44,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except CycloptsError as error:
         return _fail(_usage(error))
     except P2SFError as error:
-        return _fail(str(error))
+        return _fail(error.message.text(STYLE))
     except BrokenPipeError:
         _forget_output()  # the reader, such as `head`, has seen enough
         return 0

@@ -2,6 +2,11 @@
 
 import re
 
+from p2sf.errors import P2SFError
+from p2sf.messages import Message, Style
+from p2sf.parameters import control
+from p2sf_explorer.i18n.tr import tr
+
 NAMES = {
     "depth-mm": "Depth",
     "focus-mm": "Focus distance",
@@ -26,3 +31,19 @@ def spoken(sentence: str) -> str:
     plain = INFINITE.sub(lambda found: ("−" if found[1] else "") + "∞", named)
     plain = re.sub(r"(?<![\w-])-(?=\d)", "−", plain)
     return plain[:1].upper() + plain[1:]
+
+
+def number(written: str) -> str:
+    """Return a number as Python writes it, such as "-0.5" or "inf", as the window's language does."""
+    separator = tr("decimal separator")
+    plain = written.replace("inf", "∞").replace("-", "−")
+    return plain.replace(".", separator) if separator != "decimal separator" else plain
+
+
+WINDOW = Style(translate=tr, parameter=lambda name: tr(control(name)), number=number)
+
+
+def said(message: Message | P2SFError) -> str:
+    """Return a message, or an error's, as the window says it: its language, its numbers, the names on its controls."""
+    words = (message.message if isinstance(message, P2SFError) else message).text(WINDOW)
+    return words[:1].upper() + words[1:]

@@ -537,6 +537,7 @@
 <message><source>cycles per mm on the sensor</source><translation>Perioden je mm auf dem Sensor</translation></message>
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
 <message><source>defocus</source><translation>Defokus</translation></message>
+<message><source>decimal separator</source><translation>,</translation></message>
 <message><source>depth, even in 1/depth</source><translation>Abstand, gleichmäßig in 1/Abstand</translation></message>
 <message><source>difference, share of the reference's peak</source><translation>Differenz, Anteil der Spitze der Referenz</translation></message>
 <message><source>distance from the chief ray, µm</source><translation>Entfernung vom Hauptstrahl, µm</translation></message>
