@@ -7,7 +7,7 @@ import numpy as np
 from p2sf.image.form import Forming, form_image
 from p2sf.lens.lens import Lens
 from p2sf.pixel_kernels import Recipe
-from p2sf.scene.bounds import refuse_colours
+from p2sf.scene.bounds import check_colours
 from p2sf.scene.cost import Cost
 from p2sf.scene.plan import Plan
 from p2sf.scene.scene import Scene
@@ -26,7 +26,7 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
     One wavelength a channel, 26 numbers a pencil, 3 × 3 nodes, pixels averaged in blocks: no promise, as a plan gives.
     """
     camera = scene.camera(lens)
-    refuse_colours(camera, scene)
+    check_colours(camera, scene)
     times = -(-max(scene.sensor.rows, scene.sensor.columns) // LONGEST)
     coarse = replace(scene, sensor=_coarser(scene.sensor, times), depth_map=None)
     if depth_mm is not None:

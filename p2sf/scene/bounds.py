@@ -1,32 +1,34 @@
-"""Refusing at once a scene whose colours no glass knows or whose blur no transform holds; measuring takes minutes."""
+"""Checks made before a plan is measured, which takes minutes: wavelengths without glass data, blurs too wide."""
 
 from math import ceil, isinf
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GlassError, SamplingError
 from p2sf.lens.lens import Lens
+from p2sf.messages import Message
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
 from p2sf.scene.scene import Scene, depth_of
 from p2sf.scene.study import SAMPLINGS, Study
 
 
-def refuse_colours(lens: Lens, scene: Scene) -> None:
-    """Raise GlassError where a glass has no data for a wavelength of the scene, and name that.
+def check_colours(lens: Lens, scene: Scene) -> None:
+    """Raise GlassError, naming the wavelength, where a glass has no data for a wavelength of the scene.
 
-    Fewer wavelengths stand for a channel later, and none of these may be one that a person gave.
+    A plan may replace a channel's wavelengths by fewer others, so an error found later could name a wavelength that
+    nobody asked for.
     """
     for channel in scene.channels:
         for medium in lens.media:
             try:
                 medium.index(channel.wavelengths_um)
             except GlassError as error:
-                raise GlassError(f"channel {channel.name}: {error}") from error
+                raise GlassError("channel {channel}: {error}", channel=channel.name, error=error) from error
 
 
-def refuse_wide(study: Study) -> None:
-    """Raise SamplingError unless the finest sampling of the widest blurs can be transformed, as planning will ask.
+def check_blur(study: Study) -> None:
+    """Raise SamplingError where the finest sampling that a plan may ask for exceeds the largest transform.
 
-    Blurs are widest at one end of the depths, and have most samples in the bluest colour.
+    Blurs are widest at one end of the depths, and the shortest wavelength needs the most samples.
     """
     wave = min(study.waves)
     for vergence in study.scene.vergences(2)[::-1]:
@@ -34,10 +36,13 @@ def refuse_wide(study: Study) -> None:
             side, size = finest_side(study, height, float(vergence), wave)
             if side > LARGEST_WINDOW:
                 depth = depth_of(vergence)
-                away = "∞" if isinf(depth) else f"{depth:.4g} mm"
                 raise SamplingError(
-                    f"points {away} away blur over {size / UM_PER_MM:.2g} mm, which takes {side}² "
-                    f"samples of {LARGEST_WINDOW}² at most; bring the depths nearer to the focus or stop down"
+                    "points {depth} away blur over {size:.2g} mm, which takes {side}² "
+                    "samples of {most}² at most; bring the depths nearer to the focus or stop down",
+                    depth=Message("∞") if isinf(depth) else Message("{depth:.4g} mm", depth=depth),
+                    size=size / UM_PER_MM,
+                    side=side,
+                    most=LARGEST_WINDOW,
                 )
 
 

@@ -5,13 +5,14 @@ from math import ceil
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels import SensorMap
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.pupil.transform import sum_plane_waves
-from p2sf.raytrace.fit import ray_data, steepness
 from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.ray_field import ray_data, steepness
 from p2sf.scene.scene import Channel
 
 PROBE = 12, 36
@@ -23,7 +24,8 @@ def reference_kernel(
 ) -> np.ndarray:
     """Return the light per pixel of the point that lands at (x, y) in all its wavelengths, unit sum, row 0 the top."""
     height, angle = float(np.hypot(x_mm, y_mm)), float(np.arctan2(x_mm, y_mm))
-    total = 0.0
+    size = 2 * half + 1
+    total = np.zeros((size, size))
     for wavelength, share in zip(channel.wavelengths_um, channel.shares, strict=True):
         source = seen.source(height, float(wavelength))
         shift = seen.shift_mm(height, float(wavelength)) * UM_PER_MM
@@ -31,7 +33,7 @@ def reference_kernel(
     return total
 
 
-def exact_pixels(lens, source: Source, angle: float, half: int, pixel_um: float, shift_um: float) -> np.ndarray:
+def exact_pixels(lens: Lens, source: Source, angle: float, half: int, pixel_um: float, shift_um: float) -> np.ndarray:
     """Return one wavelength's light per pixel; ``shift_um`` along the field's direction."""
     probe = disc_nodes(*PROBE)
     steep = steepness(ray_data(pencil(lens, source, probe.xi, probe.eta)), probe.xi, probe.eta)
@@ -48,7 +50,8 @@ def exact_pixels(lens, source: Source, angle: float, half: int, pixel_um: float,
     field = sum_plane_waves(amplitude, fx, fy, place, place, even=False)
     light = (field.real**2 + field.imag**2).reshape(size, len(share), size, len(share))
     pixels = np.einsum("aibj,i,j->ab", light, share, share)
-    return pixels[::-1] / pixels.sum()
+    image: np.ndarray = pixels[::-1] / pixels.sum()
+    return image
 
 
 def _pixel_points(size: int, pixel_um: float, spread: float) -> tuple[np.ndarray, np.ndarray]:

@@ -11,7 +11,7 @@ from p2sf.lens.lens import Lens
 from p2sf.request import Request, set_up
 from p2sf.scene.sensor import Sensor
 
-TIGHTEST = 3e-3  # relative error: below it stand the fits' own limits
+TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil keep no less
 
 
 @dataclass(frozen=True)
@@ -22,14 +22,18 @@ class Channel:
     wavelengths_nm: tuple[float, ...]
     weights: tuple[float, ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not self.wavelengths_nm or len(self.wavelengths_nm) != len(self.weights):
             raise RequestError(
-                f"channel {self.name} has {len(self.wavelengths_nm)} wavelengths and {len(self.weights)} weights; "
-                "give as many of both, at least one"
+                "channel {channel} has {waves} wavelengths and {weights} weights; give as many of both, at least one",
+                channel=self.name,
+                waves=len(self.wavelengths_nm),
+                weights=len(self.weights),
             )
         if not all(isfinite(w) and w > 0 for w in (*self.wavelengths_nm, *self.weights)):
-            raise RequestError(f"channel {self.name} has a wavelength or weight that is not positive; correct it")
+            raise RequestError(
+                "channel {channel} has a wavelength or weight that is not positive; correct it", channel=self.name
+            )
 
     @property
     def wavelengths_um(self) -> np.ndarray:
@@ -69,27 +73,36 @@ class Scene:
     depth_map: str | None = None
     name: str = "scene"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not 0 < self.near_mm <= self.far_mm:
             raise RequestError(
-                f"the scene reaches from {self.near_mm:g} mm to {self.far_mm:g} mm; "
-                "give positive depths, the near one first"
+                "the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first",
+                near=self.near_mm,
+                far=self.far_mm,
             )
         if self.measure not in ("relative", "r2"):
-            raise RequestError(f'the tolerance is measured as "{self.measure}"; choose "relative" or "r2"')
+            raise RequestError(
+                'the tolerance is measured as "{measure}"; choose "relative" or "r2"', measure=self.measure
+            )
         if not 0 < self.tolerance < 1:
-            raise RequestError(f"the tolerance is {self.tolerance:g}; give a number between 0 and 1")
+            raise RequestError(
+                "the tolerance is {tolerance:g}; give a number between 0 and 1", tolerance=self.tolerance
+            )
         if self.relative_tolerance < TIGHTEST:
             raise RequestError(
-                f"the tolerance of {self.tolerance:g} ({self.measure}) is tighter than the {TIGHTEST:g} relative error "
-                "that polynomial pupils can promise; loosen it or render single PSFs with --method huygens"
+                "the tolerance of {tolerance:g} ({measure}) is tighter than the {least:g} relative error "
+                "that polynomial pupils can promise; loosen it or render single PSFs with {parameter} huygens",
+                parameter="method",
+                tolerance=self.tolerance,
+                measure=self.measure,
+                least=TIGHTEST,
             )
         if not self.channels:
             raise RequestError("the scene has no channel; give at least one")
 
     @property
     def relative_tolerance(self) -> float:
-        """Return the tolerance as relative L2: √(1 − R²), less than which R² leaves for a kernel on a dark ground."""
+        """Return the tolerance as relative L2: √(1 − R²), which is the same for a small kernel on a dark ground."""
         return self.tolerance if self.measure == "relative" else sqrt(1 - self.tolerance)
 
     def vergences(self, count: int) -> np.ndarray:
@@ -98,10 +111,10 @@ class Scene:
         return np.array([(far + near) / 2]) if count == 1 else np.linspace(far, near, count)
 
     def camera(self, lens: Lens) -> Lens:
-        """Return the lens focused and stopped down as the scene has it."""
+        """Return the lens with the scene's focus and f-number."""
         return set_up(lens, Request(focus_mm=self.focus_mm, f_number=self.f_number)).lens
 
 
 def depth_of(vergence_per_mm: float) -> float:
-    """Return the depth in mm of a vergence; infinite for none."""
+    """Return the depth in mm of a vergence, inf for 0."""
     return inf if vergence_per_mm == 0 else 1 / float(vergence_per_mm)

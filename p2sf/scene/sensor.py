@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import hypot
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
@@ -20,16 +21,21 @@ class Sensor:
     pixel_um: float
     centre_mm: tuple[float, float] = (0.0, 0.0)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("rows", "columns"):
             if not 1 <= getattr(self, name) <= LARGEST_SIDE:
                 raise RequestError(
-                    f"sensor {name} is {getattr(self, name)}; give a whole number from 1 to {LARGEST_SIDE}"
+                    "sensor {name} is {count}; give a whole number from 1 to {most}",
+                    name=name,
+                    count=getattr(self, name),
+                    most=LARGEST_SIDE,
                 )
         if not 0 < self.pixel_um < 1e5:
-            raise RequestError(f"sensor pixel_um is {self.pixel_um:g} µm; give a positive pitch below 0.1 m")
+            raise RequestError(
+                "sensor pixel_um is {pitch:g} µm; give a positive pitch below 0.1 m", pitch=self.pixel_um
+            )
         if not np.isfinite(self.centre_mm).all():
-            raise RequestError(f"sensor centre_mm is {self.centre_mm}; give two finite numbers")
+            raise RequestError("sensor centre_mm is ({centre}); give two finite numbers", centre=tuple(self.centre_mm))
 
     @property
     def pixel_mm(self) -> float:
@@ -38,16 +44,18 @@ class Sensor:
 
     @property
     def centred(self) -> bool:
-        """Return whether the axis goes through the middle, so that every quarter is the same but for a mirror."""
+        """Return whether the axis goes through the middle, so that the quarters are mirror images of each other."""
         return self.centre_mm == (0.0, 0.0)
 
-    def x_mm(self, column):
-        """Return how far columns (from 0, fractions allowed) lie from the axis, mm to the right."""
-        return (np.asarray(column) - (self.columns - 1) / 2) * self.pixel_mm + self.centre_mm[0]
+    def x_mm(self, column: ArrayLike) -> np.ndarray:
+        """Return how far columns (from 0, fractions allowed) lie from the axis, mm to the right; shape kept."""
+        x: np.ndarray = (np.asarray(column) - (self.columns - 1) / 2) * self.pixel_mm + self.centre_mm[0]
+        return x
 
-    def y_mm(self, row):
-        """Return how far rows (from 0 at the top) lie from the axis, mm upwards."""
-        return ((self.rows - 1) / 2 - np.asarray(row)) * self.pixel_mm + self.centre_mm[1]
+    def y_mm(self, row: ArrayLike) -> np.ndarray:
+        """Return how far rows (from 0 at the top) lie from the axis, mm upwards; shape kept."""
+        y: np.ndarray = ((self.rows - 1) / 2 - np.asarray(row)) * self.pixel_mm + self.centre_mm[1]
+        return y
 
     def corners_mm(self) -> tuple[float, float]:
         """Return the least and the greatest distance of a pixel from the axis, mm."""

@@ -9,8 +9,8 @@ from p2sf.scene.scene import Channel
 def reduced(channel: Channel, count: int) -> Colour:
     """Return ``count`` wavelengths and weights whose moments up to 2·count − 1 are the channel's.
 
-    Lanczos on the given wavelengths, then the eigenvectors of the Jacobi matrix (Golub & Welsch 1969). All of
-    them are given back as they are when as many are asked for.
+    Lanczos on the given wavelengths, then the eigenvectors of the Jacobi matrix (Golub & Welsch 1969). Where
+    ``count`` is no less than their number, they are returned unchanged.
     """
     waves, shares = channel.wavelengths_um, channel.shares
     if count >= len(waves):
@@ -20,9 +20,11 @@ def reduced(channel: Channel, count: int) -> Colour:
     return Colour(tuple(nodes.tolist()), tuple(np.square(vectors[0]).tolist()))
 
 
-def _lanczos(values, start, count: int):
+def _lanczos(values: np.ndarray, start: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return diagonal and off-diagonal of the Jacobi matrix of diag(values) from this start vector."""
-    q, before, diagonal, beside = start / np.linalg.norm(start), 0.0, [], [0.0]
+    q, before = start / np.linalg.norm(start), np.zeros(len(start))
+    diagonal: list[float] = []
+    beside = [0.0]
     for _ in range(count):
         r = values * q
         diagonal.append(float(q @ r))

@@ -1,4 +1,4 @@
-"""A plan as a person reads it: one row a decision, and what it all costs."""
+"""A plan as text, in English, and as JSON: its decisions, its promise and its cost."""
 
 from p2sf.scene.plan import Plan
 
@@ -7,7 +7,7 @@ MEBIBYTE = 2.0**20
 
 def plan_rows(planned: Plan) -> list[tuple[str, str, str, str]]:
     """Return (what, choice, error, why) of every decision."""
-    return [(d.what, d.choice, f"{d.error:.2g}", d.why) for d in planned.decisions]
+    return [(str(d.what), str(d.choice), f"{d.error:.2g}", str(d.why)) for d in planned.decisions]
 
 
 def plan_sentences(planned: Plan) -> list[str]:
@@ -33,7 +33,10 @@ def plan_facts(planned: Plan) -> dict:
         "meets": planned.meets,
         "nodes": {"rows": planned.counts[0], "columns": planned.counts[1], "depths": len(planned.vergences)},
         "wavelengths_nm": [[1000 * w for w in colour.wavelengths_um] for colour in planned.colours],
-        "decisions": [vars(decision) for decision in planned.decisions],
+        "decisions": [
+            {"what": str(d.what), "choice": str(d.choice), "why": str(d.why), "error": d.error}
+            for d in planned.decisions
+        ],
         "cost": vars(planned.cost),
         "full_grid_cost": vars(planned.naive),
     }

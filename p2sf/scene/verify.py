@@ -1,4 +1,4 @@
-"""Holding a plan to its promise at random points, against exact rays summed without its approximations."""
+"""A plan checked at random points against exact rays summed without its approximations."""
 
 from dataclasses import dataclass
 from time import process_time
@@ -6,9 +6,10 @@ from time import process_time
 import numpy as np
 
 from p2sf.pixel_kernels.nodes import hats, nodes_along
+from p2sf.scene.nodes import weighted
 from p2sf.scene.plan import Plan
 from p2sf.scene.reference import reference_kernel
-from p2sf.scene.study import distance, widened
+from p2sf.scene.study import distance
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ def verify(planned: Plan, points: int = 5, seed: int = 0) -> Verdict:
     return Verdict(np.array([error for error, _ in found]), places, planned.scene.relative_tolerance, seconds)
 
 
-def _place(planned: Plan, random) -> tuple[float, float, float, int]:
+def _place(planned: Plan, random: np.random.Generator) -> tuple[float, float, float, int]:
     scene = planned.scene
     row, column = random.uniform(0, scene.sensor.rows - 1), random.uniform(0, scene.sensor.columns - 1)
     near, far = scene.vergences(2)[::-1]
@@ -59,22 +60,21 @@ def error_at(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: 
     half = max(own, kernel.shape[-1] // 2)
     sensor, channels = planned.scene.sensor, planned.scene.channels
     started = process_time()
-    good = reference_kernel(planned.sensor_map(vergence), channels[channel], x_mm, y_mm, half, sensor.pixel_um)
-    return distance(kernel, good), process_time() - started
+    reference = reference_kernel(planned.sensor_map(vergence), channels[channel], x_mm, y_mm, half, sensor.pixel_um)
+    return distance(kernel, reference), process_time() - started
 
 
 def planned_kernel(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: int) -> np.ndarray:
     """Return the kernel that image formation uses for a point: interpolated between nodes of field and depth."""
-    sensor, made = planned.scene.sensor, []
+    sensor = planned.scene.sensor
     row = (sensor.rows - 1) / 2 - (y_mm - sensor.centre_mm[1]) / sensor.pixel_mm
     column = (sensor.columns - 1) / 2 + (x_mm - sensor.centre_mm[0]) / sensor.pixel_mm
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), planned.counts, strict=True))
     weights = (hats(nodes, np.array([at]))[:, 0] for nodes, at in ((rows, row), (columns, column)))
     depth = hats(np.array(planned.vergences), np.array([vergence]))[:, 0]
     table = np.multiply.outer(depth, np.multiply.outer(*weights))
-    for k, a, b in zip(*np.nonzero(table), strict=True):
-        kernels = planned.kernels(channel, planned.vergences[k])
-        one = kernels.at(float(sensor.x_mm(columns[b])), float(sensor.y_mm(rows[a])))
-        made.append((table[k, a, b], one))
-    size = max(kernel.shape[-1] for _, kernel in made)
-    return sum(weight * widened(kernel, size) for weight, kernel in made)
+    kernels = [
+        planned.kernels(channel, planned.vergences[k]).at(float(sensor.x_mm(columns[b])), float(sensor.y_mm(rows[a])))
+        for k, a, b in zip(*np.nonzero(table), strict=True)
+    ]
+    return weighted(kernels, list(table[np.nonzero(table)]))

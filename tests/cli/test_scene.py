@@ -7,7 +7,7 @@ import pytest
 
 from p2sf.cli import main
 from p2sf.io.photo_files import read_photo, write_photo
-from p2sf.scene.study import RINGS
+from p2sf.scene.study import ZONES
 
 SCENE = """
 tolerance = 0.1
@@ -33,7 +33,7 @@ def test_a_plan_explains_itself(scene, capsys):
     assert main(["plan", "double_gauss_28", str(scene), "--check", "1", "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert facts["meets"] and facts["measured"]["kept"] and facts["predicted_error"] <= 0.1
-    assert len(facts["decisions"]) == RINGS + 5 + 3
+    assert len(facts["decisions"]) == ZONES + 5 + 3
 
 
 def test_a_plan_tells_its_progress_on_a_terminal(scene, capsys, monkeypatch):

@@ -8,7 +8,6 @@ import pytest
 from p2sf.errors import Cancelled, RequestError
 from p2sf.image import Forming, Progress, form_image, preview, with_noise
 from p2sf.image.charts import draw_chart
-from p2sf.image.direct import direct_sum
 from p2sf.image.form import blur
 from p2sf.image.geometry import distorted, distortion_px, illumination
 from p2sf.image.lattice import build_lattice
@@ -18,6 +17,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
 from p2sf.psf.huygens import huygens_psf
 from p2sf.scene import Channel, Scene, Sensor
+from tests.support.direct_sum import direct_sum
 
 SIDE, HALF = 128, 7
 GREEN = (Channel("green", (540.0,), (1.0,)),)
@@ -98,13 +98,13 @@ def quick(sensor: Sensor, lens="double_gauss_28", f_number=None):
 def test_the_slanted_edge_has_the_psfs_contrast():
     """Edge: the formed picture, binned along the edge to an eighth of a pixel, differentiated (ISO 12233).
 
-    PSF: the house's reference, its transform along the edge's normal. Between them stand two boxes a pixel wide,
+    PSF: the Huygens sum, its transform along the edge's normal. Between them stand two boxes a pixel wide,
     the chart's averaging and the sensor's, and the two of a bin.
     """
     size, pixel, angle, bins = 161, 5.0, np.deg2rad(5.0), 8
     sensor = Sensor(size, size, pixel, (0.0, 8.0))
     planned = quick(sensor, f_number=6.0)
-    planned = replace(planned, rings=((99.0, Recipe("fitted", 46, 4.0, 0.5)),))
+    planned = replace(planned, zones=((99.0, Recipe("fitted", 46, 4.0, 0.5)),))
     picture = form_image(planned, draw_chart("slanted_edge", size, size)[..., :1], how=Forming(geometry=False))
     inner = picture[30:-30, 20:-20, 0].astype(float)
     y, x = np.mgrid[30 : size - 30, 20 : size - 20] - size // 2

@@ -1,11 +1,12 @@
-"""Plans held to their promise over random scenes of every shipped lens: `python -m tests.long.plans [SCENES] [LENS …]`.
+"""Plans checked over random scenes of every shipped lens: `python -m tests.long.plans [SCENES] [LENS …]`.
 
-Each scene is planned, checked at random points against exact rays, and priced against the full grid, which is what a
-person would compute for the same error without a plan: one method everywhere, the cheapest that holds at the worst
-place, its own rays for every PSF; depth × rows × columns × every wavelength, as dense all over as the worst place asks;
-every fringe; all phase terms; one window, that of the widest blur; nothing from symmetry (`pricing.naive_work`). Both
-prices are printed as predicted and as measured (CPU seconds of making the kernels, of the full grid from a sample of
-them; chief rays, which both need alike, are traced before), and the reference sum's on the same grid beside them.
+Each scene is planned, checked at random points against exact rays, and its cost is compared with that of the full
+grid, which without a plan would have to be computed for the same error: one method everywhere, the cheapest that holds
+at the worst place, its own rays for every PSF; depth × rows × columns × every wavelength, as dense all over as the
+worst place asks; every fringe; all phase terms; one window, that of the widest blur; no use of symmetry
+(`pricing.naive_work`). Both costs are printed as predicted and as measured (CPU seconds of computing the kernels, for
+the full grid from a sample of them; chief rays, which both need alike, are traced before), and beside them the cost of
+the reference sum on the same grid.
 
 `python -m tests.long.plans` runs 20 scenes of all lenses, `python -m tests.long.plans 4 tessar relay` four of two; set
 OMP_NUM_THREADS=1 and OPENBLAS_NUM_THREADS=1, or a second thread counts as CPU time. At the end it prints the sums of
@@ -29,8 +30,8 @@ from p2sf.pixel_kernels import Colour, Kernels
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.psf.plane_waves import counts_for
 from p2sf.pupil.quadrature import disc_nodes
-from p2sf.raytrace.fit import ray_data, steepness
 from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.ray_field import ray_data, steepness
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan, verify
 from p2sf.scene.pricing import naive_recipe
 from p2sf.scene.reference import LEAST_POINTS, PROBE
@@ -128,7 +129,9 @@ def check_affordable(planned: Plan) -> None:
     points = size * max(LEAST_POINTS, ceil(np.pi * steep.spread * sensor.pixel_um) + 3)
     products = float(np.prod(counts_for(steep, size, sensor.pixel_um))) * points**2
     if products > AFFORDABLE:
-        raise GeometryError(f"its reference is a sum of {products:.0e} products; too long to be tried")
+        raise GeometryError(
+            "its reference is a sum of {products:.0e} products; too long to be tried", products=products
+        )
 
 
 def plan_seconds(planned: Plan) -> float:
@@ -147,7 +150,7 @@ def plan_seconds(planned: Plan) -> float:
 
 def naive_seconds(planned: Plan) -> float:
     """Return the CPU seconds of the full grid's kernels: SAMPLE of them made, times how many there are."""
-    sensor, recipe = planned.scene.sensor, naive_recipe(planned.rings)
+    sensor, recipe = planned.scene.sensor, naive_recipe(planned.zones)
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), planned.counts, strict=True))
     places = [(v, c, a, b) for v in planned.vergences for c in planned.scene.channels for a in rows for b in columns]
     ends, rim = (planned.vergences[0], planned.vergences[-1]), sensor.corners_mm()[1]
@@ -208,7 +211,7 @@ def main(arguments: list[str]) -> None:
         found = np.array([row[key] for row in rows])
         low, middle = np.percentile(found, [5, 50])
         print(f"{key}: median {middle:.1f}, 5th percentile {low:.1f}, at least 5 in {np.mean(found >= 5):.0%}")
-    print("dearer when looser:", sum(row["loosening_is_cheaper"] is False for row in rows))
+    print("costlier when looser:", sum(row["loosening_is_cheaper"] is False for row in rows))
     for name in dict.fromkeys(row["lens"] for row in rows):
         print(sums(name, [row for row in rows if row["lens"] == name]))
     print(sums("all", rows))

@@ -1,4 +1,4 @@
-"""A scene says what it tolerates, and its plan keeps it at the least price."""
+"""A scene states an error that is tolerable, and its plan keeps it at the least cost."""
 
 from dataclasses import replace
 from math import hypot
@@ -9,13 +9,15 @@ import pytest
 from p2sf.errors import GeometryError, GlassError, RequestError, SamplingError
 from p2sf.image import preview
 from p2sf.lensfile.library import find_lens
+from p2sf.messages import Message
 from p2sf.pixel_kernels import Kernels
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
-from p2sf.scene.bounds import refuse_wide
+from p2sf.scene.bounds import check_blur
 from p2sf.scene.reference import reference_kernel
-from p2sf.scene.sharing import FINE, few_heights, share_pupils
+from p2sf.scene.sharing import TARGET_ERROR, few_heights, share_pupils
 from p2sf.scene.spectrum import reduced
-from p2sf.scene.study import Study, distance, least
+from p2sf.scene.study import Study, distance, first_allowed
+from p2sf.scene.table import plan_rows
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 SCENE = """
@@ -54,10 +56,23 @@ def test_a_plan_without_what_it_decided_would_not(planned):
     assert not verify(replace(planned, vergences=planned.vergences[:1]), points=1, seed=1).kept
 
 
+def test_a_decision_is_data_until_it_is_shown(planned):
+    depth = next(decision for decision in planned.decisions if decision.kind == "depth")
+    assert depth.choice == Message("{count} nodes", count=len(planned.vergences))
+    assert plan_rows(planned)[planned.decisions.index(depth)][1] == f"{len(planned.vergences)} nodes"
+
+
 def test_every_decision_has_a_reason_and_an_error(planned):
-    kinds = {decision.what.split()[0] for decision in planned.decisions}
-    assert kinds == {"method", "terms", "sampling", "field", "depth", "colour", "pupils"}
-    assert all(len(d.why) > 20 and 0 <= d.error < 0.1 for d in planned.decisions)
+    assert {decision.kind for decision in planned.decisions} == {
+        "method",
+        "terms",
+        "sampling",
+        "field",
+        "depth",
+        "colour",
+        "pupils",
+    }
+    assert all(len(str(d.why)) > 20 and 0 <= d.error < 0.1 for d in planned.decisions)
     assert planned.naive.kernel_seconds > planned.cost.kernel_seconds
 
 
@@ -67,8 +82,7 @@ def test_a_plan_also_counts_what_planning_itself_interpolated(planned):
     share_pupils(study)
     largest = {}
     for decision in planned.decisions:
-        kind = decision.what.split()[0]
-        largest[kind] = max(largest.get(kind, 0.0), decision.error)
+        largest[decision.kind] = max(largest.get(decision.kind, 0.0), decision.error)
     decided = hypot(*largest.values())
     assert planned.predicted_error == pytest.approx(hypot(decided, study.tables_error), rel=1e-9)  # round-off
     assert study.tables_error > 1e-3 * decided, "less would not show"
@@ -86,7 +100,7 @@ def test_pupils_between_the_fitted_ones_cost_no_more_than_the_plan_says():
     for vergence in shared.vergences:
         one, other = (found.kernels(0, vergence) for found in (shared, each))
         worst = max(worst, *(distance(one.at(0.6 * h, 0.8 * h), other.at(0.6 * h, 0.8 * h)) for h in heights))
-    said = next(decision.error for decision in shared.decisions if decision.what == "pupils")
+    said = next(decision.error for decision in shared.decisions if decision.kind == "pupils")
     assert 0 < worst <= said <= 0.1 * scene.tolerance
 
 
@@ -105,7 +119,7 @@ def test_planning_interpolates_pupils_as_well_as_it_says():
     assert shared.tables and 0 < shared.tables_error < 2e-3
     wave, found = shared.reference_um, []
     for v in shared.scene.vergences(4):
-        found.append(distance(*(study.plain(float(v), 0.5, 0.9, wave) for study in (shared, own))))
+        found.append(distance(*(study.kernel(float(v), 0.5, 0.9, wave) for study in (shared, own))))
     assert 0 < max(found) <= shared.tables_error
 
 
@@ -117,9 +131,9 @@ def test_the_least_choice_is_the_first_that_holds_everywhere_whatever_was_asked_
         return place / (number + 1)
 
     places = [(1.0,), (2.0,), (8.0,), (3.0,)]
-    assert least(5, measure, places, 2.0) == (3, 2.0)
+    assert first_allowed(5, measure, places, 2.0) == (3, 2.0)
     assert asked[3:5] == [(1, 8.0), (2, 8.0)]  # once it failed there, it is asked first
-    assert least(2, measure, places, 2.0) == (1, 4.0)  # none holds: the last, with its own largest error
+    assert first_allowed(2, measure, places, 2.0) == (1, 4.0)  # none holds: the last, with its own largest error
 
 
 @pytest.mark.parametrize("lens", ["double_gauss_28", "tessar"])
@@ -198,7 +212,7 @@ def test_such_a_blur_of_a_far_end_is_told_with_the_sign_of_infinity(monkeypatch)
     monkeypatch.setattr("p2sf.scene.bounds.finest_side", lambda *_: (5000, 1e4))
     scene = Scene(Sensor(60, 90, 20.0), GREEN)
     with pytest.raises(SamplingError, match=r"^points ∞ away blur over 10 mm"):
-        refuse_wide(Study(scene.camera(find_lens("tessar")), scene))
+        check_blur(Study(scene.camera(find_lens("tessar")), scene))
 
 
 def test_a_colours_error_is_the_one_that_exact_rays_find_even_on_large_pixels():
@@ -207,7 +221,7 @@ def test_a_colours_error_is_the_one_that_exact_rays_find_even_on_large_pixels():
     scene = Scene(Sensor(280, 280, 10.3), (channel,), f_number=5.84)
     study = Study(scene.camera(find_lens("wide_angle_35")), scene)
     one = Channel("one", tuple(1000 * w for w in reduced(channel, 1).wavelengths_um), (1.0,))
-    few, every = (reference_kernel(study.seen(0.0), c, 0.0, 0.0, 6, 10.3) for c in (one, channel))
+    few, every = (reference_kernel(study.sensor_map(0.0), c, 0.0, 0.0, 6, 10.3) for c in (one, channel))
     exact = distance(few, every)
     assert exact > 0.01
     assert study.colour_error(channel, 1, 0.0, 0.0) == pytest.approx(exact, rel=0.1)
@@ -227,6 +241,6 @@ def test_pupils_interpolated_while_planning_are_tried_where_pixels_show_them():
     own = study.kernels(study.recipe(), study.single, near).at(*middle)
     share_pupils(study)
     assert study.tables
-    shared = Kernels(study.seen(near), study.single, 47.0, lambda _: study.recipe(), tables=study.tables)
+    shared = Kernels(study.sensor_map(near), study.single, 47.0, lambda _: study.recipe(), tables=study.tables)
     # What planning aims at in each direction, and twice that since errors along both add up.
-    assert distance(shared.at(*middle), own) < 2 * FINE
+    assert distance(shared.at(*middle), own) < 2 * TARGET_ERROR

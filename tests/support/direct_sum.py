@@ -1,4 +1,4 @@
-"""The definition: every source pixel sends its light out with its own kernel. Slow; what fast ways must equal."""
+"""The definition of space-variant blur, pixel by pixel, which every fast method must equal."""
 
 from collections.abc import Callable
 
