@@ -1,7 +1,7 @@
-"""What knowing the PSF buys: pictures sharpened by the same kernels that blurred them.
+"""Pictures sharpened by the same kernels that blurred them.
 
-Both ways work on the lattice of a plan, so the kernel follows the field. Wiener's filter is linear and done at
-once; Richardson and Lucy's iteration keeps the light positive.
+Both methods work on the lattice of a plan, so the kernel follows the field. Wiener's filter is linear and takes one
+step; Richardson and Lucy's iteration keeps the light positive.
 """
 
 from collections.abc import Callable
@@ -10,7 +10,7 @@ import numpy as np
 
 from p2sf.errors import RequestError
 from p2sf.image.lattice import Lattice
-from p2sf.image.overlap import convolve, overlap_add
+from p2sf.image.overlap import convolve, overlap_add, support
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
 
@@ -25,69 +25,85 @@ def wiener(values: np.ndarray, lattice: Lattice, noise: float, watch: Progress |
     variance (Wiener 1949; Field 1987). Raises RequestError for a noise that is not positive.
     """
     if not noise > 0:
-        raise RequestError(f"the noise is {noise:g}; give the standard deviation of the picture's noise, above 0")
-    return _by_patches(
-        values, lattice, lambda patch, kernels: _filtered(patch, kernels, noise), watch, 3 * lattice.half
-    )
+        raise RequestError(
+            "the noise is {noise:g}; give the standard deviation of the picture's noise, above 0", noise=noise
+        )
+    values, margin = np.asarray(values, np.float32), 3 * lattice.half
+    planes = np.pad(values, ((margin, margin), (margin, margin), (0, 0)), mode="symmetric")
+
+    def sharpened(patch: np.ndarray, kernels: np.ndarray) -> np.ndarray:
+        return _filtered(patch, kernels, noise)[:, margin:, margin:]
+
+    return _by_patches(planes, lattice, values.shape[:2], margin, sharpened, watch)
 
 
 def _filtered(patch: np.ndarray, kernels: np.ndarray, noise: float) -> np.ndarray:
     """Return conj(H)/(|H|² + N/S) of (channels, rows, columns), about the patch's mean."""
     import scipy.fft
 
-    shape = tuple(scipy.fft.next_fast_len(n, real=True) for n in patch.shape[1:])
+    rows, columns = patch.shape[1:]
+    shape = scipy.fft.next_fast_len(rows, real=True), scipy.fft.next_fast_len(columns, real=True)
     transfer = scipy.fft.rfft2(_centred(kernels, shape))
     mean = patch.mean((1, 2), keepdims=True)
     variance = np.maximum(patch.var((1, 2), keepdims=True) - noise**2, noise**2)
     prior = _prior(shape)
     ratio = noise**2 / (variance * prior)
     padded = np.zeros((len(patch), *shape), np.float32)
-    # The rim fades into the mean: a cut edge would ring through the whole patch.
-    padded[:, : patch.shape[1], : patch.shape[2]] = (patch - mean) * _fade(
-        patch.shape[1:], 2 * (kernels.shape[-1] // 2)
-    )
+    # The edge fades into the mean: an abrupt one would ring through the whole patch.
+    padded[:, :rows, :columns] = (patch - mean) * _fade((rows, columns), 2 * (kernels.shape[-1] // 2))
     spectrum = scipy.fft.rfft2(padded) * np.conj(transfer) / (np.abs(transfer) ** 2 + ratio)
-    return scipy.fft.irfft2(spectrum, shape)[:, : patch.shape[1], : patch.shape[2]] + mean
+    sharp: np.ndarray = scipy.fft.irfft2(spectrum, shape)[:, : patch.shape[1], : patch.shape[2]] + mean
+    return sharp
 
 
-def _fade(shape, width: int) -> np.ndarray:
-    """Return a window that rises over ``width`` pixels from every rim, half a cosine."""
+def _fade(shape: tuple[int, int], width: int) -> np.ndarray:
+    """Return a window that rises over ``width`` pixels from every edge, half a cosine."""
     rows, columns = (np.clip((np.minimum(np.arange(n), np.arange(n)[::-1]) + 0.5) / max(width, 1), 0, 1) for n in shape)
     return np.outer(np.sin(np.pi / 2 * rows) ** 2, np.sin(np.pi / 2 * columns) ** 2).astype(np.float32)
 
 
-def _prior(shape) -> np.ndarray:
+def _prior(shape: tuple[int, int]) -> np.ndarray:
     """Return the power of a picture of unit variance per frequency, falling with 1/f²."""
     square = np.fft.fftfreq(shape[0])[:, None] ** 2 + np.fft.rfftfreq(shape[1]) ** 2
     power = 1 / (square + CORNER**2)
-    return power / power.mean()
+    prior: np.ndarray = power / power.mean()
+    return prior
 
 
-def _centred(kernels: np.ndarray, shape) -> np.ndarray:
-    """Return kernels with their middle at index 0 of a periodic plane."""
+def _centred(kernels: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+    """Return kernels, (channels, size, size), with their middle at index 0 of a periodic plane."""
     half = kernels.shape[-1] // 2
     plane = np.zeros((len(kernels), *shape), np.float32)
     rows, columns = (np.arange(-half, half + 1) % n for n in shape)
-    np.add.at(plane, (slice(None), rows[:, None], columns), kernels)
+    np.add.at(plane, np.ix_(np.arange(len(kernels)), rows, columns), kernels)
     return plane
 
 
-def _by_patches(values, lattice: Lattice, act: Callable, watch: Progress | None, margin: int) -> np.ndarray:
-    """Return Σ window·act(patch with a margin, kernels) over all nodes, the rim mirrored outwards."""
-    values, watch = np.asarray(values, np.float32), watch or Progress()
-    rows, columns, _ = values.shape
-    planes = np.moveaxis(np.pad(values, ((margin, margin), (margin, margin), (0, 0)), mode="symmetric"), -1, 0)
-    by_row, by_column = hats(lattice.row_nodes, np.arange(rows)), hats(lattice.column_nodes, np.arange(columns))
-    out = np.zeros((planes.shape[0], rows, columns), np.float32)
+def _by_patches(
+    picture: np.ndarray,
+    lattice: Lattice,
+    shape: tuple[int, ...],
+    margin: int,
+    act: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    watch: Progress | None = None,
+) -> np.ndarray:
+    """Return Σ window·act(patch, kernels) over all nodes, (*shape, channels).
+
+    ``picture`` and its patches have ``margin`` pixels more on every side; ``act`` takes a patch (channels, rows,
+    columns) and the kernels of its node, and returns at least the pixels without the margin, from the top left.
+    """
+    planes, watch = np.moveaxis(picture, -1, 0), watch or Progress()
+    by_row, by_column = (
+        hats(nodes, np.arange(n)) for nodes, n in zip((lattice.row_nodes, lattice.column_nodes), shape, strict=True)
+    )
+    out = np.zeros((len(planes), *shape), np.float32)
     watch.expect(len(by_row) * len(by_column))
     for a, down in enumerate(by_row):
         for b, right in enumerate(by_column):
-            (top, bottom), (left, stop) = (
-                (int(i[0]), int(i[-1]) + 1) for i in (np.flatnonzero(down), np.flatnonzero(right))
-            )
-            patch = planes[:, top : bottom + 2 * margin, left : stop + 2 * margin]
-            found = act(patch, lattice.kernels[a][b])[:, margin:, margin:][:, : bottom - top, : stop - left]
-            out[:, top:bottom, left:stop] += found * np.outer(down[top:bottom], right[left:stop]).astype(np.float32)
+            rows, columns = support(down), support(right)
+            patch = planes[:, rows.start : rows.stop + 2 * margin, columns.start : columns.stop + 2 * margin]
+            found = act(patch, lattice.kernels[a][b])[:, : rows.stop - rows.start, : columns.stop - columns.start]
+            out[:, rows, columns] += found * np.outer(down[rows], right[columns]).astype(np.float32)
             watch.advance()
     return np.moveaxis(out, 0, -1)
 
@@ -97,10 +113,10 @@ def richardson_lucy(
 ) -> np.ndarray:
     """Return the picture after ``rounds`` of x ← x·Hᵀ(y/Hx)/Hᵀ1 (Richardson 1972; Lucy 1974), float32, not negative.
 
-    H is the space-variant blur with its light cut at the rim. Raises RequestError for no rounds.
+    H is the space-variant blur, cut off at the picture's edge. Raises RequestError for fewer than one round.
     """
     if rounds < 1:
-        raise RequestError(f"{rounds} rounds of Richardson–Lucy; give at least 1")
+        raise RequestError("{rounds} rounds of Richardson–Lucy; give at least 1", rounds=rounds)
     measured = np.maximum(np.asarray(values, np.float32), 0)
     estimate = np.maximum(measured, DARKEST)
     gain = np.maximum(transposed(np.ones_like(measured), lattice), DARKEST)
@@ -120,31 +136,19 @@ def forward(values: np.ndarray, lattice: Lattice) -> np.ndarray:
 
 
 def transposed(values: np.ndarray, lattice: Lattice) -> np.ndarray:
-    """Return the adjoint of `forward`: each pixel collects what its light became."""
+    """Return the adjoint of `forward`: each pixel is the picture weighted with the kernel of that pixel."""
     half = lattice.half
-    planes = np.pad(np.asarray(values, np.float32), ((half, half), (half, half), (0, 0)))
-    return _collected(np.moveaxis(planes, -1, 0), lattice, values.shape[:2])
+    picture = np.pad(np.asarray(values, np.float32), ((half, half), (half, half), (0, 0)))
 
+    def correlated(patch: np.ndarray, kernels: np.ndarray) -> np.ndarray:
+        edge = half + kernels.shape[-1] // 2
+        return convolve(patch, kernels[:, ::-1, ::-1])[:, edge:, edge:]
 
-def _collected(planes: np.ndarray, lattice: Lattice, shape) -> np.ndarray:
-    by_row, by_column = (
-        hats(n, np.arange(p)) for n, p in zip((lattice.row_nodes, lattice.column_nodes), shape, strict=True)
-    )
-    out = np.zeros((len(planes), *shape), np.float32)
-    for a, down in enumerate(by_row):
-        for b, right in enumerate(by_column):
-            (top, bottom), (left, stop) = (
-                (int(i[0]), int(i[-1]) + 1) for i in (np.flatnonzero(down), np.flatnonzero(right))
-            )
-            patch = planes[:, top : bottom + 2 * lattice.half, left : stop + 2 * lattice.half]
-            kernel, edge = lattice.kernels[a][b][:, ::-1, ::-1], lattice.half + lattice.kernels[a][b].shape[-1] // 2
-            found = convolve(patch, kernel)[:, edge : edge + bottom - top, edge : edge + stop - left]
-            out[:, top:bottom, left:stop] += found * np.outer(down[top:bottom], right[left:stop]).astype(np.float32)
-    return np.moveaxis(out, 0, -1)
+    return _by_patches(picture, lattice, values.shape[:2], half, correlated)
 
 
 def with_one_kernel(lattice: Lattice, kernels: np.ndarray) -> Lattice:
-    """Return a lattice that knows only one kernel (channels, size, size): a wrong PSF, to compare with."""
+    """Return a lattice with one kernel (channels, size, size) at every node: a wrong PSF, for comparison."""
     return Lattice(lattice.row_nodes, lattice.column_nodes, [[kernels for _ in line] for line in lattice.kernels])
 
 

@@ -1,4 +1,4 @@
-"""A picture through a lens, as its plan says: distortion, illumination, blur in field, colour and depth, pixels."""
+"""A picture through a lens by a plan: distortion, illumination, blur over field, colour and depth, pixels."""
 
 from dataclasses import dataclass
 
@@ -11,11 +11,12 @@ from p2sf.image.layers import layer_weights, merged
 from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.overlap import overlap_add
 from p2sf.image.progress import Progress
+from p2sf.messages import Alternatives
 from p2sf.scene.plan import Plan
 
 METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
-LIGHT_HEIGHTS = 4, 9  # where illumination is computed, for a preview and for good
+LIGHT_HEIGHTS = 4, 9  # at so many heights illumination is computed, for a preview and for the final picture
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: what a low rank may leave out
 
 
@@ -23,9 +24,9 @@ RANK_TOLERANCE = 0.1  # of the scene's tolerance: what a low rank may leave out
 class Forming:
     """How a picture is formed.
 
-    ``method``: "patches" (overlap-add) or "lowrank". ``surround``: what is beyond the picture's rim, nothing
-    ("black") or its last pixels ("edge"). ``geometry``: with distortion and illumination, or blur alone;
-    ``spline``: order of the distortion's interpolation.
+    ``method``: "patches" (overlap-add) or "lowrank". ``surround``: what lies beyond the picture, nothing ("black") or
+    its outermost pixels ("edge"). ``geometry``: with distortion and illumination, or blur alone; ``spline``: order of
+    the distortion's interpolation. Raises RequestError for another method or surround.
     """
 
     method: str = "patches"
@@ -33,21 +34,29 @@ class Forming:
     geometry: bool = True
     spline: int = 3
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.method not in METHODS:
-            raise RequestError(f'image method "{self.method}" is unknown; choose {" or ".join(METHODS)}')
+            raise RequestError(
+                'image method "{method}" is unknown; choose {choices}',
+                method=self.method,
+                choices=Alternatives(METHODS),
+            )
         if self.surround not in SURROUNDS:
-            raise RequestError(f'surround "{self.surround}" is unknown; choose {" or ".join(SURROUNDS)}')
+            raise RequestError(
+                'surround "{surround}" is unknown; choose {choices}',
+                surround=self.surround,
+                choices=Alternatives(SURROUNDS),
+            )
 
 
-USUAL = Forming()
+DEFAULT = Forming()
 
 
 def form_image(
     planned: Plan,
     values: np.ndarray,
     depth_mm: np.ndarray | None = None,
-    how: Forming = USUAL,
+    how: Forming = DEFAULT,
     watch: Progress | None = None,
     lattice: Lattice | None = None,
 ) -> np.ndarray:
@@ -81,21 +90,26 @@ def checked(planned: Plan, values: np.ndarray) -> np.ndarray:
     values = np.asarray(values, np.float32)
     if values.shape != (sensor.rows, sensor.columns, channels):
         raise RequestError(
-            f"the picture has the shape {values.shape}, but the scene's sensor wants {sensor.rows} rows, "
-            f"{sensor.columns} columns and {channels} channels; resize it or change the scene"
+            "the picture has the shape ({shape}), but the scene's sensor wants {rows} rows, {columns} columns and "
+            "{channels} channels; resize it or change the scene",
+            shape=values.shape,
+            rows=sensor.rows,
+            columns=sensor.columns,
+            channels=channels,
         )
     if not np.isfinite(values).all():
         raise RequestError("the picture holds values that are not finite; replace them first")
     return values
 
 
-def _placed(planned: Plan, values, vergence: float, how: Forming) -> np.ndarray:
+def _placed(planned: Plan, values: np.ndarray, vergence: float, how: Forming) -> np.ndarray:
     """Return the picture distorted and shaded."""
     if not how.geometry:
         return values
     sensor, seen = planned.scene.sensor, planned.sensor_map(vergence)
     shade = illumination(planned.kernels(len(planned.colours) // 2, vergence), sensor, LIGHT_HEIGHTS[how.spline > 1])
-    return distorted(values, seen, sensor, how.spline) * shade[..., None]
+    lit: np.ndarray = distorted(values, seen, sensor, how.spline) * shade[..., None]
+    return lit
 
 
 def plan_lattice(planned: Plan, vergence: float, watch: Progress | None = None) -> Lattice:
@@ -112,13 +126,13 @@ def plan_lattice(planned: Plan, vergence: float, watch: Progress | None = None) 
 
 
 def _doubled(lattice: Lattice) -> Lattice:
-    """Return a lattice whose middle channel comes once more at the end: a weight rides along with the picture."""
+    """Return a lattice with the middle channel once more at the end, for a layer's weight beside the picture."""
     middle = lattice.channels // 2
     lines = [[np.concatenate([k, k[middle : middle + 1]]) for k in line] for line in lattice.kernels]
     return Lattice(lattice.row_nodes, lattice.column_nodes, lines)
 
 
-def _cropped_blur(planned: Plan, values, lattice: Lattice, how: Forming, watch: Progress) -> np.ndarray:
+def _cropped_blur(planned: Plan, values: np.ndarray, lattice: Lattice, how: Forming, watch: Progress) -> np.ndarray:
     """Return the blurred picture on its own pixels."""
     border = lattice.half if how.surround == "edge" else 0
     if border:
@@ -129,7 +143,7 @@ def _cropped_blur(planned: Plan, values, lattice: Lattice, how: Forming, watch: 
 
 
 def blur(
-    values, lattice: Lattice, method: str, tolerance: float, watch: Progress | None = None, border: int = 0
+    values: np.ndarray, lattice: Lattice, method: str, tolerance: float, watch: Progress | None = None, border: int = 0
 ) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, by patches or by low rank."""
     if method == "patches":

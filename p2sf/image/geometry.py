@@ -1,11 +1,11 @@
-"""Where a picture's points land and how bright: distortion and relative illumination, before any blur."""
+"""Distortion and relative illumination of a picture, before any blur."""
 
 import numpy as np
 
 from p2sf.pixel_kernels import Kernels, SensorMap
 from p2sf.scene.sensor import Sensor
 
-VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is left out
+VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is ignored
 
 
 def distortion_px(seen: SensorMap, sensor: Sensor) -> float:
@@ -18,7 +18,7 @@ def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 
     """Return the picture as real chief rays place it, (rows, columns, channels) float32.
 
     ``values`` is the undistorted (paraxial) image on the same pixels; each pixel takes what lands on it, by a spline of
-    this ``order``. Beyond the picture's rim its last pixel goes on.
+    this ``order``. Beyond the picture its outermost pixels are repeated.
     """
     from scipy.ndimage import map_coordinates
 
@@ -38,11 +38,12 @@ def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 
 def illumination(kernels: Kernels, sensor: Sensor, count: int = 9) -> np.ndarray:
     """Return the irradiance of an even object over that on the axis, (rows, columns) float32.
 
-    It is the pencil's projected solid angle, ∫dKx dKy, hence cos⁴ for a pinhole and what pupil aberration makes of
-    it otherwise; nothing is clipped by rims.
+    It is the pencil's projected solid angle, ∫dKx dKy: cos⁴ for a pinhole, changed by pupil aberration otherwise.
+    No rim of a surface clips it.
     """
     heights = np.linspace(*sensor.corners_mm(), count)
     light = np.array([kernels.light(float(h)) for h in heights]) / kernels.light(0.0)
     x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
     fit = np.polynomial.Polynomial.fit(heights**2, light, min(4, count - 1))
-    return fit(x * x + (y * y)[:, None]).astype(np.float32)
+    light_at: np.ndarray = fit(x * x + (y * y)[:, None])
+    return light_at.astype(np.float32)

@@ -1,4 +1,4 @@
-"""Kernels on a lattice of nodes over a picture; between the nodes they are interpolated."""
+"""Kernels at the nodes of a lattice over a picture; between the nodes they are interpolated."""
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -10,14 +10,14 @@ from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import nodes_along
 
 WORKERS = 2
-# Pixels of a kernel in all channels, three of some 74²: NumPy's calls on smaller ones are so short that two threads
-# mostly wait for the interpreter's lock. A matter of time alone, and a flat one: the kernels are the same either way.
+# Pixels of a kernel in all channels, such as three of 74²: NumPy's calls on smaller ones are so short that two threads
+# mostly wait for the interpreter's lock. The kernels are the same either way.
 THREADED = 2**14
 
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
-    """Nodes by row and column position in pixels, and the kernels on them, ``kernels[a][b]`` (channels, size, size).
+    """Nodes by row and column position in pixels, and the kernels at them, ``kernels[a][b]`` (channels, size, size).
 
     Sizes are odd and may differ; row 0 of a kernel is its top; each kernel of each channel has unit sum.
     """
@@ -29,12 +29,12 @@ class Lattice:
     @property
     def half(self) -> int:
         """Return the largest half width of all kernels."""
-        return max(kernel.shape[-1] // 2 for line in self.kernels for kernel in line)
+        return max(int(kernel.shape[-1]) // 2 for line in self.kernels for kernel in line)
 
     @property
     def channels(self) -> int:
         """Return how many channels every kernel has."""
-        return self.kernels[0][0].shape[0]
+        return int(self.kernels[0][0].shape[0])
 
 
 def build_lattice(
@@ -54,36 +54,41 @@ def build_lattice(
     watch = watch or Progress()
     watch.expect(len(wanted))
 
-    def one(node):
+    def one(node: tuple[int, int]) -> np.ndarray:
         watch.advance()
         return kernel_at(float(rows[node[0]]), float(columns[node[1]]))
 
     first = one(wanted[0])
     rest = _each(one, wanted[1:], first.size >= THREADED)
-    made = dict(zip(wanted, (first, *rest), strict=True))
-    lines = [[_mirror_of(made, a, b, len(rows), len(columns)) for b in range(len(columns))] for a in range(len(rows))]
+    computed = dict(zip(wanted, (first, *rest), strict=True))
+    lines = [
+        [_mirrored(computed, a, b, len(rows), len(columns)) for b in range(len(columns))] for a in range(len(rows))
+    ]
     return Lattice(rows, columns, lines)
 
 
-def _each(make: Callable, nodes: list, threaded: bool) -> list[np.ndarray]:
-    """Return what is made of every node, by WORKERS threads or one after the other."""
+def _each(
+    make: Callable[[tuple[int, int]], np.ndarray], nodes: list[tuple[int, int]], threaded: bool
+) -> list[np.ndarray]:
+    """Return ``make(node)`` of every node, by WORKERS threads or one after the other."""
     if not threaded:
         return [make(node) for node in nodes]
     with ThreadPoolExecutor(WORKERS) as pool:
         return list(pool.map(make, nodes))
 
 
-def _mirror_of(made: dict, a: int, b: int, rows: int, columns: int) -> np.ndarray:
+def _mirrored(computed: dict[tuple[int, int], np.ndarray], a: int, b: int, rows: int, columns: int) -> np.ndarray:
     """Return the kernel of a node, or the mirror image of the one across the axis."""
-    if (a, b) in made:
-        return made[a, b]
+    if (a, b) in computed:
+        return computed[a, b]
     down, right = a >= (rows + 1) // 2, b >= (columns + 1) // 2
-    kernel = made[rows - 1 - a if down else a, columns - 1 - b if right else b]
-    return kernel[:, :: -1 if down else 1, :: -1 if right else 1]
+    kernel = computed[rows - 1 - a if down else a, columns - 1 - b if right else b]
+    mirror: np.ndarray = kernel[:, :: -1 if down else 1, :: -1 if right else 1]
+    return mirror
 
 
 def common_size(lattice: Lattice, channel: int) -> np.ndarray:
-    """Return one channel's kernels with zeros to the largest size, (row nodes, column nodes, size, size)."""
+    """Return one channel's kernels padded with zeros to the largest size, (row nodes, column nodes, size, size)."""
     size = 2 * lattice.half + 1
     out = np.zeros((len(lattice.row_nodes), len(lattice.column_nodes), size, size), np.float32)
     for a, line in enumerate(lattice.kernels):

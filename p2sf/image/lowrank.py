@@ -1,6 +1,6 @@
-"""Space-variant blur by few kernels: the mean, and the strongest departures from it with maps of their strength.
+"""Space-variant blur by few kernels: the mean, and the strongest deviations from it with maps of their strength.
 
-The departures of a set of unit-sum kernels from their mean have zero sum, and so have the singular vectors:
+The deviations of a set of unit-sum kernels from their mean have zero sum, and so have the singular vectors:
 whatever the rank, all light is kept (PCA of PSFs, Lauer 2002; singular values as in Eckart & Young 1936).
 """
 
@@ -35,13 +35,13 @@ def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, rank: int
     nodes, size = kernels.shape[:2], kernels.shape[-1]
     flat = kernels.reshape(nodes[0] * nodes[1], -1).astype(float)
     mean = flat.mean(0)
-    departure = flat - mean
+    deviation = flat - mean
     # The nodes are fewer than the pixels, so the small Gram matrix has all the singular values.
-    values, vectors = np.linalg.eigh(departure @ departure.T)
+    values, vectors = np.linalg.eigh(deviation @ deviation.T)
     values, vectors = np.maximum(values[::-1], 0), vectors[:, ::-1]
     left = np.sqrt(np.append(values[::-1].cumsum()[::-1], 0) / np.square(flat).sum())
     rank = int(np.argmax(left <= tolerance)) if rank is None else min(rank, len(values))
-    shapes = (vectors[:, :rank].T @ departure).reshape(rank, size, size).astype(np.float32)
+    shapes = (vectors[:, :rank].T @ deviation).reshape(rank, size, size).astype(np.float32)
     strengths = vectors[:, :rank].T.reshape(rank, *nodes)
     return LowRank(
         mean.reshape(size, size).astype(np.float32), shapes, strengths,
@@ -68,14 +68,14 @@ def low_rank_blur(
             for left in range(0, columns, TILE):
                 tile = values[top : top + TILE, left : left + TILE, channel]
                 cut = maps[0][top : top + TILE], maps[1][left : left + TILE]
-                blurred = _blur_tile(tile, part, cut, (fast, spectra))
+                blurred = _blur_tile(tile, part, cut, fast, spectra)
                 height, width = (n + size - 1 for n in tile.shape)
                 out[top : top + height, left : left + width, channel] += blurred[:height, :width]
                 watch.advance()
     return out
 
 
-def _spectra(part: LowRank, rows: int, columns: int):
+def _spectra(part: LowRank, rows: int, columns: int) -> tuple[tuple[int, ...], np.ndarray]:
     import scipy.fft
 
     size = part.mean.shape[0]
@@ -83,16 +83,18 @@ def _spectra(part: LowRank, rows: int, columns: int):
     return fast, scipy.fft.rfft2(np.concatenate([part.mean[None], part.kernels]), fast)
 
 
-def _blur_tile(tile, part: LowRank, maps, transform) -> np.ndarray:
+def _blur_tile(
+    tile: np.ndarray, part: LowRank, maps: tuple[np.ndarray, np.ndarray], fast: tuple[int, ...], spectra: np.ndarray
+) -> np.ndarray:
     """Return Σ_k (strength_k·tile) ⊛ kernel_k of one tile, summed in the spectrum."""
     import scipy.fft
 
-    fast, spectra = transform
     total = scipy.fft.rfft2(tile, fast) * spectra[0]
     for number, strength in enumerate(part.strengths, 1):
         weight = (maps[0] @ strength @ maps[1].T).astype(np.float32)
         total += scipy.fft.rfft2(tile * weight, fast) * spectra[number]
-    return scipy.fft.irfft2(total, fast, overwrite_x=True)
+    blurred: np.ndarray = scipy.fft.irfft2(total, fast, overwrite_x=True)
+    return blurred
 
 
 def _spline(nodes: np.ndarray, positions: np.ndarray) -> np.ndarray:
@@ -104,4 +106,5 @@ def _spline(nodes: np.ndarray, positions: np.ndarray) -> np.ndarray:
     inside = np.clip(positions, nodes[0], nodes[-1])
     if len(nodes) == 2:
         return np.stack([np.interp(inside, nodes, row) for row in np.eye(2)], axis=1)
-    return CubicSpline(nodes, np.eye(len(nodes)))(inside)
+    weights: np.ndarray = CubicSpline(nodes, np.eye(len(nodes)))(inside)
+    return weights

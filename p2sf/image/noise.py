@@ -1,4 +1,4 @@
-"""Noise, kept apart from image formation: add it, or do not."""
+"""Shot noise and read noise, separate from image formation."""
 
 import numpy as np
 
@@ -14,8 +14,11 @@ def with_noise(
     """
     if not full_well > 0 or not read_electrons >= 0:
         raise RequestError(
-            f"a full well of {full_well:g} and read noise of {read_electrons:g} electrons; give positive ones"
+            "a full well of {well:g} and read noise of {noise:g} electrons; give positive ones",
+            well=full_well,
+            noise=read_electrons,
         )
     random = np.random.default_rng(seed)
     electrons = random.poisson(np.maximum(values, 0) * full_well) + random.normal(0, read_electrons, values.shape)
-    return (electrons / full_well).astype(np.float32)
+    noisy: np.ndarray = (electrons / full_well).astype(np.float32)
+    return noisy

@@ -1,7 +1,7 @@
 """Space-variant blur by patches: hat windows that sum to one, each convolved with its node's kernel, added up.
 
-That is the linear interpolation of kernels between nodes, exactly: a source pixel's light goes out with the
-weighted kernels of the four nodes around it, so that its sum is kept (overlap-add, Nagy & O'Leary 1998, §3).
+This is exactly the linear interpolation of kernels between nodes: a source pixel's light is spread by the weighted
+kernels of the four nodes around it, so that its sum is kept (overlap-add, Nagy & O'Leary 1998, §3).
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -17,7 +17,7 @@ def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = N
     """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
 
     ``values``: (rows, columns, channels) float32, whose outer ``border`` pixels lie outside the lattice's picture and
-    take the kernels of its rim. Memory beyond the result is one patch.
+    take the kernels of its edge. Memory beyond the result is one patch.
     """
     values, half = np.asarray(values, np.float32), lattice.half
     planes = np.moveaxis(values, -1, 0)
@@ -30,9 +30,9 @@ def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = N
     watch = watch or Progress()
     watch.expect(len(jobs))
 
-    def convolved(job):
+    def convolved(job: tuple[int, int]) -> tuple[int, int, np.ndarray]:
         a, b = job
-        rows, columns = _support(by_row[a]), _support(by_column[b])
+        rows, columns = support(by_row[a]), support(by_column[b])
         weight = np.outer(by_row[a][rows], by_column[b][columns]).astype(np.float32)
         kernel = lattice.kernels[a][b]
         edge = half - kernel.shape[-1] // 2
@@ -46,12 +46,12 @@ def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = N
     return np.moveaxis(out, 0, -1)
 
 
-def _add(out, top: int, left: int, patch) -> None:
+def _add(out: np.ndarray, top: int, left: int, patch: np.ndarray) -> None:
     out[:, top : top + patch.shape[1], left : left + patch.shape[2]] += patch
 
 
-def _support(weight: np.ndarray) -> slice:
-    """Return the stretch where a window is not zero."""
+def support(weight: np.ndarray) -> slice:
+    """Return the range in which a window is not zero."""
     inside = np.flatnonzero(weight)
     return slice(int(inside[0]), int(inside[-1]) + 1) if inside.size else slice(0, 1)
 
@@ -64,4 +64,5 @@ def convolve(planes: np.ndarray, kernels: np.ndarray) -> np.ndarray:
     fast = tuple(scipy.fft.next_fast_len(n, real=True) for n in shape)
     spectra = scipy.fft.rfft2(planes, fast)
     spectra *= scipy.fft.rfft2(np.ascontiguousarray(kernels), fast)
-    return scipy.fft.irfft2(spectra, fast, overwrite_x=True)[:, : shape[0], : shape[1]]
+    full: np.ndarray = scipy.fft.irfft2(spectra, fast, overwrite_x=True)[:, : shape[0], : shape[1]]
+    return full

@@ -1,4 +1,4 @@
-"""A coarse picture at once, while the planned one is on its way."""
+"""A coarse picture at once, while the planned one is computed."""
 
 from dataclasses import replace
 
@@ -16,14 +16,15 @@ from p2sf.scene.spectrum import reduced
 
 LONGEST = 320  # pixels along the preview's longer side
 COUNTS = 3, 3
-QUICK = Recipe("fitted", 26)
+COARSE = Recipe("fitted", 26)
 UNKNOWN = Cost(0.0, 0.0, 0.0)
 
 
 def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None = None) -> np.ndarray:
     """Return a coarse picture of the scene's far end or one depth, (rows, columns, channels), at most 320 pixels long.
 
-    One wavelength a channel, 26 numbers a pencil, 3 × 3 nodes, pixels averaged in blocks: no promise, as a plan gives.
+    One wavelength a channel, 26 numbers a pencil, 3 × 3 nodes, pixels averaged in blocks. Unlike a plan's, its error
+    is not bounded.
     """
     camera = scene.camera(lens)
     check_colours(camera, scene)
@@ -35,13 +36,13 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
 
 
 def preview_plan(camera: Lens, scene: Scene) -> Plan:
-    """Return a plan that was not measured and promises nothing, of a lens already focused."""
+    """Return a plan without any measurement, whose error is unknown, of a lens already focused."""
     colours = tuple(reduced(channel, 1) for channel in scene.channels)
     middle = colours[len(colours) // 2].wavelengths_um[0]
-    rim = scene.sensor.corners_mm()[1]
+    edge = scene.sensor.corners_mm()[1]
     vergence = float(scene.vergences(2)[0])
-    parts = ((rim, QUICK),), colours, COUNTS, (vergence,), (), float("nan")
-    return Plan(camera, scene, middle, *parts, UNKNOWN, UNKNOWN)
+    zones = ((edge, COARSE),)
+    return Plan(camera, scene, middle, zones, colours, COUNTS, (vergence,), (), float("nan"), UNKNOWN, UNKNOWN)
 
 
 def _coarser(sensor: Sensor, times: int) -> Sensor:
@@ -54,8 +55,11 @@ def _coarser(sensor: Sensor, times: int) -> Sensor:
 
 
 def averaged(values: np.ndarray, times: int) -> np.ndarray:
-    """Return a picture averaged over blocks of ``times``² pixels; what does not fill a block is left out."""
+    """Return a picture averaged over blocks of ``times``² pixels; pixels that do not fill a block are dropped."""
     rows, columns = (n // times for n in values.shape[:2])
     cut = np.asarray(values, np.float32)[: rows * times, : columns * times]
-    total = sum(cut[i::times, j::times] for i in range(times) for j in range(times))
+    total: np.ndarray = np.zeros_like(cut[::times, ::times])
+    for i in range(times):
+        for j in range(times):
+            total += cut[i::times, j::times]
     return total / np.float32(times * times)

@@ -9,14 +9,14 @@ from p2sf.errors import Cancelled
 
 @dataclass(eq=False)
 class Progress:
-    """Counts steps done among those expected; ``progress`` is told the fraction, ``cancelled`` asked at each step."""
+    """Count of steps done among those expected; ``progress`` gets the fraction, ``cancelled`` is asked at each step."""
 
     progress: Callable[[float], None] | None = None
     cancelled: Callable[[], bool] | None = None
     expected: int = 0
     done: int = 0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self._lock = Lock()
 
     def expect(self, steps: int) -> None:

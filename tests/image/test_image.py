@@ -200,6 +200,6 @@ def test_what_does_not_fit_is_one_sentence():
         form_image(planned, np.ones((40, 50, 1)), np.ones((3, 3)))
     with pytest.raises(RequestError, match="not positive"):
         form_image(planned, np.ones((40, 50, 1)), np.zeros((40, 50)))
-    for wrong in ({"method": "svd"}, {"surround": "white"}):
-        with pytest.raises(RequestError, match="choose"):
+    for wrong, words in (({"method": "svd"}, "choose patches or lowrank"), ({"surround": "white"}, "black or edge")):
+        with pytest.raises(RequestError, match=words):
             Forming(**wrong)
