@@ -1,1 +1,1 @@
-"""Spectra of light sources, and what the eye and a screen make of them."""
+"""Spectra of light sources, and their colours as an observer sees them and a screen shows them."""

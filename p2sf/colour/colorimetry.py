@@ -1,6 +1,7 @@
-"""Colorimetry: what the eye makes of a spectrum, and what a screen shows of that."""
+"""Colorimetry: tristimulus values of a spectrum, and the colours of a screen."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.colour.spectrum import Spectrum, relative_power
 from p2sf.conventions import NM_PER_UM
@@ -21,22 +22,24 @@ RGB_OF_XYZ = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # Y of linear sRGB (IEC 61966-2-1:1999)
 
 
-def matching(wavelength_um) -> np.ndarray:
+def matching(wavelength_um: ArrayLike) -> np.ndarray:
     """Return x̄, ȳ, z̄ of the CIE 1931 observer as Wyman, Sloan and Shirley (2013) fit them, (…, 3)."""
     nm = np.asarray(wavelength_um, dtype=float) * NM_PER_UM
-    return np.stack([sum(_lobe(nm, *lobe) for lobe in lobes) for lobes in LOBES], axis=-1)
+    return np.stack([np.sum([_lobe(nm, *lobe) for lobe in lobes], axis=0) for lobes in LOBES], axis=-1)
 
 
-def _lobe(nm, height, centre, below, above):
+def _lobe(nm: np.ndarray, height: float, centre: float, below: float, above: float) -> np.ndarray:
     slope = np.where(nm < centre, below, above)
-    return height * np.exp(-0.5 * (slope * (nm - centre)) ** 2)
+    lobe: np.ndarray = height * np.exp(-0.5 * (slope * (nm - centre)) ** 2)
+    return lobe
 
 
-def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIBLE_UM):
+def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIBLE_UM) -> tuple[np.ndarray, np.ndarray]:
     """Return ``count`` wavelengths (µm) and the X, Y, Z each stands for, (count,) and (count, 3), ΣY = 1.
 
     Each is the centre of gravity of its band and carries all the band's light, summed every nm, so that the colour of
-    the whole does not depend on the count. Lines are taken as they are. RequestError where the eye sees nothing.
+    the whole does not depend on the count. Lines are returned unchanged. Raises RequestError for a spectrum without
+    visible light.
     """
     if spectrum.kind == "lines":
         wavelength = np.array(spectrum.numbers) / NM_PER_UM
@@ -44,9 +47,9 @@ def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIB
     low, high = max(limits_um[0], VISIBLE_UM[0]), min(limits_um[1], VISIBLE_UM[1])
     fine = low + (np.arange(max(1, round((high - low) / STEP_UM))) + 0.5) * STEP_UM
     light = relative_power(spectrum, fine)[:, None] * matching(fine)
-    # Bands of equal Y + (X + Z)/2 put the wavelengths where the eye is, and let violet and red speak too.
-    order = np.cumsum(light @ (0.5, 1.0, 0.5))
-    edges = np.searchsorted(order, order[-1] * np.arange(1, count) / count)
+    # Bands of equal Y + (X + Z)/2 put most wavelengths where the eye is most sensitive, and some in violet and red.
+    weight = np.cumsum(light @ (0.5, 1.0, 0.5))
+    edges = np.searchsorted(weight, weight[-1] * np.arange(1, count) / count)
     parts = [part for part in np.split(np.arange(fine.size), edges) if part.size]
     sums = np.array([light[part].sum(0) for part in parts])
     centres = np.array([np.average(fine[part], weights=light[part].sum(1)) for part in parts])
@@ -56,44 +59,53 @@ def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIB
 def _normalised(light: np.ndarray, spectrum: Spectrum) -> np.ndarray:
     total = light[:, 1].sum()
     if not total > 1e-6:
-        raise RequestError(f"the spectrum {spectrum.name} has no light that the eye sees; choose one with some")
-    return light / total
+        raise RequestError(
+            "the spectrum {name} has no light that the eye sees; choose one with some", name=spectrum.name
+        )
+    shares: np.ndarray = light / total
+    return shares
 
 
 def tristimulus(spectrum: Spectrum) -> np.ndarray:
     """Return X, Y, Z of a spectrum, Y = 1."""
-    return bands(spectrum, 1)[1].sum(0)
+    xyz: np.ndarray = bands(spectrum, 1)[1].sum(0)
+    return xyz
 
 
-def chromaticity(xyz) -> np.ndarray:
+def chromaticity(xyz: ArrayLike) -> np.ndarray:
     """Return x and y, (…, 2), of X, Y, Z, (…, 3) (ISO/CIE 11664-3)."""
     xyz = np.asarray(xyz, dtype=float)
-    return xyz[..., :2] / xyz.sum(-1, keepdims=True)
+    xy: np.ndarray = xyz[..., :2] / xyz.sum(-1, keepdims=True)
+    return xy
 
 
-def linear_rgb(xyz) -> np.ndarray:
+def linear_rgb(xyz: ArrayLike) -> np.ndarray:
     """Return linear sRGB, (…, 3), of X, Y, Z; negative where the screen has no such colour."""
-    return np.asarray(xyz, dtype=float) @ RGB_OF_XYZ.T
+    rgb: np.ndarray = np.asarray(xyz, dtype=float) @ RGB_OF_XYZ.T
+    return rgb
 
 
-def displayable(rgb) -> np.ndarray:
-    """Return linear sRGB, (…, 3), paled towards its own grey until no channel is negative: hue and luminance stay."""
+def displayable(rgb: ArrayLike) -> np.ndarray:
+    """Return linear sRGB, (…, 3), desaturated until no channel is negative: hue and luminance stay."""
     rgb = np.asarray(rgb, dtype=float)
     grey = np.maximum(rgb @ LUMINANCE, 0.0)[..., None]
     lowest = rgb.min(-1, keepdims=True)
     share = np.divide(grey, grey - lowest, out=np.ones_like(grey), where=lowest < 0)
-    return np.maximum(grey + share * (rgb - grey), 0.0)
+    shown: np.ndarray = np.maximum(grey + share * (rgb - grey), 0.0)
+    return shown
 
 
-def linear_from_srgb(values) -> np.ndarray:
+def linear_from_srgb(values: ArrayLike) -> np.ndarray:
     """Return linear light of sRGB values, both 0…1, shape kept (IEC 61966-2-1); float32 stays float32."""
     values = np.asarray(values)
     low = np.maximum(values, 0) / 12.92 + np.minimum(values, 0)
-    return np.where(values <= 0.04045, low, ((np.maximum(values, 0) + 0.055) / 1.055) ** 2.4).astype(values.dtype)
+    linear = np.where(values <= 0.04045, low, ((np.maximum(values, 0) + 0.055) / 1.055) ** 2.4)
+    return np.asarray(linear, dtype=values.dtype)
 
 
-def srgb_from_linear(values) -> np.ndarray:
+def srgb_from_linear(values: ArrayLike) -> np.ndarray:
     """Return sRGB values of linear light, shape kept (IEC 61966-2-1); negative light stays as it is."""
     values = np.asarray(values)
     low = 12.92 * np.maximum(values, 0) + np.minimum(values, 0)
-    return np.where(values <= 0.0031308, low, 1.055 * np.maximum(values, 0) ** (1 / 2.4) - 0.055).astype(values.dtype)
+    encoded = np.where(values <= 0.0031308, low, 1.055 * np.maximum(values, 0) ** (1 / 2.4) - 0.055)
+    return np.asarray(encoded, dtype=values.dtype)

@@ -1,16 +1,19 @@
-"""Spectra that a point of light can have: black bodies, daylight, equal energy, lines."""
+"""Spectra of a point of light: black bodies, daylight, equal energy, lines."""
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError
+from p2sf.messages import Alternatives, Message
 
 SECOND_RADIATION_MM_K = 14.387768775  # c₂ = hc/k (CODATA 2018, exact since the SI of 2019)
-KELVIN = (300.0, 1e6)  # colder, the eye sees nothing
+KELVIN = (300.0, 1e6)  # a colder body has no visible light
 NM = (100.0, 20000.0)
-WORDS = "d65, equal, planck:5600 (kelvin) or lines:486,588,656 (nm)"
+EXAMPLES = Alternatives(("d65", "equal", "planck:5600 (kelvin)", "lines:486,588,656 (nm)"))
+WORDS = str(Message("{examples}", examples=EXAMPLES))
 D65_NM = np.arange(380.0, 781.0, 10.0)
 # CIE standard illuminant D65, relative spectral power every 10 nm from 380 nm (ISO/CIE 11664-2:2022, table 1).
 D65 = np.array([
@@ -28,9 +31,9 @@ class Spectrum:
     kind: str
     numbers: tuple[float, ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.kind not in KINDS:
-            raise RequestError(f'the spectrum "{self.kind}" is unknown; choose {WORDS}')
+            raise RequestError('the spectrum "{kind}" is unknown; choose {examples}', kind=self.kind, examples=EXAMPLES)
         _check(self.kind, self.numbers)
 
     @property
@@ -40,7 +43,7 @@ class Spectrum:
 
 
 def spectrum_of(text: str) -> Spectrum:
-    """Return the spectrum that a word means, such as "d65", "planck:5600" or "lines:486,588,656"; RequestError."""
+    """Return the spectrum of a name such as "d65", "planck:5600" or "lines:486,588,656"; RequestError."""
     kind, _, rest = str(text).strip().lower().partition(":")
     try:
         return Spectrum(kind, tuple(float(part) for part in rest.split(",")) if rest else ())
@@ -48,26 +51,39 @@ def spectrum_of(text: str) -> Spectrum:
         raise
     except ValueError:
         raise RequestError(
-            f'the spectrum "{text}" holds "{rest}", which is no list of numbers; write {WORDS}'
+            'the spectrum "{text}" holds "{rest}", which is no list of numbers; write {examples}',
+            text=str(text),
+            rest=rest,
+            examples=EXAMPLES,
         ) from None
 
 
 def _check(kind: str, numbers: tuple[float, ...]) -> None:
     if kind in ("d65", "equal") and numbers:
-        raise RequestError(f'the spectrum "{kind}" takes no number, not {numbers[0]:g}; write {WORDS}')
+        raise RequestError(
+            'the spectrum "{kind}" takes no number, not {number:g}; write {examples}',
+            kind=kind,
+            number=numbers[0],
+            examples=EXAMPLES,
+        )
     if kind == "planck" and not (len(numbers) == 1 and KELVIN[0] <= numbers[0] <= KELVIN[1]):
         raise RequestError(
-            f"the black body has {', '.join(f'{n:g}' for n in numbers) or 'no'} K; "
-            f"give one temperature from {KELVIN[0]:g} to {KELVIN[1]:g} K, as in planck:5600"
+            "the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600",
+            given=numbers or Message("no"),
+            least=KELVIN[0],
+            most=KELVIN[1],
         )
     if kind == "lines" and not (numbers and all(NM[0] <= n <= NM[1] for n in numbers)):
         raise RequestError(
-            f"the spectral lines are {', '.join(f'{n:g}' for n in numbers) or 'none'} nm; "
-            f"give wavelengths from {NM[0]:g} to {NM[1]:g} nm, as in lines:486,588,656"
+            "the spectral lines are {given:g} nm; "
+            "give wavelengths from {least:g} to {most:g} nm, as in lines:486,588,656",
+            given=numbers or Message("none"),
+            least=NM[0],
+            most=NM[1],
         )
 
 
-def relative_power(spectrum: Spectrum, wavelength_um) -> np.ndarray:
+def relative_power(spectrum: Spectrum, wavelength_um: ArrayLike) -> np.ndarray:
     """Return the power per wavelength of a continuous spectrum, 1 at 560 nm, shape of the wavelengths (µm).
 
     Raises RequestError for lines, which have no power per wavelength.
@@ -80,16 +96,17 @@ def relative_power(spectrum: Spectrum, wavelength_um) -> np.ndarray:
     return daylight(wavelength) if spectrum.kind == "d65" else np.ones_like(wavelength)
 
 
-def black_body(wavelength_um, kelvin: float) -> np.ndarray:
+def black_body(wavelength_um: ArrayLike, kelvin: float) -> np.ndarray:
     """Return Planck's law per wavelength, λ⁻⁵/(exp(c₂/λT) − 1), over its value at 560 nm (Planck 1901)."""
     exponent = SECOND_RADIATION_MM_K * UM_PER_MM / (np.asarray(wavelength_um, dtype=float) * kelvin)
     known = SECOND_RADIATION_MM_K * UM_PER_MM / (0.56 * kelvin)
-    # exp(known − exponent) in place of a quotient of two exponentials: nothing overflows for a cold body.
+    # exp(known − exponent) instead of a quotient of two exponentials, which overflow for a cold body.
     ratio = np.exp(known - exponent) * np.expm1(-known) / np.expm1(-exponent)
-    return (0.56 / np.asarray(wavelength_um)) ** 5 * ratio
+    power: np.ndarray = (0.56 / np.asarray(wavelength_um)) ** 5 * ratio
+    return power
 
 
-def daylight(wavelength_um) -> np.ndarray:
+def daylight(wavelength_um: ArrayLike) -> np.ndarray:
     """Return D65 per wavelength, 1 at 560 nm, straight lines between the table's values and 0 beyond them."""
     return np.interp(np.asarray(wavelength_um) * NM_PER_UM, D65_NM, D65 / 100, left=0.0, right=0.0)
 

@@ -1,7 +1,9 @@
 """One colour PSF to a .npz or to a .png picture."""
 
 import json
+import os
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 
@@ -11,26 +13,30 @@ from p2sf.files.writing import plain, write_beside
 from p2sf.psf.polychromatic import ColourPsf, record
 
 
-def write_colour_psf(found: ColourPsf, path, meta: dict) -> Path:
+def write_colour_psf(found: ColourPsf, path: str | os.PathLike[str], meta: dict) -> Path:
     """Write a colour PSF as .npz (CIE X, Y, Z, linear) or .png (sRGB) by the ending of ``path``; return the path.
 
-    ``meta`` (see `describe`) is stored with it. Raises ExportError for another ending or a place that refuses it.
+    ``meta`` (see `p2sf.io.record.describe`) is stored with it. Raises ExportError for another ending or a
+    file that cannot be written.
     """
     write = COLOUR_WRITERS.get(Path(path).suffix.lower())
     if write is None:
         raise ExportError(
-            f'{path}: a colour PSF has no ending "{Path(path).suffix}"; choose {", ".join(COLOUR_WRITERS)}'
+            '{path}: a colour PSF has no ending "{ending}"; choose {choices}',
+            path=str(path),
+            ending=Path(path).suffix,
+            choices=tuple(COLOUR_WRITERS),
         )
     full = {**plain(meta), "colour_psf": plain(record(found))}
     return write_beside(path, lambda handle: write(handle, found, full))
 
 
-def _write_npz(handle, found: ColourPsf, meta: dict) -> None:
-    axes = {"x_um": found.x_um, "y_um": found.y_um}
-    np.savez_compressed(handle, xyz=found.xyz, **axes, meta=np.array(json.dumps(meta)))
+def _write_npz(handle: BinaryIO, found: ColourPsf, meta: dict) -> None:
+    facts = np.array(json.dumps(meta))
+    np.savez_compressed(handle, xyz=found.xyz, x_um=found.x_um, y_um=found.y_um, meta=facts)
 
 
-def _write_png(handle, found: ColourPsf, meta: dict) -> None:
+def _write_png(handle: BinaryIO, found: ColourPsf, meta: dict) -> None:
     from p2sf.io.psf_plot import draw_colour_psf
 
     title = f"{meta.get('lens', {}).get('title', 'point spread function')}\n{found.spectrum}, square root of the light"

@@ -1,25 +1,27 @@
-"""One PSF to and from FITS: the samples as the image, everything said about them in its header."""
+"""One PSF to and from FITS: the samples as the image, all facts about them in its header."""
 
 import io
 import json
+import os
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from p2sf import __version__
 from p2sf.errors import ExportError
 from p2sf.files.writing import plain, write_beside
-from p2sf.io.record import facts
+from p2sf.io.record import facts, psf_from
 from p2sf.psf.result import Psf
 
 META = "P2SFMETA"
 
 
-def write_psf_fits(psf: Psf, path, meta: dict) -> Path:
+def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
     """Write one PSF, shape (y, x), as a FITS image of doubles; return the path. Raises ExportError.
 
-    ``meta`` (see `p2sf.export.describe`) goes into the header as JSON, over CONTINUE cards (FITS 4.0, 4.2.1.2).
+    ``meta`` (see `p2sf.io.record.describe`) goes into the header as JSON, over CONTINUE cards (FITS 4.0, 4.2.1.2).
     """
     fits = _astropy()
     image = fits.PrimaryHDU(np.asarray(psf.values, dtype=float))
@@ -38,18 +40,20 @@ def write_psf_fits(psf: Psf, path, meta: dict) -> Path:
     return write_beside(path, lambda handle: handle.write(content.getbuffer()))
 
 
-def read_psf_fits(path) -> tuple[Psf, dict]:
+def read_psf_fits(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
     """Return the PSF of a FITS file that `write_psf_fits` wrote, exactly, and its meta. Raises ExportError."""
     fits = _astropy()
     try:
         with warnings.catch_warnings(action="ignore"), fits.open(path, memmap=False) as file:
             values, meta = file[0].data, json.loads(file[0].header[META])
-        return Psf(values.astype(float), **meta["psf"]), meta
+        return psf_from(values.astype(float), meta["psf"]), meta
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ExportError(f"{path} is not a PSF that this program wrote as FITS; save the snapshot again") from error
+        raise ExportError(
+            "{path} is not a PSF that this program wrote as FITS; save the snapshot again", path=str(path)
+        ) from error
 
 
-def _astropy():
+def _astropy() -> Any:
     try:
         from astropy.io import fits
     except ImportError as error:

@@ -1,6 +1,7 @@
-"""Reading and writing pictures; the inside of the house sees linear light in float32 only."""
+"""Readers and writers of pictures; everywhere else a picture is linear light in float32."""
 
 import io
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +22,7 @@ DEPTHS = ("8", "16", "float")
 class Photo:
     """A picture in linear light, (rows, columns, channels) float32, white at 1; row 0 is the top.
 
-    ``encoding`` says how its file's numbers were understood, ``depth`` how many bits they had.
+    ``encoding``: what its file's numbers meant, one of `transfer.ENCODINGS`; ``depth``: their bits, one of DEPTHS.
     """
 
     values: np.ndarray
@@ -29,11 +30,11 @@ class Photo:
     depth: str
 
 
-def read_photo(path, encoding: str | None = None) -> Photo:
+def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Photo:
     """Return the picture of a PNG or TIFF file, transparency left out.
 
-    ``encoding``: what the file's numbers mean, "srgb" or "linear"; not stated, whole numbers are sRGB and
-    floats linear. Raises RequestError for a file that is none, or holds no picture of 1 or 3 channels.
+    ``encoding``: what the file's numbers mean, "srgb" or "linear"; by default whole numbers are sRGB and floats
+    linear. Raises RequestError for a file of another kind, or without a picture of 1 or 3 channels.
     """
     raw = _samples(Path(path))
     depth = {"u1": "8", "u2": "16"}.get(raw.dtype.str[1:], "float")
@@ -43,38 +44,50 @@ def read_photo(path, encoding: str | None = None) -> Photo:
     if depth != "float":
         values /= np.float32(np.iinfo(raw.dtype).max)
     if not np.isfinite(values).all():
-        raise RequestError(f"{path} holds values that are not finite; replace them first")
+        raise RequestError("{path} holds values that are not finite; replace them first", path=str(path))
     return Photo(linear_from_srgb(values) if encoding == "srgb" else values, encoding, depth)
 
 
-def write_photo(path, values: np.ndarray, encoding: str = "srgb", depth: str | None = None) -> Path:
+def write_photo(
+    path: str | os.PathLike[str], values: np.ndarray, encoding: str = "srgb", depth: str | None = None
+) -> Path:
     """Write linear light (rows, columns[, channels]) as .png (8 or 16 bits) or .tif (8, 16 or float).
 
-    ``depth`` is 8 unless stated, float for a linear TIFF. What a whole number cannot hold is cut to 0…1.
+    ``depth`` is 8 by default, float for a linear TIFF. Values beyond 0…1 are clipped in whole numbers.
     Raises ExportError and RequestError.
     """
     check_encoding(encoding)
     ending = check_ending(path)
     depth = depth or ("float" if ending != ".png" and encoding == "linear" else "8")
     if depth not in DEPTHS or (depth == "float" and ending == ".png"):
-        raise RequestError(f"a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif")
+        raise RequestError(
+            "a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif",
+            ending=ending,
+            depth=depth,
+        )
     values = np.squeeze(np.asarray(values, np.float32))
     values = srgb_from_linear(values) if encoding == "srgb" else values
     stored = values if depth == "float" else _whole(values, int(depth))
     return write_beside(path, lambda handle: handle.write(_encoded(stored, ending)))
 
 
-def check_ending(path) -> str:
-    """Return the ending of a picture file, lower case; ExportError for one that is none."""
+def check_ending(path: str | os.PathLike[str]) -> str:
+    """Return the ending of a picture file, lower case; ExportError for another ending."""
     ending = Path(path).suffix.lower()
     if ending not in READABLE:
-        raise ExportError(f'{path} has the ending "{ending}", which is no picture here; choose {", ".join(READABLE)}')
+        raise ExportError(
+            '{path} has the ending "{ending}", which is no picture here; choose {choices}',
+            path=str(path),
+            ending=ending,
+            choices=READABLE,
+        )
     return ending
 
 
 def _whole(values: np.ndarray, bits: int) -> np.ndarray:
     top = 2**bits - 1
-    return np.rint(np.clip(values, 0, 1) * top).astype(np.uint8 if bits == 8 else np.uint16)
+    whole: np.ndarray = np.rint(np.clip(values, 0, 1) * top)
+    return whole.astype(np.uint8 if bits == 8 else np.uint16)
 
 
 def _encoded(stored: np.ndarray, ending: str) -> bytes:
@@ -96,7 +109,11 @@ def _samples(path: Path) -> np.ndarray:
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise RequestError(f"{path} cannot be read, {error.strerror}; give the path of a PNG or TIFF") from error
+        raise RequestError(
+            "{path} cannot be read, {reason}; give the path of a PNG or TIFF",
+            path=str(path),
+            reason=str(error.strerror),
+        ) from error
     if data[:4] in (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+"):
         return _from_tiff(data, path)
     if is_deep(data):
@@ -104,14 +121,16 @@ def _samples(path: Path) -> np.ndarray:
     return _from_png(data, path)
 
 
-def _from_tiff(data: bytes, path) -> np.ndarray:
+def _from_tiff(data: bytes, path: Path) -> np.ndarray:
     try:
         return np.asarray(first_page(io.BytesIO(data))[0])
     except (OSError, ValueError, *DAMAGED) as error:
-        raise RequestError(f"{path} is a TIFF that cannot be read ({error}); save it again, uncompressed") from error
+        raise RequestError(
+            "{path} is a TIFF that cannot be read ({why}); save it again, uncompressed", path=str(path), why=str(error)
+        ) from error
 
 
-def _from_png(data: bytes, path) -> np.ndarray:
+def _from_png(data: bytes, path: Path) -> np.ndarray:
     from PIL import Image, UnidentifiedImageError
 
     try:
@@ -120,20 +139,30 @@ def _from_png(data: bytes, path) -> np.ndarray:
             grey = picture.mode in ("1", "L", "LA")
             return np.asarray(picture.convert("L" if grey else "RGB"))
     except UnidentifiedImageError as error:
-        raise RequestError(f"{path} is neither a PNG nor a TIFF that can be read; convert it to one") from error
+        raise RequestError(
+            "{path} is neither a PNG nor a TIFF that can be read; convert it to one", path=str(path)
+        ) from error
     except (OversizedError, Image.DecompressionBombError) as error:
-        raise RequestError(f"{path} is too large a PNG ({error}); save it smaller") from error
+        raise RequestError(
+            "{path} is too large a PNG ({why}); save it smaller", path=str(path), why=str(error)
+        ) from error
     except (OSError, ValueError, *DAMAGED) as error:
-        raise RequestError(f"{path} is a damaged PNG ({error}); save the picture again") from error
+        raise RequestError(
+            "{path} is a damaged PNG ({why}); save the picture again", path=str(path), why=str(error)
+        ) from error
 
 
-def _channels(raw: np.ndarray, path) -> np.ndarray:
-    """Return (rows, columns, 1 or 3), planar files turned round and transparency cut off."""
+def _channels(raw: np.ndarray, path: str | os.PathLike[str]) -> np.ndarray:
+    """Return (rows, columns, 1 or 3): the channels of planar files moved last, transparency dropped."""
     if raw.dtype.kind not in "uf" or (raw.dtype.kind == "u" and raw.dtype.itemsize > 2):
-        raise RequestError(f"{path} holds {raw.dtype} samples; save it with 8 or 16 bits or as float")
+        raise RequestError(
+            "{path} holds {kind} samples; save it with 8 or 16 bits or as float", path=str(path), kind=str(raw.dtype)
+        )
     if raw.ndim == 3 and raw.shape[0] in (3, 4) and raw.shape[2] not in (1, 2, 3, 4):
         raw = np.moveaxis(raw, 0, -1)
     raw = raw[..., None] if raw.ndim == 2 else raw
     if raw.ndim != 3 or raw.shape[2] not in (1, 2, 3, 4) or not raw.size:
-        raise RequestError(f"{path} has the shape {raw.shape}; give one picture of 1 or 3 channels")
+        raise RequestError(
+            "{path} has the shape ({shape}); give one picture of 1 or 3 channels", path=str(path), shape=raw.shape
+        )
     return raw[..., : 1 if raw.shape[2] < 3 else 3]

@@ -1,5 +1,6 @@
-"""PNG of 16 bits a sample, which Pillow cuts down to 8 where there is colour (ISO/IEC 15948)."""
+"""PNG of 16 bits a sample, which Pillow reduces to 8 bits in colour pictures (ISO/IEC 15948)."""
 
+import os
 import struct
 import zlib
 
@@ -19,24 +20,28 @@ def is_deep(data: bytes) -> bool:
     return data[:8] == SIGNATURE and len(data) > 26 and data[24] == 16
 
 
-def read_deep(data: bytes, path) -> np.ndarray:
+def read_deep(data: bytes, path: str | os.PathLike[str]) -> np.ndarray:
     """Return the samples of a 16-bit PNG, (rows, columns, channels) uint16; RequestError for a damaged file."""
     if data[25] not in CHANNELS or any(data[28:29]):
         raise RequestError(
-            f"{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey"
+            "{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey", path=str(path)
         )
     channels = CHANNELS[data[25]]
     try:
         width, height = struct.unpack(">II", data[16:24])
         check_samples((height, width, channels), len(data))
-        # No more is unpacked than the head has announced.
+        # No more is unpacked than the header has announced.
         line = 2 * width * channels + 1
         raw = zlib.decompressobj().decompress(_body(data), height * line)
         plain = unfiltered(np.frombuffer(raw, np.uint8).reshape(height, line), 2 * channels)
     except OversizedError as error:
-        raise RequestError(f"{path} is too large a PNG ({error}); save it smaller") from error
+        raise RequestError(
+            "{path} is too large a PNG ({why}); save it smaller", path=str(path), why=str(error)
+        ) from error
     except (zlib.error, ValueError) as error:
-        raise RequestError(f"{path} is a damaged PNG ({error}); save the picture again") from error
+        raise RequestError(
+            "{path} is a damaged PNG ({why}); save the picture again", path=str(path), why=str(error)
+        ) from error
     return plain.view(">u2").astype(np.uint16).reshape(height, width, -1)
 
 
@@ -72,13 +77,13 @@ def _body(data: bytes) -> bytes:
 def unfiltered(raw: np.ndarray, step: int) -> np.ndarray:
     """Return the bytes before filtering, (rows, width · step); each raw row begins with its filter's number.
 
-    A byte needs its neighbours on the left and above (ISO/IEC 15948, §9). Those of one diagonal do not need each
-    other, hence diagonal by diagonal, in bands of rows so that the slanted copy stays small. ValueError for filters
-    that are none.
+    A byte depends on its neighbours on the left and above (ISO/IEC 15948, §9). Those of one diagonal do not depend on
+    each other, hence one diagonal at a time, in bands of rows so that the slanted copy stays small. Raises ValueError
+    for an unknown filter.
     """
     kinds, lines = raw[:, 0], raw[:, 1:].reshape(len(raw), -1, step)
     if kinds.max(initial=0) > 4 or not lines.size:
-        raise ValueError("filters that are none")
+        raise ValueError("unknown filters")
     plain = np.empty_like(lines)
     above = np.zeros_like(lines[0])
     for start in range(0, len(raw), BAND):
@@ -91,7 +96,9 @@ def unfiltered(raw: np.ndarray, step: int) -> np.ndarray:
 def _unfiltered_band(kinds: np.ndarray, lines: np.ndarray, above: np.ndarray) -> np.ndarray:
     """Return a band's bytes; ``above`` is the row before it. Row c of the slanted copy is the diagonal x + row = c."""
     rows, width, step = lines.shape
-    slanted = np.zeros((width + rows + 1, rows + 1, step), np.int16)  # one more before each side: zeros, and ``above``
+    slanted = np.zeros(
+        (width + rows + 1, rows + 1, step), np.int16
+    )  # one more at the start of each axis: zeros, and ``above``
     slanted[1 : width + 1, 0] = above
     row, pick = np.arange(rows), kinds[:, None]
     for c in range(width + rows - 1):
@@ -104,12 +111,12 @@ def _unfiltered_band(kinds: np.ndarray, lines: np.ndarray, above: np.ndarray) ->
 
 
 def _guess(kind: np.ndarray, left: np.ndarray, up: np.ndarray, corner: np.ndarray) -> np.ndarray:
-    """Return what each filter, 0 to 4, expects of a byte: nothing, left, above, their mean, Paeth's nearest."""
+    """Return each filter's prediction of a byte, 0 to 4: zero, left, above, their mean, Paeth's."""
     return np.choose(kind, (np.zeros_like(left), left, up, (left + up) >> 1, _paeth(left, up, corner)))
 
 
 def _paeth(left: np.ndarray, up: np.ndarray, corner: np.ndarray) -> np.ndarray:
-    """Return of three neighbours the nearest to left + up − corner, the earlier where two are as near."""
+    """Return the neighbour nearest to left + up − corner; of equally near ones left before up before corner."""
     far_left, far_up, far_corner = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
     up_or_corner = np.where(far_up <= far_corner, up, corner)
     return np.where((far_left <= far_up) & (far_left <= far_corner), left, up_or_corner)

@@ -1,7 +1,9 @@
 """One PSF to and from .npz, .tiff and .csv, and to a .png picture."""
 
 import json
+import os
 from pathlib import Path
+from typing import Any, BinaryIO
 
 import numpy as np
 
@@ -10,51 +12,70 @@ from p2sf.errors import ExportError
 from p2sf.files.atomic import DAMAGED, read_arrays
 from p2sf.files.raster_size import first_page
 from p2sf.files.writing import plain, write_beside
-from p2sf.io.record import CONVENTIONS, caption, facts
+from p2sf.io.record import CONVENTIONS, caption, facts, psf_from
 from p2sf.psf.result import Psf
 
 UM_PER_CM = 1e4
 ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom
 
 
-def write_psf(psf: Psf, path, meta: dict) -> Path:
+def write_psf(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
     """Write one PSF, shape (y, x), as .npz, .tiff, .csv or .png by the ending of ``path``; return the path.
 
-    ``meta`` (see `describe`) is stored with it, the PSF's own facts under "psf". Raises ExportError for an
-    unknown ending, a stack of PSFs, or a place that cannot be written; the old file then stays untouched.
+    ``meta`` (see `p2sf.io.record.describe`) is stored with it, the PSF's own facts under "psf". Raises ExportError
+    for an unknown ending, a stack of PSFs, or a file that cannot be written; an old file then stays untouched.
     """
     write = WRITERS.get(Path(path).suffix.lower())
     if write is None:
-        raise ExportError(f'{path}: the ending "{Path(path).suffix}" is unknown; choose {", ".join(sorted(WRITERS))}')
+        raise ExportError(
+            '{path}: the ending "{ending}" is unknown; choose {choices}',
+            path=str(path),
+            ending=Path(path).suffix,
+            choices=tuple(sorted(WRITERS)),
+        )
     if psf.values.ndim != 2:
-        raise ExportError(f"{path}: one file holds one PSF, this stack has shape {psf.values.shape}; write them singly")
+        raise ExportError(
+            "{path}: one file holds one PSF, this stack has shape ({shape}); write them singly",
+            path=str(path),
+            shape=psf.values.shape,
+        )
     record = {**plain(meta), "psf": facts(psf)}
     return write_beside(path, lambda handle: write(handle, psf, record))
 
 
-def read_psf(path) -> tuple[Psf, dict]:
+def read_psf(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
     """Return the PSF in a .npz, .tiff or .csv that this program wrote, and its meta.
 
     Exact from .npz and .csv, float32 from .tiff. Raises ExportError for a file that is missing or of another kind.
     """
     read = READERS.get(Path(path).suffix.lower())
     if read is None:
-        endings = ", ".join(sorted(READERS))
-        raise ExportError(f'{path}: no PSF can be read from the ending "{Path(path).suffix}"; choose {endings}')
+        raise ExportError(
+            '{path}: no PSF can be read from the ending "{ending}"; choose {choices}',
+            path=str(path),
+            ending=Path(path).suffix,
+            choices=tuple(sorted(READERS)),
+        )
     try:
         values, meta = read(path)
-        return Psf(values, **meta["psf"]), meta
+        return psf_from(values, meta["psf"]), meta
     except OSError as error:
-        raise ExportError(f"{path} cannot be read, {(error.strerror or str(error)).lower()}; check the name") from error
+        raise ExportError(
+            "{path} cannot be read, {reason}; check the name",
+            path=str(path),
+            reason=(error.strerror or str(error)).lower(),
+        ) from error
     except (ValueError, *DAMAGED) as error:
-        raise ExportError(f"{path} is not a PSF that this program wrote; export it again with p2sf psf -o") from error
+        raise ExportError(
+            "{path} is not a PSF that this program wrote; export it again with p2sf psf -o", path=str(path)
+        ) from error
 
 
-def _write_npz(handle, psf: Psf, meta: dict) -> None:
+def _write_npz(handle: BinaryIO, psf: Psf, meta: dict) -> None:
     np.savez_compressed(handle, psf=psf.values, x_um=psf.x_um, y_um=psf.y_um, meta=np.array(json.dumps(meta)))
 
 
-def _write_tiff(handle, psf: Psf, meta: dict) -> None:
+def _write_tiff(handle: BinaryIO, psf: Psf, meta: dict) -> None:
     import tifffile
 
     per_cm = UM_PER_CM / psf.pixel_um
@@ -70,7 +91,7 @@ def _write_tiff(handle, psf: Psf, meta: dict) -> None:
     )
 
 
-def _write_csv(handle, psf: Psf, meta: dict) -> None:
+def _write_csv(handle: BinaryIO, psf: Psf, meta: dict) -> None:
     lines = [
         f"# point spread function, {CONVENTIONS}",
         "# first row: x in µm; first column: y in µm; cells: fraction of the window's light",
@@ -85,23 +106,23 @@ def _csv_row(head: str, cells: np.ndarray) -> str:
     return ",".join([head, *map(repr, cells.tolist())])
 
 
-def _write_png(handle, psf: Psf, meta: dict) -> None:
+def _write_png(handle: BinaryIO, psf: Psf, meta: dict) -> None:
     from p2sf.io.psf_plot import draw_psf
 
     draw_psf(handle, psf, caption(meta), {"Description": json.dumps(meta), "Software": f"p2sf {__version__}"})
 
 
-def _read_npz(path) -> tuple[np.ndarray, dict]:
+def _read_npz(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     found = read_arrays(path)
     return found["psf"], json.loads(str(found["meta"]))
 
 
-def _read_tiff(path) -> tuple[np.ndarray, dict]:
+def _read_tiff(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     values, text = first_page(path)
     return values, json.loads(text)
 
 
-def _read_csv(path) -> tuple[np.ndarray, dict]:
+def _read_csv(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     lines = Path(path).read_text(encoding="utf-8").splitlines()
     meta = next((x.removeprefix("# meta: ") for x in lines if x.startswith("# meta: ")), "")
     cells = [line.split(",")[1:] for line in lines if not line.startswith("#")]

@@ -1,43 +1,48 @@
-"""Pictures for a file: a PSF with its scale, drawn without a screen and without global state."""
+"""Plots for a file: a PSF with its scale, or a spot diagram, drawn without a screen and without global state."""
 
 from math import floor, log10
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
 from p2sf.colour.colorimetry import srgb_from_linear
-from p2sf.psf.polychromatic import faint_rgb
+from p2sf.psf.polychromatic import ColourPsf, faint_rgb
 from p2sf.psf.result import Psf
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 BAR_SHARE = 0.25  # the scale bar takes at most this share of the width
 
 
-def draw_psf(handle, psf: Psf, title: str = "", metadata: dict | None = None) -> None:
+def draw_psf(handle: BinaryIO, psf: Psf, title: str = "", metadata: dict | None = None) -> None:
     """Write one PSF as a PNG into an open binary file: µm axes, scale bar, colour bar in fractions of the peak.
 
     Colours follow the square root of the intensity, so that faint light shows; the colour bar says so.
     ``metadata`` becomes the PNG's text entries, ASCII keys and values.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.colors import PowerNorm
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(6.4, 5.4), dpi=150, layout="constrained")
     axes = figure.add_subplot()
-    picture = axes.imshow(relative(psf.values), extent=edges_um(psf), origin="lower", cmap="magma", norm=_root())
+    root = PowerNorm(0.5, vmin=0, vmax=1)
+    picture = axes.imshow(relative(psf.values), extent=edges_um(psf), origin="lower", cmap="magma", norm=root)
     axes.set(xlabel="x on the sensor, µm", ylabel="y on the sensor, µm")
     axes.set_title(title, fontsize=9, loc="left")
     figure.colorbar(
         picture, ax=axes, ticks=[0, 0.01, 0.1, 0.25, 0.5, 1], label="intensity / peak (square-root colours)"
     )
     _draw_scale_bar(axes, psf)
-    FigureCanvasAgg(figure).print_png(handle, metadata=metadata)
+    _write_png(figure, handle, metadata)
 
 
-def draw_colour_psf(handle, found, title: str = "", metadata: dict | None = None) -> None:
-    """Write a `polychromatic.ColourPsf` as a PNG into an open binary file: sRGB, µm axes, scale bar.
+def draw_colour_psf(handle: BinaryIO, found: ColourPsf, title: str = "", metadata: dict | None = None) -> None:
+    """Write a colour PSF as a PNG into an open binary file: sRGB, µm axes, scale bar.
 
     The light's square root is shown, so that faint colours show. ``metadata`` becomes the PNG's text entries.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(5.6, 5.4), dpi=150, layout="constrained")
@@ -46,16 +51,17 @@ def draw_colour_psf(handle, found, title: str = "", metadata: dict | None = None
     axes.set(xlabel="x on the sensor, µm", ylabel="y on the sensor, µm")
     axes.set_title(title, fontsize=9, loc="left")
     _draw_scale_bar(axes, found)
-    FigureCanvasAgg(figure).print_png(handle, metadata=metadata)
+    _write_png(figure, handle, metadata)
 
 
 def relative(values: np.ndarray) -> np.ndarray:
     """Return intensities as fractions of the highest one."""
-    return values / values.max()
+    fractions: np.ndarray = values / values.max()
+    return fractions
 
 
-def edges_um(psf: Psf) -> tuple[float, float, float, float]:
-    """Return (left, right, bottom, top) of the picture in µm; samples sit in the middle of their pixels."""
+def edges_um(psf: Psf | ColourPsf) -> tuple[float, float, float, float]:
+    """Return (left, right, bottom, top) of the picture in µm; samples lie in the middle of their pixels."""
     half = psf.pixel_um / 2
     x, y = psf.x_um, psf.y_um
     return x[0] - half, x[-1] + half, y[0] - half, y[-1] + half
@@ -67,13 +73,14 @@ def round_length(longest: float) -> float:
     return max(step * decade for step in (1, 2, 5) if step * decade <= longest * (1 + 1e-9))
 
 
-def _root():
-    from matplotlib.colors import PowerNorm
+def _write_png(figure: "Figure", handle: BinaryIO, metadata: dict | None = None) -> None:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    return PowerNorm(0.5, vmin=0, vmax=1)
+    canvas: Any = FigureCanvasAgg(figure)  # matplotlib leaves this method without types
+    canvas.print_png(handle, metadata=metadata)
 
 
-def _draw_scale_bar(axes, psf: Psf) -> None:
+def _draw_scale_bar(axes: "Axes", psf: Psf | ColourPsf) -> None:
     """Draw a white bar and its length, with a dark edge that keeps them readable on bright light."""
     from matplotlib.patches import Rectangle
     from matplotlib.patheffects import withStroke
@@ -82,14 +89,13 @@ def _draw_scale_bar(axes, psf: Psf) -> None:
     width, height = right - left, top - bottom
     length = round_length(BAR_SHARE * width)
     x, y = left + 0.05 * width, bottom + 0.05 * height
-    edge = {"path_effects": [withStroke(linewidth=3, foreground="black")]}
+    edge: dict[str, Any] = {"path_effects": [withStroke(linewidth=3, foreground="black")]}
     axes.add_patch(Rectangle((x, y), length, 0.012 * height, facecolor="white", **edge))
     axes.text(x + length / 2, y + 0.025 * height, f"{length:g} µm", color="white", ha="center", va="bottom", **edge)
 
 
-def draw_spot(handle, points_um: np.ndarray, airy_radius_um: float, title: str = "") -> None:
+def draw_spot(handle: BinaryIO, points_um: np.ndarray, airy_radius_um: float, title: str = "") -> None:
     """Write a spot diagram as a PNG: rays (rays, 2) in µm from the chief ray, and the Airy circle around it."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from matplotlib.patches import Circle
 
@@ -101,4 +107,4 @@ def draw_spot(handle, points_um: np.ndarray, airy_radius_um: float, title: str =
     axes.set_title(title, fontsize=9, loc="left")
     axes.legend(fontsize=8, loc="upper right")
     axes.grid(alpha=0.3)
-    FigureCanvasAgg(figure).print_png(handle)
+    _write_png(figure, handle)

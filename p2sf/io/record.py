@@ -1,4 +1,4 @@
-"""What a file says about where its numbers come from."""
+"""The facts that a file carries beside its numbers: lens, setup, units, versions, and those of a PSF."""
 
 import hashlib
 import platform
@@ -11,6 +11,7 @@ from p2sf import __version__
 from p2sf.conventions import NM_PER_UM
 from p2sf.files.writing import plain
 from p2sf.lens.lens import Lens
+from p2sf.messages import Message
 from p2sf.psf.result import Psf
 from p2sf.request import Setup
 
@@ -22,9 +23,9 @@ UNITS = {"x_um": "µm", "y_um": "µm", "psf": "fraction of the window's light pe
 
 
 def describe(setup: Setup) -> dict:
-    """Return what a file says about where its numbers come from: lens and hash, setup, units, versions."""
+    """Return the facts that a file carries beside its numbers: lens and hash, setup, units, versions."""
     lens, source = setup.prescription, setup.source
-    return plain(
+    known: dict = plain(
         {
             "lens": {
                 "name": lens.name,
@@ -46,6 +47,7 @@ def describe(setup: Setup) -> dict:
             "versions": versions(),
         }
     )
+    return known
 
 
 def lens_hash(lens: Lens) -> str:
@@ -66,12 +68,18 @@ def versions() -> dict[str, str]:
 
 
 def facts(psf: Psf) -> dict:
-    """Return everything a PSF knows about itself but the samples."""
-    return {f.name: plain(getattr(psf, f.name)) for f in fields(psf) if f.name != "values"}
+    """Return all fields of a PSF but the samples, as JSON can carry them."""
+    known = {f.name: getattr(psf, f.name) for f in fields(psf) if f.name != "values"}
+    return {name: plain(value) for name, value in (known | {"sampling": str(psf.sampling)}).items()}
+
+
+def psf_from(values: np.ndarray, known: dict) -> Psf:
+    """Return a PSF of its samples and its `facts`; TypeError where these are not a PSF's."""
+    return Psf(values, **{**known, "sampling": Message(str(known.get("sampling", "")))})
 
 
 def caption(meta: dict) -> str:
-    """Return one or two lines that say what a picture shows."""
+    """Return one or two lines on what a picture shows."""
     setup, psf = meta.get("setup", {}), meta["psf"]
     depth = "∞" if setup.get("depth_mm") is None else f"{setup['depth_mm']:g} mm"
     where = f"object at {depth}, field {setup['field_deg']:g}°, " if setup else ""

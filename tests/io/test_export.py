@@ -14,6 +14,7 @@ from p2sf.errors import ExportError
 from p2sf.files.writing import check_place, plain, write_beside, write_json
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.io.psf_plot import edges_um, round_length
+from p2sf.messages import Message
 from p2sf.psf.result import Psf
 
 META = {"lens": {"name": "made_up"}, "setup": {"depth_mm": np.inf, "field_deg": 14.0}}
@@ -24,7 +25,14 @@ def blob(rows=24, columns=17) -> Psf:
     y, x = np.mgrid[:rows, :columns]
     values = np.exp(-((y - 15) ** 2) / 9 - ((x - 5) ** 2) / 4)
     return Psf(
-        values / values.sum(), 0.69125, 0.6562725, "seidel", strehl=0.37, energy=0.99, numbers=6, sampling="test"
+        values / values.sum(),
+        0.69125,
+        0.6562725,
+        "seidel",
+        strehl=0.37,
+        energy=0.99,
+        numbers=6,
+        sampling=Message("test"),
     )
 
 
@@ -34,6 +42,7 @@ def test_what_is_written_is_read_back(tmp_path, ending, tolerance):
     back, meta = read_psf(write_psf(psf, tmp_path / f"spot.{ending}", META))
     np.testing.assert_allclose(back.values, psf.values, rtol=tolerance)  # float32 rounds to 2^-24 = 6e-8
     assert (back.pixel_um, back.method, back.strehl, back.tolerance) == (psf.pixel_um, "seidel", 0.37, None)
+    assert back.sampling == psf.sampling and meta["psf"]["sampling"] == "test"
     assert meta["setup"] == {"depth_mm": None, "field_deg": 14.0}
     assert os.listdir(tmp_path) == [f"spot.{ending}"]
 
