@@ -1,8 +1,9 @@
-"""Coefficients as a table that any program reads."""
+"""Coefficients of a database as a CSV table."""
 
 import csv
 import io
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -27,8 +28,8 @@ COLUMNS = (
 )
 
 
-def write_csv(stored: Stored, path) -> Path:
-    """Write the coefficients at every node, one row each, waves unless a name says otherwise; ExportError."""
+def write_csv(stored: Stored, path: str | os.PathLike[str]) -> Path:
+    """Write the coefficients at every node, one row each, in waves where a column names no unit; ExportError."""
     known = {key: value for key, value in stored.meta.items() if key not in ("lens", "numbers")}
     known["lens"] = {key: value for key, value in stored.meta["lens"].items() if key != "toml"}
     text = io.StringIO()
@@ -36,15 +37,17 @@ def write_csv(stored: Stored, path) -> Path:
     text.write(f"# meta: {json.dumps(known, ensure_ascii=False)}\n")
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(COLUMNS)
-    rows.writerows(coefficient_rows(stored.database).tolist())
+    rows.writerows(coefficient_rows(stored).tolist())
     return write_beside(path, lambda handle: handle.write(text.getvalue().encode()))
 
 
-def coefficient_rows(database) -> np.ndarray:
+def coefficient_rows(stored: Stored) -> np.ndarray:
     """Return ``COLUMNS`` at every node, shape (nodes, 12); depth varies slowest."""
+    database = stored.database
     depth, slope, wavelength = database.space.axes
     found = database.coefficients(depth, slope, wavelength)
     six = (found.w40, found.w31, found.w22, found.w20, found.w11, found.wd)
     scale = (found.na, found.image_distance, found.image_height)
     point = (depth, degrees_from_slope(slope), wavelength * NM_PER_UM)
-    return np.stack([x.ravel() for x in np.broadcast_arrays(*point, *six, *scale)], axis=-1) + 0.0
+    rows: np.ndarray = np.stack([x.ravel() for x in np.broadcast_arrays(*point, *six, *scale)], axis=-1)
+    return rows + 0.0  # −0 becomes 0

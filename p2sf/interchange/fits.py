@@ -1,7 +1,10 @@
 """PSFs as FITS, with the keywords of poppy (its documentation, "FITS Header Keywords Definitions")."""
 
 import io
+import os
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +20,7 @@ METRES_PER_UM = 1e-6
 ARCSECONDS = 180 * 3600 / np.pi
 
 
-def write_fits(cube: Cube, path) -> Path:
+def write_fits(cube: Cube, path: str | os.PathLike[str]) -> Path:
     """Write a cube as one image (x, y, wavelength, field, depth in FITS order) and a table per axis; ExportError."""
     try:
         from astropy.io import fits
@@ -33,7 +36,7 @@ def write_fits(cube: Cube, path) -> Path:
 
 
 def keywords(cube: Cube) -> list[tuple[str, object, str]]:
-    """Return (keyword, value, comment) of the image's header; lengths in metres, as poppy has them."""
+    """Return (keyword, value, comment) of the image's header; lengths in metres, as in poppy."""
     lens, colours = cube.stored.lens, cube.wavelengths_nm * 1e-9
     middle, width = float(colours[len(colours) // 2]), _pupil_metres(cube.stored.lens)
     return [
@@ -56,7 +59,7 @@ def keywords(cube: Cube) -> list[tuple[str, object, str]]:
     ]
 
 
-def _axis_keywords(cube: Cube):
+def _axis_keywords(cube: Cube) -> Iterator[tuple[str, object, str]]:
     """Yield where the chief ray lies: sample N//2 counted from 0, that is N//2 + 1 from 1."""
     for axis, name in ((1, "X"), (2, "Y")):
         yield f"CTYPE{axis}", f"{name} (field along +Y)" if axis == 2 else name, "sensor axis"
@@ -70,12 +73,12 @@ def _pupil_metres(lens: Lens) -> float:
     return float(pupils(lens, lens.reference_wavelength_um).entrance_diameter) / UM_PER_MM
 
 
-def _axes(cube: Cube):
+def _axes(cube: Cube) -> Iterator[tuple[str, str, np.ndarray]]:
     yield "WAVELENGTH", "nm", cube.wavelengths_nm
     yield "FIELD", "deg", cube.fields_deg
     yield "DEPTH", "mm", cube.depths_mm
 
 
-def _axis_table(fits, name: str, unit: str, values: np.ndarray):
+def _axis_table(fits: Any, name: str, unit: str, values: np.ndarray) -> Any:
     column = fits.Column(name=name, format="D", unit=unit, array=values)
     return fits.BinTableHDU.from_columns([column], name=name)

@@ -6,6 +6,7 @@ an even N; ``geometry.function`` real and ``fieldHeight`` ideal image heights; `
 half the diagonal field. W11 is not in the PSF: the geometry carries the distortion.
 """
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,16 +39,18 @@ class IsetOptions:
     heights: int = 13
 
 
-USUAL = IsetOptions()
+DEFAULT = IsetOptions()
 
 
-def write_iset(stored: Stored, path, options: IsetOptions = USUAL) -> Path:
+def write_iset(stored: Stored, path: str | os.PathLike[str], options: IsetOptions = DEFAULT) -> Path:
     """Write a database as ISETCam ray-trace optics, variable ``optics``; ExportError, DatabaseError, GeometryError."""
     from scipy.io import savemat
 
     if options.pixels % 2 or not 2 <= options.pixels <= MOST_PIXELS:
         raise ExportError(
-            f"{options.pixels} samples a side, but ISETCam takes an even number of samples up to {MOST_PIXELS}; give 64"
+            "{pixels} samples a side, but ISETCam takes an even number of samples up to {most}; give 64",
+            pixels=options.pixels,
+            most=MOST_PIXELS,
         )
     if stored.database.space.field_slopes[0] > 0:
         raise ExportError("ISETCam's field heights start at 0 and this database does not; build it from field 0 on")
@@ -56,7 +59,7 @@ def write_iset(stored: Stored, path, options: IsetOptions = USUAL) -> Path:
     return write_beside(path, lambda handle: savemat(handle, {"optics": optics}, do_compression=True))
 
 
-def ray_trace(stored: Stored, options: IsetOptions = USUAL) -> dict:
+def ray_trace(stored: Stored, options: IsetOptions = DEFAULT) -> dict:
     """Return the fields of ``optics.rayTrace``."""
     database, lens = stored.database, stored.lens
     space = database.space
@@ -76,7 +79,7 @@ def ray_trace(stored: Stored, options: IsetOptions = USUAL) -> dict:
         "maxfov": float(degrees_from_slope(slopes[-1])),
         "fov": float(degrees_from_slope(slopes[-1])),
         "psf": {
-            "function": psf_function(database, (depth, slopes, space.wavelengths_um), options.pixels, pitch),
+            "function": psf_function(stored, depth, slopes, options.pixels, pitch),
             "sampleSpacing": np.array([[pitch, pitch]]) / UM_PER_MM,
             **shared,
         },
@@ -86,7 +89,7 @@ def ray_trace(stored: Stored, options: IsetOptions = USUAL) -> dict:
 
 
 def first_order(lens: Lens, depth_mm: float, wavelength_um: float) -> dict:
-    """Return ISETCam's scalars; its magnification is negative, whatever the lens does."""
+    """Return ISETCam's scalars; its magnification is always negative."""
     return {
         "referenceWavelength": wavelength_um * NM_PER_UM,
         "mag": -abs(float(magnification(lens, depth_mm, wavelength_um))),
@@ -96,20 +99,22 @@ def first_order(lens: Lens, depth_mm: float, wavelength_um: float) -> dict:
     }
 
 
-def psf_function(database, axes, pixels: int, pixel_um: float) -> np.ndarray:
+def psf_function(stored: Stored, depth_mm: float, slopes: np.ndarray, pixels: int, pixel_um: float) -> np.ndarray:
     """Return unit-sum PSFs (row, column, height, wavelength), field along columns, origin at N/2 counted from 1.
 
     One sample more is rendered and the first row and column dropped, which moves the origin from N//2 counted
     from 0 without interpolating anything.
     """
-    depth, slopes, wavelengths = axes
-    points, sampling = (depth, slopes[:, None], wavelengths), Sampling(pixels + 1, pixel_um)
-    ours = rendered(database, points, sampling, np.float64)[..., 1:, 1:]
-    ours /= ours.sum((-2, -1), keepdims=True)
-    return ours.transpose(3, 2, 0, 1)
+    database = stored.database
+    points = depth_mm, slopes[:, None], database.space.wavelengths_um
+    psfs: np.ndarray = rendered(database, points, Sampling(pixels + 1, pixel_um), np.float64)[..., 1:, 1:]
+    psfs /= psfs.sum((-2, -1), keepdims=True)
+    return psfs.transpose(3, 2, 0, 1)
 
 
-def traced_heights(lens: Lens, depth_mm: float, slopes, wavelengths_um) -> tuple[np.ndarray, np.ndarray]:
+def traced_heights(
+    lens: Lens, depth_mm: float, slopes: np.ndarray, wavelengths_um: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return real image heights (mm) and relative illumination, both (height, wavelength).
 
     Illumination by a Lambertian scene is ∝ ∫dKx dKy, the area of the pupil's image in direction cosines
@@ -125,7 +130,7 @@ def traced_heights(lens: Lens, depth_mm: float, slopes, wavelengths_um) -> tuple
     return real, area / area[0]
 
 
-def polygon_area(x, y) -> float:
+def polygon_area(x: np.ndarray, y: np.ndarray) -> float:
     """Return the area inside a closed polygon (the shoelace formula)."""
     return abs(float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))) / 2
 

@@ -1,5 +1,6 @@
-"""All PSFs of a file at its nodes, whether they are stored or rendered now."""
+"""All PSFs of a file at its nodes, stored or rendered on opening."""
 
+import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from p2sf.database_files.stack import open_stack, read_psfs
 from p2sf.errors import DatabaseError
 
 MOST_BYTES = 1 << 31
-USUAL = Sampling()
+DEFAULT = Sampling()
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,13 +40,13 @@ class Cube:
         return self.stored.database.space.wavelengths_um * NM_PER_UM
 
 
-def open_stored(path) -> Stored:
-    """Return the database of a .npz or of a stack; DatabaseError where there is none."""
+def open_stored(path: str | os.PathLike[str]) -> Stored:
+    """Return the database of a .npz or of a stack; DatabaseError for any other file."""
     return open_stack(path).stored if Path(path).is_dir() else load_database(path)
 
 
-def open_cube(path, sampling: Sampling = USUAL) -> Cube:
-    """Return all PSFs of a file; a .npz is rendered with ``sampling``, a stack is read as it is. DatabaseError."""
+def open_cube(path: str | os.PathLike[str], sampling: Sampling = DEFAULT) -> Cube:
+    """Return all PSFs of a file; a .npz is rendered with ``sampling``, a stack read unchanged. Raises DatabaseError."""
     if Path(path).is_dir():
         stack = open_stack(path)
         _check_size(path, stack.psf.shape)
@@ -57,11 +58,13 @@ def open_cube(path, sampling: Sampling = USUAL) -> Cube:
     return Cube(rendered(stored.database, space.axes, replace(sampling, pixel_um=pitch)), pitch, stored)
 
 
-def _check_size(path, shape: tuple[int, ...]) -> None:
-    """Refuse what one file of these kinds, or a machine, cannot hold."""
+def _check_size(path: str | os.PathLike[str], shape: tuple[int, ...]) -> None:
+    """Raise DatabaseError for more PSFs than one file of these kinds, or the memory, can hold."""
     size = 4 * float(np.prod(shape))
     if size > MOST_BYTES:
         raise DatabaseError(
-            f"{path} holds {size / (1 << 30):.1f} GiB of PSFs, more than the 2 GiB one exported file may have; "
-            "use the Zarr stack itself, or build with fewer nodes or pixels"
+            "{path} holds {size:.1f} GiB of PSFs, more than the 2 GiB one exported file may have; "
+            "use the Zarr stack itself, or build with fewer nodes or pixels",
+            path=str(path),
+            size=size / (1 << 30),
         )

@@ -1,6 +1,7 @@
 """PSFs as one TIFF of float pages, an ImageJ hyperstack."""
 
 import json
+import os
 from itertools import product
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from p2sf.io.record import CONVENTIONS
 ORIENTATION = (274, "H", 1, 4, True)
 
 
-def write_tiff(cube: Cube, path) -> Path:
+def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
     """Write a cube as float32 pages, depth as frames, field as slices, wavelength as channels; ExportError."""
     import tifffile
 
