@@ -64,7 +64,7 @@ def form_image(
 
     ``values``: the paraxial image, (rows, columns, channels) on the scene's sensor, one channel for each of the
     scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given when it is
-    known. Raises RequestError for shapes that do not fit, Cancelled when ``watch`` says so.
+    known. Raises RequestError for shapes that do not fit, Cancelled when ``watch`` is cancelled.
     """
     values, watch = checked(planned, values), watch or Progress()
     if depth_mm is None:

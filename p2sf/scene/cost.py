@@ -5,7 +5,7 @@ from math import ceil, log2
 
 PUPIL_SECONDS = {"seidel": 1e-3, "fitted": 1.8e-3}  # rays, fit and its change of variables, per wavelength and height
 TERM_SECONDS = 3e-5  # more for each of the fit's numbers beyond the first 26
-KERNEL_SECONDS = 6e-4  # turning a pupil and adding up samples, whatever the window
+KERNEL_SECONDS = 6e-4  # rotating a pupil and adding up samples, for any window
 SAMPLE_SECONDS = 5e-9  # per sample of a transform and binary digit of its side
 PIXEL_SECONDS = 3.2e-9  # the same for the convolutions, there and back
 BYTES = 4

@@ -1,4 +1,4 @@
-"""Scenes as TOML files that a person writes."""
+"""Scenes in TOML files."""
 
 import os
 import tomllib

@@ -1,4 +1,4 @@
-"""A plan as text, in English, and as JSON: its decisions, its promise and its cost."""
+"""A plan as text, in English, and as JSON: its decisions, predicted error and cost."""
 
 from p2sf.scene.plan import Plan
 
@@ -11,7 +11,7 @@ def plan_rows(planned: Plan) -> list[tuple[str, str, str, str]]:
 
 
 def plan_sentences(planned: Plan) -> list[str]:
-    """Return what the plan promises and costs, and what the full grid would, in sentences."""
+    """Return sentences on the plan's predicted error and cost, and on the cost of the full grid."""
     tolerance, cost, naive = planned.scene.relative_tolerance, planned.cost, planned.naive
     verdict = "keeps" if planned.meets else "does NOT keep"
     return [

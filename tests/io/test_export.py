@@ -1,4 +1,4 @@
-"""An export says what it is, comes back as it went, and is there whole or not at all."""
+"""An exported file carries its facts, is read back as it was written, and is written whole or not at all."""
 
 import errno
 import json

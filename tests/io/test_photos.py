@@ -1,4 +1,4 @@
-"""Pictures come back as they were written, whatever their depth, and files that are none are named."""
+"""Pictures are read back as they were written, at any depth, and other files are refused by name."""
 
 import struct
 import zlib

@@ -2,8 +2,8 @@
 
 Each scene is planned, checked at random points against exact rays, and its cost is compared with that of the full
 grid, which without a plan would have to be computed for the same error: one method everywhere, the cheapest that holds
-at the worst place, its own rays for every PSF; depth × rows × columns × every wavelength, as dense all over as the
-worst place asks; every fringe; all phase terms; one window, that of the widest blur; no use of symmetry
+at the worst place, its own rays for every PSF; depth × rows × columns × every wavelength, everywhere as dense as the
+worst place needs; every fringe; all phase terms; one window, that of the widest blur; no use of symmetry
 (`pricing.naive_work`). Both costs are printed as predicted and as measured (CPU seconds of computing the kernels, for
 the full grid from a sample of them; chief rays, which both need alike, are traced before), and beside them the cost of
 the reference sum on the same grid.

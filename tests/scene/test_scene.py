@@ -44,7 +44,7 @@ def planned():
     return plan(find_lens("double_gauss_28"), scene)
 
 
-def test_the_plan_keeps_its_promise_against_exact_rays(planned):
+def test_the_plan_keeps_its_tolerance_against_exact_rays(planned):
     verdict = verify(planned, points=2, seed=1)
     assert planned.meets and verdict.kept
     assert verdict.worst > 0  # the two roads share no approximation
@@ -104,7 +104,7 @@ def test_pupils_between_the_fitted_ones_cost_no_more_than_the_plan_says():
     assert 0 < worst <= said <= 0.1 * scene.tolerance
 
 
-def test_as_many_heights_are_fitted_as_the_error_between_them_asks():
+def test_as_many_heights_are_fitted_as_the_error_between_them_requires():
     scene = Scene(Sensor(3000, 4000, 4.0), (Channel("green", (550.0,), (1.0,)),), f_number=8.0)
     study = Study(scene.camera(find_lens("double_gauss_28")), scene)
     (few, error), (more, less) = (few_heights(study, 20, allowed) for allowed in (1.0, 1e-3))
@@ -123,7 +123,7 @@ def test_planning_interpolates_pupils_as_well_as_it_says():
     assert 0 < max(found) <= shared.tables_error
 
 
-def test_the_least_choice_is_the_first_that_holds_everywhere_whatever_was_asked_first():
+def test_the_first_allowed_choice_holds_at_every_place_in_any_order():
     asked = []
 
     def measure(number: int, place: float) -> float:
