@@ -59,8 +59,8 @@ def naive_work(study: Study, zones: RecipeZones, counts: tuple[int, int], layers
     """Return the work of the full grid, which without a plan would have to be computed for the same error.
 
     One method everywhere, the cheapest that holds at the worst place, its own rays for every PSF; depth × rows ×
-    columns × every wavelength, everywhere as dense as the worst place needs; every fringe; one window, that of the widest
-    blur; no use of symmetry.
+    columns × every wavelength, everywhere as dense as the worst place needs; every fringe; one window, that of the
+    widest blur; no use of symmetry.
     """
     scene, recipe = study.scene, naive_recipe(zones)
     halves, sides = _widths(study, [(edge, recipe) for edge, _ in zones])
