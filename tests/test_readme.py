@@ -36,5 +36,5 @@ def test_every_file_linked_or_named_exists():
 
 def test_ci_runs_the_command_the_readme_shows():
     marked = README.split("<!-- test command -->")[1].split("```")[1]
-    assert "pip install -q '.[test]'" in marked and marked.strip().endswith("-m pytest")
+    assert "pip install -q -e '.[test]'" in marked and marked.strip().endswith("-m pytest -n auto")
     assert "<!-- test command -->" in (ROOT / ".ci" / "run").read_text()
