@@ -1,0 +1,1 @@
+"""The handbook: pages in Markdown with formulas, and how the window shows them."""

@@ -1,0 +1,150 @@
+"""The handbook in a window: contents at the left, a page at the right, formulas in the text's own colour."""
+
+import numpy as np
+from PySide6.QtCore import QSize, Qt, QUrl
+from PySide6.QtGui import QImage, QTextBlockFormat, QTextCharFormat, QTextCursor, QTextDocument
+from PySide6.QtWidgets import QDialog, QSplitter, QTextBrowser, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.handbook.pages import PAGES, Formula, formulas, headings, page, rendered, with_pictures
+from p2sf_explorer.i18n.tr import tr
+
+TEXT_PX, FORMULA_PX = 14, 15
+WIDE, TALL, CONTENTS = 1040, 820, 260
+DESCENT = 0.16  # of the text's size: what a letter hangs below the line
+BODY = """
+h1 {{ font-size: 26px; }} h2 {{ font-size: 19px; }} h3 {{ font-size: 16px; }}
+table {{ border-color: {line}; }} td, th {{ padding: 3px 8px; }} a {{ color: {accent}; }}
+"""
+
+
+class Handbook(QDialog):
+    """Shows the pages; ``show_section("theory", "3.2")`` opens one at a section."""
+
+    def __init__(self, theme: Tokens, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setObjectName("window")
+        self.setWindowTitle(tr("Handbook"))
+        self._theme, self._page = theme, ""
+        self.contents, self.text = QTreeWidget(self), QTextBrowser(self)
+        self.contents.setHeaderHidden(True)
+        self.contents.setAccessibleName(tr("Contents"))
+        self.text.setAccessibleName(tr("Handbook"))
+        self.text.setOpenLinks(False)
+        self.text.setFrameShape(QTextBrowser.Shape.NoFrame)
+        self.text.anchorClicked.connect(self._follow)
+        for name, title in PAGES.items():
+            self.contents.addTopLevelItem(_branch(name, title))
+        self.contents.topLevelItem(0).setExpanded(True)
+        self.contents.itemClicked.connect(lambda item: self._open(*item.data(0, Qt.ItemDataRole.UserRole)))
+        split = QSplitter(self)
+        split.addWidget(self.contents)
+        split.addWidget(self.text)
+        split.setSizes([CONTENTS, WIDE - CONTENTS])
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 8, 8, 8)
+        column.addWidget(split)
+        room = self.screen().availableGeometry()
+        self.resize(QSize(WIDE, TALL).boundedTo(QSize(room.width() - 40, room.height() - 80)))
+
+    def show_section(self, name: str = "theory", number: str = "") -> None:
+        """Open a page, at the section of this number where one is given."""
+        found = next((heading.text for heading in headings(page(name)) if number and heading.number == number), "")
+        self.show()
+        self.raise_()
+        self._open(name, found)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme, name, self._page = theme, self._page, ""
+        if name:
+            self._open(name, "")
+
+    def _open(self, name: str, heading: str) -> None:
+        if name != self._page:
+            self._page = name
+            self.text.setDocument(self._document(name))
+        self._scroll_to(heading)
+
+    def _follow(self, link: QUrl) -> None:
+        name = link.toString().removesuffix(".md")
+        if name in PAGES:
+            self._open(name, "")
+
+    def _document(self, name: str) -> QTextDocument:
+        """Return a page as Qt lays it out; its formulas are pictures in the text's colour."""
+        document, source, ratio = QTextDocument(self.text), page(name), self.devicePixelRatioF()
+        document.setDefaultStyleSheet(BODY.format(line=self._theme.line, accent=self._theme.accent))
+        font = self.text.font()
+        font.setPixelSize(TEXT_PX)
+        document.setDefaultFont(font)
+        document.setDocumentMargin(18)
+        document.setMarkdown(with_pictures(source))  # which forgets the pictures known before
+        for number, formula in enumerate(formulas(source)):
+            picture = painted(rendered(formula, FORMULA_PX * ratio), self._theme.text, ratio)
+            document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(f"formula:{number}"), picture)
+        lay_out(document)
+        return document
+
+    def _scroll_to(self, heading: str) -> None:
+        """Put a heading at the top; the page's beginning for none."""
+        document, bar, block = self.text.document(), self.text.verticalScrollBar(), self.text.document().begin()
+        while block.isValid() and heading:
+            if block.blockFormat().headingLevel() and block.text() == heading:
+                bar.setValue(int(document.documentLayout().blockBoundingRect(block).top()) - 6)
+                return
+            block = block.next()
+        bar.setValue(0)
+
+
+def _branch(name: str, title: str) -> QTreeWidgetItem:
+    """Return a page with its sections below it, as the contents list them."""
+    top = QTreeWidgetItem([tr(title)])
+    top.setData(0, Qt.ItemDataRole.UserRole, (name, ""))
+    parents = {1: top}
+    for heading in headings(page(name)):
+        if heading.level > 1:
+            item = QTreeWidgetItem(parents.get(heading.level - 1, top), [heading.text])
+            item.setData(0, Qt.ItemDataRole.UserRole, (name, heading.text))
+            parents[heading.level] = item
+    return top
+
+
+def painted(formula: Formula, colour: str, ratio: float) -> QImage:
+    """Return a formula as a picture in one colour, as deep below the line as letters are, or deeper if it is."""
+    rows, columns = formula.opacity.shape
+    below = max(0, round(DESCENT * TEXT_PX * ratio - formula.depth))  # so that picture and line end together
+    shade = np.zeros((rows + below, columns), np.uint32)
+    shade[:rows] = np.round(255 * formula.opacity).astype(np.uint32)
+    red, green, blue = (int(colour[k : k + 2], 16) for k in (1, 3, 5))
+    packed = (shade << 24) | (shade * red // 255 << 16) | (shade * green // 255 << 8) | (shade * blue // 255)
+    picture = QImage(
+        packed.tobytes(), columns, rows + below, 4 * columns, QImage.Format.Format_ARGB32_Premultiplied
+    ).copy()
+    picture.setDevicePixelRatio(ratio)
+    return picture
+
+
+def lay_out(document: QTextDocument) -> None:
+    """Give headings, paragraphs and formulas their room; let each formula end where its line of text ends."""
+    block = document.begin()
+    while block.isValid():
+        pieces = [piece.fragment() for piece in block]
+        pictures = [piece for piece in pieces if piece.charFormat().isImageFormat()]
+        form, level = block.blockFormat(), block.blockFormat().headingLevel()
+        in_table = QTextCursor(block).currentTable() is not None
+        form.setTopMargin({0: 0 if in_table else 5, 1: 4, 2: 22}.get(level, 14))
+        form.setBottomMargin(0 if in_table else 5)
+        if len(pictures) == len(pieces) == 1 and not in_table:
+            form.setLeftMargin(32)
+        elif not level and not in_table:
+            form.setLineHeight(125, QTextBlockFormat.LineHeightTypes.ProportionalHeight.value)
+        QTextCursor(block).setBlockFormat(form)
+        for piece in pictures:
+            cursor = QTextCursor(document)
+            cursor.setPosition(piece.position())
+            cursor.setPosition(piece.position() + piece.length(), QTextCursor.MoveMode.KeepAnchor)
+            placed = piece.charFormat().toImageFormat()
+            placed.setVerticalAlignment(QTextCharFormat.VerticalAlignment.AlignBottom)
+            cursor.setCharFormat(placed)
+        block = block.next()
