@@ -2,15 +2,26 @@
 
 import numpy as np
 from PySide6.QtCore import QSize, Qt, QUrl
-from PySide6.QtGui import QImage, QTextBlockFormat, QTextCharFormat, QTextCursor, QTextDocument
+from PySide6.QtGui import (
+    QColor,
+    QImage,
+    QTextBlockFormat,
+    QTextCharFormat,
+    QTextCursor,
+    QTextDocument,
+    QTextFormat,
+    QTextLength,
+    QTextTable,
+)
 from PySide6.QtWidgets import QDialog, QSplitter, QTextBrowser, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.handbook.pages import PAGES, Formula, formulas, headings, page, rendered, with_pictures
 from p2sf_explorer.i18n.tr import tr
 
-TEXT_PX, FORMULA_PX = 14, 15
-WIDE, TALL, CONTENTS = 1040, 820, 260
+TEXT_PX, FORMULA_PX, TABLE_PX = 14, 15, 11
+WIDE, TALL, CONTENTS = 1100, 820, 260
+MANY_COLUMNS = 8  # from which a table of numbers is set small and unbroken
 DESCENT = 0.16  # of the text's size: what a letter hangs below the line
 BODY = """
 h1 {{ font-size: 26px; }} h2 {{ font-size: 19px; }} h3 {{ font-size: 16px; }}
@@ -84,6 +95,7 @@ class Handbook(QDialog):
             picture = painted(rendered(formula, FORMULA_PX * ratio), self._theme.text, ratio)
             document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(f"formula:{number}"), picture)
         lay_out(document)
+        rule_tables(document, self._theme.line)
         return document
 
     def _scroll_to(self, heading: str) -> None:
@@ -135,6 +147,7 @@ def lay_out(document: QTextDocument) -> None:
         in_table = QTextCursor(block).currentTable() is not None
         form.setTopMargin({0: 0 if in_table else 5, 1: 4, 2: 22}.get(level, 14))
         form.setBottomMargin(0 if in_table else 5)
+        form.setNonBreakableLines(in_table and QTextCursor(block).currentTable().columns() >= MANY_COLUMNS)
         if len(pictures) == len(pieces) == 1 and not in_table:
             form.setLeftMargin(32)
         elif not level and not in_table:
@@ -148,3 +161,26 @@ def lay_out(document: QTextDocument) -> None:
             placed.setVerticalAlignment(QTextCharFormat.VerticalAlignment.AlignBottom)
             cursor.setCharFormat(placed)
         block = block.next()
+
+
+def rule_tables(document: QTextDocument, colour: str) -> None:
+    """Let columns be as wide as what is in them, with thin rules; a table of many columns is set small."""
+    for frame in document.rootFrame().childFrames():
+        if not isinstance(frame, QTextTable):
+            continue
+        form = frame.format().toTableFormat()
+        form.setColumnWidthConstraints([QTextLength()] * frame.columns())
+        form.setWidth(QTextLength())
+        form.setBorderCollapse(True)
+        form.setBorder(1)
+        form.setBorderBrush(QColor(colour))
+        form.setCellPadding(4)
+        form.setTopMargin(6)
+        form.setBottomMargin(10)
+        frame.setFormat(form)
+        if frame.columns() >= MANY_COLUMNS:
+            small = QTextCharFormat()
+            small.setProperty(QTextFormat.Property.FontPixelSize, TABLE_PX)
+            cursor = frame.firstCursorPosition()
+            cursor.setPosition(frame.lastCursorPosition().position(), QTextCursor.MoveMode.KeepAnchor)
+            cursor.mergeCharFormat(small)
