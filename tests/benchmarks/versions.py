@@ -1,4 +1,4 @@
-"""This checkout beside an earlier one: ``python -m tests.benchmarks.versions OTHER_CHECKOUT [--rounds 15]``.
+"""An earlier checkout beside this one: ``python -m tests.benchmarks.versions OTHER_CHECKOUT [--rounds 15]``.
 
 One process per version stays alive and both take turns, so that a machine whose speed drifts is as fast for one as for
 the other; printed are medians of CPU time and the median of the ratios, this version over the other. The jobs: a step
