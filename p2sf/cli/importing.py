@@ -44,7 +44,7 @@ def _check_apart(output: Path, file: Path) -> None:
 def record(found: Import, output: Path | None) -> dict:
     """Return the report of one import as plain values."""
     report = found.report
-    notes = [{"kind": n.kind, "text": n.text, "surface": n.surface, "line": n.line} for n in report.notes]
+    notes = [{"kind": n.kind, "text": str(n.message), "surface": n.surface, "line": n.line} for n in report.notes]
     written = str(output) if output else None
     return {
         "path": report.path,

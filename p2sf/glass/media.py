@@ -1,35 +1,37 @@
-"""Refractive media: anything with ``index(wavelength_um)``, a ``label`` and a ``range_um``, over arrays."""
+"""Refractive media of every kind, with one interface: ``index(wavelength_um)``, ``label`` and ``range_um``."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from math import isfinite
-from typing import Protocol, runtime_checkable
+from math import inf, isfinite
+from typing import Any, Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass.catalogue import CatalogueEntry, find_entry
-from p2sf.glass.dispersion import refractive_index
+from p2sf.glass.dispersion import Values, refractive_index
 
 Range = tuple[float, float] | None
 
 
 @runtime_checkable
 class Medium(Protocol):
-    """What the rest of the program asks of a medium."""
+    """What every medium has."""
 
     @property
     def label(self) -> str:
-        """Return how a person names this medium."""
+        """Return the name of this medium, as a lens file writes it where it can."""
 
     @property
     def range_um(self) -> Range:
         """Return the shortest and longest wavelength in µm, or None where every wavelength has an index."""
 
-    def index(self, wavelength_um) -> np.ndarray:
-        """Return refractive index, same shape as ``wavelength_um``; GlassError outside the data's range."""
+    def index(self, wavelength_um: ArrayLike) -> np.ndarray:
+        """Return the refractive index in the shape of ``wavelength_um``; GlassError outside the data's range."""
 
 
 @dataclass(frozen=True)
@@ -48,14 +50,14 @@ class ConstantIndex:
         """Return None: every wavelength has this index."""
         return None
 
-    def index(self, wavelength_um) -> np.ndarray:
+    def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return the one index, in the shape of ``wavelength_um``."""
         return np.full(np.shape(wavelength_um), self.value)
 
 
 @dataclass(frozen=True)
 class TabulatedIndex:
-    """An index known at a few wavelengths, ascending; straight lines between them."""
+    """An index known at a few wavelengths in ascending order, with straight lines between them."""
 
     wavelengths_um: tuple[float, ...]
     values: tuple[float, ...]
@@ -66,14 +68,14 @@ class TabulatedIndex:
         """Return the first and the last wavelength of the table, µm."""
         return self.wavelengths_um[0], self.wavelengths_um[-1]
 
-    def index(self, wavelength_um) -> np.ndarray:
+    def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return the interpolated index; GlassError outside the table."""
-        return np.interp(checked_wavelength(self, wavelength_um), self.wavelengths_um, self.values)
+        return np.asarray(np.interp(checked_wavelength(self, wavelength_um), self.wavelengths_um, self.values))
 
 
 @dataclass(frozen=True)
 class CatalogueGlass:
-    """A glass as its maker publishes it, coefficients to about 6e-8 in index (float32 in the catalogue)."""
+    """A glass by its maker's dispersion formula; n is good to 6e-8, because the catalogue stores float32."""
 
     entry: CatalogueEntry
 
@@ -87,10 +89,10 @@ class CatalogueGlass:
         """Return the range of the maker's data, µm."""
         return self.entry.range_um
 
-    def __hash__(self):
-        return hash(self.entry.label)  # a look-up per surface and slider step; the coefficients are slow to hash
+    def __hash__(self) -> int:
+        return hash(self.entry.label)  # hashed per surface and slider step, and coefficients are slow to hash
 
-    def index(self, wavelength_um) -> np.ndarray:
+    def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return the maker's formula at ``wavelength_um``; GlassError outside its range."""
         return refractive_index(self.entry.model, checked_wavelength(self, wavelength_um))
 
@@ -116,7 +118,7 @@ class ModelGlass:
         """Return the i line to the t line, where the normal lines are anchored."""
         return 0.3650, 1.0140
 
-    def index(self, wavelength_um) -> np.ndarray:
+    def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return n at ``wavelength_um``; GlassError outside 365 to 1014 nm."""
         square = np.square(checked_wavelength(self, wavelength_um))
         a, b, c, e = normal_dispersion(self.nd, self.vd)
@@ -141,27 +143,28 @@ def normal_dispersion(nd: float, vd: float) -> tuple[float, ...]:
     return tuple(float(x) for x in np.linalg.solve(conditions, values))
 
 
-def checked_wavelength(medium: Medium, wavelength_um):
-    """Return ``wavelength_um`` as a float or float array; GlassError where the medium has no data."""
-    low, high = medium.range_um
-    wavelength = np.asarray(wavelength_um, dtype=float)
-    if wavelength.ndim == 0:  # plain floats are several times faster, and a slider asks for one wavelength
-        wavelength = shortest = longest = float(wavelength)
-    elif wavelength.size == 0:
+def checked_wavelength(medium: Medium, wavelength_um: ArrayLike) -> Values:
+    """Return ``wavelength_um`` as a float or an array of floats; GlassError where the medium has no data."""
+    low, high = medium.range_um or (0.0, inf)
+    array = np.asarray(wavelength_um, dtype=float)
+    wavelength: Values = array
+    if array.ndim == 0:  # plain floats are several times faster, and a slider asks for one wavelength
+        wavelength = shortest = longest = float(array)
+    elif array.size == 0:
         return wavelength
     else:
-        shortest, longest = float(wavelength.min()), float(wavelength.max())
+        shortest, longest = float(array.min()), float(array.max())
     if low <= shortest and longest <= high:
         return wavelength
     worst = longest if low <= shortest else shortest
     raise GlassError(
-        f"wavelength {_nm(worst)} nm is outside the data of {medium.label}, {_nm(low)} to {_nm(high)} nm; "
-        "ask for a wavelength inside, or change the glass"
+        "wavelength {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; "
+        "ask for a wavelength inside, or change the glass",
+        wavelength=NM_PER_UM * worst,
+        glass=medium.label,
+        low=NM_PER_UM * low,
+        high=NM_PER_UM * high,
     )
-
-
-def _nm(wavelength_um: float) -> str:
-    return f"{NM_PER_UM * wavelength_um:.7g}"
 
 
 AIR = ConstantIndex(1.0)
@@ -176,21 +179,21 @@ def catalogue_glass(name: str) -> CatalogueGlass:
 def model_glass(nd: float, vd: float) -> ModelGlass:
     """Return the glass of index ``nd`` and Abbe number ``vd``; GlassError for numbers no glass has."""
     if not 1 < nd < 4:
-        raise GlassError(f"nd is {nd}; give an index between 1 and 4")
+        raise GlassError("nd is {value}; give an index between 1 and 4", value=nd)
     if not 10 <= vd <= 120:
-        raise GlassError(f"vd is {vd}; give an Abbe number between 10 and 120")
+        raise GlassError("vd is {value}; give an Abbe number between 10 and 120", value=vd)
     return ModelGlass(float(nd), float(vd))
 
 
 def constant_index(value: float) -> ConstantIndex:
     """Return a medium of one index; GlassError for a number that is no index."""
     if not (isfinite(value) and 0.5 <= value <= 6):
-        raise GlassError(f"refractive index is {value}; give a number between 0.5 and 6")
+        raise GlassError("refractive index is {value}; give a number between 0.5 and 6", value=value)
     return ConstantIndex(float(value))
 
 
-def parse_medium(medium) -> Medium:
-    """Return the medium a person wrote: a glass name, "air", an index, or a table of nd and vd.
+def parse_medium(medium: object) -> Medium:
+    """Return the medium that a user wrote: a glass name, "air", an index, or a table of nd and vd.
 
     A table ``{wavelengths_um = […], n = […]}``, with a ``label`` if wanted, gives measured indices.
     Raises GlassError.
@@ -201,14 +204,16 @@ def parse_medium(medium) -> Medium:
         return _from_table(medium)
     if isinstance(medium, int | float) and not isinstance(medium, bool):
         return constant_index(medium)
-    raise GlassError(f'glass is {medium!r}; write a name such as "SCHOTT N-BK7", an index, or nd and vd')
+    raise GlassError(
+        'glass is {found}; write a name such as "SCHOTT N-BK7", an index, or nd and vd', found=repr(medium)
+    )
 
 
 def _from_text(text: str) -> Medium:
     if text.lower() in ("air", ""):
         return AIR
     if text.lower() in ("mirror", "reflect"):
-        raise GlassError(f'glass "{text}" is a mirror, which P2SF does not trace; give a refracting lens')
+        raise GlassError('glass "{name}" is a mirror, which P2SF does not trace; give a refracting lens', name=text)
     try:
         return constant_index(float(text))
     except ValueError as error:
@@ -217,23 +222,29 @@ def _from_text(text: str) -> Medium:
     return catalogue_glass(text)
 
 
-def _from_table(table: dict) -> Medium:
+def _from_table(table: dict[str, Any]) -> Medium:
     if set(table) == {"nd", "vd"} and all(_is_number(x) for x in table.values()):
         return model_glass(table["nd"], table["vd"])
     if {"wavelengths_um", "n"} <= set(table) <= {"wavelengths_um", "n", "label"}:
         return measured_index(table["wavelengths_um"], table["n"], str(table.get("label", "table")))
-    raise GlassError(f"glass is {table}; write {{ nd = 1.5168, vd = 64.17 }} or {{ wavelengths_um = […], n = […] }}")
+    raise GlassError(
+        "glass is {found}; write {{ nd = 1.5168, vd = 64.17 }} or {{ wavelengths_um = […], n = […] }}",
+        found=str(table),
+    )
 
 
-def measured_index(wavelengths_um, values, label: str = "table") -> TabulatedIndex:
+def measured_index(wavelengths_um: Sequence[float], values: Sequence[float], label: str = "table") -> TabulatedIndex:
     """Return a medium measured at ascending wavelengths in µm; GlassError for lists that do not fit."""
     lists = isinstance(wavelengths_um, list | tuple) and isinstance(values, list | tuple)
     if not (lists and len(wavelengths_um) == len(values) > 0 and all(map(_is_number, [*wavelengths_um, *values]))):
         raise GlassError("glass table needs two equally long lists of numbers; give wavelengths_um and n")
     if any(b <= a for a, b in pairwise(wavelengths_um)):
-        raise GlassError(f"glass table's wavelengths are {wavelengths_um} µm; put them in ascending order")
+        raise GlassError(
+            "glass table's wavelengths are {wavelengths} µm; put them in ascending order",
+            wavelengths=str(wavelengths_um),
+        )
     return TabulatedIndex(tuple(map(float, wavelengths_um)), tuple(constant_index(n).value for n in values), label)
 
 
-def _is_number(x) -> bool:
+def _is_number(x: object) -> TypeGuard[float]:
     return isinstance(x, int | float) and not isinstance(x, bool)

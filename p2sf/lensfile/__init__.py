@@ -1,21 +1,19 @@
-"""Lens files: one function reads whatever this version knows."""
+"""Lens files: the shipped lenses, TOML, and other programs' formats, read and written.
 
-import os
-from collections.abc import Iterable
+`importing.import_lens` gives the report on the reading of a file as well, `writing.write_lens` writes a lens in the
+format of its ending, `agf.read_agf` reads a glass catalogue; these modules load on first use.
+"""
 
-from p2sf.lens.lens import Lens
-from p2sf.lensfile.storage import read_text
-from p2sf.lensfile.toml import parse_toml
+from p2sf.lensfile.library import find_lens, lenses_folder, load_lens, shipped_lenses
+from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml, write_toml
 
-
-def load_lens(path: str | os.PathLike, accept_substitutes: bool = False, catalogues: Iterable = ()) -> Lens:
-    """Return the lens of a file of any known format, told by its content; LensFileError says where and why not.
-
-    ``catalogues`` are paths of AGF glass catalogues. `p2sf.lensfile.importing.import_lens` gives the
-    report on the reading as well.
-    """
-    if str(path).lower().endswith(".toml"):
-        return parse_toml(read_text(path), path)
-    from p2sf.lensfile.importing import import_lens  # the readers of other programs' files load on first use
-
-    return import_lens(path, accept_substitutes, catalogues).lens
+__all__ = [
+    "find_lens",
+    "lens_to_toml",
+    "lenses_folder",
+    "load_lens",
+    "parse_toml",
+    "read_toml",
+    "shipped_lenses",
+    "write_toml",
+]

@@ -1,93 +1,98 @@
-"""Glass catalogues in the AGF format: the user's own data, which beat the built-in table."""
+"""Glass catalogues in the AGF format: the user's own data, which take precedence over the built-in table."""
 
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.errors import GlassError
 from p2sf.glass.media import checked_wavelength
 from p2sf.lensfile.source_text import LensText, number, read_source, whole
+from p2sf.messages import Message
 
 COEFFICIENTS = 12
+Entry = dict[str, tuple[int, list[str]]]  # NM, CD and LD of a glass: the line and its words
 
 
-def schott(c, w):
+def schott(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 1, a power series."""
     return c[0] + c[1] * w**2 + c[2] * w**-2 + c[3] * w**-4 + c[4] * w**-6 + c[5] * w**-8
 
 
-def resonances(c, w, count):
+def resonances(c: Sequence[float], w: np.ndarray, count: int) -> np.ndarray:
     """Return Σ K λ²/(λ² − L) over ``count`` pairs (K, L); a pair with K = 0 adds nothing, its pole included."""
-    return sum(
-        (k * w**2 / (w**2 - pole) for k, pole in zip(c[: 2 * count : 2], c[1 : 2 * count : 2], strict=True) if k), 0
-    )
+    pairs = zip(c[: 2 * count : 2], c[1 : 2 * count : 2], strict=True)
+    return np.asarray(sum(k * w**2 / (w**2 - pole) for k, pole in pairs if k))
 
 
-def sellmeier_1(c, w):
+def sellmeier_1(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 2, three resonances (W. Sellmeier 1871)."""
     return 1 + resonances(c, w, 3)
 
 
-def herzberger(c, w):
+def herzberger(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n of formula 3 (M. Herzberger, Opt. Acta 6, 197, 1959)."""
     pole = 1 / (w**2 - 0.028)
     return c[0] + c[1] * pole + c[2] * pole**2 + c[3] * w**2 + c[4] * w**4 + c[5] * w**6
 
 
-def sellmeier_2(c, w):
+def sellmeier_2(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 4: the second resonance without λ² above, both wavelengths squared."""
     return 1 + c[0] + c[1] * w**2 / (w**2 - c[2] ** 2) + c[3] / (w**2 - c[4] ** 2)
 
 
-def conrady(c, w):
+def conrady(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n of formula 5 (A. E. Conrady, Applied Optics and Optical Design, 1960, §126)."""
     return c[0] + c[1] / w + c[2] / w**3.5
 
 
-def sellmeier_3(c, w):
+def sellmeier_3(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 6, four resonances."""
     return 1 + resonances(c, w, 4)
 
 
-def handbook_1(c, w):
+def handbook_1(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 7 (Handbook of Optics)."""
     return c[0] + c[1] / (w**2 - c[2]) - c[3] * w**2
 
 
-def handbook_2(c, w):
+def handbook_2(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 8 (Handbook of Optics)."""
     return c[0] + c[1] * w**2 / (w**2 - c[2]) - c[3] * w**2
 
 
-def sellmeier_4(c, w):
+def sellmeier_4(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 9, a constant and two resonances."""
     return c[0] + resonances(c[1:], w, 2)
 
 
-def extended_1(c, w):
+def extended_1(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 10, the power series two terms further down."""
     return schott(c, w) + c[6] * w**-10 + c[7] * w**-12
 
 
-def sellmeier_5(c, w):
+def sellmeier_5(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 11, five resonances."""
     return 1 + resonances(c, w, 5)
 
 
-def extended_2(c, w):
+def extended_2(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 12, the power series two terms further up."""
     return schott(c, w) + c[6] * w**4 + c[7] * w**6
 
 
-def extended_3(c, w):
+def extended_3(c: Sequence[float], w: np.ndarray) -> np.ndarray:
     """Return n² of formula 13, λ⁴ down to λ⁻¹²."""
     powers = (0, 2, 4, -2, -4, -6, -8, -10, -12)
-    return sum(a * w**p for a, p in zip(c, powers, strict=False))
+    return np.asarray(sum(a * w**p for a, p in zip(c, powers, strict=False)))
 
 
-DIRECT = {3: herzberger, 5: conrady}
-SQUARED = {
+Formula = Callable[[Sequence[float], np.ndarray], np.ndarray]
+DIRECT: dict[int, Formula] = {3: herzberger, 5: conrady}
+SQUARED: dict[int, Formula] = {
     1: schott,
     2: sellmeier_1,
     4: sellmeier_2,
@@ -102,14 +107,14 @@ SQUARED = {
 }
 
 
-def refractive_index(formula: int, coefficients, wavelength_um) -> np.ndarray:
-    """Return n(λ), same shape as ``wavelength_um``; nan where the formula gives no real index."""
+def refractive_index(formula: int, coefficients: Sequence[float], wavelength_um: ArrayLike) -> np.ndarray:
+    """Return n(λ) in the shape of ``wavelength_um`` (µm); NaN where the formula gives no real index."""
     wavelength = np.asarray(wavelength_um, dtype=float)
     c = (*coefficients, *[0.0] * (COEFFICIENTS - len(coefficients)))
     with np.errstate(all="ignore"):
         if formula in DIRECT:
-            return DIRECT[formula](c, wavelength) + 0 * wavelength
-        return np.sqrt(SQUARED[formula](c, wavelength) + 0 * wavelength)
+            return np.asarray(DIRECT[formula](c, wavelength) + 0 * wavelength)
+        return np.asarray(np.sqrt(SQUARED[formula](c, wavelength) + 0 * wavelength))
 
 
 F_LINE_UM, D_LINE_UM, C_LINE_UM = 0.4861327, 0.5875618, 0.6562725
@@ -133,12 +138,16 @@ class FormulaGlass:
         """Return the maker's name of the glass."""
         return self.name
 
-    def index(self, wavelength_um) -> np.ndarray:
+    def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return the index; GlassError outside the glass's range or where its formula gives no real number."""
         wavelength = checked_wavelength(self, wavelength_um)
         index = refractive_index(self.formula, self.coefficients, wavelength)
         if not np.all((index > 0) & (index < 1e3)):
-            raise GlassError(f"formula {self.formula} of {self.name} gives no real index there; check its coefficients")
+            raise GlassError(
+                "formula {formula} of {name} gives no real index there; check its coefficients",
+                formula=self.formula,
+                name=self.name,
+            )
         return index
 
 
@@ -151,7 +160,7 @@ class Catalogue:
     glasses: dict[str, FormulaGlass] = field(default_factory=dict)
 
 
-def read_agf(path) -> Catalogue:
+def read_agf(path: str | os.PathLike) -> Catalogue:
     """Return the catalogue in an AGF file; LensFileError names the line that cannot be read."""
     return read_agf_text(read_source(path))
 
@@ -159,7 +168,7 @@ def read_agf(path) -> Catalogue:
 def read_agf_text(source: LensText) -> Catalogue:
     """Return the catalogue in an AGF text, named by its path's stem; LensFileError with line."""
     glasses: dict[str, FormulaGlass] = {}
-    entry: dict[str, tuple[int, list[str]]] = {}
+    entry: Entry = {}
     last = ""
     for line, text in enumerate(source.lines, 1):
         words = text.split()
@@ -178,17 +187,22 @@ def read_agf_text(source: LensText) -> Catalogue:
     return Catalogue(Path(source.path).stem.upper(), source.path, glasses)
 
 
-def _store(glasses, entry, source: LensText) -> None:
-    """Add the glass whose lines have been collected; a catalogue's first entry of a name counts."""
+def _store(glasses: dict[str, FormulaGlass], entry: Entry, source: LensText) -> None:
+    """Add the glass whose lines have been collected; of several entries of one name the first counts."""
     if "NM" not in entry:
         return
     line, words = entry["NM"]
     if len(words) < 2:
         raise source.error("a glass needs a name and a formula number (NM name formula …); complete it", line)
-    formula = whole(words[1], "formula number", source, line)
+    formula = whole(words[1], Message("formula number"), source, line)
     if formula not in DIRECT and formula not in SQUARED:
-        raise source.error(f"{words[0]} uses dispersion formula {formula}; only 1 to 13 exist, correct it", line)
-    listed = number(words[3], "listed nd", source, line) if len(words) > 3 else None
+        raise source.error(
+            "{name} uses dispersion formula {formula}; only 1 to 13 exist, correct it",
+            line,
+            name=words[0],
+            formula=formula,
+        )
+    listed = number(words[3], Message("listed nd"), source, line) if len(words) > 3 else None
     glass = FormulaGlass(words[0], formula, _coefficients(entry, source, line), _range(entry, source, line), listed)
     glasses.setdefault(words[0].upper(), glass)
 
@@ -197,25 +211,30 @@ def _looks_like_a_number(word: str) -> bool:
     return word[0] in "+-.0123456789"
 
 
-def _coefficients(entry, source: LensText, name_line: int) -> tuple[float, ...]:
+def _coefficients(entry: Entry, source: LensText, name_line: int) -> tuple[float, ...]:
     line, words = entry.get("CD", (name_line, []))
     if not words:
         raise source.error("the glass has no coefficients (CD line); complete it", line)
-    return tuple(number(word, "coefficient", source, line) for word in words[:COEFFICIENTS])
+    return tuple(number(word, Message("coefficient"), source, line) for word in words[:COEFFICIENTS])
 
 
-def _range(entry, source: LensText, name_line: int) -> tuple[float, float]:
+def _range(entry: Entry, source: LensText, name_line: int) -> tuple[float, float]:
     line, words = entry.get("LD", (name_line, []))
     if len(words) < 2:
         raise source.error("the glass has no wavelength range (LD line); complete it", line)
-    low, high = (number(word, "wavelength", source, line) for word in words[:2])
+    low, high = (number(word, Message("wavelength"), source, line) for word in words[:2])
     if not 0 < low < high:
-        raise source.error(f"the glass's range is {low:g} to {high:g} µm; give the smaller first, both positive", line)
+        raise source.error(
+            "the glass's range is {low:g} to {high:g} µm; give the smaller first, both positive",
+            line,
+            low=low,
+            high=high,
+        )
     return low, high
 
 
 def nd_and_vd(glass: FormulaGlass) -> tuple[float, float]:
-    """Return nd and the Abbe number a catalogue prints; 0 where the glass has no data at those lines."""
+    """Return nd and the Abbe number vd as a catalogue prints them; 0 where the glass has no data at F, d and C."""
     low, high = glass.range_um
     if not (low <= F_LINE_UM and C_LINE_UM <= high):
         return 0.0, 0.0

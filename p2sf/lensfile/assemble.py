@@ -1,6 +1,6 @@
-"""From what a file states to a Lens: units, glasses, stop, aperture, fields; every failure keeps its line."""
+"""From what a file states to a Lens: units, glasses, stop, aperture, fields; every error keeps its line."""
 
-import re
+from collections.abc import Callable
 from dataclasses import replace
 from math import inf, isfinite
 
@@ -13,20 +13,31 @@ from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText
+from p2sf.messages import Message
 
 HIGHEST_ORDER = 40
 MOST_SURFACES = 1000
 PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
-FIELD_WORDS = {"object_height": "object heights", "image_height": "image heights", "real_image_height": "image heights"}
+NO_STOP = Message("no stop named")
+HEIGHTS = {
+    "object_height": Message("object heights"),
+    "image_height": Message("image heights"),
+    "real_image_height": Message("image heights"),
+}
 
 
 def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensText) -> Lens:
-    """Return the lens of a file; LensFileError with line wherever it is no lens this program traces."""
+    """Return the lens of a file; LensFileError with its line where it is not a lens that P2SF traces."""
     if not raw.surfaces:
         raise source.error("the file holds no lens surface between object and image", len(source.lines))
     if len(raw.surfaces) > MOST_SURFACES:
         where = raw.surfaces[MOST_SURFACES].line or len(source.lines)
-        raise source.error(f"the file holds {len(raw.surfaces)} surfaces; at most {MOST_SURFACES} are read", where)
+        raise source.error(
+            "the file holds {count} surfaces; at most {most} are read",
+            where,
+            count=len(raw.surfaces),
+            most=MOST_SURFACES,
+        )
     media = _media(raw, sources, notes, source)
     lens = _located(lambda: _bare_lens(raw, media), raw, source, None)
     lens = _located(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)
@@ -38,14 +49,15 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
 
 
-def _located(make, raw: RawLens, source: LensText, line: int | None) -> Lens:
-    """Return what ``make`` makes; its failure gets the line of the surface it names, else ``line``, else the last."""
+def _located(make: Callable[[], Lens], raw: RawLens, source: LensText, line: int | None) -> Lens:
+    """Return what ``make`` makes; an error gets the line of the surface it names, else ``line``, else the last."""
     try:
         return make()
     except (GeometryError, GlassError) as failure:
-        named = re.match(r"surface (\d+)", str(failure))
-        where = raw.surfaces[int(named[1]) - 1].line if named else line
-        raise source.error(str(failure), where or len(source.lines)) from failure
+        number = failure.message.values.get("surface")
+        if isinstance(number, int) and 1 <= number <= len(raw.surfaces):
+            line = raw.surfaces[number - 1].line
+        raise source.error(failure.message, line or len(source.lines)) from failure
     except (OverflowError, ZeroDivisionError) as failure:
         raise source.error(
             "a number is too large or too small for a lens; correct it", line or len(source.lines)
@@ -60,15 +72,17 @@ def _media(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensTex
     return media
 
 
-def _medium(glass: RawGlass | None, surface: RawSurface | None, sources, notes, source) -> Medium:
+def _medium(
+    glass: RawGlass | None, surface: RawSurface | None, sources: GlassSources, notes: Notebook, source: LensText
+) -> Medium:
     if glass is None:
         return AIR
     line = glass.line or (surface.line if surface else None)
     try:
         found = resolve(glass, sources)
     except GlassError as failure:
-        where = surface.name if surface else "object space"
-        raise source.error(f"{where}: {failure}", line or len(source.lines)) from failure
+        where = surface.name if surface else Message("object space")
+        raise source.error("{place}: {error}", line or len(source.lines), place=where, error=failure) from failure
     if found.substitution:
         notes.add("substituted", found.substitution, surface.number if surface else None, line)
     return found.medium
@@ -101,7 +115,12 @@ def _within_data(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
         elif abs(wave / NM_PER_UM - primary) < 1e-9 or len(lens.wavelengths_nm) == 1:
             lacking.index(wave / NM_PER_UM)  # raises, with the range of the data
         else:
-            notes.add("caution", f"wavelength {wave:g} nm is outside the data of {lacking.label} and left out")
+            notes.add(
+                "caution",
+                "wavelength {wavelength:g} nm is outside the data of {glass} and left out",
+                wavelength=wave,
+                glass=lacking.label,
+            )
     return replace(lens, wavelengths_nm=tuple(kept))
 
 
@@ -111,19 +130,25 @@ def _lacks(medium: Medium, wavelength_um: float) -> bool:
 
 
 def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surface:
-    """Return one surface in mm; an r² term on a plane is the paraboloid it is, elsewhere it has no place."""
+    """Return one surface in mm; an r² term on a plane makes a paraboloid, elsewhere it raises GeometryError."""
     curvature, conic, terms = raw.curvature / unit, raw.conic, dict(raw.aspheric)
     square = terms.pop(2, 0.0)
     if square and curvature:
         raise GeometryError(
-            f"surface {number}: the r² coefficient {square:g} beside a radius of curvature is not a conic with terms "
-            "from r⁴ on; refit the surface without r²"
+            "surface {surface}: the r² coefficient {value:g} beside a radius of curvature is not a conic with terms "
+            "from r⁴ on; refit the surface without r²",
+            surface=number,
+            value=square,
         )
     if square:
         curvature, conic = 2 * square / unit, -1.0
     odd = [power for power, value in terms.items() if value and (power % 2 or not 4 <= power <= HIGHEST_ORDER)]
     if odd:
-        raise GeometryError(f"surface {number}: aspheric term r^{odd[0]} is not even from r⁴ on; refit the surface")
+        raise GeometryError(
+            "surface {surface}: aspheric term r^{power} is not even from r⁴ on; refit the surface",
+            surface=number,
+            power=odd[0],
+        )
     return Surface(
         1 / curvature if curvature else inf,
         raw.thickness * unit,
@@ -150,25 +175,33 @@ def _with_aperture(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     primary = _primary_um(raw, lens)
     if raw.aperture is None:
         return _open_to_its_rims(lens, raw, primary, notes)
-    if raw.stop is None:
-        surface, _ = conjugates.limiting_rim(lens, primary)
-        notes.add("caution", f"no stop is named; the narrowest rim, surface {surface}, is the stop")
-        lens = replace(lens, stop_surface=surface)
+    stop = raw.stop
+    if stop is None:
+        stop, _ = conjugates.limiting_rim(lens, primary)
+        notes.add("caution", "no stop is named; the narrowest rim, surface {number}, is the stop", number=stop)
+        lens = replace(lens, stop_surface=stop)
     if not raw.aperture[1] > 0:
-        raise GeometryError(f"the aperture is {raw.aperture[1]:g}; give a positive number")
-    rays = conjugates.trace(lens, lens.stop_surface, primary)
+        raise GeometryError("the aperture is {value:g}; give a positive number", value=raw.aperture[1])
+    rays = conjugates.trace(lens, stop, primary)
     same = abs(primary - lens.reference_wavelength_um) < 1e-9
-    return replace(lens, aperture=conjugates.aperture(raw, rays, same))
+    return replace(lens, aperture=conjugates.aperture(raw, raw.aperture, rays, same))
 
 
 def _open_to_its_rims(lens: Lens, raw: RawLens, wavelength_um: float, notes: Notebook) -> Lens:
-    """Return the lens whose file states no aperture: the stop's rim, or the narrowest rim, is it."""
+    """Return the lens of a file without an aperture, open to the rim of its stop or to its narrowest rim."""
     if raw.stop and isfinite(lens.surfaces[raw.stop - 1].semi_diameter):
         rim = lens.surfaces[raw.stop - 1].semi_diameter
-        notes.add("read", f"the stop, surface {raw.stop}, is open to its rim, semi-diameter {rim:g} mm")
+        notes.add(
+            "read",
+            "the stop, surface {number}, is open to its rim, semi-diameter {rim:g} mm",
+            number=raw.stop,
+            rim=rim,
+        )
     else:
         surface, rim = conjugates.limiting_rim(lens, wavelength_um)
-        notes.add("caution", f"no aperture is stated; the narrowest rim, surface {surface}, limits the light")
+        notes.add(
+            "caution", "no aperture is stated; the narrowest rim, surface {number}, limits the light", number=surface
+        )
     return replace(lens, aperture=Aperture("stop_semi_diameter", rim))
 
 
@@ -181,12 +214,14 @@ def _with_fields(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     except GeometryError as failure:
         if raw.field_kind == "angle":
             raise
-        notes.add("caution", f"{failure}; the field list holds the axis only", None, raw.field_line)
+        notes.add("caution", "{error}; the field list holds the axis only", None, raw.field_line, error=failure)
         return lens
     if any(x for x, _ in raw.fields):
         notes.add("read", "fields beside the y axis are turned onto it, which a round lens does not notice")
-    if raw.field_kind in FIELD_WORDS:
-        notes.add("read", f"fields given as {FIELD_WORDS[raw.field_kind]} are kept as angles at the entrance pupil")
+    if raw.field_kind in HEIGHTS:
+        notes.add(
+            "read", "fields given as {kind} are kept as angles at the entrance pupil", kind=HEIGHTS[raw.field_kind]
+        )
     if raw.field_kind == "real_image_height" and any(slopes):
         notes.add("caution", "real image heights are taken as paraxial ones; distortion makes the angles differ")
     return replace(lens, fields_deg=conjugates.degrees_of(slopes))
@@ -205,14 +240,32 @@ def _focused(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
 
 
 def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
-    unit = "" if lens.aperture.kind == "f_number" else " mm"
-    aperture = f"{lens.aperture.kind.replace('_', ' ')} {lens.aperture.value:.6g}{unit}"
-    stop = f"stop on surface {lens.stop_surface}" if lens.stop_surface else "no stop named"
-    waves = ", ".join(f"{w:g}" for w in lens.wavelengths_nm)
-    angles = ", ".join(f"{f:.4g}" for f in lens.fields_deg)
-    notes.add("read", f"{len(lens.surfaces)} surfaces, {stop}, {aperture}; {waves} nm; fields {angles}°")
+    stop = Message("stop on surface {number}", number=lens.stop_surface) if lens.stop_surface else NO_STOP
+    notes.add(
+        "read",
+        "{count} surfaces, {stop}, {aperture}; {wavelengths:g} nm; fields {angles:.4g}°",
+        count=len(lens.surfaces),
+        stop=stop,
+        aperture=_stated(lens.aperture),
+        wavelengths=lens.wavelengths_nm,
+        angles=lens.fields_deg,
+    )
     if raw.unit_mm != 1:
-        notes.add("read", f"lengths converted to mm from units of {raw.unit_mm:g} mm")
+        notes.add("read", "lengths converted to mm from units of {unit:g} mm", unit=raw.unit_mm)
     if isfinite(raw.object_distance):
-        distance = raw.object_distance * raw.unit_mm
-        notes.add("read", f"the file's object is at {distance:.6g} mm; ask for this depth to see the file's image")
+        notes.add(
+            "read",
+            "the file's object is at {distance:.6g} mm; ask for this depth to see the file's image",
+            distance=raw.object_distance * raw.unit_mm,
+        )
+
+
+def _stated(aperture: Aperture) -> Message:
+    """Return the aperture in words."""
+    match aperture.kind:
+        case "f_number":
+            return Message("f number {value:.6g}", value=aperture.value)
+        case "entrance_pupil_diameter":
+            return Message("entrance pupil diameter {value:.6g} mm", value=aperture.value)
+        case "stop_semi_diameter":
+            return Message("stop semi diameter {value:.6g} mm", value=aperture.value)

@@ -5,43 +5,47 @@ Surfaces count from 1; the object is SO, the image SI.
 """
 
 import re
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
 from math import inf
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass.media import Medium, measured_index
 from p2sf.lens.lens import Lens
-from p2sf.lensfile import codev as words_of
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook, note_vignetting
 from p2sf.lensfile.source_text import LensText, number
+from p2sf.messages import Message
 
-TILTS = "is tilted or decentred"
-SHAPES = "has a shape that is not a sphere, a conic or an even asphere"
+TILTS = Message("is tilted or decentred")
+SHAPES = Message("has a shape that is not a sphere, a conic or an even asphere")
 REFUSED = {
     **dict.fromkeys("XDE YDE ZDE ADE BDE CDE XOD YOD ZOD GLB".split(), TILTS),
-    **dict.fromkeys("DIF GRT HOE HOR HCO HX1 HWL GRO GRS".split(), "diffracts"),
+    **dict.fromkeys("DIF GRT HOE HOR HCO HX1 HWL GRO GRS".split(), Message("diffracts")),
     **dict.fromkeys("XTO YTO AAS CYL SPS XYP ZRN RDX CUX UDS ODD ANA BIC SPL".split(), SHAPES),
-    **dict.fromkeys("GRN GIR URN".split(), "is followed by a gradient index"),
-    **dict.fromkeys("NSS NSE ENT EXI".split(), "begins a non-sequential part"),
-    **dict.fromkeys("CUF FRE".split(), "is a Fresnel surface"),
-    **dict.fromkeys("MOD LMO".split(), "is a lens module that hides its surfaces"),
-    **dict.fromkeys("INS".split(), "reads another file, which is not at hand"),
+    **dict.fromkeys("GRN GIR URN".split(), Message("is followed by a gradient index")),
+    **dict.fromkeys("NSS NSE ENT EXI".split(), Message("begins a non-sequential part")),
+    **dict.fromkeys("CUF FRE".split(), Message("is a Fresnel surface")),
+    **dict.fromkeys("MOD LMO".split(), Message("is a lens module that hides its surfaces")),
+    **dict.fromkeys("INS".split(), Message("reads another file, which is not at hand")),
 }
 
-HARMLESS = {
-    "control codes of the optimiser": "CCY THC KC AC BC CC DC EC FC GC HC GLC CUM THM CCX DEL CCF",
-    "solves and pickups, whose stored values are read": "PIM PIK SOL UMY CUS RED",
-    "weights": "WTW WTF WTA",
-    "edge and rectangle rims, obscurations in other shapes": "REX REY ELX ELY ADX ADY ARO",
-    "titles, sessions and computing settings": "LEN INI TEM PRE GO DER CLS VER OUT CON ASP SPH POL CA APE ROT REV DAR "
-    "BEN PIV RET CMT WID AFI AFC RFO RSI PFR PTP POR HCT HCC",
-}
-REASON = {name: reason for reason, names in HARMLESS.items() for name in names.split()}
+HARMLESS = (
+    (Message("control codes of the optimiser"), "CCY THC KC AC BC CC DC EC FC GC HC GLC CUM THM CCX DEL CCF"),
+    (Message("solves and pickups, whose stored values are read"), "PIM PIK SOL UMY CUS RED"),
+    (Message("weights"), "WTW WTF WTA"),
+    (Message("edge and rectangle rims, obscurations in other shapes"), "REX REY ELX ELY ADX ADY ARO"),
+    (
+        Message("titles, sessions and computing settings"),
+        "LEN INI TEM PRE GO DER CLS VER OUT CON ASP SPH POL CA APE ROT REV DAR "
+        "BEN PIV RET CMT WID AFI AFC RFO RSI PFR PTP POR HCT HCC",
+    ),
+)
+REASON = {name: reason for reason, names in HARMLESS for name in names.split()}
 
 
 VIGNETTING = ("VUY", "VLY", "VUX", "VLX", "SET")
@@ -54,26 +58,26 @@ def note(notes: Notebook, name: str, words: tuple[str, ...], surface: int | None
     elif name in REASON:
         notes.add("ignored", REASON[name])
     else:
-        notes.add("ignored", f"{name[:20]}, which is not known to describe the lens", surface, line)
+        notes.add("ignored", "{name}, which is not known to describe the lens", surface, line, name=name[:20])
 
 
 @dataclass(frozen=True)
 class Command:
-    """One command: its name in capitals, its words (quotes taken off), and the line it starts on."""
+    """One command: its name in capitals, its words without quotation marks, and the line it starts on."""
 
     name: str
     words: tuple[str, ...]
     line: int
 
 
-def commands(source: LensText):
-    """Yield the commands of a file; remarks are dropped, continued lines joined, quotes respected."""
+def commands(source: LensText) -> Iterator[Command]:
+    """Yield the commands of a file; comments are dropped, continued lines joined, quotation marks respected."""
     pending, start = "", 0
     for line, text in enumerate(source.lines, 1):
-        code, goes_on = _without_remark(text)
+        code, continued = _without_comment(text)
         start = start or line
         pending += code
-        if goes_on and len(pending) < 100_000:
+        if continued and len(pending) < 100_000:
             pending += " "
             continue
         for part in re.findall(r"(?:'[^']*'|\"[^\"]*\"|[^;'\"]|['\"])+", pending):
@@ -87,15 +91,26 @@ def commands(source: LensText):
         pending, start = "", 0
 
 
-def _without_remark(text: str) -> tuple[str, bool]:
-    """Return a line without its remark, and whether it goes on with the next line."""
-    code = re.match(r"(?:'[^']*'|\"[^\"]*\"|[^!])*", text)[0].rstrip()
+def _without_comment(text: str) -> tuple[str, bool]:
+    """Return a line without its comment, and whether it continues on the next line."""
+    found = re.match(r"(?:'[^']*'|\"[^\"]*\"|[^!])*", text)
+    code = found[0].rstrip() if found else ""
     return (code[:-1], True) if code.endswith("&") else (code, False)
 
 
 UNITS_MM = {"M": 1.0, "MM": 1.0, "C": 10.0, "CM": 10.0, "I": 25.4, "IN": 25.4, "INC": 25.4, "INCH": 25.4}
-APERTURES = {"EPD": "entrance_pupil_diameter", "FNO": "image_f_number", "NA": "image_na", "NAO": "object_na"}
-FIELD_KINDS = {"AN": "angle", "OB": "object_height", "IM": "image_height", "RI": "real_image_height"}
+APERTURES: dict[str, RawApertureKind] = {
+    "EPD": "entrance_pupil_diameter",
+    "FNO": "image_f_number",
+    "NA": "image_na",
+    "NAO": "object_na",
+}
+FIELD_KINDS: dict[str, RawFieldKind] = {
+    "AN": "angle",
+    "OB": "object_height",
+    "IM": "image_height",
+    "RI": "real_image_height",
+}
 ORDERS = {letter: 4 + 2 * place for place, letter in enumerate("ABCDEFGHJ")}
 
 
@@ -115,21 +130,23 @@ class Reading:
     private_nm: list[float] | None = None
     in_private: bool = False
 
-    def number(self, command: Command, place: int, what: str, default: float | None = None) -> float:
-        """Return the number at a place of a command; a missing one is ``default`` or an error."""
+    def number(self, command: Command, place: int, what: Message, default: float | None = None) -> float:
+        """Return the number at a place of a command; LensFileError where it is missing without a ``default``."""
         if place >= len(command.words):
             if default is not None:
                 return default
-            raise self.source.error(f"{command.name}: {what} is missing; complete the command", command.line)
+            raise self.source.error(
+                "{command}: {what} is missing; complete the command", command.line, command=command.name, what=what
+            )
         return number(command.words[place], what, self.source, command.line)
 
-    def numbers(self, command: Command, what: str) -> list[float]:
+    def numbers(self, command: Command, what: Message) -> list[float]:
         """Return all numbers of a command."""
         return [number(word, what, self.source, command.line) for word in command.words[:1000]]
 
 
 def curved(value: float, is_radius: bool) -> float:
-    """Return the curvature of a number that is a radius (0: a plane) or the curvature itself."""
+    """Return the curvature for a number that is a radius (0 for a plane) or the curvature itself."""
     return (1 / value if value else 0.0) if is_radius else value
 
 
@@ -139,7 +156,7 @@ def distance(reading: Reading, value: float, surface: RawSurface, line: int) -> 
         return value
     if surface.number == 0:
         return inf
-    raise reading.source.error(f"{surface.name} has an infinite thickness; give a finite one", line)
+    raise reading.source.error("{surface} has an infinite thickness; give a finite one", line, surface=surface.name)
 
 
 def read_glass(reading: Reading, command: Command, surface: RawSurface) -> None:
@@ -148,7 +165,7 @@ def read_glass(reading: Reading, command: Command, surface: RawSurface) -> None:
     if word.upper() in ("REFL", "REFR", "AIR", ""):
         if word.upper() == "REFL":
             raise reading.source.error(
-                f"{surface.name} is a mirror (REFL); only refracting lenses are read", command.line
+                "{surface} is a mirror (REFL); only refracting lenses are read", command.line, surface=surface.name
             )
         return
     code = re.fullmatch(r"(\d{3,9})\.(\d{3,9})|(\d{3})(\d{3})", word)
@@ -158,8 +175,12 @@ def read_glass(reading: Reading, command: Command, surface: RawSurface) -> None:
         surface.glass = RawGlass(model=model, line=command.line)
         return
     if re.fullmatch(r"[\d.]+", word):
-        why = f'glass "{word[:20]}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it'
-        raise reading.source.error(f"{surface.name}: {why}", command.line)
+        raise reading.source.error(
+            '{surface}: glass "{name}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it',
+            command.line,
+            surface=surface.name,
+            name=word[:20],
+        )
     name, _, maker = word.rpartition("_") if "_" in word else (word, "", "")
     surface.glass = RawGlass(name, (maker.upper(),) if maker else (), line=command.line)
 
@@ -168,20 +189,29 @@ def read_private(reading: Reading, command: Command) -> None:
     """Read one line of a private catalogue: PWL and wavelengths in nm, or 'NAME' and an index for each."""
     reading.in_private = True
     if command.name == "PWL":
-        reading.private_nm = reading.numbers(command, "wavelength")
+        reading.private_nm = reading.numbers(command, Message("wavelength"))
         return
     name = command.name.strip("'\"")
     if not reading.private_nm:
-        raise reading.source.error(f"private glass {name} has no wavelengths (PWL) before it; add them", command.line)
-    pairs = sorted(zip(reading.private_nm, reading.numbers(command, "index"), strict=False))
+        raise reading.source.error(
+            "private glass {name} has no wavelengths (PWL) before it; add them", command.line, name=name
+        )
+    pairs = sorted(zip(reading.private_nm, reading.numbers(command, Message("index")), strict=False))
     if len(pairs) != len(reading.private_nm) or len(command.words) != len(pairs):
-        raise reading.source.error(f"private glass {name} has not one index per wavelength; complete it", command.line)
+        raise reading.source.error(
+            "private glass {name} has not one index per wavelength; complete it", command.line, name=name
+        )
     try:
         table = measured_index([w / NM_PER_UM for w, _ in pairs], [n for _, n in pairs])
     except GlassError as failure:
-        raise reading.source.error(f"private glass {name}: {failure}", command.line) from failure
-    reading.private[name] = type(table)(table.wavelengths_um, table.values, name)
-    reading.notes.add("read", f"private glass {name} as a table of {len(pairs)} indices, straight lines between them")
+        raise reading.source.error("private glass {name}: {error}", command.line, name=name, error=failure) from failure
+    reading.private[name] = replace(table, label=name)
+    reading.notes.add(
+        "read",
+        "private glass {name} as a table of {count} indices, straight lines between them",
+        name=name,
+        count=len(pairs),
+    )
 
 
 def _set_private(reading: Reading, command: Command) -> None:
@@ -199,31 +229,33 @@ def _title(reading: Reading, command: Command) -> None:
 def _unit(reading: Reading, command: Command) -> None:
     unit = command.words[0].upper() if command.words else ""
     if unit not in UNITS_MM:
-        raise reading.source.error(f'lens unit "{unit[:20]}" is none of M (mm), C, I; correct it', command.line)
+        raise reading.source.error(
+            'lens unit "{unit}" is none of M (mm), C, I; correct it', command.line, unit=unit[:20]
+        )
     reading.raw.unit_mm = UNITS_MM[unit]
 
 
 def _aperture(reading: Reading, command: Command) -> None:
-    reading.raw.aperture = (APERTURES[command.name[:3]], reading.number(command, 0, "aperture"))
+    reading.raw.aperture = (APERTURES[command.name[:3]], reading.number(command, 0, Message("aperture")))
     reading.raw.aperture_line = command.line
 
 
 def _wavelengths(reading: Reading, command: Command) -> None:
-    values = reading.numbers(command, "wavelength")
+    values = reading.numbers(command, Message("wavelength"))
     if not all(50 <= value <= 50_000 for value in values):
         raise reading.source.error("a wavelength is not light; give nanometres", command.line)
     reading.raw.wavelengths_um, reading.raw.wavelength_line = [value / NM_PER_UM for value in values], command.line
 
 
 def _reference(reading: Reading, command: Command) -> None:
-    reading.raw.primary = int(reading.number(command, 0, "reference wavelength")) - 1
+    reading.raw.primary = int(reading.number(command, 0, Message("reference wavelength"))) - 1
 
 
 def _zoom(reading: Reading, command: Command) -> None:
     reading.notes.add("caution", "the file holds several zoom positions; the first, as its surfaces show it, is read")
 
 
-def _set(name: str, what: str):
+def _set(name: str, what: Message) -> Callable[[Reading, Command, RawSurface], None]:
     """Return a reader that sets one number of a surface."""
 
     def read(reading: Reading, command: Command, surface: RawSurface) -> None:
@@ -241,25 +273,25 @@ def _label(reading: Reading, command: Command, surface: RawSurface) -> None:
 
 
 def _radius(reading: Reading, command: Command, surface: RawSurface) -> None:
-    surface.curvature = curved(reading.number(command, 0, "radius"), command.name.startswith("RD"))
+    surface.curvature = curved(reading.number(command, 0, Message("radius")), command.name.startswith("RD"))
 
 
 def _thickness(reading: Reading, command: Command, surface: RawSurface) -> None:
-    surface.thickness = distance(reading, reading.number(command, 0, "thickness"), surface, command.line)
+    surface.thickness = distance(reading, reading.number(command, 0, Message("thickness")), surface, command.line)
 
 
 def _coefficient(reading: Reading, command: Command, surface: RawSurface) -> None:
-    surface.aspheric[ORDERS[command.name]] = reading.number(command, 0, "aspheric coefficient")
+    surface.aspheric[ORDERS[command.name]] = reading.number(command, 0, Message("aspheric coefficient"))
 
 
 def _rim(reading: Reading, command: Command, surface: RawSurface) -> None:
-    """Read CIR radius; an edge is not a clear rim, an obscuration or a hole is open here."""
+    """Read CIR radius; an edge is not a clear rim, obscurations and holes are noted and left out."""
     kind = next((word.upper() for word in command.words if word.upper() in ("EDG", "OBS", "HOL")), "")
     if kind in ("OBS", "HOL"):
         reading.notes.add("caution", "its obscuration or hole is left out", surface.number, command.line)
     if kind in ("EDG", "OBS", "HOL"):
         return
-    value = reading.number(command, len(command.words) - 1, "clear rim") if command.words else 0.0
+    value = reading.number(command, len(command.words) - 1, Message("clear rim")) if command.words else 0.0
     surface.semi_diameter = value if value > 0 else inf
 
 
@@ -269,7 +301,7 @@ ON_SURFACE = {
     "SLB": _label,
     "GLA": read_glass,
     "THI": _thickness,
-    "K": _set("conic", "conic constant"),
+    "K": _set("conic", Message("conic constant")),
     "CIR": _rim,
     **dict.fromkeys(("RDY", "CUY"), _radius),
     **dict.fromkeys(ORDERS, _coefficient),
@@ -312,23 +344,25 @@ def _run(reading: Reading, command: Command) -> None:
 
 def _dispatch(reading: Reading, command: Command, name: str) -> None:
     command, surface = _addressed(reading, command)
-    if name in words_of.REFUSED:
-        _refuse_unless_nothing(reading, command, surface, words_of.REFUSED[name])
+    if name in REFUSED:
+        _refuse_unless_zero(reading, command, surface, REFUSED[name])
     elif name in ON_SURFACE:
         if surface is None:
-            raise reading.source.error(f"{command.name} stands before any surface; put it after one", command.line)
+            raise reading.source.error(
+                "{command} stands before any surface; put it after one", command.line, command=command.name
+            )
         ON_SURFACE[name](reading, command, surface)
     elif name in IN_SYSTEM:
         IN_SYSTEM[name](reading, command)
     elif name[:1] in "XY" and name[1:] in FIELD_KINDS:
-        reading.fields[name] = reading.numbers(command, "field")
+        reading.fields[name] = reading.numbers(command, Message("field"))
         reading.raw.field_line = command.line
     else:
-        words_of.note(reading.notes, name, command.words, surface.number if surface else None, command.line)
+        note(reading.notes, name, command.words, surface.number if surface else None, command.line)
 
 
 def _addressed(reading: Reading, command: Command) -> tuple[Command, RawSurface | None]:
-    """Return the command without its surface qualifier (S3, SI, SO), and the surface it speaks of."""
+    """Return the command without its surface qualifier (S3, SI, SO), and the surface it applies to."""
     if command.words and re.fullmatch(r"S(O|I|S|\d+)", command.words[0], re.I):
         surface = _named(reading, command.words[0][1:].upper(), command)
         return Command(command.name, command.words[1:], command.line), surface
@@ -340,18 +374,29 @@ def _named(reading: Reading, name: str, command: Command) -> RawSurface | None:
         return reading.image if name == "I" else reading.current
     place = 0 if name == "O" else int(name[:6])
     if place >= len(reading.surfaces):
-        raise reading.source.error(f"{command.name} speaks of surface {place}, which is not there yet", command.line)
+        raise reading.source.error(
+            "{command} refers to surface {number}, which does not exist yet",
+            command.line,
+            command=command.name,
+            number=place,
+        )
     return reading.surfaces[place]
 
 
-def _refuse_unless_nothing(reading: Reading, command: Command, surface: RawSurface | None, why: str) -> None:
-    """Refuse a tilt, a decentre, a grating; a plain zero says that there is none."""
+def _refuse_unless_zero(reading: Reading, command: Command, surface: RawSurface | None, reason: Message) -> None:
+    """Raise LensFileError for a tilt, a decentre or a grating; one whose numbers are all zero does nothing."""
     if command.words and all(re.fullmatch(r"[+-]?0*\.?0*([eE][+-]?\d+)?", word) and word for word in command.words):
         return
-    where = surface.name if surface and surface.number else "the lens"
+    where = surface.name if surface and surface.number else Message("the lens")
     if reading.image is surface and surface is not None:
-        where = "the image surface"
-    raise reading.source.error(f"{where} {why} ({command.name}); only centred refracting lenses are read", command.line)
+        where = Message("the image surface")
+    raise reading.source.error(
+        "{surface} {reason} ({command}); only centred refracting lenses are read",
+        command.line,
+        surface=where,
+        reason=reason,
+        command=command.name,
+    )
 
 
 def _surface(reading: Reading, command: Command) -> None:
@@ -366,18 +411,23 @@ def _surface(reading: Reading, command: Command) -> None:
         surface.glass = None
     else:
         if name.isdigit() and int(name[:6]) != len(reading.surfaces):
-            raise reading.source.error(f"surface {name} stands where {len(reading.surfaces)} is due", command.line)
+            raise reading.source.error(
+                "surface {number} stands where {due} is due",
+                command.line,
+                number=int(name[:6]),
+                due=len(reading.surfaces),
+            )
         surface = RawSurface(len(reading.surfaces), command.line)
         reading.surfaces.append(surface)
     reading.current = surface
-    surface.curvature = curved(reading.number(command, 0, "radius", 0.0), reading.radii)
-    surface.thickness = distance(reading, reading.number(command, 1, "thickness", 0.0), surface, command.line)
+    surface.curvature = curved(reading.number(command, 0, Message("radius"), 0.0), reading.radii)
+    surface.thickness = distance(reading, reading.number(command, 1, Message("thickness"), 0.0), surface, command.line)
     for word in command.words[2:]:
         read_glass(reading, Command("GLA", (word,), command.line), surface)
 
 
 def _finish(reading: Reading) -> None:
-    """Put together what the order of commands left apart."""
+    """Complete the raw lens once all commands are read."""
     raw = reading.raw
     first, *raw.surfaces = reading.surfaces
     raw.object_distance, raw.object_glass = first.thickness, first.glass
@@ -401,7 +451,7 @@ def _gather_fields(reading: Reading) -> None:
     kinds = dict.fromkeys(name[1:] for name in reading.fields)
     if not kinds:
         return
-    kind = next((kind for kind in kinds if any(reading.fields.get(f"{axis}{kind}", [0.0])[0:] for axis in "XY")), "AN")
+    kind = next((kind for kind in kinds if any(reading.fields.get(f"{axis}{kind}", [0.0]) for axis in "XY")), "AN")
     columns = [reading.fields.get(f"{axis}{kind}", []) for axis in "XY"]
     count = max(map(len, columns))
     padded = [[*column, *[0.0] * count][:count] for column in columns]

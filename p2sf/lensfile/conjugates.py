@@ -1,6 +1,7 @@
 """Aperture and fields as files state them, turned into a stop rim and field angles by paraxial rays.
 
-This floor lies below `gaussian`, so the two basis rays are traced here once more, in plain floats.
+The two basis rays are traced in plain floats, because an import needs them at single wavelengths and before the lens
+has its aperture.
 """
 
 from dataclasses import dataclass, replace
@@ -8,10 +9,19 @@ from math import asin, atan, degrees, hypot, inf, isfinite, radians, tan
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Aperture, Lens
-from p2sf.lensfile.raw import RawLens
+from p2sf.lensfile.raw import RawApertureKind, RawLens
+from p2sf.messages import Message
 
 # Above this a distance in a file means infinity; CODE V writes 1e13, ray-tracing programs 1e10.
 FAR = 1e10
+KINDS: dict[RawApertureKind, Message] = {
+    "stop_semi_diameter": Message("stop semi diameter"),
+    "entrance_pupil_diameter": Message("entrance pupil diameter"),
+    "f_number": Message("f number"),
+    "image_f_number": Message("image f number"),
+    "object_na": Message("object na"),
+    "image_na": Message("image na"),
+}
 
 
 @dataclass(frozen=True)
@@ -71,13 +81,14 @@ def limiting_rim(lens: Lens, wavelength_um: float) -> tuple[int, float]:
     return widest + 1, lens.surfaces[widest].semi_diameter
 
 
-def aperture(raw: RawLens, rays: Paraxial, keep: bool) -> Aperture:
-    """Return the aperture of a lens whose stop is known; ``keep`` leaves a pupil diameter or f-number as it is.
+def aperture(raw: RawLens, stated: tuple[RawApertureKind, float], rays: Paraxial, keep: bool) -> Aperture:
+    """Return the ``stated`` aperture of a lens whose stop is known; ``keep`` leaves a pupil diameter or f-number as is.
 
     Otherwise, because the file's primary wavelength is not the lens's reference wavelength or because
-    it is stated at a finite distance, it becomes the stop's semi-diameter.
+    the aperture is stated at a finite distance, it becomes the stop's semi-diameter. Raises GeometryError
+    for an aperture that is impossible or fills nothing.
     """
-    kind, value = raw.aperture
+    kind, value = stated
     if kind == "image_f_number" and not isfinite(raw.object_distance):
         kind = "f_number"  # for an object at infinity the two are one
     if kind == "stop_semi_diameter":
@@ -89,12 +100,15 @@ def aperture(raw: RawLens, rays: Paraxial, keep: bool) -> Aperture:
     rim = abs(_marginal_height(kind, value, raw, rays))
     if not (isfinite(rim) and rim > 0):
         raise GeometryError(
-            f"the aperture ({kind.replace('_', ' ')} {value:g}) fills the stop to {rim:g} mm; correct it"
+            "the aperture ({kind} {value:g}) fills the stop to {rim:g} mm; correct it",
+            kind=KINDS[kind],
+            value=value,
+            rim=rim,
         )
     return Aperture("stop_semi_diameter", rim)
 
 
-def _marginal_height(kind: str, value: float, raw: RawLens, rays: Paraxial) -> float:
+def _marginal_height(kind: RawApertureKind, value: float, raw: RawLens, rays: Paraxial) -> float:
     """Return the height at the stop of the marginal ray that an aperture statement means."""
     a, b = rays.stop
     _, _, c, d = rays.last
@@ -118,7 +132,11 @@ def _marginal_height(kind: str, value: float, raw: RawLens, rays: Paraxial) -> f
 
 def _sine(numerical_aperture: float, index: float) -> float:
     if not 0 < numerical_aperture < index:
-        raise GeometryError(f"numerical aperture {numerical_aperture:g} is impossible in index {index:g}; correct it")
+        raise GeometryError(
+            "numerical aperture {value:g} is impossible in index {index:g}; correct it",
+            value=numerical_aperture,
+            index=index,
+        )
     return numerical_aperture / index
 
 
@@ -140,7 +158,7 @@ def field_slopes(raw: RawLens, rays: Paraxial) -> list[float]:
 
 def _angle(angle_deg: float) -> float:
     if not abs(angle_deg) < 90:
-        raise GeometryError(f"field angle {angle_deg:g}° is not below 90°; correct it")
+        raise GeometryError("field angle {angle:g}° is not below 90°; correct it", angle=angle_deg)
     return angle_deg
 
 
@@ -161,7 +179,7 @@ def _height_per_slope(raw: RawLens, rays: Paraxial) -> float:
 
 
 def with_object_named(lens: Lens, distance_mm: float) -> Lens:
-    """Return the lens with a comment that keeps the file's object distance, which a lens does not hold."""
+    """Return the lens with a comment that states the file's object distance, which a lens does not hold."""
     if not isfinite(distance_mm):
         return lens
     words = f"The file's object stands {distance_mm:.6g} mm before the first surface."

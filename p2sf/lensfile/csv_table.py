@@ -1,23 +1,29 @@
 """Plain tables with named columns: one header row, one row per surface, "# key: value" lines for the rest.
 
 Columns: radius, thickness, and any of glass, nd, vd, index, diameter, semi_diameter, conic, A4, A6, …, stop,
-label. Keys: title, unit, epd, f_number, stop_semi_diameter, wavelengths_nm, fields_deg. Cells are parted by
+label. Keys: title, unit, epd, f_number, stop_semi_diameter, wavelengths_nm, fields_deg. Cells are separated by
 comma, semicolon or tab; with semicolons a decimal comma is understood.
 """
 
 import csv
 import re
+from collections.abc import Callable
 from math import inf
 
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import RawApertureKind, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
+from p2sf.messages import Message
 
 UNITS_MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
-APERTURES = {"epd": "entrance_pupil_diameter", "f_number": "f_number", "stop_semi_diameter": "stop_semi_diameter"}
+APERTURES: dict[str, RawApertureKind] = {
+    "epd": "entrance_pupil_diameter",
+    "f_number": "f_number",
+    "stop_semi_diameter": "stop_semi_diameter",
+}
 COLUMNS = ("radius", "thickness", "glass", "nd", "vd", "index", "diameter", "semi_diameter", "conic", "stop", "label")
 PLANES = ("", "inf", "infinity", "plano", "plane", "flat")
 YES = ("stop", "yes", "true", "1", "x", "*")
@@ -25,29 +31,32 @@ YES = ("stop", "yes", "true", "1", "x", "*")
 
 def read_table(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a CSV file with named columns; LensFileError with its line."""
-    raw, header, parted_by = RawLens(), [], ","
+    raw, separator = RawLens(), ","
+    header: list[str] = []
     for line, text in enumerate(source.lines, 1):
         if text.strip().startswith("#"):
             _key(raw, text.strip().lstrip("# "), line, source)
         elif text.strip() and not header:
-            parted_by = max(",;\t", key=text.count)
-            header = _header(_cells(text, parted_by, source, line), line, source)
+            separator = max(",;\t", key=text.count)
+            header = _header(_cells(text, separator, source, line), line, source)
         elif text.strip(" ,;\t"):
-            cells = _cells(text, parted_by, source, line)
+            cells = _cells(text, separator, source, line)
             row = dict(zip(header, cells, strict=False))
-            _add(raw, {key: _decimal(cell, key, parted_by) for key, cell in row.items()}, line, source)
+            _add(raw, {key: _decimal(cell, key, separator) for key, cell in row.items()}, line, source)
     return assemble(raw, sources, notes, source)
 
 
-def _cells(text: str, parted_by: str, source: LensText, line: int) -> list[str]:
+def _cells(text: str, separator: str, source: LensText, line: int) -> list[str]:
     try:
-        return [cell.strip() for cell in next(csv.reader([text], delimiter=parted_by))]
+        return [cell.strip() for cell in next(csv.reader([text], delimiter=separator))]
     except csv.Error as failure:
-        raise source.error(f"the row cannot be cut into cells ({failure}); correct it", line) from failure
+        raise source.error(
+            "the row cannot be cut into cells ({reason}); correct it", line, reason=str(failure)
+        ) from failure
 
 
-def _decimal(cell: str, key: str, parted_by: str) -> str:
-    return cell.replace(",", ".") if parted_by == ";" and key not in ("glass", "label") else cell
+def _decimal(cell: str, key: str, separator: str) -> str:
+    return cell.replace(",", ".") if separator == ";" and key not in ("glass", "label") else cell
 
 
 def _header(cells: list[str], line: int, source: LensText) -> list[str]:
@@ -56,8 +65,12 @@ def _header(cells: list[str], line: int, source: LensText) -> list[str]:
     unknown = [name for name in names if name not in COLUMNS and not re.fullmatch(r"a([1-9]|[1-3]\d)|", name)]
     missing = [name for name in ("radius", "thickness") if name not in names]
     if missing or unknown:
-        why = f'column "{unknown[0][:30]}" is unknown' if unknown else f"column {missing[0]} is missing"
-        raise source.error(f"{why}; known are {', '.join(COLUMNS)}, A4, A6, …", line)
+        problem = (
+            Message('column "{name}" is unknown', name=unknown[0][:30])
+            if unknown
+            else Message("column {name} is missing", name=missing[0])
+        )
+        raise source.error("{problem}; known are {columns}, A4, A6, …", line, problem=problem, columns=COLUMNS)
     return names
 
 
@@ -69,7 +82,9 @@ def _key(raw: RawLens, text: str, line: int, source: LensText) -> None:
         raw.title = value[:200]
     elif name == "unit":
         if value.lower() not in UNITS_MM:
-            raise source.error(f'unit "{value[:20]}" is none of {", ".join(UNITS_MM)}; correct it', line)
+            raise source.error(
+                'unit "{unit}" is none of {units}; correct it', line, unit=value[:20], units=tuple(UNITS_MM)
+            )
         raw.unit_mm = UNITS_MM[value.lower()]
     elif name in APERTURES:
         raw.aperture, raw.aperture_line = (APERTURES[name], number(value, name, source, line)), line
@@ -98,12 +113,17 @@ def _add(raw: RawLens, row: dict[str, str], line: int, source: LensText) -> None
     surface.glass = _glass(row, value, line)
     if row.get("stop", "").lower() in YES:
         if raw.stop:
-            raise source.error(f"surfaces {raw.stop} and {surface.number} both are the stop; keep one", line)
+            raise source.error(
+                "surfaces {first} and {second} both are the stop; keep one",
+                line,
+                first=raw.stop,
+                second=surface.number,
+            )
         raw.stop = surface.number
     raw.surfaces.append(surface)
 
 
-def _glass(row: dict[str, str], value, line: int) -> RawGlass | None:
+def _glass(row: dict[str, str], value: Callable[[str], float], line: int) -> RawGlass | None:
     """Return the medium: nd and vd, an index, or a name with its maker in front ("SCHOTT N-BK7")."""
     if row.get("nd"):
         return RawGlass(model=(value("nd"), value("vd")), line=line) if row.get("vd") else RawGlass(index=value("nd"))

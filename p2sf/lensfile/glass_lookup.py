@@ -1,4 +1,4 @@
-"""From the name of a glass in a file to its dispersion data, in a stated order, exact before substitute.
+"""From the name of a glass in a file to its dispersion data, in this order, exact glasses before substitutes.
 
 Exact, taken without asking:
 1. a private glass that the file itself defines;
@@ -6,10 +6,10 @@ Exact, taken without asking:
 3. the built-in makers' table, for the makers the file names, in the file's order;
    hyphens, spaces and case do not count ("NBK7" is "N-BK7");
 4. fused silica by its common names (I. H. Malitson, J. Opt. Soc. Am. 55, 1205, 1965);
-5. where the file names no maker we know: the one glass of that name, if all who sell it agree.
+5. where the file names no known maker: the glass of that name, if the indices of all its sellers agree.
 
-Substitutes, only ever offered and taken when the user accepts them:
-6. the glass that follows it up (N-, S-, …) of a named maker, then of any;
+Substitutes, offered in the error and taken when the user accepts them:
+6. its successor (N-, S-, …) from a named maker, then from any;
 7. the index and Abbe number that the file writes beside the name.
 """
 
@@ -22,6 +22,7 @@ from p2sf.glass.catalogue import find_entry
 from p2sf.glass.media import CatalogueGlass, Medium, catalogue_glass, constant_index, model_glass
 from p2sf.lensfile.agf import D_LINE_UM, Catalogue, FormulaGlass
 from p2sf.lensfile.raw import RawGlass
+from p2sf.messages import Message
 
 OBSOLETE: dict[str, tuple[float, float]] = {
     "BAF3": (1.58267, 46.47),
@@ -97,7 +98,7 @@ OBSOLETE: dict[str, tuple[float, float]] = {
 
 # A catalogue whose coefficients miss its own printed nd by more than this is damaged (healthy ones: 4e-5).
 DAMAGED_ND = 1e-3
-# Where nothing else decides, the makers old prescriptions mean most; a matching liquid is no lens glass.
+# The makers that old prescriptions mean most often come first; an index-matching liquid is not a lens glass.
 USUAL_MAKERS = ("SCHOTT", "OHARA", "HOYA", "HIKARI", "SUMITA", "CDGM")
 NO_GLASS = ("CARGILLE",)
 # A glass farther than this in nd is another glass, whatever it is called.
@@ -107,7 +108,7 @@ SILICA = ("SILICA", "FSILICA", "FUSEDSILICA", "SIO2", "F_SILICA")
 
 @dataclass(frozen=True)
 class GlassSources:
-    """Where glasses may come from: the user's catalogues, the file's private glasses, and the user's consent."""
+    """Where glasses come from: the user's catalogues, the file's private glasses, and substitutes if accepted."""
 
     catalogues: tuple[Catalogue, ...] = ()
     private: dict[str, Medium] = field(default_factory=dict)
@@ -116,14 +117,23 @@ class GlassSources:
 
 @dataclass(frozen=True)
 class Resolution:
-    """A medium, and the sentence for the report where it is not exactly what the file names."""
+    """A medium, and a sentence for the report where it is not exactly what the file names."""
 
     medium: Medium
-    substitution: str | None = None
+    substitution: Message | None = None
+
+
+@dataclass(frozen=True)
+class Substitute:
+    """A glass that could stand in for another: how to name it, and its difference in index at the d line."""
+
+    label: str | Message
+    medium: Medium
+    difference: Message
 
 
 def resolve(glass: RawGlass, sources: GlassSources) -> Resolution:
-    """Return the medium of a glass; GlassError names what is offered instead, and is never silent about it."""
+    """Return the medium of a glass; GlassError, naming substitutes, for one that is not found exactly."""
     if glass.medium is not None:
         return Resolution(glass.medium)
     if glass.index is not None:
@@ -137,7 +147,7 @@ def resolve(glass: RawGlass, sources: GlassSources) -> Resolution:
 
 
 def key(name: str) -> str:
-    """Return a glass name without what spellings differ in: hyphens, spaces, underscores, case."""
+    """Return a glass name without hyphens, spaces, underscores and case, in which spellings differ."""
     return re.sub(r"[^A-Z0-9+()]", "", name.upper())
 
 
@@ -175,12 +185,16 @@ def _by_key(catalogue: Catalogue) -> dict[str, FormulaGlass]:
 
 
 def _sound(glass: FormulaGlass, catalogue: Catalogue) -> FormulaGlass:
-    """Return the glass if its coefficients give the nd printed beside them, else raise GlassError."""
+    """Return the glass if its coefficients give the nd listed beside them, else raise GlassError."""
     nd = nd_of(glass)
     if glass.listed_nd and glass.listed_nd > 1.01 and nd and abs(nd - glass.listed_nd) > DAMAGED_ND:
         raise GlassError(
-            f"glass {glass.name} of {catalogue.path} has nd {nd:.5f} by its coefficients and {glass.listed_nd:.5f} "
-            "by its name line; the catalogue is damaged, replace it"
+            "glass {name} of {path} has nd {nd:.5f} by its coefficients and {listed:.5f} by its name line; "
+            "the catalogue is damaged, replace it",
+            name=glass.name,
+            path=catalogue.path,
+            nd=nd,
+            listed=glass.listed_nd,
         )
     return glass
 
@@ -233,7 +247,7 @@ def _sellers(name: str) -> list[str]:
 
 
 def _sold_by_anyone(glass: RawGlass) -> Medium | None:
-    """Return the glass of this name where all who sell it agree; several makers with different n are no answer."""
+    """Return the glass of this name if the indices of all its sellers agree, else None."""
     sellers = _sellers(glass.name)
     indices = {round(nd_of(medium) or 0.0, 5) for label in sellers if (medium := _refractive(label))}
     return _refractive(sellers[0]) if len(indices) == 1 else None
@@ -241,30 +255,45 @@ def _sold_by_anyone(glass: RawGlass) -> Medium | None:
 
 def _substitute(glass: RawGlass, sources: GlassSources) -> Resolution:
     offers = _offers(glass)
-    asked = f'glass "{glass.name}"' + (f" of {', '.join(glass.makers)}" if glass.makers else "")
+    asked = (
+        Message('glass "{name}" of {makers}', name=glass.name, makers=glass.makers)
+        if glass.makers
+        else Message('glass "{name}"', name=glass.name)
+    )
     if not offers:
-        raise GlassError(f"{asked} is in no catalogue; give its AGF catalogue, or its index as nd and vd")
+        raise GlassError("{glass} is in no catalogue; give its AGF catalogue, or its index as nd and vd", glass=asked)
     if not sources.accept_substitutes:
-        listed = "; ".join(f"{label}, {difference}" for label, _, difference in offers)
-        raise GlassError(f"{asked} is in no catalogue given; accept a substitute ({listed}) or give its AGF catalogue")
-    label, medium, difference = offers[0]
-    return Resolution(medium, f"{asked} replaced by {label}, {difference}")
+        raise GlassError(
+            "{glass} is in no catalogue given; accept a substitute ({offers}) or give its AGF catalogue",
+            glass=asked,
+            offers=tuple(
+                Message("{glass}: {difference}", glass=offer.label, difference=offer.difference) for offer in offers
+            ),
+        )
+    best = offers[0]
+    replaced = Message(
+        "{glass} replaced by {substitute}, {difference}", glass=asked, substitute=best.label, difference=best.difference
+    )
+    return Resolution(best.medium, replaced)
 
 
-def _offers(glass: RawGlass) -> list[tuple[str, Medium, str]]:
-    """Return (label, medium, difference at d) of what could stand in, best first."""
-    found = {label: _refractive(label) for label in _equivalents(glass)}
+def _offers(glass: RawGlass) -> list[Substitute]:
+    """Return up to four substitutes, the nearest in nd first."""
+    found: list[tuple[str | Message, Medium | None]] = [(label, _refractive(label)) for label in _equivalents(glass)]
     if glass.beside:
         nd, vd = glass.beside
-        found[f"a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it"] = model_glass(nd, vd)
+        label = Message("a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it", nd=nd, vd=vd)
+        found.append((label, model_glass(nd, vd)))
     wanted = _nominal_nd(glass)
-    away = {label: abs((nd_of(medium) or 9.0) - wanted) if wanted else 0.0 for label, medium in found.items() if medium}
-    best = [label for label in sorted(away, key=lambda x: round(away[x], 4)) if away[label] <= FARTHEST_OFFER]
-    return [(label, found[label], _difference(found[label], wanted)) for label in best[:4]]
+    away = [
+        (abs((nd_of(medium) or 9.0) - wanted) if wanted else 0.0, label, medium) for label, medium in found if medium
+    ]
+    near = [item for item in sorted(away, key=lambda item: round(item[0], 4)) if item[0] <= FARTHEST_OFFER]
+    return [Substitute(label, medium, _difference(medium, wanted)) for _, label, medium in near[:4]]
 
 
 def _equivalents(glass: RawGlass) -> list[str]:
-    """Return labels of the same name, then of the same stem, of named makers, then of any."""
+    """Return the labels of glasses of the same name, then of the same stem; named makers come first."""
     makers = [m for m in dict.fromkeys([*_known(glass.makers), *USUAL_MAKERS, *_shelf()]) if m not in NO_GLASS]
     same = [_shelf()[maker][key(glass.name)] for maker in makers if key(glass.name) in _shelf()[maker]]
     follows = [label for maker in makers for label in _stems(maker).get(stem(glass.name), ())]
@@ -281,7 +310,7 @@ def _stems(maker: str) -> dict[str, tuple[str, ...]]:
 
 
 def _nominal_nd(glass: RawGlass) -> float | None:
-    """Return nd of the glass that was asked for, where the file or an old data sheet tells it."""
+    """Return nd of the glass that was asked for, where the file or an old data sheet states it."""
     if glass.beside:
         return glass.beside[0]
     known = not glass.makers or any(_same_maker(maker, "SCHOTT") for maker in glass.makers)
@@ -296,8 +325,8 @@ def nd_of(medium: Medium) -> float | None:
         return None
 
 
-def _difference(medium: Medium, wanted: float | None) -> str:
+def _difference(medium: Medium, wanted: float | None) -> Message:
     nd = nd_of(medium)
     if wanted is None or nd is None:
-        return "Δn at d unknown, the file does not tell the index it wants"
-    return f"Δn at d {round(nd - wanted, 5) + 0.0:+.5f}"  # + 0.0, because −0.00000 would be rounding with a sign
+        return Message("Δn at d unknown, the file does not tell the index it wants")
+    return Message("Δn at d {value:+.5f}", value=round(nd - wanted, 5) + 0.0)  # + 0.0 turns −0 into 0

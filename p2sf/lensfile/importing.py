@@ -1,5 +1,6 @@
-"""Read a lens from whatever file people have: the format is told by its content, its ending only breaks ties."""
+"""Read a lens from a file of any known format, recognised by its content, then by its ending."""
 
+import os
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -29,10 +30,10 @@ class Import:
 
 @dataclass(frozen=True)
 class Format:
-    """One format: its name, what its text must contain, its file ending, and its reader."""
+    """One format: its name, a pattern found in its files only, its file ending, and its reader."""
 
     name: str
-    mark: re.Pattern
+    mark: re.Pattern[str]
     ending: str
     read: Callable[[LensText, GlassSources, Notebook], Lens]
 
@@ -42,7 +43,7 @@ def _read_toml(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
     return parse_toml(source.text.removeprefix("\ufeff"), source.path)
 
 
-def _pattern(text: str) -> re.Pattern:
+def _pattern(text: str) -> re.Pattern[str]:
     return re.compile(text, re.IGNORECASE | re.MULTILINE)
 
 
@@ -57,10 +58,12 @@ FORMATS = (
 )
 
 
-def import_lens(path, accept_substitutes: bool = False, catalogues: Iterable = ()) -> Import:
+def import_lens(
+    path: str | os.PathLike, accept_substitutes: bool = False, catalogues: Iterable[str | os.PathLike] = ()
+) -> Import:
     """Return the lens of a file of any known format, and the report on reading it.
 
-    ``catalogues``: paths of AGF glass catalogues; those lying beside the file are used as well. Raises
+    ``catalogues`` are paths of AGF glass catalogues; those in the file's folder are used as well. Raises
     LensFileError, with its line, for what cannot be read exactly; a substitute glass needs consent.
     """
     source = read_source(path)
@@ -72,7 +75,12 @@ def import_text(source: LensText, sources: GlassSources) -> Import:
     found = recognise(source)
     notes = Notebook()
     for catalogue in sources.catalogues:
-        notes.add("read", f"glass catalogue {catalogue.path} with {len(catalogue.glasses)} glasses is at hand")
+        notes.add(
+            "read",
+            "glass catalogue {path} with {count} glasses is at hand",
+            path=catalogue.path,
+            count=len(catalogue.glasses),
+        )
     lens = found.read(source, sources, notes)
     if lens.name == "lens":
         lens = replace(lens, name=_name(source.path))
@@ -80,7 +88,7 @@ def import_text(source: LensText, sources: GlassSources) -> Import:
 
 
 def recognise(source: LensText) -> Format:
-    """Return the format of a text: .toml is TOML, else the first whose mark the text bears, else by its ending."""
+    """Return the format of a text: TOML for .toml, else the first whose mark is in the text, else by its ending."""
     ending = Path(source.path).suffix.lower()
     by_ending = {known.ending: known for known in FORMATS}
     if ending == ".toml":
@@ -90,18 +98,19 @@ def recognise(source: LensText) -> Format:
     marked = next((known for known in FORMATS if known.mark.search(source.text)), None)
     if marked or ending in by_ending:
         return marked or by_ending[ending]
-    names = ", ".join(known.name for known in FORMATS)
-    raise source.error(f"the file is none of the formats known here: {names}", 1)
+    raise source.error(
+        "the file is none of the formats known here: {formats}", 1, formats=tuple(known.name for known in FORMATS)
+    )
 
 
 def _name(path: str) -> str:
-    """Return a plain name from a file's stem, as a lens file's name has to be."""
+    """Return the name of a lens from its file's stem: lower-case letters, digits, dots and underscores."""
     stem = re.sub(r"[^A-Za-z0-9.]+", "_", Path(path).stem).strip("_.")
     return stem.lower() or "lens"
 
 
-def _catalogues(path, given: Iterable) -> tuple[Catalogue, ...]:
-    """Return the user's catalogues, then those beside the lens, of which an unreadable one is passed over."""
+def _catalogues(path: str | os.PathLike, given: Iterable[str | os.PathLike]) -> tuple[Catalogue, ...]:
+    """Return the user's catalogues, then those in the lens's folder, of which an unreadable one is left out."""
     listed = [read_agf(item) for item in given]
     folder = Path(path).parent
     beside = sorted(item for item in folder.glob("*") if item.suffix.lower() == ".agf")[:50]

@@ -1,12 +1,13 @@
 """ISET and PBRT lens files: JSON with "surfaces", and the older .dat of four columns.
 
-Lengths are mm. ``ior`` is the index behind a surface: a number, or [[nm …], [n …]]. A radius of 0 is the
-stop where ior is 0 or the name says so, elsewhere a plane. The light stays in the medium a stop stands in.
+Lengths are mm. ``ior`` is the index behind a surface: a number, or [[nm …], [n …]]. A surface of radius 0 is the
+stop where ior is 0 or the name says so, elsewhere a plane. A stop has the same medium on both sides.
 """
 
 import json
 import re
 from math import inf
+from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
@@ -17,6 +18,7 @@ from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
+from p2sf.messages import Message
 
 STOP_NAMES = ("stop", "diaphragm", "aperture")
 IDENTITY = ([1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0])
@@ -34,18 +36,24 @@ KEYS = (
 
 
 def read_iset_json(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
-    """Return the lens of an ISET .json file; LensFileError with its line for what is missing or not round."""
+    """Return the lens of an ISET .json file; LensFileError with its line for what is missing or not centred."""
     top = _parsed(source)
     if not isinstance(top, dict) or not isinstance(top.get("surfaces"), list):
         older = isinstance(top, dict) and "surfaceArray" in top
-        hint = "this is the older surfaceArray form, convert it in ISET" if older else 'a lens lists its "surfaces"'
-        raise source.error(f"the file holds no list of surfaces; {hint}", 1)
+        remedy = (
+            Message("this is the older surfaceArray form, convert it in ISET")
+            if older
+            else Message('a lens lists its "surfaces"')
+        )
+        raise source.error("the file holds no list of surfaces; {remedy}", 1, remedy=remedy)
     raw = RawLens(title=_text(top, "name"), source=_text(top, "description"), sensor_stated=False)
     lines = _surface_lines(source)
     for place, values in enumerate(top["surfaces"]):
         line = lines[place] if place < len(lines) else len(source.lines)
         if not isinstance(values, dict):
-            raise source.error(f"surface {place + 1} is not an object with radius and thickness; correct it", line)
+            raise source.error(
+                "surface {surface} is not an object with radius and thickness; correct it", line, surface=place + 1
+            )
         _add(raw, _surface(values, place + 1, line, source, notes), _is_stop(values), notes, source)
     if top.get("microlens"):
         notes.add("caution", "the microlens array is left out; the picture is that of the lens before it")
@@ -62,8 +70,10 @@ def read_iset_dat(source: LensText, sources: GlassSources, notes: Notebook) -> L
         if not words or (len(words) == 1 and not raw.surfaces):
             continue  # the single number on top is the focal length, which the surfaces give exactly
         if len(words) != 4:
-            raise source.error(f"a row has {len(words)} columns; write radius, thickness, index, diameter", line)
-        radius, thickness, index, diameter = (number(word, "value", source, line) for word in words)
+            raise source.error(
+                "a row has {count} columns; write radius, thickness, index, diameter", line, count=len(words)
+            )
+        radius, thickness, index, diameter = (number(word, Message("value"), source, line) for word in words)
         values = {"radius": radius, "thickness": thickness, "ior": index, "semi_aperture": diameter / 2}
         surface = _surface(values, len(raw.surfaces) + 1, line, source, notes)
         _add(raw, surface, _is_stop(values), notes, source)
@@ -71,11 +81,13 @@ def read_iset_dat(source: LensText, sources: GlassSources, notes: Notebook) -> L
     return _done(raw, sources, notes, source)
 
 
-def _parsed(source: LensText):
+def _parsed(source: LensText) -> Any:
     try:
         return json.loads(source.text)
     except json.JSONDecodeError as failure:
-        raise source.error(f"this is not JSON ({failure.msg}); correct the line", failure.lineno) from failure
+        raise source.error(
+            "this is not JSON ({reason}); correct the line", failure.lineno, reason=failure.msg
+        ) from failure
     except (RecursionError, ValueError) as failure:
         raise source.error("lists are nested too deep or a number is too long; this is no lens file", 1) from failure
 
@@ -91,16 +103,18 @@ def _surface_lines(source: LensText) -> list[int]:
 
 
 def _surface(values: dict, count: int, line: int, source: LensText, notes: Notebook) -> RawSurface:
-    """Return one surface; whatever is not round about it is refused."""
+    """Return one surface; LensFileError for one that is not rotationally symmetric."""
 
     def one(key: str, default: float | None = None) -> float:
         return _one(values, key, default, count, line, source)
 
     unknown = [key for key in values if key not in KEYS]
     if unknown:
-        notes.add("ignored", f"key {unknown[0][:40]}, which is not known to describe the lens", count, line)
+        notes.add("ignored", "key {name}, which is not known to describe the lens", count, line, name=unknown[0][:40])
     if values.get("transform") is not None and values["transform"] != [list(row) for row in IDENTITY]:
-        raise source.error(f"surface {count} is tilted or decentred (transform); only centred lenses are read", line)
+        raise source.error(
+            "surface {surface} is tilted or decentred (transform); only centred lenses are read", line, surface=count
+        )
     radius = one("radius")
     surface = RawSurface(count, line, _text(values, "name"), 1 / radius if radius else 0.0, one("thickness"))
     surface.conic = one("conic_constant", 0.0)
@@ -116,41 +130,60 @@ def _one(values: dict, key: str, default: float | None, count: int, line: int, s
     """Return a number; a pair for x and y is one number where both are the same."""
     value = values.get(key, default)
     if isinstance(value, list) and len(value) == 2 and value[0] != value[1]:
-        raise source.error(f"surface {count}: {key} differs between x and y; only round lenses are read", line)
+        raise source.error(
+            "surface {surface}: {name} differs between x and y; only round lenses are read",
+            line,
+            surface=count,
+            name=key,
+        )
     value = value[0] if isinstance(value, list) and value else value
     if value in ("inf", "Inf", "Infinity") and key == "radius":
         return 0.0
     if value is inf and (key == "radius" or default is inf):
         return 0.0 if key == "radius" else inf
     if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e100:
-        raise source.error(f"surface {count}: {key} is {str(value)[:40]}; write a number", line)
+        raise source.error(
+            "surface {surface}: {name} is {found}; write a number",
+            line,
+            surface=count,
+            name=key,
+            found=str(value)[:40],
+        )
     return float(value)
 
 
 def _coefficients(values: dict, count: int, line: int, source: LensText) -> list[float]:
-    """Return A4, A6, …; a longer list than r⁴² or anything but numbers is refused."""
+    """Return A4, A6, …; LensFileError for more than 20 of them and for anything but numbers."""
     listed = values.get("aspheric_coefficients") or []
     if not isinstance(listed, list) or len(listed) > 20:
         raise source.error(
-            f"surface {count}: aspheric_coefficients is not a list of up to 20 numbers; correct it", line
+            "surface {surface}: aspheric_coefficients is not a list of up to 20 numbers; correct it",
+            line,
+            surface=count,
         )
     return [
         _one({"aspheric_coefficients": item}, "aspheric_coefficients", None, count, line, source) for item in listed
     ]
 
 
-def _glass(ior, count: int, line: int, source: LensText) -> RawGlass | None:
+def _glass(ior: object, count: int, line: int, source: LensText) -> RawGlass | None:
     if isinstance(ior, int | float) and not isinstance(ior, bool):
         return None if ior in (0, 1) else RawGlass(index=float(ior), line=line)
-    two_lists = isinstance(ior, list) and len(ior) == 2 and all(isinstance(part, list) for part in ior)
-    if not two_lists or len(ior[0]) != len(ior[1]):
-        raise source.error(f"surface {count}: ior is neither a number nor [[nm …], [n …]]; correct it", line)
+    lists = ior if isinstance(ior, list) and all(isinstance(part, list) for part in ior) else []
+    if len(lists) != 2 or len(lists[0]) != len(lists[1]):
+        raise source.error(
+            "surface {surface}: ior is neither a number nor [[nm …], [n …]]; correct it", line, surface=count
+        )
     try:
-        pairs = sorted(zip(ior[0], ior[1], strict=True))
+        pairs = sorted(zip(*lists, strict=True))
         table = measured_index([w / NM_PER_UM for w, _ in pairs], [n for _, n in pairs])
     except (GlassError, TypeError) as failure:
+        reason = failure if isinstance(failure, GlassError) else str(failure)
         raise source.error(
-            f"surface {count}: ior is no table of wavelengths and indices ({failure})", line
+            "surface {surface}: ior is no table of wavelengths and indices ({reason})",
+            line,
+            surface=count,
+            reason=reason,
         ) from failure
     return RawGlass(medium=table, line=line)
 
@@ -161,10 +194,15 @@ def _is_stop(values: dict) -> bool:
 
 
 def _add(raw: RawLens, surface: RawSurface, is_stop: bool, notes: Notebook, source: LensText) -> None:
-    """Append a surface; a stop keeps the medium it stands in, and there is one stop only."""
+    """Append a surface; a stop has the same medium on both sides. LensFileError for a second stop."""
     if is_stop:
         if raw.stop is not None:
-            raise source.error(f"surfaces {raw.stop} and {surface.number} both are the stop; keep one", surface.line)
+            raise source.error(
+                "surfaces {first} and {second} both are the stop; keep one",
+                surface.line,
+                first=raw.stop,
+                second=surface.number,
+            )
         raw.stop = surface.number
         surface.keeps_medium, surface.glass = True, None
     elif not surface.curvature and surface.number > 1:

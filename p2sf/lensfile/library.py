@@ -1,14 +1,31 @@
-"""The shipped lenses by name, from a checkout and from an installed wheel alike."""
+"""Lenses by the path of any lens file, and the shipped ones by name, from a checkout or an installed wheel."""
 
 import os
+from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
 
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import Lens
-from p2sf.lensfile import load_lens
+from p2sf.lensfile.toml import read_toml
+from p2sf.messages import Alternatives
 
 SUFFIX = ".toml"
+
+
+def load_lens(
+    path: str | os.PathLike, accept_substitutes: bool = False, catalogues: Iterable[str | os.PathLike] = ()
+) -> Lens:
+    """Return the lens of a file of any known format, recognised by its content; LensFileError says where and why not.
+
+    ``catalogues`` are paths of AGF glass catalogues. `p2sf.lensfile.importing.import_lens` gives the
+    report on the reading as well.
+    """
+    if str(path).lower().endswith(SUFFIX):
+        return read_toml(path)
+    from p2sf.lensfile.importing import import_lens  # the readers of other programs' files load on first use
+
+    return import_lens(path, accept_substitutes, catalogues).lens
 
 
 def lenses_folder(package: Path = Path(__file__).parents[1]) -> Path:
@@ -16,7 +33,7 @@ def lenses_folder(package: Path = Path(__file__).parents[1]) -> Path:
     for folder in (package / "lenses", package.parent / "lenses"):
         if any(folder.glob(f"*{SUFFIX}")):
             return folder
-    raise LensFileError("the shipped lenses are missing; install p2sf again", str(package / "lenses"))
+    raise LensFileError("the shipped lenses are missing; install p2sf again", package / "lenses")
 
 
 def shipped_lenses() -> tuple[str, ...]:
@@ -32,12 +49,17 @@ def find_lens(name_or_path: str | os.PathLike) -> Lens:
     if text.endswith(SUFFIX) or "/" in text or os.sep in text or _exists(text):
         return load_lens(text)
     close = get_close_matches(text.lower(), shipped_lenses(), 3, 0.5)
-    hint = f"did you mean {' or '.join(close)}?" if close else f"shipped are {', '.join(shipped_lenses())}"
-    raise LensFileError(f'lens "{text}" is neither shipped nor a file; {hint}')
+    if close:
+        raise LensFileError(
+            'lens "{name}" is neither shipped nor a file; did you mean {lenses}?', name=text, lenses=Alternatives(close)
+        )
+    raise LensFileError(
+        'lens "{name}" is neither shipped nor a file; shipped are {lenses}', name=text, lenses=shipped_lenses()
+    )
 
 
 def _exists(text: str) -> bool:
-    """Return whether a file of this name is there; a name no file can have is not."""
+    """Return whether a file of this name exists; False for a name that no file can have."""
     try:
         return bool(text) and Path(text).exists()
     except (OSError, ValueError):

@@ -17,6 +17,7 @@ from p2sf.lensfile.glass_lookup import GlassSources, Resolution, resolve
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
+from p2sf.messages import Message
 
 PLANES = ("AS", "CG", "FS", "INFINITY", "INF", "0", "PLANO")
 FIELD_FRACTIONS = (0.0, 0.7, 1.0)
@@ -37,7 +38,7 @@ class Reading:
 
 
 def read_optical_bench(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
-    """Return the lens of an Optical Bench text; LensFileError with its line. Zooms: the first position, and said."""
+    """Return the lens of an Optical Bench text, of a zoom its first position; LensFileError with its line."""
     reading = Reading(source, notes, sources)
     for line, text in enumerate(source.lines, 1):
         words = _cells(text)
@@ -50,7 +51,7 @@ def read_optical_bench(source: LensText, sources: GlassSources, notes: Notebook)
 
 
 def _cells(text: str) -> list[str]:
-    """Return the cells of a row; a row without tabs is cut at spaces, an index left out stays left out."""
+    """Return the cells of a row; one without tabs is split at spaces, with an empty cell for a missing index."""
     if "\t" in text:
         return [cell.strip() for cell in text.split("\t")]
     words = text.split() or [""]
@@ -59,7 +60,7 @@ def _cells(text: str) -> list[str]:
 
 
 def _skip(reading: Reading, words: list[str], line: int) -> None:
-    """Leave out a row of a section that describes no lens."""
+    """Ignore a row of a section that does not describe the lens."""
 
 
 def _describe(reading: Reading, words: list[str], line: int) -> None:
@@ -77,8 +78,7 @@ def _variable(reading: Reading, words: list[str], line: int) -> None:
     values = [word for word in words[1:] if word]
     reading.variables[words[0].lower()] = (values[0] if values else "", line)
     if len(set(values)) > 1:
-        text = "the file holds several positions (zoom or focus); the first column is read"
-        reading.notes.add("caution", text)
+        reading.notes.add("caution", "the file holds several positions (zoom or focus); the first column is read")
 
 
 def _value(reading: Reading, name: str) -> float | None:
@@ -96,15 +96,18 @@ def _surface(reading: Reading, words: list[str], line: int) -> None:
     words = [*words, *[""] * 8]
     kind = words[1].upper()
     if kind not in PLANES:
-        radius = number(words[1], "radius", reading.source, line)
+        radius = number(words[1], Message("radius"), reading.source, line)
         surface.curvature = 1 / radius if radius else 0.0
     surface.thickness = _distance(reading, words[2], line)
-    surface.semi_diameter = number(words[4], "diameter", reading.source, line) / 2 if words[4] else inf
+    surface.semi_diameter = number(words[4], Message("diameter"), reading.source, line) / 2 if words[4] else inf
     surface.glass = _glass(reading, words, surface, line)
     if kind == "AS":
         if reading.raw.stop:
             raise reading.source.error(
-                f"surfaces {reading.raw.stop} and {surface.number} both are stops; keep one", line
+                "surfaces {first} and {second} both are stops; keep one",
+                line,
+                first=reading.raw.stop,
+                second=surface.number,
             )
         reading.raw.stop = surface.number
         surface.semi_diameter = (_value(reading, "aperture diameter") or 2 * surface.semi_diameter) / 2
@@ -115,10 +118,12 @@ def _surface(reading: Reading, words: list[str], line: int) -> None:
 
 def _distance(reading: Reading, word: str, line: int) -> float:
     if not re.match(r"[A-Za-z]", word):
-        return number(word, "distance", reading.source, line) if word else 0.0
+        return number(word, Message("distance"), reading.source, line) if word else 0.0
     value = _value(reading, word.lower())
     if value is None:
-        raise reading.source.error(f'distance "{word[:20]}" has no value in [variable distances]; add it', line)
+        raise reading.source.error(
+            'distance "{name}" has no value in [variable distances]; add it', line, name=word[:20]
+        )
     return value
 
 
@@ -133,8 +138,15 @@ def _glass(reading: Reading, words: list[str], surface: RawSurface, line: int) -
         return stated
     named = _exactly(RawGlass(words[6], tuple(words[7].upper().split()), line=line), reading.sources)
     if named is None:
-        text = f"glass {words[6][:30]} is not known by name; its nd {nd:g} and vd {vd:g} of the same row are taken"
-        reading.notes.add("read", text, surface.number, line)
+        reading.notes.add(
+            "read",
+            "glass {name} is not known by name; its nd {nd:g} and vd {vd:g} of the same row are taken",
+            surface.number,
+            line,
+            name=words[6][:30],
+            nd=nd,
+            vd=vd,
+        )
     return RawGlass(medium=named.medium, line=line) if named else stated
 
 
@@ -148,14 +160,19 @@ def _exactly(glass: RawGlass, sources: GlassSources) -> Resolution | None:
 def _asphere(reading: Reading, words: list[str], line: int) -> None:
     surface = reading.rows.get(words[0])
     if surface is None:
-        raise reading.source.error(f'aspherical data of "{words[0][:20]}", which is no row of the lens data', line)
-    values = [number(word, "aspherical value", reading.source, line) for word in words[1:] if word]
+        raise reading.source.error(
+            'aspherical data of "{name}", which is no row of the lens data', line, name=words[0][:20]
+        )
+    values = [number(word, Message("aspherical value"), reading.source, line) for word in words[1:] if word]
     if len(values) < 2:
         raise reading.source.error("a row of aspherical data needs number, radius, conic; complete it", line)
     curvature = 1 / values[0] if values[0] else 0.0
     if abs(curvature - surface.curvature) > 1e-6 * abs(surface.curvature):
         raise reading.source.error(
-            f"{surface.name}: radius {values[0]:g} differs from the lens data's; correct one", line
+            "{surface}: radius {radius:g} differs from the lens data's; correct one",
+            line,
+            surface=surface.name,
+            radius=values[0],
         )
     surface.conic = values[1]
     first = 2 if "asphericala2" in reading.constants else 4

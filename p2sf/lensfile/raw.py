@@ -1,14 +1,24 @@
-"""A lens as a file states it, in the file's own units, every item with the line it stands on."""
+"""A lens as a file states it, in the file's own units, every item with its line."""
 
 from dataclasses import dataclass, field
 from math import inf
+from typing import Literal
+
+from p2sf.glass.media import Medium
+from p2sf.messages import Message
+
+RawApertureKind = Literal[
+    "stop_semi_diameter", "entrance_pupil_diameter", "f_number", "image_f_number", "object_na", "image_na"
+]
+RawFieldKind = Literal["angle", "object_height", "image_height", "real_image_height"]
 
 
 @dataclass(frozen=True)
 class RawGlass:
-    """What a file says of a medium: a name with its makers, an index, or nd and vd; ``beside`` is a hint (nd, vd).
+    """What a file says about a medium: a name with its makers, an index, or nd and vd.
 
-    ``medium`` is a ready medium the file itself defines (a private glass, a table of indices).
+    ``beside`` are the (nd, vd) that a file writes beside a name; ``medium`` is a medium that the file itself
+    defines (a private glass, a table of indices).
     """
 
     name: str = ""
@@ -16,7 +26,7 @@ class RawGlass:
     index: float | None = None
     model: tuple[float, float] | None = None
     beside: tuple[float, float] | None = None
-    medium: object = None
+    medium: Medium | None = None
     line: int | None = None
 
 
@@ -36,9 +46,11 @@ class RawSurface:
     semi_diameter: float = inf
 
     @property
-    def name(self) -> str:
+    def name(self) -> Message:
         """Return "surface 3" or "surface 3 (FRONT)"."""
-        return f"surface {self.number}" + (f" ({self.label})" if self.label else "")
+        if self.label:
+            return Message("surface {surface} ({label})", surface=self.number, label=self.label)
+        return Message("surface {surface}", surface=self.number)
 
 
 @dataclass
@@ -53,9 +65,9 @@ class RawLens:
     object_distance: float = inf
     object_glass: RawGlass | None = None
     stop: int | None = None
-    aperture: tuple[str, float] | None = None
+    aperture: tuple[RawApertureKind, float] | None = None
     aperture_line: int | None = None
-    field_kind: str = "angle"
+    field_kind: RawFieldKind = "angle"
     fields: list[tuple[float, float]] = field(default_factory=list)
     field_line: int | None = None
     wavelengths_um: list[float] = field(default_factory=list)

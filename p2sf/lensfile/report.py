@@ -1,11 +1,14 @@
-"""The import report: what was read, substituted, ignored, and why that matters or does not."""
+"""The import report: what was read, substituted, ignored or taken differently from the file."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
+from p2sf.messages import Message
+
 Kind = Literal["read", "substituted", "ignored", "caution"]
 MOST_NOTES = 500
-TITLES = {
+TITLES: dict[Kind, str] = {
     "read": "read",
     "substituted": "substituted",
     "ignored": "ignored, without effect on the picture",
@@ -18,20 +21,30 @@ class Note:
     """One sentence of the report; ``surface`` and ``line`` count from 1, None where neither is meant."""
 
     kind: Kind
-    text: str
+    message: Message
     surface: int | None = None
     line: int | None = None
 
     @property
-    def sentence(self) -> str:
+    def sentence(self) -> Message:
         """Return the note with its surface and line in front."""
-        where = [f"surface {self.surface}"] * bool(self.surface) + [f"line {self.line}"] * bool(self.line)
-        return f"{', '.join(where)}: {self.text}" if where else self.text
+        if self.surface and self.line:
+            return Message(
+                "surface {surface}, line {line}: {message}",
+                surface=self.surface,
+                line=self.line,
+                message=self.message,
+            )
+        if self.surface:
+            return Message("surface {surface}: {message}", surface=self.surface, message=self.message)
+        if self.line:
+            return Message("line {line}: {message}", line=self.line, message=self.message)
+        return self.message
 
 
 @dataclass(frozen=True)
 class ImportReport:
-    """Everything a user should know of one import, in the order of the file."""
+    """What a user should know about one import, in the order of the file."""
 
     path: str
     format: str
@@ -42,34 +55,49 @@ class ImportReport:
         """Return the notes of one kind."""
         return tuple(note for note in self.notes if note.kind == kind)
 
-    @property
-    def text(self) -> str:
-        """Return the whole report as lines a person reads."""
-        lines = [f"{self.path}: {self.format}, {self.encoding}"]
+    def lines(self) -> tuple[Message, ...]:
+        """Return the whole report line by line: the file, then each kind of note under its title."""
+        lines = [Message("{path}: {format}, {encoding}", path=self.path, format=self.format, encoding=self.encoding)]
         for kind, title in TITLES.items():
             notes = self.of(kind)
-            lines += [f"{title}:"] * bool(notes) + [f"  - {note.sentence}" for note in notes]
-        return "\n".join(lines)
+            if notes:
+                lines.append(Message("{title}:", title=Message(title)))
+            lines += [Message("  - {note}", note=note.sentence) for note in notes]
+        return tuple(lines)
+
+    @property
+    def text(self) -> str:
+        """Return the whole report in plain English."""
+        return "\n".join(map(str, self.lines()))
 
 
 @dataclass
 class Notebook:
-    """Collects notes while a file is being read; a file of nonsense does not fill the memory."""
+    """Collects notes while a file is being read, at most `MOST_NOTES` of them."""
 
     seen: dict[Note, None] = field(default_factory=dict)
 
     @property
     def notes(self) -> list[Note]:
-        """Return the notes in the order they came."""
+        """Return the notes in the order in which they were added."""
         return list(self.seen)
 
-    def add(self, kind: Kind, text: str, surface: int | None = None, line: int | None = None) -> None:
-        """Add a note once; the same sentence about the same surface is not repeated."""
+    def add(
+        self,
+        kind: Kind,
+        template: str | Message,
+        /,
+        surface: int | None = None,
+        line: int | None = None,
+        **values: object,
+    ) -> None:
+        """Add a note with the values its template names; an equal note is not repeated."""
         if len(self.seen) < MOST_NOTES:
-            self.seen[Note(kind, text, surface, line)] = None
+            message = template if isinstance(template, Message) else Message(template, **values)
+            self.seen[Note(kind, message, surface, line)] = None
 
 
-def note_vignetting(notes: Notebook, factors) -> None:
+def note_vignetting(notes: Notebook, factors: Sequence[str]) -> None:
     """Note vignetting factors: without effect where all are 0, else the pupil stays full unless rims cut it."""
     if all(word.strip("+-0.").upper() in ("", "E") for word in factors):
         notes.add("ignored", "vignetting factors, all of them 0")

@@ -1,11 +1,13 @@
-"""Bytes to lines for other programs' formats: size guard, encodings, zip members, numbers with their line."""
+"""Other programs' files as lines of text: size limits, encodings, zip archives, and numbers with their line."""
 
 import math
+import os
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 from p2sf.errors import LensFileError
+from p2sf.messages import Message
 
 # A prescription of a thousand surfaces is 300 kB, the largest glass catalogue 1.2 MB.
 LARGEST_BYTES = 4_000_000
@@ -16,7 +18,7 @@ BYTE_ORDER_MARKS = (("utf-8-sig", b"\xef\xbb\xbf"), ("utf-16", b"\xff\xfe"), ("u
 
 @dataclass(frozen=True)
 class LensText:
-    """A lens file as text: where it came from, how it was encoded, what it says."""
+    """A lens file as text, with the path it was read from and the encoding it was written in."""
 
     path: str
     encoding: str
@@ -27,12 +29,14 @@ class LensText:
         """Return the lines; only line feeds and carriage returns end one, as every editor counts them."""
         return tuple(self.text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
 
-    def error(self, message: str, line: int | None = None) -> LensFileError:
-        """Return the failure that names this file and a line (from 1)."""
-        return LensFileError(message, self.path, line)
+    def error(self, template: str | Message, /, line: int | None = None, **values: object) -> LensFileError:
+        """Return the error that names this file and a line (from 1), with the values its template names."""
+        return LensFileError(
+            template if isinstance(template, Message) else Message(template, **values), self.path, line
+        )
 
 
-def read_source(path) -> LensText:
+def read_source(path: str | os.PathLike) -> LensText:
     """Return the text of a lens file, or of the one lens inside a zip archive.
 
     Raises LensFileError for a missing or unreadable file, one of over 4 MB, and an archive without a lens.
@@ -56,24 +60,29 @@ def source_of(data: bytes, path: str) -> LensText:
 
 def _check_lines(source: LensText) -> None:
     if len(source.lines) > MOST_LINES:
-        raise source.error(f"the file has over {MOST_LINES} lines; a prescription is far smaller", MOST_LINES)
+        raise source.error(
+            "the file has over {count} lines; a prescription is far smaller", MOST_LINES, count=MOST_LINES
+        )
     long = next((n for n, line in enumerate(source.lines, 1) if len(line) > LONGEST_LINE), None)
     if long:
-        raise source.error(f"the line has over {LONGEST_LINE} characters; this is no lens file", long)
+        raise source.error("the line has over {count} characters; this is no lens file", long, count=LONGEST_LINE)
 
 
-def read_bytes(path) -> bytes:
+def read_bytes(path: str | os.PathLike) -> bytes:
     """Return the bytes of a file; LensFileError when it is missing, a folder, or over 4 MB."""
     try:
         with Path(path).open("rb") as stream:
             data = stream.read(LARGEST_BYTES + 1)
     except FileNotFoundError:
-        raise LensFileError("there is no such file; check the path", str(path)) from None
+        raise LensFileError("there is no such file; check the path", path) from None
     except IsADirectoryError:
-        raise LensFileError("this is a folder; name a lens file in it", str(path)) from None
+        raise LensFileError("this is a folder; name a lens file in it", path) from None
     except (OSError, ValueError) as failure:
-        reason = getattr(failure, "strerror", None) or str(failure)
-        raise LensFileError(f"the file cannot be read ({reason}); check its path and permissions", str(path)) from None
+        raise LensFileError(
+            "the file cannot be read ({reason}); check its path and permissions",
+            path,
+            reason=getattr(failure, "strerror", None) or str(failure),
+        ) from None
     _check_size(len(data), str(path))
     return data
 
@@ -94,15 +103,18 @@ def decode(data: bytes) -> tuple[str, str]:
 
 def _check_size(count: int, path: str) -> None:
     if count > LARGEST_BYTES:
-        raise LensFileError(f"the file is over {LARGEST_BYTES / 1e6:g} MB; a prescription is far smaller", path)
+        raise LensFileError(
+            "the file is over {size:g} MB; a prescription is far smaller", path, size=LARGEST_BYTES / 1e6
+        )
 
 
 def _zip_member(data: bytes, path: str) -> tuple[str, bytes]:
-    """Return name and bytes of the first lens in an archive; what it unpacks to is bounded like any file."""
+    """Return name and bytes of the first lens in an archive; LensFileError as for a file, 4 MB unpacked included."""
     import io
     import zipfile
     import zlib
 
+    damaged = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError)
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             names = [name for name in archive.namelist() if name.lower().endswith((".zmx", ".seq", ".json", ".txt"))]
@@ -113,34 +125,31 @@ def _zip_member(data: bytes, path: str) -> tuple[str, bytes]:
                 member = stream.read(LARGEST_BYTES + 1)
     except LensFileError:
         raise
-    except (
-        zipfile.BadZipFile,
-        zlib.error,
-        NotImplementedError,
-        RuntimeError,
-        EOFError,
-        OSError,
-        ValueError,
-    ) as failure:
-        raise LensFileError(f"the archive cannot be unpacked ({failure}); unpack it yourself", path) from failure
+    except (*damaged, ValueError) as failure:
+        raise LensFileError(
+            "the archive cannot be unpacked ({reason}); unpack it yourself", path, reason=str(failure)
+        ) from failure
     _check_size(len(member), f"{path}/{first}")
     return first, member
 
 
-def number(word: str, what: str, source: LensText, line: int) -> float:
-    """Return a finite number; LensFileError with its place where the word is none."""
+def number(word: str, what: str | Message, source: LensText, line: int) -> float:
+    """Return a finite number; LensFileError with its line for any other word.
+
+    ``what`` names the number in the error: a Message for words of the language, a str for a name in the file.
+    """
     try:
         value = float(word.upper().replace("D", "E"))
     except ValueError:
         value = math.nan
     if not abs(value) < 1e100:
-        raise source.error(f'{what} "{word[:40]}" is not a number; correct it', line)
+        raise source.error('{what} "{word}" is not a number; correct it', line, what=what, word=word[:40])
     return value
 
 
-def whole(word: str, what: str, source: LensText, line: int) -> int:
-    """Return a whole number; LensFileError with its place where the word is none."""
+def whole(word: str, what: str | Message, source: LensText, line: int) -> int:
+    """Return a whole number; LensFileError with its line for any other word."""
     value = number(word, what, source, line)
     if value != int(value) or abs(value) > 1e6:
-        raise source.error(f'{what} "{word[:40]}" is not a whole number; correct it', line)
+        raise source.error('{what} "{word}" is not a whole number; correct it', line, what=what, word=word[:40])
     return int(value)

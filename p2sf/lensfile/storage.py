@@ -1,4 +1,4 @@
-"""A lens file's text: read with a sentence for every way it can fail, written whole or not at all."""
+"""The text of a lens file on disk: read with an error for every way to fail, written whole or not at all."""
 
 import os
 from pathlib import Path
@@ -17,11 +17,14 @@ def read_text(path: str | os.PathLike) -> str:
         raise LensFileError("there is no such file; check the path", path) from None
     except IsADirectoryError:
         raise LensFileError("this is a folder; name a lens file in it", path) from None
+    except LensFileError:
+        raise
     except (OSError, ValueError) as error:
-        if isinstance(error, LensFileError):
-            raise
-        reason = getattr(error, "strerror", None) or error
-        raise LensFileError(f"the file cannot be read ({reason}); check its path and permissions", path) from None
+        raise LensFileError(
+            "the file cannot be read ({reason}); check its path and permissions",
+            path,
+            reason=getattr(error, "strerror", None) or str(error),
+        ) from None
 
 
 def _bytes(path: Path) -> bytes:
@@ -29,9 +32,9 @@ def _bytes(path: Path) -> bytes:
         return file.read(LARGEST_FILE + 1)
 
 
-def _decoded(data: bytes, path) -> str:
+def _decoded(data: bytes, path: str | os.PathLike) -> str:
     if len(data) > LARGEST_FILE:
-        raise LensFileError(f"the file is larger than {LARGEST_FILE} bytes; this is no lens file", path)
+        raise LensFileError("the file is larger than {size} bytes; this is no lens file", path, size=LARGEST_FILE)
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -43,8 +46,10 @@ def _decoded(data: bytes, path) -> str:
 
 
 def write_text(text: str, path: str | os.PathLike) -> None:
-    """Write a text whole or not at all (`wholefile`); LensFileError."""
+    """Write a text whole or not at all (`files.atomic.write_whole`); LensFileError."""
     try:
         write_whole(path, lambda handle: handle.write(text.encode("utf-8")))
     except OSError as error:
-        raise LensFileError(f"the file cannot be written ({error.strerror}); choose another place", path) from None
+        raise LensFileError(
+            "the file cannot be written ({reason}); choose another place", path, reason=error.strerror
+        ) from None

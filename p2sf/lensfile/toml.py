@@ -22,34 +22,37 @@ aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
 import os
 import re
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from json import dumps
 from math import inf, isfinite
 from pathlib import Path
+from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass, TabulatedIndex
-from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface
 from p2sf.lensfile.agf import FormulaGlass
 from p2sf.lensfile.storage import read_text, write_text
 from p2sf.lensfile.toml_table import Rule, Table, find_line, shown
+from p2sf.messages import Message
 
 
 @dataclass(frozen=True)
 class _Line:
-    """One assignment; left out when the value is the default."""
+    """One assignment, as text; empty when the value is the default."""
 
     key: str
     value: str
     default: str = ""
 
-    def __str__(self):
+    def __str__(self) -> str:
         return "" if self.value == self.default else f"{self.key} = {self.value}\n"
 
 
-def lens_text(lens: Lens) -> str:
-    """Return the lens as TOML; reading it gives an equal lens. LensFileError for a medium no file can hold."""
+def lens_to_toml(lens: Lens) -> str:
+    """Return the lens as TOML; reading it gives an equal lens. LensFileError for a medium that no file can hold."""
     stop = "" if lens.stop_surface is None else str(lens.stop_surface)
     head = (
         _Line("title", _text(lens.title), '""'),
@@ -81,16 +84,16 @@ def _surface_text(surface: Surface, number: int, lens: Lens) -> str:
     return f"\n[[surface]]  # {number}{note}\n" + "".join(map(str, lines))
 
 
-def _number(x) -> str:
+def _number(x: float) -> str:
     return repr(float(x))
 
 
-def _list(numbers) -> str:
+def _list(numbers: Iterable[float]) -> str:
     return f"[{', '.join(map(_number, numbers))}]"
 
 
 def _text(text: str) -> str:
-    """Return a TOML string; several lines stay several lines."""
+    """Return a TOML string; a text of several lines keeps them."""
     escaped = dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
     if "\n" not in text:
         return escaped
@@ -112,7 +115,9 @@ def _medium(medium: Medium) -> str:
     if isinstance(medium, FormulaGlass):
         numbers = f"coefficients = {_list(medium.coefficients)}, range_um = {_list(medium.range_um)}"
         return f"{{ agf_formula = {medium.formula}, {numbers}, name = {_text(medium.name)} }}"
-    raise LensFileError(f"medium {medium.label} cannot be written to a file; give an index, a glass name or nd and vd")
+    raise LensFileError(
+        "medium {name} cannot be written to a file; give an index, a glass name or nd and vd", name=medium.label
+    )
 
 
 MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
@@ -121,32 +126,30 @@ TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_m
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric")
 
-RADIUS = Rule(lambda x: x == x and x != 0, "write a number that is not 0, inf for a plane")
-THICKNESS = Rule(isfinite, "write the distance to the next surface as a number")
-RIM = Rule(lambda x: x > 0, "write a positive number")
-FINITE = Rule(isfinite, "write a finite number")
-OPENING = Rule(lambda x: 0 < x < inf, "write a positive number")
-FIELD = Rule(lambda x: abs(x) < 90, "write an angle in degrees below 90")
-WAVELENGTH = Rule(lambda x: 50 <= x <= 50_000, "write a wavelength in nanometres, 50 to 50000")
+RADIUS = Rule(lambda x: x == x and x != 0, Message("write a number that is not 0, inf for a plane"))
+THICKNESS = Rule(isfinite, Message("write the distance to the next surface as a number"))
+RIM = Rule(lambda x: x > 0, Message("write a positive number"))
+FINITE = Rule(isfinite, Message("write a finite number"))
+OPENING = Rule(lambda x: 0 < x < inf, Message("write a positive number"))
+FIELD = Rule(lambda x: abs(x) < 90, Message("write an angle in degrees below 90"))
+WAVELENGTH = Rule(lambda x: 50 <= x <= 50_000, Message("write a wavelength in nanometres, 50 to 50000"))
 
 
 def read_toml(path: str | os.PathLike) -> Lens:
-    """Return the lens of a TOML file, lengths turned into mm; LensFileError says line, value and remedy."""
+    """Return the lens of a TOML file, lengths converted to mm; LensFileError says line, value and remedy."""
     return parse_toml(read_text(path), path)
 
 
 def write_toml(lens: Lens, path: str | os.PathLike) -> None:
-    """Write a lens as TOML, beside and renamed; LensFileError where that is impossible."""
+    """Write a lens as TOML, whole or not at all; LensFileError where that is impossible."""
     write_text(lens_to_toml(lens), path)
 
 
-def lens_to_toml(lens: Lens) -> str:
-    """Return the lens as the text of a TOML file; reading it gives an equal lens."""
-    return lens_text(lens)
-
-
 def parse_toml(text: str, path: str | os.PathLike = "lens.toml") -> Lens:
-    """Return the lens of a TOML text; ``path`` is for messages and, its stem, for a lens without a name."""
+    """Return the lens of a TOML text; LensFileError.
+
+    ``path`` stands in errors, and its stem is the name of a lens that has none.
+    """
     top = Table(str(path), text, _values(text, str(path)))
     top.check_keys(TOP)
     scale = _scale(top)
@@ -158,33 +161,37 @@ def parse_toml(text: str, path: str | os.PathLike = "lens.toml") -> Lens:
     return lens
 
 
-def _values(text: str, path: str) -> dict:
+def _values(text: str, path: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         found = re.search(r" \(at line (\d+), column \d+\)", str(error))
         line = int(found[1]) if found else text.count("\n") + 1
         problem = re.sub(r" \(at .*\)$", "", str(error)).rstrip(".")
-        raise LensFileError(f"this is not TOML ({problem}); {_remedy(text, line)}", path, line) from None
+        raise LensFileError(
+            "this is not TOML ({reason}); {remedy}", path, line, reason=problem, remedy=_remedy(text, line)
+        ) from None
     except (ValueError, RecursionError):
         raise LensFileError("a number is too long or lists are nested too deep; this is no lens file", path) from None
 
 
-def _remedy(text: str, line: int) -> str:
+def _remedy(text: str, line: int) -> Message:
     """Return what to do about a line that is not TOML; a number with a decimal comma is the likeliest reason."""
     wrong = "".join(text.split("\n")[line - 1 : line])
     found = re.search(r"=\s*([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)", wrong)
-    return (
-        f'write {found[1]}.{found[2]} with a decimal point, not "{found[1]},{found[2]}"'
-        if found
-        else "correct the line"
+    if not found:
+        return Message("correct the line")
+    return Message(
+        'write {number} with a decimal point, not "{found}"',
+        number=f"{found[1]}.{found[2]}",
+        found=f"{found[1]},{found[2]}",
     )
 
 
 def _scale(top: Table) -> float:
     unit = top.string("unit", "mm")
     if unit not in MM:
-        top.fail(f'unit is "{unit}"; write one of {", ".join(MM)}', "unit")
+        top.fail('unit is "{unit}"; write one of {units}', "unit", unit=unit, units=tuple(MM))
     return MM[unit]
 
 
@@ -214,39 +221,53 @@ def _surface(table: Table, scale: float) -> Surface:
 def _aperture(top: Table, scale: float) -> Aperture:
     values = top.values.get("aperture")
     if not isinstance(values, dict):
-        top.fail(f"aperture is {shown(values)}; write [aperture] and one of {', '.join(APERTURES)}", "aperture")
+        top.fail(
+            "aperture is {found}; write [aperture] and one of {names}",
+            "aperture",
+            found=shown(values),
+            names=APERTURES,
+        )
     table = Table(top.path, top.text, values, "aperture")
     table.check_keys(APERTURES, TOP)
     if len(values) != 1:
-        table.fail(f"[aperture] states {len(values)} of {', '.join(APERTURES)}; keep exactly one")
-    kind = next(iter(values))
+        table.fail("[aperture] states {count} of {names}; keep exactly one", count=len(values), names=APERTURES)
+    kind: ApertureKind = next(iter(values))
     return Aperture(kind, table.number(kind, OPENING) * (1.0 if kind == "f_number" else scale))
 
 
-def _lens(top: Table, surfaces, aperture: Aperture, texts: dict[str, str]) -> Lens:
+def _lens(top: Table, surfaces: tuple[Surface, ...], aperture: Aperture, texts: dict[str, str]) -> Lens:
     stop = top.count("stop_surface")
     if stop is not None and not 1 <= stop <= len(surfaces):
-        top.fail(f"stop_surface is {stop}; write a surface from 1 to {len(surfaces)}", "stop_surface")
+        top.fail(
+            "stop_surface is {number}; write a surface from 1 to {count}",
+            "stop_surface",
+            number=stop,
+            count=len(surfaces),
+        )
     fields = top.numbers("fields_deg", FIELD, (0.0,))
     waves = top.numbers("wavelengths_nm", WAVELENGTH, (587.5618,))
     for key, values in (("fields_deg", fields), ("wavelengths_nm", waves)):
         if not values:
-            top.fail(f"{key} is an empty list; write at least one number", key)
+            top.fail("{name} is an empty list; write at least one number", key, name=key)
     medium = top.medium("object_medium")
     try:
         return Lens(surfaces, aperture, stop, **texts, fields_deg=fields, wavelengths_nm=waves, object_medium=medium)
     except GeometryError as error:
-        raise LensFileError(str(error), top.path) from None
+        raise LensFileError(error.message, top.path) from None
 
 
 def _check_wavelengths(top: Table, lens: Lens) -> None:
     """Raise LensFileError for a wavelength of the file at which one of its glasses has no data."""
-    for medium in (m for m in lens.media if m.range_um):
-        low, high = (NM_PER_UM * edge for edge in medium.range_um)
+    for medium in lens.media:
+        low, high = (NM_PER_UM * edge for edge in medium.range_um or (0.0, inf))
         for wave in lens.wavelengths_nm:
             if not low <= wave <= high:
                 top.fail(
-                    f"wavelength {wave:g} nm is outside the data of {medium.label}, {low:g} to {high:g} nm; "
+                    "wavelength {wavelength:g} nm is outside the data of {glass}, {low:g} to {high:g} nm; "
                     "take it out or change the glass",
                     "wavelengths_nm",
+                    wavelength=wave,
+                    glass=medium.label,
+                    low=low,
+                    high=high,
                 )

@@ -1,45 +1,54 @@
-"""One table of a lens file, read key by key; every mistake names its line, its value and the remedy."""
+"""One table of a lens file, read key by key; every error names the line, the value and the remedy."""
 
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from math import nan
+from typing import Any, NoReturn, TypeGuard
 
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import Medium, parse_medium
 from p2sf.lensfile.agf import COEFFICIENTS, DIRECT, SQUARED, FormulaGlass
+from p2sf.messages import Message
 
 KEYS = {"agf_formula", "coefficients", "range_um", "name"}
 
 
-def read_medium(value) -> Medium:
+def read_medium(value: object) -> Medium:
     """Return the medium of a lens file's value; GlassError.
 
-    Beside what `glass.parse_medium` reads: ``{agf_formula = 2, coefficients = […], range_um = [low, high],
-    name = "…"}``, a glass of an AGF catalogue with its dispersion formula, so that the file stands alone.
+    In addition to what `glass.parse_medium` reads, ``{agf_formula = 2, coefficients = […], range_um = [low, high],
+    name = "…"}`` is a glass of an AGF catalogue with its dispersion formula, so that the file is self-contained.
     """
     if isinstance(value, dict) and "agf_formula" in value:
         return _formula_glass(value)
     return parse_medium(value)
 
 
-def _formula_glass(table: dict) -> FormulaGlass:
+def _formula_glass(table: dict[str, Any]) -> FormulaGlass:
     if set(table) != KEYS or not isinstance(table["name"], str):
-        raise GlassError(f"glass has the keys {', '.join(table)}; write {', '.join(sorted(KEYS))}")
-    formula, coefficients, limits = table["agf_formula"], table["coefficients"], table["range_um"]
-    if (formula not in DIRECT and formula not in SQUARED) or not isinstance(formula, int):
-        raise GlassError(f"agf_formula is {formula}; write a number from 1 to 13")
+        raise GlassError("glass has the keys {names}; write {known}", names=tuple(table), known=tuple(sorted(KEYS)))
+    name, formula, coefficients, limits = (table[key] for key in ("name", "agf_formula", "coefficients", "range_um"))
+    if type(formula) is not int or (formula not in DIRECT and formula not in SQUARED):
+        raise GlassError("agf_formula is {formula}; write a number from 1 to 13", formula=str(formula))
     if not _numbers(coefficients) or len(coefficients) > COEFFICIENTS:
-        raise GlassError(f"coefficients of {table['name']} are not up to {COEFFICIENTS} numbers; correct them")
+        raise GlassError(
+            "coefficients of {name} are not up to {count} numbers; correct them", name=name, count=COEFFICIENTS
+        )
     if not _numbers(limits) or len(limits) != 2 or not 0 < limits[0] < limits[1]:
-        raise GlassError(f"range_um of {table['name']} is {limits}; write the shortest and the longest wavelength")
-    return FormulaGlass(table["name"], formula, tuple(map(float, coefficients)), tuple(map(float, limits)))
+        raise GlassError(
+            "range_um of {name} is {limits}; write the shortest and the longest wavelength",
+            name=name,
+            limits=str(limits),
+        )
+    return FormulaGlass(name, formula, tuple(map(float, coefficients)), (float(limits[0]), float(limits[1])))
 
 
-def _numbers(values) -> bool:
-    plain = isinstance(values, list) and all(isinstance(x, int | float) and not isinstance(x, bool) for x in values)
-    return plain and all(abs(x) < 1e100 for x in values)
+def _numbers(values: object) -> TypeGuard[list[float]]:
+    return isinstance(values, list) and all(
+        isinstance(x, int | float) and not isinstance(x, bool) and abs(x) < 1e100 for x in values
+    )
 
 
 NUMBER = r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?|[-+]?inf"
@@ -47,10 +56,10 @@ NUMBER = r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?|[-+]?inf"
 
 @dataclass(frozen=True)
 class Rule:
-    """What a number must be: a test, and the remedy in words."""
+    """What a number must be: a test, and the remedy for a number that fails it."""
 
     holds: Callable[[float], bool]
-    remedy: str
+    remedy: Message
 
 
 @dataclass(frozen=True)
@@ -59,30 +68,35 @@ class Table:
 
     path: str
     text: str
-    values: dict
+    values: dict[str, Any]
     heading: str = ""
     surface: int | None = None
 
-    def fail(self, problem: str, key: str = ""):
-        """Raise LensFileError at the line of ``key``, or of this table's heading."""
-        where = f"surface {self.surface}: " if self.surface else ""
-        raise LensFileError(where + problem, self.path, find_line(self.text, self.heading, self.surface, key))
+    def fail(self, template: str | Message, /, key: str = "", **values: object) -> NoReturn:
+        """Raise LensFileError at the line of ``key``, or of this table's heading, with its template's values."""
+        message = template if isinstance(template, Message) else Message(template, **values)
+        if self.surface:
+            message = Message("surface {surface}: {message}", surface=self.surface, message=message)
+        raise LensFileError(message, self.path, find_line(self.text, self.heading, self.surface, key))
 
     def check_keys(self, known: Iterable[str], elsewhere: Iterable[str] = ()) -> None:
         """Raise LensFileError for the first key that is not ``known``."""
         known = tuple(known)
         for key in (key for key in self.values if key not in known):
             if key in elsewhere:
-                self.fail(f'key "{key}" belongs to the top of the file; move it before the first [ heading', key)
+                self.fail(
+                    'key "{name}" belongs to the top of the file; move it before the first [ heading', key, name=key
+                )
             close = get_close_matches(key, known, 1)
-            hint = f'did you mean "{close[0]}"?' if close else f"known here are {', '.join(known)}"
-            self.fail(f'key "{key}" is unknown; {hint}', key)
+            if close:
+                self.fail('key "{name}" is unknown; did you mean "{known}"?', key, name=key, known=close[0])
+            self.fail('key "{name}" is unknown; known here are {known}', key, name=key, known=known)
 
     def string(self, key: str, default: str = "") -> str:
         """Return a text."""
         value = self.values.get(key, default)
         if not isinstance(value, str):
-            self.fail(f"{key} is {shown(value)}; write a text in quotation marks", key)
+            self.fail("{name} is {found}; write a text in quotation marks", key, name=key, found=shown(value))
         return value
 
     def number(self, key: str, rule: Rule, default: float | None = None) -> float:
@@ -90,21 +104,21 @@ class Table:
         if key not in self.values and default is not None:
             return default
         if key not in self.values:
-            self.fail(f"{key} is missing; {rule.remedy}")
+            self.fail("{name} is missing; {remedy}", name=key, remedy=rule.remedy)
         return self._checked(key, self.values[key], rule)
 
     def numbers(self, key: str, rule: Rule, default: tuple[float, ...]) -> tuple[float, ...]:
         """Return a list of numbers that keep the rule."""
         value = self.values.get(key, default)
         if not isinstance(value, list | tuple):
-            self.fail(f"{key} is {shown(value)}; write a list of numbers as in [1.0, 2.0]", key)
+            self.fail("{name} is {found}; write a list of numbers as in [1.0, 2.0]", key, name=key, found=shown(value))
         return tuple(self._checked(key, item, rule) for item in value)
 
     def count(self, key: str) -> int | None:
         """Return a whole number, or None where the key is absent."""
         value = self.values.get(key)
         if value is not None and (isinstance(value, bool) or not isinstance(value, int)):
-            self.fail(f"{key} is {shown(value)}; write a whole number", key)
+            self.fail("{name} is {found}; write a whole number", key, name=key, found=shown(value))
         return value
 
     def medium(self, key: str) -> Medium:
@@ -112,32 +126,33 @@ class Table:
         try:
             return read_medium(self.values.get(key, "air"))
         except GlassError as error:
-            self.fail(str(error), key)
+            self.fail(error.message, key)
 
-    def _checked(self, key: str, value, rule: Rule) -> float:
+    def _checked(self, key: str, value: object, rule: Rule) -> float:
         number = as_float(value)
         if not rule.holds(number):
-            self.fail(f"{key} is {shown(value)}; {quoted_number(value) or rule.remedy}", key)
+            remedy = quoted_number(value) or rule.remedy
+            self.fail("{name} is {found}; {remedy}", key, name=key, found=shown(value), remedy=remedy)
         return number
 
 
-def quoted_number(value) -> str:
-    """Return the remedy for a number written as a text, "" for anything else."""
-    if not isinstance(value, str):
-        return ""
-    plain = value.strip().replace(",", ".")
-    return f"write the number {plain} without quotation marks" if re.fullmatch(NUMBER, plain) else ""
+def quoted_number(value: object) -> Message | None:
+    """Return the remedy for a number written as a text, None for anything else."""
+    plain = value.strip().replace(",", ".") if isinstance(value, str) else ""
+    if not re.fullmatch(NUMBER, plain):
+        return None
+    return Message("write the number {number} without quotation marks", number=plain)
 
 
-def as_float(value) -> float:
-    """Return a TOML number as a float; NaN for anything else, which no rule lets pass."""
+def as_float(value: object) -> float:
+    """Return a TOML number as a float; NaN for anything else, which no rule accepts."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return nan
     return float(value) if isinstance(value, float) or abs(value) < 1e300 else nan
 
 
-def shown(value) -> str:
-    """Return a value as the file shows it, shortened."""
+def shown(value: object) -> str:
+    """Return a value as the file writes it, shortened to 60 characters."""
     text = f'"{value}"' if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
     return text if len(text) <= 60 else text[:57] + "..."
 

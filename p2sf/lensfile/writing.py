@@ -1,14 +1,16 @@
-"""Write a lens for other programs: Zemax .zmx and ISET .json; a lens file of this program by its ending too."""
+"""Write a lens as a file: Zemax .zmx, ISET .json or this program's .toml, by the ending."""
 
 import json
 import os
+from collections.abc import Callable
 from math import inf, isfinite
 from pathlib import Path
+from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, Surface
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
 from p2sf.lensfile.conjugates import limiting_rim, trace
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
@@ -23,14 +25,20 @@ SPECTRUM_NM = tuple(range(400, 701, 10))
 
 
 def write_lens(lens: Lens, path: str | os.PathLike) -> None:
-    """Write a lens as .toml, .zmx or ISET .json by the ending; LensFileError for another one or a lens it cannot hold.
+    """Write a lens as .toml, .zmx or ISET .json; LensFileError for another ending or what the format cannot hold.
 
-    A .zmx of glasses from AGF catalogues gets its own small catalogue beside it, of the same stem.
+    Glasses from AGF catalogues go into a small catalogue of their own beside a .zmx, with the same stem.
     """
     ending = Path(path).suffix.lower()
-    writers = {".toml": lens_to_toml, ".zmx": lambda lens: lens_to_zmx(lens, Path(path).stem), ".json": lens_to_iset}
+    writers: dict[str, Callable[[Lens], str]] = {
+        ".toml": lens_to_toml,
+        ".zmx": lambda lens: lens_to_zmx(lens, Path(path).stem),
+        ".json": lens_to_iset,
+    }
     if ending not in writers:
-        raise LensFileError(f'ending "{ending}" is none of {", ".join(writers)}; choose one', str(path))
+        raise LensFileError(
+            'ending "{ending}" is none of {endings}; choose one', path, ending=ending, endings=tuple(writers)
+        )
     text = writers[ending](lens)
     catalogue = lens_to_agf(lens) if ending == ".zmx" else ""
     if catalogue:
@@ -39,7 +47,7 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
 
 
 def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
-    """Return the lens as a Zemax prescription, object at infinity; LensFileError for what Zemax has no line for."""
+    """Return the lens as a Zemax prescription, object at infinity; LensFileError for what such a file cannot hold."""
     stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
     lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", "  DISZ INFINITY"]
     if lens.object_medium != AIR:
@@ -69,10 +77,10 @@ def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
     ]
 
 
-def _zemax_surface(lens: Lens, surface, number: int, stop: int) -> list[str]:
+def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list[str]:
     if len(surface.aspheric) > HIGHEST_ZEMAX_ORDER // 2 - 1:
         raise LensFileError(
-            f"surface {number} has aspheric terms above r^16, for which Zemax has no line; save as TOML"
+            "surface {surface} has aspheric terms above r^16, for which Zemax has no line; save as TOML", surface=number
         )
     rim = surface.semi_diameter
     if number == stop and lens.aperture.kind == "stop_semi_diameter":
@@ -101,23 +109,25 @@ def _zemax_glass(medium: Medium) -> str:
         return f"  GLAS {medium.label.split()[1]} 0 0 1.5 40 0 0 0 0 0 0"
     if isinstance(medium, FormulaGlass):
         return f"  GLAS {medium.name} 0 0 1.5 40 0 0 0 0 0 0"
-    raise LensFileError(f"medium {medium.label} has no line in a Zemax file; save as TOML, or give nd and vd")
+    raise LensFileError("medium {name} has no line in a Zemax file; save as TOML, or give nd and vd", name=medium.label)
 
 
 def _makers(lens: Lens, stem: str) -> list[str]:
-    """Return the catalogues a .zmx names; LensFileError where one name would find another maker's glass."""
+    """Return the catalogues that a .zmx names; LensFileError where a name would find another maker's glass."""
     glasses = [m for m in lens.media if isinstance(m, CatalogueGlass) and " " in m.label]
     makers = list(dict.fromkeys(glass.label.split()[0] for glass in glasses))
     for glass in glasses:
         name = glass.label.split()[1]
         if resolve(RawGlass(name, tuple(makers)), GlassSources()).medium != glass:
-            raise LensFileError(f"{glass.label} shares its name with another maker's glass of this lens; save as TOML")
+            raise LensFileError(
+                "{glass} shares its name with another maker's glass of this lens; save as TOML", glass=glass.label
+            )
     own = [stem.upper()] * any(isinstance(medium, FormulaGlass) for medium in lens.media)
     return [*own, *makers] or ["SCHOTT"]
 
 
 def lens_to_agf(lens: Lens) -> str:
-    """Return a catalogue of the lens's own AGF glasses, empty where it has none."""
+    """Return an AGF catalogue of the lens's glasses from such catalogues, empty where it has none."""
     glasses = dict.fromkeys(medium for medium in lens.media if isinstance(medium, FormulaGlass))
     return "".join(map(_agf_entry, glasses))
 
@@ -132,7 +142,7 @@ def _agf_entry(glass: FormulaGlass) -> str:
 def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     """Return the lens as ISET JSON, its indices at the reference wavelength, or over 400 to 700 nm if ``spectral``.
 
-    A stop on a refracting surface becomes a plane in its vertex, since ISET marks a stop by its index 0.
+    A stop on a refracting surface becomes a plane at its vertex, because ISET marks a stop by its index 0.
     Raises LensFileError where the object is not in air.
     """
     if lens.object_medium != AIR:
@@ -149,7 +159,7 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
         if number != stop or plain:
             rows.append(row)
     focal = -1 / trace(lens, 1, wave).last[2] if trace(lens, 1, wave).last[2] else inf
-    top = {
+    top: dict[str, Any] = {
         "name": lens.name,
         "description": " ".join(lens.title.split()),
         "type": "multi element lens",
@@ -160,8 +170,12 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     return json.dumps(top, indent=1) + "\n"
 
 
-def _iset_row(surface, ior) -> dict:
-    row = {"radius": surface.radius if isfinite(surface.radius) else 0, "thickness": surface.thickness, "ior": ior}
+def _iset_row(surface: Surface, ior: float | list[list[float]]) -> dict[str, Any]:
+    row: dict[str, Any] = {
+        "radius": surface.radius if isfinite(surface.radius) else 0,
+        "thickness": surface.thickness,
+        "ior": ior,
+    }
     if isfinite(surface.semi_diameter):
         row["semi_aperture"] = surface.semi_diameter
     if surface.conic:
@@ -171,16 +185,16 @@ def _iset_row(surface, ior) -> dict:
     return row
 
 
-def _iset_index(medium: Medium, wavelength_um: float, spectral: bool):
+def _iset_index(medium: Medium, wavelength_um: float, spectral: bool) -> float | list[list[float]]:
     if not spectral or isinstance(medium, ConstantIndex):
         return float(medium.index(wavelength_um))
     low, high = medium.range_um or (0.0, inf)
-    waves = [w for w in SPECTRUM_NM if low <= w / NM_PER_UM <= high]
+    waves: list[float] = [w for w in SPECTRUM_NM if low <= w / NM_PER_UM <= high]
     return [waves, [float(medium.index(w / NM_PER_UM)) for w in waves]]
 
 
 def _stop_rim(lens: Lens, stop: int, wavelength_um: float) -> float:
-    """Return the stop's semi-diameter in mm, from whatever way the aperture is stated."""
+    """Return the stop's semi-diameter in mm for any kind of aperture; LensFileError for an afocal f-number."""
     rays = trace(lens, stop, wavelength_um)
     kind, value = lens.aperture.kind, lens.aperture.value
     if kind == "stop_semi_diameter":

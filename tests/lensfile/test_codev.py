@@ -102,7 +102,7 @@ REFUSED = {
     "an unknown unit": (("DIM   M", "DIM   X"), "lens unit"),
     "an infinite gap": ((" 6.0 ", " 1e12 "), "surface 1 has an infinite thickness"),
     "no surface": (("S  ", "!  "), "no surface"),
-    "a surface that is not there": (("GO", "THI S9 1.0"), "speaks of surface 9"),
+    "a surface that is not there": (("GO", "THI S9 1.0"), "refers to surface 9"),
 }
 
 

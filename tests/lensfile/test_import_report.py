@@ -6,6 +6,7 @@ import shutil
 from p2sf.cli import main
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.report import ImportReport, Note, Notebook
+from p2sf.messages import Message
 from tests.support.lens_files import FOLDER, text_of
 
 
@@ -64,11 +65,11 @@ def test_a_note_says_where_and_is_kept_once():
     notes = Notebook()
     notes.add("caution", "something", 3, 12)
     notes.add("caution", "something", 3, 12)
-    assert notes.notes == [Note("caution", "something", 3, 12)]
-    assert notes.notes[0].sentence == "surface 3, line 12: something"
+    assert notes.notes == [Note("caution", Message("something"), 3, 12)]
+    assert str(notes.notes[0].sentence) == "surface 3, line 12: something"
 
 
 def test_a_report_lists_kinds_in_order_and_leaves_empty_ones_out():
-    notes = (Note("ignored", "paint"), Note("read", "glass"))
+    notes = (Note("ignored", Message("paint")), Note("read", Message("glass")))
     text = ImportReport("a.zmx", "Zemax", "utf-8", notes).text
     assert text.index("glass") < text.index("paint") and "substituted" not in text
