@@ -1,4 +1,4 @@
-"""Glass: the makers' indices, their ranges, and what is said to a name that nobody or everybody sells."""
+"""Glass: the makers' indices, their ranges, and the errors for names that nobody or several makers sell."""
 
 import pickle
 import time
@@ -151,6 +151,15 @@ def test_a_doubt_is_a_sentence(written, said):
     assert "\n" not in message and ("; " in message)
 
 
+def test_sellers_of_one_name_are_listed_as_data():
+    with pytest.raises(GlassError) as caught:
+        parse_medium("F2")
+    sold = caught.value.message.values["glasses"]
+    assert len(sold) > 1 and {item.values["glass"]: item.values["nd"] for item in sold}["SCHOTT F2"] == pytest.approx(
+        1.62004, abs=5e-6
+    )
+
+
 @pytest.mark.parametrize("glass", ["SCHOTT N-BK7", {"nd": 1.5168, "vd": 64.17}])
 @pytest.mark.parametrize("wavelength", [0.2, 5.0, np.array([0.5, 5.0]), np.nan, [0.5, np.nan]])
 def test_no_index_is_made_up_outside_the_data(glass, wavelength):
@@ -159,8 +168,11 @@ def test_no_index_is_made_up_outside_the_data(glass, wavelength):
 
 
 def test_the_range_error_names_the_worst_wavelength():
-    with pytest.raises(GlassError, match="wavelength 3000 nm is outside the data of SCHOTT N-BK7, 300 to 2500 nm"):
+    with pytest.raises(
+        GlassError, match="wavelength 3000 nm is outside the data of SCHOTT N-BK7, 300 to 2500 nm"
+    ) as caught:
         catalogue_glass("SCHOTT N-BK7").index([0.5, 3.0])
+    assert caught.value.message.values["wavelength"] == pytest.approx(3000)
 
 
 def test_ranges_are_closed_and_constants_have_none():

@@ -138,6 +138,8 @@ def test_a_glass_by_its_formula_stands_alone():
     ("old", "new", "words"),
     [
         ("agf_formula = 1", "agf_formula = 99", "agf_formula is 99; write a number from 1 to 13"),
+        ("agf_formula = 1", "agf_formula = []", r"agf_formula is \[\]; write a number from 1 to 13"),
+        ("agf_formula = 1", "agf_formula = true", "agf_formula is True; write a number from 1 to 13"),
         ("[2.25]", '["a"]', "coefficients of X1 are not up to"),
         ("[0.4, 0.7]", "[0.7, 0.4]", "write the shortest and the longest wavelength"),
         ('name = "X1", ', "", "glass has the keys"),

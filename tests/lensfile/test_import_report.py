@@ -6,7 +6,7 @@ import shutil
 from p2sf.cli import main
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.report import ImportReport, Note, Notebook
-from p2sf.messages import Message
+from p2sf.messages import Message, Style
 from tests.support.lens_files import FOLDER, text_of
 
 
@@ -73,3 +73,12 @@ def test_a_report_lists_kinds_in_order_and_leaves_empty_ones_out():
     notes = (Note("ignored", Message("paint")), Note("read", Message("glass")))
     text = ImportReport("a.zmx", "Zemax", "utf-8", notes).text
     assert text.index("glass") < text.index("paint") and "substituted" not in text
+
+
+def test_a_report_can_be_written_in_any_style():
+    german = {"surface {surface}: {message}": "Fläche {surface}: {message}", "a gap of {gap:g} mm": "Lücke {gap:g} mm"}
+    style = Style(translate=lambda text: german.get(text, text), number=lambda text: text.replace(".", ","))
+    notes = Notebook()
+    notes.add("caution", "a gap of {gap:g} mm", 3, gap=0.5)
+    lines = [line.text(style) for line in ImportReport("a.zmx", "Zemax", "utf-8", tuple(notes.notes)).lines()]
+    assert lines == ["a.zmx: Zemax, utf-8", "taken differently from the file:", "  - Fläche 3: Lücke 0,5 mm"]

@@ -204,6 +204,22 @@ def test_what_is_refused_says_where_and_why(case):
     refused_at(DOUBLET, *REFUSED[case])
 
 
+def test_a_refusal_carries_its_line_and_its_values_as_data():
+    with pytest.raises(LensFileError) as caught:
+        read(DOUBLET, ("  MAZH 0 0", "  OBDC 0 3.5"))
+    place = caught.value.message.values
+    said = place["message"]
+    assert (place["path"], place["line"]) == (DOUBLET, caught.value.line)
+    assert said.template.startswith("{surface} has a rim decentred by ({x:g}, {y:g})")
+    assert (said.values["surface"].values, said.values["y"]) == ({"surface": 3}, 3.5)
+
+
+def test_an_error_of_the_lens_stands_on_the_line_of_its_surface():
+    with pytest.raises(LensFileError, match="surface 3: the r² coefficient") as caught:
+        read(DOUBLET, ("PARM 1 0", "PARM 1 1e-3"))
+    assert text_of(DOUBLET).splitlines()[caught.value.line - 1] == "SURF 3"
+
+
 def test_a_glass_in_no_catalogue_is_offered_by_the_numbers_written_beside_it():
     change = ("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS NOBODY-7 0 0 1.62 36.4")
     with pytest.raises(
