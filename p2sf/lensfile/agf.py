@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.errors import GlassError
+from p2sf.glass.dispersion import LINES_UM
 from p2sf.glass.media import checked_wavelength
 from p2sf.lensfile.source_text import LensText, number, read_source, whole
 from p2sf.messages import Message
@@ -23,7 +24,7 @@ def schott(c: Sequence[float], w: np.ndarray) -> np.ndarray:
 
 
 def resonances(c: Sequence[float], w: np.ndarray, count: int) -> np.ndarray:
-    """Return Σ K λ²/(λ² − L) over ``count`` pairs (K, L); a pair with K = 0 adds nothing, its pole included."""
+    """Return Σ K λ²/(λ² − L) over ``count`` pairs (K, L); pairs with K = 0 are skipped, and their poles with them."""
     pairs = zip(c[: 2 * count : 2], c[1 : 2 * count : 2], strict=True)
     return np.asarray(sum(k * w**2 / (w**2 - pole) for k, pole in pairs if k))
 
@@ -40,7 +41,7 @@ def herzberger(c: Sequence[float], w: np.ndarray) -> np.ndarray:
 
 
 def sellmeier_2(c: Sequence[float], w: np.ndarray) -> np.ndarray:
-    """Return n² of formula 4: the second resonance without λ² above, both wavelengths squared."""
+    """Return n² of formula 4: two resonances at wavelengths L₁, L₂, the second without λ² in its numerator."""
     return 1 + c[0] + c[1] * w**2 / (w**2 - c[2] ** 2) + c[3] / (w**2 - c[4] ** 2)
 
 
@@ -70,7 +71,7 @@ def sellmeier_4(c: Sequence[float], w: np.ndarray) -> np.ndarray:
 
 
 def extended_1(c: Sequence[float], w: np.ndarray) -> np.ndarray:
-    """Return n² of formula 10, the power series two terms further down."""
+    """Return n² of formula 10, the power series with λ⁻¹⁰ and λ⁻¹² in addition."""
     return schott(c, w) + c[6] * w**-10 + c[7] * w**-12
 
 
@@ -80,7 +81,7 @@ def sellmeier_5(c: Sequence[float], w: np.ndarray) -> np.ndarray:
 
 
 def extended_2(c: Sequence[float], w: np.ndarray) -> np.ndarray:
-    """Return n² of formula 12, the power series two terms further up."""
+    """Return n² of formula 12, the power series with λ⁴ and λ⁶ in addition."""
     return schott(c, w) + c[6] * w**4 + c[7] * w**6
 
 
@@ -115,9 +116,6 @@ def refractive_index(formula: int, coefficients: Sequence[float], wavelength_um:
         if formula in DIRECT:
             return np.asarray(DIRECT[formula](c, wavelength) + 0 * wavelength)
         return np.asarray(np.sqrt(SQUARED[formula](c, wavelength) + 0 * wavelength))
-
-
-F_LINE_UM, D_LINE_UM, C_LINE_UM = 0.4861327, 0.5875618, 0.6562725
 
 
 @dataclass(frozen=True)
@@ -236,7 +234,7 @@ def _range(entry: Entry, source: LensText, name_line: int) -> tuple[float, float
 def nd_and_vd(glass: FormulaGlass) -> tuple[float, float]:
     """Return nd and the Abbe number vd as a catalogue prints them; 0 where the glass has no data at F, d and C."""
     low, high = glass.range_um
-    if not (low <= F_LINE_UM and C_LINE_UM <= high):
+    if not (low <= LINES_UM["F"] and LINES_UM["C"] <= high):
         return 0.0, 0.0
-    blue, yellow, red = (float(glass.index(line)) for line in (F_LINE_UM, D_LINE_UM, C_LINE_UM))
-    return yellow, (yellow - 1) / (blue - red) if blue != red else 0.0
+    n_f, n_d, n_c = (float(glass.index(LINES_UM[line])) for line in "FdC")
+    return n_d, (n_d - 1) / (n_f - n_c) if n_f != n_c else 0.0

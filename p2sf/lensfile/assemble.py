@@ -65,7 +65,7 @@ def _located(make: Callable[[], Lens], raw: RawLens, source: LensText, line: int
 
 
 def _media(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensText) -> list[Medium]:
-    """Return object medium and the medium behind each surface."""
+    """Return the object medium and the medium behind each surface."""
     media = [_medium(raw.object_glass, None, sources, notes, source)]
     for surface in raw.surfaces:
         media.append(media[-1] if surface.keeps_medium else _medium(surface.glass, surface, sources, notes, source))
@@ -228,7 +228,7 @@ def _with_fields(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
 
 
 def _focused(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
-    """Return the lens with the sensor its file does not state at the paraxial focus for an object at infinity."""
+    """Return the lens with its sensor at the paraxial focus for an object at infinity, for a file without one."""
     focus = conjugates.trace(lens, 1, lens.reference_wavelength_um).focus
     if not isfinite(focus):
         notes.add(

@@ -90,7 +90,7 @@ def aperture(raw: RawLens, stated: tuple[RawApertureKind, float], rays: Paraxial
     """
     kind, value = stated
     if kind == "image_f_number" and not isfinite(raw.object_distance):
-        kind = "f_number"  # for an object at infinity the two are one
+        kind = "f_number"  # the same for an object at infinity
     if kind == "stop_semi_diameter":
         return Aperture(kind, value * raw.unit_mm)
     if kind == "entrance_pupil_diameter" and keep:
@@ -109,7 +109,7 @@ def aperture(raw: RawLens, stated: tuple[RawApertureKind, float], rays: Paraxial
 
 
 def _marginal_height(kind: RawApertureKind, value: float, raw: RawLens, rays: Paraxial) -> float:
-    """Return the height at the stop of the marginal ray that an aperture statement means."""
+    """Return the height of the marginal ray at the stop for a stated aperture, mm; infinite where it has none."""
     a, b = rays.stop
     _, _, c, d = rays.last
     distance = raw.object_distance * raw.unit_mm
@@ -141,7 +141,7 @@ def _sine(numerical_aperture: float, index: float) -> float:
 
 
 def field_slopes(raw: RawLens, rays: Paraxial) -> list[float]:
-    """Return each field as the chief ray's slope at the entrance pupil, distance from the axis only.
+    """Return each field as the slope of its chief ray at the entrance pupil; x and y count by their distance only.
 
     Raises GeometryError where a height has no slope: an afocal lens, a telecentric one, an object at infinity.
     """

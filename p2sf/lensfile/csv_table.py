@@ -60,7 +60,7 @@ def _decimal(cell: str, key: str, separator: str) -> str:
 
 
 def _header(cells: list[str], line: int, source: LensText) -> list[str]:
-    """Return the column names; both radius and thickness must be there, and every name known."""
+    """Return the column names; LensFileError for an unknown name or a missing radius or thickness."""
     names = [re.sub(r"\s*[\[(].*", "", cell).strip().lower().replace(" ", "_").replace("-", "_") for cell in cells]
     unknown = [name for name in names if name not in COLUMNS and not re.fullmatch(r"a([1-9]|[1-3]\d)|", name)]
     missing = [name for name in ("radius", "thickness") if name not in names]
@@ -75,7 +75,7 @@ def _header(cells: list[str], line: int, source: LensText) -> list[str]:
 
 
 def _key(raw: RawLens, text: str, line: int, source: LensText) -> None:
-    """Read one "key: value" remark; other remarks are left alone."""
+    """Read one "# key: value" line; other comments are ignored."""
     name, _, value = (part.strip() for part in text.partition(":"))
     name = name.lower().replace("-", "_").replace(" ", "_")
     if name == "title":

@@ -19,11 +19,13 @@ from functools import cache
 
 from p2sf.errors import GlassError
 from p2sf.glass.catalogue import find_entry
+from p2sf.glass.dispersion import LINES_UM
 from p2sf.glass.media import CatalogueGlass, Medium, catalogue_glass, constant_index, model_glass
-from p2sf.lensfile.agf import D_LINE_UM, Catalogue, FormulaGlass
+from p2sf.lensfile.agf import Catalogue, FormulaGlass
 from p2sf.lensfile.raw import RawGlass
 from p2sf.messages import Message
 
+# nd and vd of Schott's former glasses, from old data sheets.
 OBSOLETE: dict[str, tuple[float, float]] = {
     "BAF3": (1.58267, 46.47),
     "BAF4": (1.60562, 43.93),
@@ -96,12 +98,12 @@ OBSOLETE: dict[str, tuple[float, float]] = {
 }
 
 
-# A catalogue whose coefficients miss its own printed nd by more than this is damaged (healthy ones: 4e-5).
+# A catalogue whose coefficients miss its own listed nd by more than this is damaged (sound ones: 4e-5).
 DAMAGED_ND = 1e-3
 # The makers that old prescriptions mean most often come first; an index-matching liquid is not a lens glass.
 USUAL_MAKERS = ("SCHOTT", "OHARA", "HOYA", "HIKARI", "SUMITA", "CDGM")
 NO_GLASS = ("CARGILLE",)
-# A glass farther than this in nd is another glass, whatever it is called.
+# A glass whose nd differs by more than this is no substitute, whatever its name.
 FARTHEST_OFFER = 0.01
 SILICA = ("SILICA", "FSILICA", "FUSEDSILICA", "SIO2", "F_SILICA")
 
@@ -152,7 +154,7 @@ def key(name: str) -> str:
 
 
 def stem(name: str) -> str:
-    """Return a glass name without the letters makers put in front ("N-SF11" → "SF11") and a note behind "_"."""
+    """Return a glass name without its maker's prefix ("N-SF11" → "SF11") and without a suffix after "_"."""
     return key(re.sub(r"^[A-Z]{1,2}-", "", name.upper().split("_")[0]))
 
 
@@ -169,7 +171,7 @@ def _exact(glass: RawGlass, sources: GlassSources) -> Medium | None:
 
 
 def _from_catalogues(glass: RawGlass, catalogues: tuple[Catalogue, ...]) -> FormulaGlass | None:
-    """Return the glass from the user's AGF files, those the file names in its order."""
+    """Return the glass from the user's AGF files: those that the file names, in its order, or all."""
     ordered = [c for maker in glass.makers for c in catalogues if _same_maker(maker, c.name)]
     if not ordered and not _known(glass.makers):
         ordered = list(catalogues)
@@ -218,7 +220,7 @@ def _shelf() -> dict[str, dict[str, str]]:
 
 
 def _known(makers: tuple[str, ...]) -> list[str]:
-    """Return the makers of the built-in table among the names a file gives, in its order."""
+    """Return the makers of the built-in table among those that a file names, in its order."""
     return [maker for named in makers for maker in _shelf() if _same_maker(named, maker)]
 
 
@@ -320,7 +322,7 @@ def _nominal_nd(glass: RawGlass) -> float | None:
 def nd_of(medium: Medium) -> float | None:
     """Return the index at the d line, None where the data do not reach it."""
     try:
-        return float(medium.index(D_LINE_UM))
+        return float(medium.index(LINES_UM["d"]))
     except GlassError:
         return None
 

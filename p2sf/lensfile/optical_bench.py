@@ -25,7 +25,7 @@ FIELD_FRACTIONS = (0.0, 0.7, 1.0)
 
 @dataclass
 class Reading:
-    """What has been read so far; ``rows`` finds a surface by the number the file gives it."""
+    """What has been read so far; ``rows`` maps the file's own surface numbers to surfaces."""
 
     source: LensText
     notes: Notebook
@@ -128,7 +128,7 @@ def _distance(reading: Reading, word: str, line: int) -> float:
 
 
 def _glass(reading: Reading, words: list[str], surface: RawSurface, line: int) -> RawGlass | None:
-    """Return the medium: the named glass where it is known exactly, else nd and vd of the same row."""
+    """Return the medium: the named glass if it is found exactly, else nd and vd of the same row."""
     if not words[3]:
         return None
     nd = number(words[3], "nd", reading.source, line)

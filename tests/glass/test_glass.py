@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GlassError
-from p2sf.glass.dispersion import FORMULAS, refractive_index, through_neighbours
+from p2sf.glass.dispersion import FORMULAS, LINES_UM, refractive_index, through_neighbours
 from p2sf.glass.media import (
     AIR,
-    LINES_UM,
     Medium,
     TabulatedIndex,
     catalogue_glass,

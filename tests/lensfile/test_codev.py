@@ -1,4 +1,4 @@
-"""CODE V files: commands, remarks, continued lines, glasses, units, and what is refused by surface number."""
+"""CODE V files: commands, comments, continued lines, glasses, units, and what is refused by surface number."""
 
 import numpy as np
 import pytest

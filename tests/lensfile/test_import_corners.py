@@ -82,7 +82,7 @@ def test_an_object_sided_aperture_is_kept_at_its_distance():
 
 
 @pytest.mark.parametrize("what", TABLE_REFUSED)
-def test_a_table_with_a_wrong_remark_is_refused(what):
+def test_a_table_with_a_wrong_key_is_refused(what):
     change, words = TABLE_REFUSED[what]
     with pytest.raises(LensFileError, match=words):
         read(TABLE, change)

@@ -27,7 +27,7 @@ def read(name: str, *changes: tuple[str, str], accept: bool = False, catalogues=
 
 
 def refused_at(name: str, change: tuple[str, str], said: str) -> None:
-    """Hold that a file with this change is refused in these words, with its name and a line."""
+    """Check that a file with this change is refused in these words, with its name and a line."""
     with pytest.raises(LensFileError, match=said) as caught:
         read(name, change)
     assert caught.value.path == name and caught.value.line
