@@ -1,4 +1,4 @@
-"""Nothing is lost and nothing torn: writers killed at any moment, and writers on a full disk, in their own process."""
+"""No file is lost or left half written: writers killed at any moment or on a full disk, in their own process."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""A damaged lens file is a lens or a sentence with its line; more by ``python -m tests.long.damaged_files``."""
+"""A damaged lens file gives a lens or an error with its line; ``python -m tests.long.damaged_files`` tries more."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Rare statements of foreign lens files: each is read, or told in the report, or refused by a sentence."""
+"""Rare statements in other programs' lens files: each is read, or noted in the report, or refused by an error."""
 
 import zipfile
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What no import may cost: files too large, archives that unpack to too much, lines and lists without end."""
+"""Limits of an import: files that are too large, archives that unpack to too much, endless lines and lists."""
 
 import zipfile
 

@@ -1,4 +1,4 @@
-"""Lens files: what is written is read back equal, and every mistake is one sentence with place, value and remedy."""
+"""Lens files: what is written is read back equal, and every mistake is an error with place, value and remedy."""
 
 from dataclasses import replace
 from math import inf

@@ -1,4 +1,4 @@
-"""The shelf: sixteen lenses that are their reference data, are found everywhere, and teach what they promise."""
+"""The shipped lenses: sixteen that equal their reference data, are found everywhere, and show what they promise."""
 
 import time
 import tomllib
@@ -34,7 +34,7 @@ def focal_length(lens, wavelength_um=D_LINE):
     return float(cardinal_points(lens, wavelength_um).effective_focal_length)
 
 
-def test_the_shelf_holds_the_twelve_and_four_of_our_own():
+def test_the_twelve_reference_lenses_and_four_more_are_shipped():
     assert shipped_lenses() == tuple(sorted((*LENSES, *OWN)))
 
 

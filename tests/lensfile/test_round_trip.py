@@ -63,7 +63,7 @@ def test_zmx_is_the_same_lens_to_this_reader(name, tmp_path):
 
 @pytest.mark.parametrize("name", LENSES)
 def test_iset_is_the_same_lens_at_its_reference_wavelength(name, tmp_path):
-    """A stop on a refracting surface becomes a plane in its vertex, which no Seidel sum notices."""
+    """A stop on a refracting surface becomes a plane at its vertex, which changes no Seidel sum."""
     lens, path = LENSES[name](), tmp_path / "out.json"
     write_lens(lens, path)
     again, wave = load_lens(path), lens.reference_wavelength_um

@@ -1,4 +1,4 @@
-"""The file under a lens file: missing, broken, huge, or a disc that is full; each is a sentence, none a half file."""
+"""Lens files on disk: missing, broken or huge ones and a full disk are errors, and no partial file is left."""
 
 import os
 from dataclasses import replace

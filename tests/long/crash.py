@@ -41,7 +41,7 @@ OLD = b"what was here before"
 
 
 def writers(folder: Path, version: int) -> dict:
-    """Return a function per file that writes it anew."""
+    """Return for each file a function that writes it again."""
     psf = Psf(NOISE / NOISE.sum(), 1.0 + version, 0.5, "seidel", strehl=1.0)
     many = {f"{name}-{version}": "x" * 40 for name in range(60)}
     return {
@@ -87,7 +87,7 @@ def kill(folder: Path, deaths: int = 60) -> str:
 
 
 def is_whole(path: Path) -> bool:
-    """Say whether a file killed between its two names is whole: it then reads as one of those written."""
+    """Return whether a file left without its final name is whole: it can then be read as one of those written."""
     for name, reader in READERS.items():
         with tempfile.TemporaryDirectory() as folder, suppress(P2SFError, ZeroDivisionError, ValueError):
             reader(Path(shutil.copy(path, Path(folder) / name)))
@@ -105,7 +105,7 @@ def write_for_ever(folder: Path, first: int) -> None:
 
 @contextmanager
 def small_disk(most: int):
-    """Let no file of this process grow beyond so many bytes, which to a writer looks like a full disk."""
+    """Limit the size of this process's files to ``most`` bytes, which looks like a full disk to a writer."""
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
     try:
         yield
@@ -114,7 +114,7 @@ def small_disk(most: int):
 
 
 def full(folder: Path) -> str:
-    """Run every writer on a disk that takes 2 kB a file; return the sentences."""
+    """Run every writer on a disk that takes 2 kB a file; return the errors' sentences."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     told = []
     for name, write in writers(folder, 1).items():

@@ -1,4 +1,4 @@
-"""Damage lens files at random and read them: a lens, or a LensFileError that names a line; nothing else.
+"""Damage lens files at random and read them: the outcome is a lens, or a LensFileError that names a line.
 
 ``python -m tests.long.damaged_files [count [file …]]`` tries ``count`` (10 000) inputs per format and
 prints what came of them.
@@ -31,9 +31,9 @@ WORDS = (
 
 
 def damaged(data: bytes, chance: random.Random) -> bytes:
-    """Return a copy with one to four injuries."""
+    """Return a copy with one to four kinds of damage."""
     for _ in range(chance.randint(1, 4)):
-        data = chance.choice(INJURIES)(data, chance)
+        data = chance.choice(DAMAGES)(data, chance)
     return data
 
 
@@ -81,11 +81,11 @@ def recode(data: bytes, chance: random.Random) -> bytes:
     return data.decode("latin-1").encode(chance.choice(("utf-16", "utf-16-le", "utf-16-be", "utf-8-sig")))
 
 
-INJURIES = (flip_a_byte, cut, shuffle_lines, lose_a_line, change_a_word, change_a_number, change_a_number, recode)
+DAMAGES = (flip_a_byte, cut, shuffle_lines, lose_a_line, change_a_word, change_a_number, change_a_number, recode)
 
 
 def outcome(name: str, data: bytes, accept: bool) -> str:
-    """Return "lens" or "refused"; whatever else happens is raised, a refusal without a line as AssertionError."""
+    """Return "lens" or "refused"; any other exception is raised, an error without a line as AssertionError."""
     try:
         source = source_of(data, name)
         if name.endswith(".agf"):
@@ -95,7 +95,7 @@ def outcome(name: str, data: bytes, accept: bool) -> str:
             assert parse_toml(lens_to_toml(lens), "again.toml") == lens
         return "lens"
     except LensFileError as failure:
-        # In TOML a table or key that is missing altogether stands on no line, and archives have none.
+        # A table or key that is missing from a TOML file has no line, and neither has an archive.
         assert failure.line or name.endswith(".toml") or "archive" in str(failure), failure
         return "refused"
 
@@ -112,7 +112,7 @@ def attempt(name: str, count: int, seed: int = 0) -> Counter:
 
 
 class Labelled:
-    """Names the input on whatever failure leaves the block."""
+    """Adds the input as a note to an exception that leaves the block."""
 
     def __init__(self, label: str):
         self.label = label

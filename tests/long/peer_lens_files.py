@@ -20,7 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-from p2sf.errors import LensFileError
+from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Lens, indices
 from p2sf.lensfile.importing import Import, import_lens
@@ -29,7 +29,7 @@ from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import cardinal_points
 
 AGREEMENT = 1e-6
-# What a file that P2SF cannot trace holds, in the words of its refusal.
+# What a file holds that P2SF is right to refuse, in the words of the error.
 RIGHT_REASONS = ("mirror", "tilted or decentred", "diffracts", "coordinate break", "QED_TYPE")
 
 
@@ -57,7 +57,7 @@ def shown(value: float | None) -> str:
     return "–" if value is None else f"{value:.1e}"
 
 
-def packages() -> tuple[Path, Path]:
+def packages() -> tuple[Path, ...]:
     """Return the folders of rayoptics and KrakenOS without importing them."""
     return tuple(Path(importlib.util.find_spec(name).origin).parent for name in ("rayoptics", "KrakenOS"))
 
@@ -73,7 +73,7 @@ def read(path: Path) -> tuple[Import, str]:
     try:
         return import_lens(path), "read"
     except LensFileError as failure:
-        if "in no catalogue" not in str(failure):
+        if not isinstance(failure.__cause__, GlassError):
             raise
     try:
         return import_lens(path, catalogues=catalogues), "refused without its glass catalogue; read with it"
@@ -85,7 +85,7 @@ def row(path: Path) -> Row:
     try:
         found, how = read(path)
     except LensFileError as failure:
-        reason = str(failure).split(": ", 1)[1]
+        reason = str(failure.message.values["message"])
         line = f"line {failure.line}: " if failure.line else ""
         return Row(path.name, f"refused, {line}{reason}", any(right in reason for right in RIGHT_REASONS))
     return compared(path, found.lens, how)
@@ -129,7 +129,7 @@ def relative(ours: float, theirs: float) -> float:
     return abs(ours / theirs - 1)
 
 
-def with_indices(lens: Lens, values) -> Lens:
+def with_indices(lens: Lens, values: np.ndarray) -> Lens:
     media = [ConstantIndex(float(value)) for value in values]
     surfaces = tuple(replace(s, medium=m) for s, m in zip(lens.surfaces, media[1:], strict=True))
     return replace(lens, surfaces=surfaces, object_medium=media[0])
