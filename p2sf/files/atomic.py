@@ -14,9 +14,19 @@ from zipfile import BadZipFile
 import numpy as np
 
 # What a damaged archive raises: numpy parses its headers as Python, and zip and its packers have their own errors.
-DAMAGED: tuple[type[Exception], ...] = (
-    *(BadZipFile, zlib.error, struct.error, TokenError, SyntaxError, LookupError, EOFError, TypeError),
-    *(AttributeError, ArithmeticError, RuntimeError, MemoryError),
+DAMAGED = (
+    BadZipFile,
+    zlib.error,
+    struct.error,
+    TokenError,
+    SyntaxError,
+    LookupError,
+    EOFError,
+    TypeError,
+    AttributeError,
+    ArithmeticError,
+    RuntimeError,
+    MemoryError,
 )
 
 
