@@ -51,11 +51,6 @@ def centred_axis(count: int, step: float = 1.0) -> np.ndarray:
     return (np.arange(count) - count // 2) * step
 
 
-def mirrored(values: np.ndarray) -> np.ndarray:
-    """Return an even-sized PSF turned upside down about the chief ray's sample, as a wrong sign would."""
-    return np.roll(values[..., ::-1, :], 1, axis=-2)
-
-
 def anywhere(flags) -> bool:
     """Return whether any flag is set; the one flag of one source, a numpy bool, needs no reduction."""
     return bool(flags.any() if flags.ndim else flags)

@@ -246,4 +246,6 @@ def check_depth(depth_mm) -> None:
     depth = np.asarray(depth_mm, dtype=float)
     if not (depth > 0).all():
         bad = depth.ravel()[~(depth.ravel() > 0)][0]
-        raise GeometryError(f"depth is {bad:g} mm; the object must stand a positive distance before the first vertex")
+        raise GeometryError(
+            "depth is {depth:g} mm; the object must stand a positive distance before the first vertex", depth=float(bad)
+        )

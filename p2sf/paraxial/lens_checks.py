@@ -1,4 +1,4 @@
-"""What is wrong with a lens that can nevertheless be computed: rims where there is no glass, and lenses of nothing."""
+"""Checks for lenses that can be computed but not made: rims wider than their surfaces, media that bend no light."""
 
 from math import inf, isfinite, sqrt
 
@@ -6,52 +6,64 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import named_stop, stop_rim
 
 
-def lens_checks(lens: Lens) -> tuple[str, ...]:
-    """Return a sentence for everything about a lens that no workshop could make or that does nothing, lengths in mm.
+def lens_checks(lens: Lens) -> tuple[Message, ...]:
+    """Return a warning for each rim that its surface cannot have, and one if no surface bends light.
 
     Raises GlassError for a reference wavelength outside a glass's data.
     """
     rims = (_rim_beyond_its_sphere(number, surface) for number, surface in enumerate(lens.surfaces, 1))
     found = (*rims, _stop_beyond_its_sphere(lens), _nothing_bends(lens))
-    return tuple(sentence for sentence in found if sentence)
+    return tuple(warning for warning in found if warning)
 
 
 def edge(surface: Surface) -> float:
-    """Return the height at which a conicoid turns back on itself, |R|/√(1 + K), mm; inf for one that never does."""
+    """Return the height at which a conicoid turns back on itself, |R|/√(1 + K), mm; inf for an open one."""
     if not isfinite(surface.radius) or surface.conic <= -1:
         return inf
     return abs(surface.radius) / sqrt(1 + surface.conic)
 
 
-def _rim_beyond_its_sphere(number: int, surface: Surface) -> str | None:
+def _rim_beyond_its_sphere(number: int, surface: Surface) -> Message | None:
     if not edge(surface) < surface.semi_diameter < inf:
         return None
-    return (
-        f"surface {number} has a clear semi-diameter of {surface.semi_diameter:g} mm, but its radius of "
-        f"{surface.radius:g} mm ends it at {edge(surface):.6g} mm; correct one of the two"
+    return Message(
+        "surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at "
+        "{edge:.6g} mm; correct one of the two",
+        surface=number,
+        rim=surface.semi_diameter,
+        radius=surface.radius,
+        edge=edge(surface),
     )
 
 
-def _stop_beyond_its_sphere(lens: Lens) -> str | None:
+def _stop_beyond_its_sphere(lens: Lens) -> Message | None:
     try:
         number = lens.stop_surface or named_stop(lens)
         rim = float(stop_rim(lens))
-    except GeometryError:  # an aperture that cannot be is refused by whoever needs it
+    except GeometryError:  # an impossible aperture is refused by whoever needs it
         return None
     surface = lens.surfaces[number - 1]
     if rim <= edge(surface):
         return None
-    return (
-        f"the stop on surface {number} has a semi-diameter of {rim:.6g} mm, but a radius of {surface.radius:g} mm "
-        f"ends that surface at {edge(surface):.6g} mm; stop the lens down or move the stop"
+    return Message(
+        "the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but a radius of {radius:g} mm "
+        "ends that surface at {edge:.6g} mm; stop the lens down or move the stop",
+        surface=number,
+        rim=rim,
+        radius=surface.radius,
+        edge=edge(surface),
     )
 
 
-def _nothing_bends(lens: Lens) -> str | None:
+def _nothing_bends(lens: Lens) -> Message | None:
     index = indices(lens, lens.reference_wavelength_um)
     if np.ptp(index):
         return None
-    return f"every medium of this lens has the index {float(index[0]):g}, so no surface bends light; name its glasses"
+    return Message(
+        "every medium of this lens has the index {index:g}, so no surface bends light; name its glasses",
+        index=float(index[0]),
+    )

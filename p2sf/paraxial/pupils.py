@@ -8,6 +8,7 @@ import numpy as np
 from p2sf.conventions import anywhere, vergence
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
+from p2sf.messages import Message
 from p2sf.paraxial.first_order import (
     BasisRays,
     axial_ray,
@@ -37,16 +38,18 @@ class Stop:
     chosen_by: str
 
     @property
-    def warning(self) -> str | None:
-        """Return a sentence when another rim is narrower than the stop somewhere, else None."""
+    def warning(self) -> Message | None:
+        """Return a warning if another rim limits the axial cone for some depth or wavelength, else None."""
         clash = np.asarray(self.limiting_surface != self.surface)
         if not clash.any():
             return None
         rim = int(np.broadcast_to(self.limiting_surface, clash.shape)[clash].ravel()[0])
         stop = int(np.broadcast_to(self.surface, clash.shape)[clash].ravel()[0])
-        return (
-            f"the rim of surface {rim} is narrower for this object than the stop on surface {stop}; "
-            "the stop is kept, choose stop auto to let the narrowest rim decide"
+        return Message(
+            "the rim of surface {rim} is narrower for this object than the stop on surface {stop}; "
+            "the stop is kept, choose stop auto to let the narrowest rim decide",
+            rim=rim,
+            stop=stop,
         )
 
 
@@ -90,7 +93,7 @@ def find_stop(lens: Lens, depth_mm=np.inf, wavelength_um=None, mode: str = "file
     if mode == "file":
         return Stop(np.asarray(named), np.asarray(rim), limiting, "file" if lens.stop_surface else "auto")
     if mode != "auto":
-        raise GeometryError(f'stop "{mode}" is unknown; choose "file" or "auto"')
+        raise GeometryError('stop "{mode}" is unknown; choose "file" or "auto"', mode=mode)
     rims = rim_radii(lens, named, rim)
     return Stop(limiting, rims[limiting - 1], limiting, "auto")
 

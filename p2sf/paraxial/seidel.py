@@ -173,6 +173,6 @@ def coefficients(
 
 
 def defocus(rays: ParaxialRays, sensor_mm: float) -> np.ndarray:
-    """Return defocus in mm of path, n'u'(u'·sensor + y)/2: no singularity at any depth (DESIGN.md section 2)."""
+    """Return defocus in mm of path, n'u'(u'·sensor + y)/2: no singularity at any depth."""
     slope = rays.nu[-1] / rays.index[-1]
     return rays.nu[-1] * (slope * sensor_mm + rays.y[-1]) / 2

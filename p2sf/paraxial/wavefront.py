@@ -1,4 +1,4 @@
-"""The wavefront W(ξ, η) of six coefficients, how steep it is and how large.
+"""The wavefront W(ξ, η) of six coefficients and how steep it is.
 
 All of it in waves over the entrance-pupil disc ξ² + η² ≤ 1, η towards the field. W11 moves the image
 without blurring it, so it stays out unless asked for (``tilt=True``).
@@ -129,31 +129,3 @@ def _polar_basis() -> np.ndarray:
     radial = [4 * rho**3, 3 * rho**2 * cosine, 2 * rho * cosine**2, 2 * rho, cosine]
     angular = [none, -(rho**3) * sine, -2 * rho**2 * sine * cosine, none, -rho * sine]
     return np.concatenate([radial, angular], axis=1)
-
-
-def rms(coefficients: Coefficients, tilt_removed: bool = True) -> np.ndarray:
-    """Return the RMS of W about its mean over the disc, waves, exact; W11 left out.
-
-    ``tilt_removed`` also takes out the tilt that coma contains, which moves the peak and does not lower it:
-    (2πσ)² is then what a small aberration costs of the Strehl ratio (Maréchal). Variances of the
-    orthogonal parts (Born & Wolf 1999, §9.2.1): spherical with focus, coma, astigmatism.
-    """
-    w40, w31, w22, focus, _ = shape_coefficients(coefficients)
-    mean_focus = focus + w22 / 2
-    axial = 4 / 45 * w40**2 + w40 * mean_focus / 6 + mean_focus**2 / 12
-    return np.sqrt(axial + w31**2 / (72 if tilt_removed else 8) + w22**2 / 24)
-
-
-def pv(coefficients: Coefficients, tilt_removed: bool = True) -> np.ndarray:
-    """Return the largest less the smallest W over the disc, waves, within 1 %; the tilt handled as in `rms`."""
-    rho, sine, cosine = _slope_points()
-    xi, eta = np.append(rho * sine, 0), np.append(rho * cosine, 0)
-    values = wavefront(coefficients, xi, eta)
-    if tilt_removed:
-        values = values - coma_tilt(coefficients)[..., None] * eta
-    return values.max(-1) - values.min(-1)
-
-
-def coma_tilt(coefficients: Coefficients) -> np.ndarray:
-    """Return the tilt in W31ρ³cosθ that fits it best over the disc, 2/3 W31 waves at the rim."""
-    return np.asarray(coefficients.w31) * (2 / 3)

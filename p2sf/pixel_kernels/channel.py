@@ -105,5 +105,7 @@ def own_pupil(seen: SensorMap, height_mm: float, wavelength_um: float, recipe: R
     try:
         pupil = pupil_map(seen.lens, seen.source(height_mm, wavelength_um), recipe.method, recipe.numbers)
     except P2SFError as error:
-        raise type(error)(f"{height_mm:.4g} mm from the axis of the sensor: {error}") from error
+        raise type(error)(
+            "{height:.4g} mm from the axis of the sensor: {error}", height=height_mm, error=error
+        ) from error
     return pupil, seen.shift_mm(height_mm, wavelength_um)

@@ -53,8 +53,11 @@ def pixel_kernel(pupil: FrequencyPupil, angle: float, window: PixelWindow, shift
     side = scipy.fft.next_fast_len(count)
     if side > LARGEST_WINDOW:
         raise SamplingError(
-            f"a blur of {window.size} pixels with {window.samples} samples each needs a {side}² transform; "
-            "bring the depths nearer to focus, stop down, or ask for larger pixels"
+            "a blur of {size} pixels with {samples} samples each needs a {side}² transform; "
+            "bring the depths nearer to focus, stop down, or ask for larger pixels",
+            size=window.size,
+            samples=window.samples,
+            side=side,
         )
     # Sample 0 of the transform is the window's lowest corner, and samples lie centrally in their pixel.
     origin = (-(count - 1) / 2 * pitch - shift for shift in shift_um)

@@ -8,6 +8,7 @@ from p2sf.conventions import vergence
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.pencil import pencil
@@ -73,10 +74,11 @@ def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: flo
             continue
         if heights[-1] >= height_mm and (np.diff(heights) > 0).all():
             return SensorMap(lens, float(depth_mm), float(wavelength_um), slopes, heights, scale)
-    depth = "∞" if np.isinf(depth_mm) else f"{depth_mm:g} mm"
     raise GeometryError(
-        f"no chief ray of an object at {depth} lands {height_mm:.4g} mm from the axis, where the sensor's "
-        "corner is; take a smaller sensor"
+        "no chief ray of an object at {depth} lands {height:.4g} mm from the axis, where the sensor's "
+        "corner is; take a smaller sensor",
+        depth="∞" if np.isinf(depth_mm) else Message("{depth:g} mm", depth=depth_mm),
+        height=height_mm,
     )
 
 

@@ -55,7 +55,11 @@ def disc_nodes(radial: int, angular: int) -> DiscNodes:
     whatever is even in ξ. Shape (radial·angular/2,). Weights are an area mean. Raises SamplingError.
     """
     if radial < 1 or angular < 2 or angular % 2:
-        raise SamplingError(f"{radial} radii × {angular} directions; give at least 1 radius and an even count ≥ 2")
+        raise SamplingError(
+            "{radial} radii × {angular} directions; give at least 1 radius and an even count ≥ 2",
+            radial=radial,
+            angular=angular,
+        )
     square, weight = gauss_legendre(radial)
     rho = np.sqrt((1 + square) / 2)
     theta = (np.arange(angular // 2) + 0.5) * (2 * pi / angular)
@@ -92,7 +96,9 @@ def chord_rows(rows: int, columns: int) -> RowNodes:
     y act once per row. Counts are for the whole disc. Raises SamplingError.
     """
     if rows < 2 or columns < 2 or rows % 2 or columns % 2:
-        raise SamplingError(f"{rows} rows × {columns} columns; give even counts of at least 2")
+        raise SamplingError(
+            "{rows} rows × {columns} columns; give even counts of at least 2", rows=rows, columns=columns
+        )
     angle = np.arange(1, rows // 2 + 1) * (pi / (rows + 1))
     along, weight = (x[columns // 2 :] for x in gauss_legendre(columns))
     share = np.outer(np.sin(angle) ** 2 * (4 / (rows + 1)), weight)
@@ -107,7 +113,7 @@ def grid_rows(size: int) -> RowNodes:
     Second-order at best: good for a picture that moves (128²: some 4e-2 relative L2 far off axis).
     """
     if size < 2 or size % 2:
-        raise SamplingError(f"a pupil grid of {size} samples; give an even count of at least 2")
+        raise SamplingError("a pupil grid of {size} samples; give an even count of at least 2", size=size)
     centre = (np.arange(size // 2) + 0.5) * (2 / size)
     area = cell_areas(centre, centre, 2 / size)
     name = f"{size} × {size} uniform grid, edge cells weighted by area"

@@ -103,11 +103,16 @@ def padded_fft(pupil: np.ndarray, pupil_samples: int, pixels: int) -> np.ndarray
 def check_fft(pupil_samples: int, pixels: int) -> None:
     """Raise SamplingError unless NPSF is even and NPUPIL an even number of at least twice as many."""
     if pixels % 2:
-        raise SamplingError(f"an FFT needs an even number of PSF samples, not {pixels}; add one or use mdft")
+        raise SamplingError(
+            "an FFT needs an even number of PSF samples, not {pixels}; add one or use mdft", pixels=pixels
+        )
     if pupil_samples % 2 or pupil_samples < 2 * pixels:
         raise SamplingError(
-            f"{pupil_samples} pupil samples are too few for {pixels} PSF samples by FFT; "
-            f"give an even number of at least {2 * pixels}"
+            "{pupil_samples} pupil samples are too few for {pixels} PSF samples by FFT; "
+            "give an even number of at least {least}",
+            pupil_samples=pupil_samples,
+            pixels=pixels,
+            least=2 * pixels,
         )
 
 

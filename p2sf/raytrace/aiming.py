@@ -110,7 +110,7 @@ def pupil_rays(lens: Lens, source: Source, xi, eta, aim: str = "paraxial", stop:
     if aim == "paraxial":
         return _through(enter, enter.radius * xi, enter.radius * eta)
     if aim != "real":
-        raise GeometryError(f'aim "{aim}" is unknown; choose "paraxial" or "real"')
+        raise GeometryError('aim "{aim}" is unknown; choose "paraxial" or "real"', aim=aim)
     return _aimed(lens, enter, xi, eta)
 
 

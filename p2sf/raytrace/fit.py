@@ -127,8 +127,8 @@ def fit(
         if numbers or found.error_waves < residual_waves:
             return found
     if traced == 0:
-        offered = ", ".join(str(level.numbers) for level in LEVELS)
-        raise GeometryError(f"no fit has {numbers} numbers; choose one of {offered}")
+        offered = tuple(level.numbers for level in LEVELS)
+        raise GeometryError("no fit has {numbers} numbers; choose one of {offered}", numbers=numbers, offered=offered)
     return found
 
 
@@ -137,7 +137,11 @@ def _trace(lens, source, level: Level, aim, stop) -> RayData:
     rays = pencil(lens, source, xi, eta, aim, stop=stop)
     if not rays.passed.all():
         lost = int((~rays.passed).sum())
-        raise GeometryError(f"{lost} of {xi.size} rays do not reach the sensor; stop the lens down or reduce the field")
+        raise GeometryError(
+            "{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field",
+            lost=lost,
+            total=xi.size,
+        )
     return ray_data(rays)
 
 

@@ -12,7 +12,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
 from p2sf.raytrace.aiming import PupilRays, entrance, pupil_rays, start
 from p2sf.raytrace.surface import Status
-from p2sf.raytrace.trace import Trace, lens_rims, run, status_sentence, trace
+from p2sf.raytrace.trace import Trace, lens_rims, run, status_message, trace
 
 __all__ = ["Pencil", "PupilRays", "Status", "Trace", "diffraction_phase", "displayed_opd", "pupil_rays", "trace"]
 
@@ -103,8 +103,8 @@ def _blank(beam) -> None:
     """Make failed rays NaN throughout, and refuse a pencil whose chief ray failed."""
     bad = beam.status != Status.PASSED
     if bad[..., -1].any():
-        status, surface = (a[..., -1][bad[..., -1]].ravel()[0] for a in (beam.status, beam.failed_surface))
-        raise GeometryError(f"the chief ray {status_sentence(status, surface)}; choose a smaller field")
+        status, surface = (int(a[..., -1][bad[..., -1]].ravel()[0]) for a in (beam.status, beam.failed_surface))
+        raise GeometryError("the chief ray {outcome}; choose a smaller field", outcome=status_message(status, surface))
     for column in (beam.x, beam.y, beam.p, beam.q, beam.r, beam.path):
         column[bad] = np.nan
 

@@ -6,15 +6,17 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
 from p2sf.raytrace.surface import Beam, Status, clip, meet, refract, to_plane
 
-_REASONS = {
-    Status.MISSED: "misses surface {0}",
-    Status.REFLECTED: "is totally reflected at surface {0}",
-    Status.CLIPPED: "is stopped by the rim of surface {0}",
-    Status.REFUSED: "meets the asphere on surface {0} where no safe intersection was found",
-    Status.UNAIMED: "could not be aimed at its place in the stop, surface {0}",
+_OUTCOMES = {
+    Status.PASSED: "passes",
+    Status.MISSED: "misses surface {surface}",
+    Status.REFLECTED: "is totally reflected at surface {surface}",
+    Status.CLIPPED: "is stopped by the rim of surface {surface}",
+    Status.REFUSED: "meets the asphere on surface {surface} where no safe intersection was found",
+    Status.UNAIMED: "could not be aimed at its place in the stop, surface {surface}",
 }
 
 
@@ -34,9 +36,9 @@ class Trace:
     failed_surface: np.ndarray
 
 
-def status_sentence(status: int, surface: int) -> str:
+def status_message(status: int, surface: int) -> Message:
     """Return what happened to a ray, as the end of a sentence that begins with "the ray"."""
-    return _REASONS[Status(status)].format(surface) if status else "passes"
+    return Message(_OUTCOMES[Status(status)], surface=surface)
 
 
 def trace(lens: Lens, origins, directions, wavelength_um, clip: bool = False) -> Trace:

@@ -88,9 +88,7 @@ def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, aim, clip).passed
     if not passed.any():
-        raise GeometryError(
-            "the rims clip every ray of this field; leave clip off or reduce the field" if clip else LOST
-        )
+        raise GeometryError(CLIPPED if clip else LOST)
     centre = float(eta[passed].mean())
     if not pencil(lens, source, [0.0], [centre], aim, clip).passed.all():
         raise GeometryError("the clear part of the pupil has no clear centre; leave clip off or reduce the field")

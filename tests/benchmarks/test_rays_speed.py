@@ -20,8 +20,7 @@ from p2sf.psf.methods import choose, render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.raytrace.pencil import opd_map, trace
-from tests.raytrace.test_pencil import case
-from tests.support.reference import huygens_rows
+from tests.support.reference import case, huygens_rows
 
 ROUNDS = 200
 ROW, STORED, _ = huygens_rows("double_gauss_28")[2]

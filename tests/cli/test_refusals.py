@@ -21,8 +21,8 @@ from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
 from p2sf.raytrace.pencil import pencil, pupil_rays, spot
 from p2sf.scene import Sensor, read_scene
-from tests.extremes.test_named import twice_telecentric
 from tests.support.lens_files import read, read_file
+from tests.support.simple_lenses import twice_telecentric
 
 TRIPLET, DOUBLET, BENCH = "triplet.json", "doublet.seq", "bench.txt"
 GLASS = ConstantIndex(1.5)

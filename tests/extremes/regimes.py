@@ -10,6 +10,7 @@ from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.first_order import basis_rays, cardinal_points
 from tests.support.reference import prescription_lens, reference
+from tests.support.simple_lenses import simple, telescope
 
 WAVELENGTH = 0.5875618
 BASES = ("double_gauss_28", "achromat_f6", "eye_navarro", "asphere")
@@ -48,12 +49,6 @@ def base(name: str) -> Lens:
     """Return a reference lens with the indices listed at the wavelength nearest to the d line."""
     wavelength_nm = min((float(key) for key in reference(name)["indices"]), key=lambda x: abs(x - 587.5618))
     return prescription_lens(name, wavelength_nm)
-
-
-def simple(rows, stop=1, rim=5.0, before=1.0) -> Lens:
-    """Return a lens from rows (radius, thickness, index behind)."""
-    surfaces = tuple(Surface(r, t, ConstantIndex(n)) for r, t, n in rows)
-    return Lens(surfaces, Aperture("stop_semi_diameter", rim), stop, object_medium=ConstantIndex(before))
 
 
 def random_lens(count: int, seed: int, figured: bool = False) -> Lens:
@@ -151,13 +146,6 @@ def many_surface_cases():
         for seed in range(3 if count < 50 else 1):
             for depth in (inf, 250.0):
                 yield Case("1 … 400 surfaces", random_lens(count, seed, figured=seed == 1), depth)
-
-
-def telescope(second: float, gap_free: float) -> Lens:
-    """Return plano-convex f=100 and a plano lens of focal length ``second``, their foci together."""
-    first = 50.0  # radius for f = 100 at n = 1.5
-    gap = 100.0 + second - gap_free / 1.5
-    return simple([(first, gap_free, 1.5), (inf, gap, 1.0), (inf, 0.0, 1.5), (-second / 2, 30.0, 1.0)], 1, 4.0)
 
 
 def afocal_cases():

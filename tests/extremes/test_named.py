@@ -23,7 +23,8 @@ from p2sf.paraxial.pupils import (
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import seidel_psf
 from p2sf.raytrace.pencil import Status, trace
-from tests.extremes.regimes import WAVELENGTH, base, random_lens, simple, telescope
+from tests.extremes.regimes import WAVELENGTH, base, random_lens
+from tests.support.simple_lenses import simple, telescope, twice_telecentric
 
 TELESCOPES = (telescope(-40.0, 3.0), telescope(25.0, 3.0), telescope(-33.3, 0.7), telescope(41.7, 0.3))
 
@@ -67,12 +68,6 @@ def test_an_object_in_the_front_focal_plane_has_its_image_at_infinity(name):
     # 1e-12 beside it there is an image again, on the side it belongs to
     near, far = image_distance(lens, depth * np.array([1 - 1e-12, 1 + 1e-12]), WAVELENGTH)
     assert -inf < near < 0 < far < inf
-
-
-def twice_telecentric() -> Lens:
-    """Return a relay of two plano-convex lenses with the stop in the focus both share."""
-    rows = [(inf, 3.0, 1.5), (-50.0, 100.0, 1.0), (inf, 100.0, 1.0), (50.0, 3.0, 1.5), (inf, 98.0, 1.0)]
-    return simple(rows, 3, 4.0)
 
 
 def test_a_stop_imaged_to_infinity_on_both_sides():

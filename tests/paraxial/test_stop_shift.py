@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.seidel import seidel_sums
-from tests.psf.test_laws import law, rays_or_skip
-from tests.support.random_lenses import depths, lenses, wavelengths
+from tests.support.random_lenses import depths, law, lenses, rays_or_skip, wavelengths
 
 
 def shifted_stop(lens: Lens, to: int, depth, wavelength) -> Lens:

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from p2sf.conventions import centred_axis, mirrored
+from p2sf.conventions import centred_axis
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import compare, r_squared, relative_l2
 from p2sf.psf.gaussian_fit import gaussian, gaussian_psf
 from p2sf.psf.result import Psf
 from tests.support.reference import huygens_rows
+from tests.support.waves import mirrored
 
 AXIS = centred_axis(64, 0.5)
 

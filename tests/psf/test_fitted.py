@@ -13,14 +13,8 @@ from p2sf.pupil.zernike import basis, gradient, terms
 from p2sf.raytrace.fit import LEVELS
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
-from tests.psf.test_huygens import r_squared
-from tests.raytrace.test_pencil import case
-from tests.support.reference import LENSES, huygens_rows
-
-
-def cases(name):
-    for row, stored, _ in huygens_rows(name):
-        yield *case(name, row), row["pixel_um"], stored
+from tests.support.reference import LENSES, cases
+from tests.support.waves import r_squared
 
 
 def test_a_basis_is_kept_unless_it_is_large():

@@ -16,13 +16,9 @@ from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
 from p2sf.raytrace.vignetting import clear_nodes, outline
-from tests.raytrace.test_pencil import case, double_gauss
-from tests.support.reference import LENSES, huygens_rows, prescription_lens
-
-
-def r_squared(psf, reference):
-    one, two = psf / psf.sum(), reference / reference.sum()
-    return 1 - np.sum((one - two) ** 2) / np.sum((two - two.mean()) ** 2)
+from tests.support.pencils import double_gauss
+from tests.support.reference import LENSES, case, huygens_rows, prescription_lens
+from tests.support.waves import r_squared
 
 
 @pytest.mark.parametrize("name", LENSES)

@@ -17,21 +17,10 @@ from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.first_order import abcd, basis_rays, cardinal_points, image_distance, magnification
 from p2sf.paraxial.pupils import find_stop, paraxial_rays, pupils
 from p2sf.paraxial.seidel import coefficients, seidel_sums
-from tests.support.random_lenses import between, depths, lenses, slopes, wavelengths
+from tests.support.random_lenses import between, depths, law, lenses, rays_or_skip, slopes, wavelengths
 
 ROUNDING = 1e-13
 SHAPES = ("w40", "w31", "w22", "w20", "w11", "wd")
-law = settings(max_examples=80, deadline=None, derandomize=True)
-
-
-def rays_or_skip(lens: Lens, *where):
-    """Return the paraxial rays of a case that has them, no larger than a metre."""
-    try:
-        rays = paraxial_rays(lens, *where)
-    except P2SFError:
-        assume(False)
-    assume(all(np.abs(x).max() < 1e3 for x in (rays.y, rays.chief_y, rays.nu, rays.chief_nu)))
-    return rays
 
 
 @law

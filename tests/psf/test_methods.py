@@ -19,8 +19,8 @@ from p2sf.raytrace.fit import level_rays
 from p2sf.raytrace.ray_field import RayData
 from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
 from tests.long.method_choice import summary, trials
-from tests.raytrace.test_pencil import case, double_gauss
-from tests.support.reference import huygens_rows
+from tests.support.pencils import double_gauss
+from tests.support.reference import case, huygens_rows
 from tests.support.waves import waves
 
 

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 from scipy.special import j1
 
-from p2sf.conventions import mirrored, slope_from_degrees
+from p2sf.conventions import slope_from_degrees
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_sensor
 from p2sf.paraxial.seidel import coefficients
-from p2sf.paraxial.wavefront import rms
 from p2sf.psf.seidel import (
     AIRY_RADIUS,
     check_window,
@@ -22,7 +21,7 @@ from p2sf.psf.seidel import (
 from p2sf.psf.seidel_stack import rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from tests.support.reference import LENSES, huygens_rows, prescription_lens
-from tests.support.waves import NA, WAVELENGTH_UM, r_squared, relative_l2, waves
+from tests.support.waves import NA, WAVELENGTH_UM, mirrored, r_squared, relative_l2, rms, waves
 
 SYMMETRY = 1e-13
 # The stored R² come from the witness's own converged sums; ours agree to 1.5e-8 at worst (short sum of a bright core).

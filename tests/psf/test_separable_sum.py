@@ -13,8 +13,7 @@ from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.pupil.zernike import basis, columns, evaluate
-from tests.psf.test_fitted import cases
-from tests.support.reference import LENSES
+from tests.support.reference import LENSES, cases
 
 
 @pytest.mark.parametrize("odd", [False, True])

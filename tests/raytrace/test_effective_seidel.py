@@ -8,8 +8,7 @@ import pytest
 from p2sf.lens.lens import Aperture, with_sensor
 from p2sf.paraxial.first_order import image_distance
 from p2sf.raytrace.effective_seidel import effective_seidel
-from tests.raytrace.test_pencil import case
-from tests.support.reference import huygens_rows
+from tests.support.reference import case, huygens_rows
 
 WORDS = ("w40", "w31", "w22", "w20", "w11")
 
@@ -40,7 +39,7 @@ def test_off_axis_the_words_differ_and_the_remainder_says_that_six_are_not_enoug
     found = effective_seidel(lens, source, 46)
     assert abs(float(found.fitted.w22 - found.seidel.w22)) > 1
     assert found.remainder_waves > 0.1
-    # DESIGN.md section 2, from another program: NA × 0.979 sagittal, × 0.945 tangential at the chief ray.
+    # From another program: NA × 0.979 sagittal, × 0.945 tangential at the chief ray.
     assert found.squeeze_x == pytest.approx(0.979, abs=0.02) and found.squeeze_y == pytest.approx(0.945, abs=0.02)
 
 

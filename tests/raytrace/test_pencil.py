@@ -27,16 +27,10 @@ from p2sf.raytrace.pencil import (
     trace,
 )
 from tests.support.pencils import GLASS, disc, double_gauss, one_surface
-from tests.support.reference import LENSES, huygens_rows, prescription_lens
+from tests.support.reference import LENSES, case, huygens_rows, prescription_lens
 
 # The witness promises its OPD to 1e-9 waves of paths of 1e5 waves; ours keeps 3.5e-9 in double precision.
 OPD_TOLERANCE = 1e-8
-
-
-def case(name, row):
-    lens = with_sensor(prescription_lens(name, row["wavelength_nm"]), row["sensor_mm"])
-    depth = inf if row["depth_mm"] is None else row["depth_mm"]
-    return lens, Source(depth, np.tan(np.deg2rad(row["field_deg"])), row["wavelength_nm"] / 1000)
 
 
 @pytest.mark.parametrize("name", LENSES)

@@ -2,10 +2,16 @@
 
 from math import inf
 
+import numpy as np
+from hypothesis import assume, settings
 from hypothesis import strategies as st
 
+from p2sf.errors import P2SFError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.paraxial.pupils import ParaxialRays, paraxial_rays
+
+law = settings(max_examples=80, deadline=None, derandomize=True)
 
 
 def between(low: float, high: float):
@@ -39,3 +45,13 @@ depths = st.one_of(st.just(inf), between(1e-3, 1e15), between(5.0, 500.0))
 # 0, or at least 1e-12: the cube of a slope of 1e-103 is no ordinary number any more
 slopes = st.one_of(st.just(0.0), between(1e-12, 0.6), between(-0.6, -1e-12), between(1e-12, 600.0))
 wavelengths = between(0.2, 12.0)
+
+
+def rays_or_skip(lens: Lens, *where) -> ParaxialRays:
+    """Return the paraxial rays at (depth, wavelength); skips the example if there are none, or none below a metre."""
+    try:
+        rays = paraxial_rays(lens, *where)
+    except P2SFError:
+        assume(False)
+    assume(all(np.abs(x).max() < 1e3 for x in (rays.y, rays.chief_y, rays.nu, rays.chief_nu)))
+    return rays

@@ -1,6 +1,7 @@
 """The independent witness's lenses and numbers (see tests/data/README.md for what they are)."""
 
 import json
+from collections.abc import Iterator
 from functools import cache
 from math import inf
 from pathlib import Path
@@ -8,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.glass.media import ConstantIndex
-from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
+from p2sf.lens.source import Source
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -61,3 +63,16 @@ def huygens_rows(name: str) -> list[tuple[dict, np.ndarray, np.ndarray]]:
         (row, arrays[f"psf_{row['array']}"], arrays[f"opd_{row['array']}"])
         for row in reference(name)["huygens"]["rows"]
     ]
+
+
+def case(name: str, row: dict) -> tuple[Lens, Source]:
+    """Return the lens and the source of a stored Huygens row."""
+    lens = with_sensor(prescription_lens(name, row["wavelength_nm"]), row["sensor_mm"])
+    depth = inf if row["depth_mm"] is None else row["depth_mm"]
+    return lens, Source(depth, np.tan(np.deg2rad(row["field_deg"])), row["wavelength_nm"] / 1000)
+
+
+def cases(name: str) -> Iterator[tuple[Lens, Source, float, np.ndarray]]:
+    """Yield lens, source, pixel pitch in µm and stored PSF of every Huygens row of a lens."""
+    for row, stored, _ in huygens_rows(name):
+        yield *case(name, row), row["pixel_um"], stored

@@ -3,6 +3,7 @@
 import numpy as np
 
 from p2sf.paraxial.seidel import Coefficients
+from p2sf.paraxial.wavefront import shape_coefficients
 
 NA, WAVELENGTH_UM = 0.1, 0.5
 
@@ -20,6 +21,24 @@ def relative_l2(values, reference) -> float:
 
 
 def r_squared(psf, reference) -> float:
-    """Return 1 − Σ(ref − p)²/Σ(ref − mean)² of the two, unit sum each (DESIGN: how accuracy is stated)."""
+    """Return 1 − Σ(ref − p)²/Σ(ref − mean)² of the two, each normalised to unit sum."""
     p, ref = psf / psf.sum(), reference / reference.sum()
     return float(1 - ((ref - p) ** 2).sum() / ((ref - ref.mean()) ** 2).sum())
+
+
+def mirrored(values: np.ndarray) -> np.ndarray:
+    """Return an even-sized PSF turned upside down about the chief ray's sample: what a wrong sign gives."""
+    return np.roll(values[..., ::-1, :], 1, axis=-2)
+
+
+def rms(coefficients: Coefficients, tilt_removed: bool = True) -> np.ndarray:
+    """Return the RMS of W about its mean over the disc, waves, exact; W11 left out.
+
+    ``tilt_removed`` also takes out the tilt in coma, which moves the peak and does not lower it: (2πσ)² is then the
+    Strehl ratio's loss by a small aberration (Maréchal). The variances of the orthogonal parts
+    (Born & Wolf 1999, §9.2.1) add: spherical aberration with focus, coma, astigmatism.
+    """
+    w40, w31, w22, focus, _ = shape_coefficients(coefficients)
+    mean_focus = focus + w22 / 2
+    axial = 4 / 45 * w40**2 + w40 * mean_focus / 6 + mean_focus**2 / 12
+    return np.sqrt(axial + w31**2 / (72 if tilt_removed else 8) + w22**2 / 24)

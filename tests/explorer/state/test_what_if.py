@@ -8,7 +8,6 @@ import pytest
 from PySide6.QtCore import Qt
 
 from p2sf.errors import GeometryError, SamplingError
-from p2sf.paraxial.wavefront import rms
 from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.charts.painting import set_text
 from p2sf_explorer.compute import live as compute
@@ -21,6 +20,7 @@ from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, is_altered, of_preset, toggled, with_added
 from p2sf_explorer.widgets.coefficient_mixer import NUMBER, waves
+from tests.support.waves import rms
 
 FIELD = State(method="fitted", field_deg=7.0)
 

@@ -1,0 +1,28 @@
+"""Lenses written as a few numbers: single elements, afocal pairs, a telecentric relay."""
+
+from math import inf
+
+from p2sf.glass.media import ConstantIndex
+from p2sf.lens.lens import Aperture, Lens, Surface
+
+
+def simple(rows, stop=1, rim=5.0, before=1.0) -> Lens:
+    """Return a lens from rows (radius, thickness, index behind)."""
+    surfaces = tuple(Surface(r, t, ConstantIndex(n)) for r, t, n in rows)
+    return Lens(surfaces, Aperture("stop_semi_diameter", rim), stop, object_medium=ConstantIndex(before))
+
+
+def telescope(second: float, thickness: float) -> Lens:
+    """Return an afocal pair: a plano-convex lens of f = 100 mm and one of f = ``second``, with a common focus.
+
+    ``thickness`` is the centre thickness of the first lens, mm.
+    """
+    first = 50.0  # radius for f = 100 at n = 1.5
+    gap = 100.0 + second - thickness / 1.5
+    return simple([(first, thickness, 1.5), (inf, gap, 1.0), (inf, 0.0, 1.5), (-second / 2, 30.0, 1.0)], 1, 4.0)
+
+
+def twice_telecentric() -> Lens:
+    """Return a relay of two plano-convex lenses with the stop in their common focus: telecentric on both sides."""
+    rows = [(inf, 3.0, 1.5), (-50.0, 100.0, 1.0), (inf, 100.0, 1.0), (50.0, 3.0, 1.5), (inf, 98.0, 1.0)]
+    return simple(rows, 3, 4.0)
