@@ -5,11 +5,11 @@ Surfaces count from 1 in every message and file. Seidel signs are Welford's (Abe
 Optical Systems, 1986, ch. 8).
 
 Units. Lens lengths mm; wavelength and sensor-plane coordinates µm; wavefront in waves; angles
-radians. Whatever is not plain mm carries its unit in its name. Degrees and nanometres live only
-in files, on the command line and in the app.
+radians. Whatever is not plain mm carries its unit in its name. Degrees and nanometres occur only
+in files, on the command line and in the window.
 
 Source. Depth is the distance from the object plane to the first vertex, positive, ``inf`` allowed;
-inside it is a vergence 1/depth so that infinity is an ordinary number. Field is the slope
+computations use the vergence 1/depth, for which infinity is an ordinary number. Field is the slope
 (tangent) of the chief ray at the entrance pupil, at every depth; a positive field comes from an
 object below the axis and lands above it.
 
@@ -25,43 +25,50 @@ sensor offset (x, y) is ΣA·exp(+i2πW)·exp(−i2π n'u'(ξx + ηy)/λ) over e
 this numpy's ``ifft2`` sign, and a relay is not turned by 180°.
 """
 
+from typing import TypeAlias
+
 import numpy as np
+from numpy.typing import ArrayLike
+
+FloatOrArray: TypeAlias = float | np.ndarray  # the same formula serves both; numbers are several times faster
 
 UM_PER_MM = 1000.0
 NM_PER_UM = 1000.0
 
 
-def vergence(distance_mm):
-    """1/distance, per mm; 0 for an infinite distance, so that infinity needs no branch."""
+def vergence(distance_mm: ArrayLike) -> np.ndarray:
+    """Return 1/distance, per mm; 0 for an infinite distance, so that infinity needs no branch."""
     return 1.0 / np.asarray(distance_mm, dtype=float)
 
 
-def slope_from_degrees(angle_deg):
-    """Return field slope (tangent) of a field angle in degrees."""
-    return np.tan(np.deg2rad(angle_deg))
+def slope_from_degrees(angle_deg: ArrayLike) -> np.ndarray:
+    """Return the field slope (tangent) of a field angle in degrees."""
+    slope: np.ndarray = np.tan(np.deg2rad(angle_deg))
+    return slope
 
 
-def degrees_from_slope(slope):
-    """Return field angle in degrees of a field slope."""
-    return np.rad2deg(np.arctan(slope))
+def degrees_from_slope(slope: ArrayLike) -> np.ndarray:
+    """Return the field angle in degrees of a field slope."""
+    degrees: np.ndarray = np.rad2deg(np.arctan(slope))
+    return degrees
 
 
 def centred_axis(count: int, step: float = 1.0) -> np.ndarray:
-    """Sample positions of a PSF axis, shape (count,): sample count//2 is 0, the chief ray."""
+    """Return sample positions of a PSF axis, shape (count,): sample count//2 is 0, the chief ray."""
     return (np.arange(count) - count // 2) * step
 
 
-def anywhere(flags) -> bool:
-    """Return whether any flag is set; the one flag of one source, a numpy bool, needs no reduction."""
+def anywhere(flags: np.ndarray | np.bool) -> bool:
+    """Return whether any flag is set; a single one, a numpy bool, needs no reduction."""
     return bool(flags.any() if flags.ndim else flags)
 
 
-def is_number(value) -> bool:
-    """Return whether a value has no axes; np.ndim alone takes ten times as long for a plain number."""
+def is_number(value: ArrayLike) -> bool:
+    """Return whether a value has no axes; `np.ndim` alone takes ten times as long for a plain number."""
     return isinstance(value, float | int) or np.ndim(value) == 0
 
 
 def protected(values: np.ndarray) -> np.ndarray:
-    """Return the array write-protected, as one that a cache hands out to everybody must be."""
+    """Return the array, write-protected, since a cache hands out the same one to everybody."""
     values.setflags(write=False)
     return values

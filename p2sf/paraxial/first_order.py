@@ -4,12 +4,13 @@ Everything follows from two basis rays, (y, nu) = (1, 0) and (0, 1) at the first
 heights and reduced angles at every surface are the running system matrices.
 """
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import anywhere, is_number, protected, vergence
+from p2sf.conventions import FloatOrArray, anywhere, is_number, protected, vergence
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices
 
@@ -29,18 +30,20 @@ class BasisRays:
     c: np.ndarray
     d: np.ndarray
     index: np.ndarray
-    power: list
-    gap: list
+    power: tuple
+    gap: tuple
 
     @property
-    def object_index(self):
+    def object_index(self) -> np.ndarray:
         """Return the index of object space."""
-        return self.index[0]
+        index: np.ndarray = self.index[0]
+        return index
 
     @property
-    def image_index(self):
+    def image_index(self) -> np.ndarray:
         """Return the index of image space."""
-        return self.index[-1]
+        index: np.ndarray = self.index[-1]
+        return index
 
 
 @dataclass(frozen=True)
@@ -56,11 +59,11 @@ class CardinalPoints:
     rear_nodal_from_last: np.ndarray
 
 
-def basis_rays(lens: Lens, wavelength_um, beside=()) -> BasisRays:
+def basis_rays(lens: Lens, wavelength_um: FloatOrArray, beside: tuple[FloatOrArray, ...] = ()) -> BasisRays:
     """Trace the two basis rays; arrays of shape (surfaces, *wavelength_um.shape).
 
-    ``beside``: arrays the result will be combined with; the wavelength is given their number of axes
-    (ones in front, as numpy broadcasts), so that the surface axis stays the first of all.
+    ``beside``: arrays that the result will be combined with; the wavelength gets as many axes as they have
+    (of length one, in front, as numpy broadcasts), so that the surface axis stays the first of all.
     """
     if all([is_number(x) for x in (wavelength_um, *beside)]):
         return _basis_at(lens, float(wavelength_um))
@@ -71,7 +74,7 @@ def basis_rays(lens: Lens, wavelength_um, beside=()) -> BasisRays:
 
 @lru_cache(maxsize=64)
 def _basis_at(lens: Lens, wavelength_um: float) -> BasisRays:
-    """Return the basis rays of one wavelength, which stay while depth and field are dragged; write-protected."""
+    """Return the basis rays of one wavelength, kept while depth and field are dragged; write-protected."""
     rays = _basis(lens, np.asarray(wavelength_um))
     _ = [protected(values) for values in (rays.a, rays.b, rays.c, rays.d, rays.index)]
     return rays
@@ -83,10 +86,11 @@ def _basis(lens: Lens, wavelength: np.ndarray) -> BasisRays:
     steps = zip(lens.surfaces, layers, layers[1:], strict=False)
     power, gap = zip(*((s.curvature * (after - n), s.thickness / after) for s, n, after in steps), strict=True)
     rows = zip(march(power, gap, 1.0, 0.0), march(power, gap, 0.0, 1.0), strict=True)
-    return BasisRays(*columns_of([(a, b, c, d) for (a, c), (b, d) in rows], index.shape[1:]), index, power, gap)
+    a, b, c, d = columns_of([(a, b, c, d) for (a, c), (b, d) in rows], index.shape[1:])
+    return BasisRays(a, b, c, d, index, power, gap)
 
 
-def march(power, gap, y, nu) -> list:
+def march(power: Iterable, gap: Iterable, y: FloatOrArray, nu: FloatOrArray) -> list[tuple]:
     """Return (height, reduced angle behind) at every surface of the ray that arrives as (y, nu) at the first."""
     rows = []
     for strength, reduced in zip(power, gap, strict=False):
@@ -96,83 +100,85 @@ def march(power, gap, y, nu) -> list:
     return rows
 
 
-def columns_of(rows, shape):
+def columns_of(rows: Sequence[tuple], shape: tuple[int, ...]) -> np.ndarray:
     """Return rows of numbers or arrays as arrays (surfaces, *shape), one per column."""
     if not shape:
         return np.array(rows, dtype=float).T
     columns = np.empty((len(rows[0]), len(rows), *shape))
-    for number, row in enumerate(rows):  # assigning spreads a number at a tenth of np.broadcast_to's price
+    for number, row in enumerate(rows):  # assignment spreads a number in a tenth of np.broadcast_to's time
         for column, values in zip(columns, row, strict=True):
             column[number] = values
     return columns
 
 
-# An angle below this many roundings of the powers and gaps it comes from is none: 32 leaves room for a focal
-# length, and from it a gap, that someone computed in double precision.
+# An angle below this many roundings of the powers and gaps it comes from counts as zero: 32 leaves room for a
+# focal length, and a gap derived from it, that someone computed in double precision.
 ROUNDING = 32 * np.finfo(float).eps
 SUSPICIOUS = 1e-9
 
 
-def settled_angle(power, gap, y, nu):
+def settled_angle(power: Iterable, gap: Iterable, y: np.ndarray, nu: np.ndarray) -> np.ndarray:
     """Return the last reduced angle of a ray, exactly 0 where it is nothing but the rounding of the inputs.
 
     ``y``, ``nu``: heights at, reduced angles behind the surfaces that ``power`` and ``gap`` belong to. A
-    change of power bends by −δ·y, a change of gap lifts by δ·nu; a ray that ends parallel to the axis shares
-    its Lagrange invariant with what they cause, so its last angle moves by Σ(|δpower|y² + |δgap|nu²)/y_last.
+    change of power bends a ray by −δ·y, a change of gap lifts it by δ·nu. By the Lagrange invariant of the ray and
+    its change, the last angle of a ray that ends parallel to the axis moves by Σ(|δpower|y² + |δgap|nu²)/y_last.
     """
-    last = nu[-1]
-    # Plain numbers settle the usual case of one source a good deal faster.
+    last: np.ndarray = nu[-1]
+    # Plain numbers are a good deal faster in the usual case of one source.
     largest = max(map(abs, nu.tolist())) if nu.ndim == 1 else np.abs(nu).max(0)
     parallel = abs(last) <= SUSPICIOUS * largest
     if not anywhere(parallel):
         return last
-    noise = sum(np.abs(p) * h * h for p, h in zip(power, y, strict=False))
+    noise: FloatOrArray = sum(np.abs(p) * h * h for p, h in zip(power, y, strict=False))
     noise = noise + sum(np.abs(g) * v * v for g, v in zip(gap, nu[:-1], strict=False))
     return np.where(parallel & (np.abs(last * y[-1]) <= ROUNDING * noise), 0.0, last)
 
 
-def chief_ray(rays: BasisRays, stop_surface):
+def chief_ray(rays: BasisRays, stop_surface: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
     """Return heights (surfaces, …) and reduced angles (surfaces + 1, …) of the ray (0, 1) at the stop's centre.
 
-    It is traced outwards from the stop: taken from the basis rays at the first vertex, a chief ray a hair
-    behind the stop would be the difference of two large heights. The reduced angles at both ends are exactly
-    zero where only rounding is left, that is where a pupil is at infinity.
+    It is traced outwards from the stop: formed from the basis rays at the first vertex, its height just behind
+    the stop would be the difference of two large numbers. The reduced angles at both ends are exactly
+    zero where only rounding is left, that is, where a pupil is at infinity.
     """
     first, *others = (stop_surface,) if is_number(stop_surface) else np.unique(stop_surface)
-    y, nu = (_kept_from_stop if rays.index.ndim == 1 else _from_stop)(rays, int(first) - 1)
+    at = int(first) - 1
+    y, nu = _kept_from_stop(rays, at) if rays.index.ndim == 1 else _from_stop(rays, at)
     for surface in others:
         here = np.asarray(stop_surface) == surface
         y, nu = (np.where(here, new, old) for new, old in zip(_from_stop(rays, int(surface) - 1), (y, nu), strict=True))
     return y, nu
 
 
-def _from_stop(rays: BasisRays, at: int):
+def _from_stop(rays: BasisRays, at: int) -> tuple[np.ndarray, np.ndarray]:
     y, nu = _branch(rays, rays.power[at:], rays.gap[at:])
     back_y, back_nu = _branch(rays, (0.0, *rays.power[:at][::-1]), rays.gap[:at][::-1])  # mirrored: light runs left
     return np.concatenate([-back_y[:0:-1], y]), np.concatenate([back_nu[::-1], nu])
 
 
 @lru_cache(maxsize=64)
-def _kept_from_stop(rays: BasisRays, at: int):
-    """Return the chief ray of one wavelength, which stays while depth and field are dragged; write-protected."""
-    return tuple(map(protected, _from_stop(rays, at)))
+def _kept_from_stop(rays: BasisRays, at: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the chief ray of one wavelength, kept while depth and field are dragged; write-protected."""
+    y, nu = _from_stop(rays, at)
+    return protected(y), protected(nu)
 
 
-def _branch(rays: BasisRays, power, gap):
-    """Return heights, reduced angles of the ray (0, 1) from the stop on, along one direction of travel."""
+def _branch(rays: BasisRays, power: tuple, gap: tuple) -> tuple[np.ndarray, np.ndarray]:
+    """Return heights and reduced angles of the ray (0, 1) from the stop on, along one direction of travel."""
     y, nu = columns_of(march(power, (*gap, 0.0), 0.0, 1.0), rays.index.shape[1:])
     nu[-1] = settled_angle(power, gap, y, nu)
     return y, nu
 
 
-def abcd(lens: Lens, wavelength_um) -> np.ndarray:
-    """System matrix from first to last vertex in reduced angles, shape (*wavelength_um.shape, 2, 2)."""
+def abcd(lens: Lens, wavelength_um: FloatOrArray) -> np.ndarray:
+    """Return the system matrix from first to last vertex in reduced angles, shape (*wavelength_um.shape, 2, 2)."""
     rays = basis_rays(lens, wavelength_um)
     return np.stack([rays.a[-1], rays.b[-1], rays.c[-1], rays.d[-1]], axis=-1).reshape(*rays.a.shape[1:], 2, 2)
 
 
-def cardinal_points(lens: Lens, wavelength_um) -> CardinalPoints:
-    """Focal, principal and nodal points (Welford 1986, §3); infinite for a lens that is afocal to rounding."""
+def cardinal_points(lens: Lens, wavelength_um: FloatOrArray) -> CardinalPoints:
+    """Return focal, principal and nodal points (Welford 1986, §3); infinite for a lens that is afocal to rounding."""
     rays = basis_rays(lens, wavelength_um)
     n, n_image = rays.object_index, rays.image_index
     a, c, d = rays.a[-1], settled_angle(rays.power, rays.gap, rays.a, rays.c), rays.d[-1]
@@ -189,57 +195,61 @@ def cardinal_points(lens: Lens, wavelength_um) -> CardinalPoints:
         )
 
 
-def _lift(rays: BasisRays):
+def _lift(rays: BasisRays) -> np.ndarray:
     """Return A − 1, summed gap by gap: the difference itself loses every digit when the powers are weak."""
     return sum((gap * c for gap, c in zip(rays.gap[:-1], rays.c, strict=False)), np.zeros(rays.a.shape[1:]))
 
 
-def _turn(rays: BasisRays):
+def _turn(rays: BasisRays) -> np.ndarray:
     """Return D − 1, summed power by power."""
-    return -sum(power * b for power, b in zip(rays.power, rays.b, strict=True))
+    turn: np.ndarray = -sum(power * b for power, b in zip(rays.power, rays.b, strict=True))
+    return turn
 
 
-def _ratio(numerator, power):
+def _ratio(numerator: FloatOrArray, power: np.ndarray) -> np.ndarray:
     """Return numerator/power, infinite wherever the power is exactly zero (0/0 included: no such point)."""
     return np.where(power == 0, np.inf, np.divide(numerator, power))
 
 
-def image_distance(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
-    """Return paraxial image position from the last vertex, mm; infinite for an object in the front focal plane."""
+def image_distance(lens: Lens, depth_mm: FloatOrArray, wavelength_um: FloatOrArray) -> np.ndarray:
+    """Return the paraxial image position from the last vertex, mm; infinite for an object in the front focal plane."""
     rays = basis_rays(lens, wavelength_um, (depth_mm,))
     height, angle = axial_ray(rays, depth_mm)
     return crossing(rays.image_index, height[-1], settled_angle(rays.power, rays.gap, height, angle))
 
 
-def crossing(index, height, reduced_angle):
+def crossing(index: np.ndarray, height: np.ndarray, reduced_angle: np.ndarray) -> np.ndarray:
     """Return where a ray meets the axis, mm behind the plane of its height; +inf if it runs parallel."""
     if np.ndim(reduced_angle) == 0 and reduced_angle:  # the usual case of one source, ten times faster
-        return -index * height / reduced_angle
+        distance: np.ndarray = -index * height / reduced_angle
+        return distance
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(reduced_angle == 0, np.inf, -index * height / reduced_angle)[()]
+        distance = np.where(reduced_angle == 0, np.inf, -index * height / reduced_angle)[()]
+    return distance
 
 
-def magnification(lens: Lens, depth_mm, wavelength_um) -> np.ndarray:
-    """Return transverse magnification nu/(n'u') of the axial ray; 0 for an object at infinity.
+def magnification(lens: Lens, depth_mm: FloatOrArray, wavelength_um: FloatOrArray) -> np.ndarray:
+    """Return the transverse magnification nu/(n'u') of the axial ray; 0 for an object at infinity.
 
-    Infinite for an image at infinity, but for an afocal lens, which magnifies every object alike.
+    Infinite for an image at infinity, except by an afocal lens, which magnifies every object alike.
     """
     rays = basis_rays(lens, wavelength_um, (depth_mm,))
     height, angle = axial_ray(rays, depth_mm)
     start = rays.object_index * vergence(depth_mm)
     last = settled_angle(rays.power, rays.gap, height, angle)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where((start == 0) & (last == 0), 1 / rays.d[-1], start / last)[()]
+        ratio: np.ndarray = np.where((start == 0) & (last == 0), 1 / rays.d[-1], start / last)[()]
+    return ratio
 
 
-def axial_ray(rays: BasisRays, depth_mm):
-    """Return heights at, reduced angles behind every surface of the axial ray of height 1 at the first vertex."""
+def axial_ray(rays: BasisRays, depth_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+    """Return heights at, and reduced angles behind, every surface of the axial ray of height 1 at the first vertex."""
     check_depth(depth_mm)
     start = rays.object_index * vergence(depth_mm)
     return rays.a + rays.b * start, rays.c + rays.d * start
 
 
-def check_depth(depth_mm) -> None:
+def check_depth(depth_mm: FloatOrArray) -> None:
     """Raise GeometryError unless every depth is positive; infinity is allowed."""
     if isinstance(depth_mm, float) and depth_mm > 0:
         return

@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from p2sf.conventions import anywhere, vergence
+from p2sf.conventions import FloatOrArray, anywhere, vergence
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
@@ -19,9 +19,9 @@ from p2sf.paraxial.first_order import (
     settled_angle,
 )
 
-# Two rims whose cones differ by less than the rounding of a prescription's six digits are a tie, not a warning.
+# Two rims whose cones differ by less than the rounding of a prescription's six digits are a tie; no warning then.
 RIM_TIE = 2e-6
-# Nearer to the entrance pupil than a few roundings of its distance, the cone of light is nothing but noise.
+# Nearer to the entrance pupil than a few roundings of its distance, the cone of light is rounding noise.
 OBJECT_IN_PUPIL = 8 * np.finfo(float).eps
 
 
@@ -79,11 +79,13 @@ class ParaxialRays:
     invariant: np.ndarray
 
 
-def find_stop(lens: Lens, depth_mm=np.inf, wavelength_um=None, mode: str = "file") -> Stop:
+def find_stop(
+    lens: Lens, depth_mm: FloatOrArray = np.inf, wavelength_um: FloatOrArray | None = None, mode: str = "file"
+) -> Stop:
     """Return the aperture stop per (depth, wavelength): the file's (``mode="file"``) or the limiting rim (``"auto"``).
 
-    The search follows Pieroni et al. 2015 (qSIF): of all rims, the one the axial ray meets at the
-    greatest fraction of its radius limits the cone. A tie keeps the file's stop.
+    The search follows Pieroni et al. 2015 (qSIF): of all rims, the one that the axial ray meets at the
+    greatest fraction of its radius limits the cone. In a tie the file's stop is kept. Raises GeometryError.
     """
     wavelength = lens.reference_wavelength_um if wavelength_um is None else wavelength_um
     rays = basis_rays(lens, wavelength, (depth_mm,))
@@ -111,7 +113,7 @@ def rim_radii(lens: Lens, named: int, rim: float) -> np.ndarray:
 
 
 def named_stop(lens: Lens) -> int:
-    """Return the stop surface of a lens that names none: the limiting rim at infinity and the reference wavelength."""
+    """Return the stop of a lens that names none: the limiting rim for infinity and the reference wavelength."""
     rims = np.array([surface.semi_diameter for surface in lens.surfaces])
     if not np.isfinite(rims).any():
         raise GeometryError("the lens names no stop surface and no semi-diameters; state one of them")
@@ -119,16 +121,17 @@ def named_stop(lens: Lens) -> int:
     return int(np.argmax(np.abs(rays.a) / rims)) + 1
 
 
-def _limiting_surface(lens: Lens, rays: BasisRays, depth_mm, named: int, rim: float) -> np.ndarray:
+def _limiting_surface(lens: Lens, rays: BasisRays, depth_mm: FloatOrArray, named: int, rim: float) -> np.ndarray:
     height, _ = axial_ray(rays, depth_mm)
     rims = rim_radii(lens, named, rim)
     fraction = np.abs(height) / rims.reshape(-1, *[1] * (height.ndim - 1))
     fraction[named - 1] *= 1 + RIM_TIE
-    return np.argmax(fraction, axis=0) + 1
+    limiting: np.ndarray = np.argmax(fraction, axis=0) + 1
+    return limiting
 
 
 def stop_rim(lens: Lens) -> float:
-    """Return semi-diameter of the stop in mm, from whatever way the aperture is stated.
+    """Return the semi-diameter of the stop in mm, however the aperture is stated.
 
     Raises GeometryError for an f-number of an afocal lens, or a pupil diameter when the pupil is at infinity.
     """
@@ -147,8 +150,8 @@ def stop_rim(lens: Lens) -> float:
     return scale / (2 * power * lens.aperture.value)
 
 
-def pupils(lens: Lens, wavelength_um, stop: Stop | None = None) -> Pupils:
-    """Return entrance and exit pupil over (depth, wavelength) as the stop varies; mm."""
+def pupils(lens: Lens, wavelength_um: FloatOrArray, stop: Stop | None = None) -> Pupils:
+    """Return entrance and exit pupil, mm, over the wavelength and the (depth, wavelength) axes of ``stop``."""
     stop = stop or find_stop(lens)
     rays = basis_rays(lens, wavelength_um, (stop.surface,))
     y, nu = chief_ray(rays, stop.surface)
@@ -162,15 +165,18 @@ def pupils(lens: Lens, wavelength_um, stop: Stop | None = None) -> Pupils:
 
 
 def paraxial_rays(
-    lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None, field: Literal["slope", "height"] = "slope"
+    lens: Lens,
+    depth_mm: FloatOrArray,
+    wavelength_um: FloatOrArray,
+    stop: Stop | None = None,
+    field: Literal["slope", "height"] = "slope",
 ) -> ParaxialRays:
     """Return marginal and unit-field chief ray over broadcast (depth, wavelength).
 
     ``field="slope"``: the chief ray has slope 1 at the entrance pupil; ``"height"``: it comes from an object
-    1 mm below the axis, which a telecentric object space needs. The marginal ray is positive at the entrance
-    pupil (at the stop, if that pupil is at infinity) and has no singular depth but the one that puts the
-    object into the entrance pupil. Raises GeometryError there, for a slope when the entrance pupil is at
-    infinity, and for a height when the object is.
+    1 mm below the axis, which a telecentric object space needs. The height of the marginal ray is positive at
+    the entrance pupil (at the stop, if that pupil is at infinity). Raises GeometryError for an object in the
+    entrance pupil, for a slope when the entrance pupil is at infinity, and for a height when the object is.
     """
     check_depth(depth_mm)
     surface, rim = (stop.surface, stop.semi_diameter) if stop else file_stop(lens)
@@ -188,8 +194,8 @@ def paraxial_rays(
     return ParaxialRays(y, nu, centre_y * scale, centre_nu * scale, rays.index, side * rim * scale)
 
 
-def _check_field(field: str, a, close) -> None:
-    """Raise GeometryError where a slope (entrance pupil at infinity) or a height (object there) says nothing."""
+def _check_field(field: str, a: np.ndarray, close: np.ndarray) -> None:
+    """Raise GeometryError where a slope (entrance pupil at infinity) or a height (object there) has no meaning."""
     if field == "slope" and anywhere(a == 0):
         raise GeometryError(
             "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, "
@@ -199,7 +205,7 @@ def _check_field(field: str, a, close) -> None:
         raise GeometryError("an object at infinity has no height; give the field as an angle or an image height")
 
 
-def _combine(rays: BasisRays, y1, nu1):
+def _combine(rays: BasisRays, y1: np.ndarray, nu1: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return heights at, and reduced angles before and behind, every surface of the ray (y1, nu1)."""
     angle = rays.c * y1 + rays.d * nu1
     nu = np.empty((len(angle) + 1, *angle.shape[1:]))
@@ -207,36 +213,51 @@ def _combine(rays: BasisRays, y1, nu1):
     return rays.a * y1 + rays.b * nu1, nu
 
 
-def f_number(lens: Lens, wavelength_um, stop: Stop | None = None) -> np.ndarray:
-    """Return effective focal length over entrance-pupil diameter; infinite for an afocal lens."""
+def f_number(lens: Lens, wavelength_um: FloatOrArray, stop: Stop | None = None) -> np.ndarray:
+    """Return the effective focal length over entrance-pupil diameter; infinite for an afocal lens."""
     rays = basis_rays(lens, wavelength_um)
     power = np.abs(settled_angle(rays.power, rays.gap, rays.a, rays.c))
     with np.errstate(divide="ignore"):
-        return 1 / (power * pupils(lens, wavelength_um, stop).entrance_diameter)
+        ratio: np.ndarray = 1 / (power * pupils(lens, wavelength_um, stop).entrance_diameter)
+    return ratio
 
 
-def working_f_number(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None) -> np.ndarray:
+def working_f_number(
+    lens: Lens, depth_mm: FloatOrArray, wavelength_um: FloatOrArray, stop: Stop | None = None
+) -> np.ndarray:
     """Return 1/(2 NA) at this depth, NA = n'|u'|; infinite for an image at infinity."""
     with np.errstate(divide="ignore"):
         return 0.5 / numerical_aperture(lens, depth_mm, wavelength_um, stop)
 
 
-def numerical_aperture(lens: Lens, depth_mm, wavelength_um, stop: Stop | None = None) -> np.ndarray:
-    """Return paraxial image-space numerical aperture n'|u'| at this depth."""
-    return np.abs(paraxial_rays(lens, depth_mm, wavelength_um, stop).nu[-1])
+def numerical_aperture(
+    lens: Lens, depth_mm: FloatOrArray, wavelength_um: FloatOrArray, stop: Stop | None = None
+) -> np.ndarray:
+    """Return the paraxial image-space numerical aperture n'|u'| at this depth."""
+    na: np.ndarray = np.abs(paraxial_rays(lens, depth_mm, wavelength_um, stop).nu[-1])
+    return na
 
 
-def field_from_object_height(lens: Lens, depth_mm, wavelength_um, height_mm, stop: Stop | None = None):
-    """Return field slope of an object ``height_mm`` below the axis; GeometryError for an object at infinity."""
+def field_from_object_height(
+    lens: Lens,
+    depth_mm: FloatOrArray,
+    wavelength_um: FloatOrArray,
+    height_mm: FloatOrArray,
+    stop: Stop | None = None,
+) -> np.ndarray:
+    """Return the field slope of an object ``height_mm`` below the axis; GeometryError for an object at infinity."""
     if np.any(np.isinf(depth_mm)):
         raise GeometryError("an object at infinity has no height; give the field as an angle or an image height")
     return height_mm / (depth_mm + pupils(lens, wavelength_um, stop).entrance_from_first)
 
 
-def field_from_image_height(lens: Lens, wavelength_um, height_mm, stop: Stop | None = None):
-    """Return field slope whose paraxial chief ray meets the sensor at ``height_mm``."""
+def field_from_image_height(
+    lens: Lens, wavelength_um: FloatOrArray, height_mm: FloatOrArray, stop: Stop | None = None
+) -> np.ndarray:
+    """Return the field slope whose paraxial chief ray meets the sensor at ``height_mm``; GeometryError if none does."""
     rays = paraxial_rays(lens, np.inf, wavelength_um, stop)
     unit = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * lens.sensor_mm
     if np.any(unit == 0):
         raise GeometryError("every chief ray meets the sensor on the axis; give the field as an angle")
-    return height_mm / unit
+    slope: np.ndarray = height_mm / unit
+    return slope

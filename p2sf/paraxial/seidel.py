@@ -1,7 +1,7 @@
 """Seidel sums and the six wavefront coefficients: the spatially variant features (SVF).
 
 The chief ray enters with unit field slope; its powers multiply the sums afterwards. That keeps the
-work on (depth, wavelength) only and makes a zero field exactly zero.
+work on (depth, wavelength) only and gives exactly zero for a zero field.
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.first_order import crossing
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
@@ -29,7 +29,7 @@ class SeidelSums:
 
     def total(self) -> "SeidelSums":
         """Return the sums over all surfaces."""
-        return SeidelSums(*map(np.add.reduce, self.columns()))
+        return SeidelSums(*[np.add.reduce(column) for column in self.columns()])
 
     def columns(self) -> tuple[np.ndarray, ...]:
         """Return S_I, S_II, S_III, S_IV, S_V in this order."""
@@ -59,10 +59,11 @@ class Coefficients:
     @property
     def na(self) -> np.ndarray:
         """Image-space numerical aperture n'|u'|."""
-        return np.abs(self.reduced_slope)
+        na: np.ndarray = np.abs(self.reduced_slope)
+        return na
 
 
-def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope=1.0) -> SeidelSums:
+def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope: FloatOrArray = 1.0) -> SeidelSums:
     """Return the five sums per surface at these field slopes (Welford 1986, eqs 8.24 and 8.40 ff.).
 
     ``field_slope`` broadcasts against the rays' (depth, wavelength); the surface stays the first axis.
@@ -75,8 +76,7 @@ def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope=1.0) -> SeidelSums:
 
 def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
     c, figure = (_per_surface(x, rays.y.ndim) for x in _shape_terms(lens))
-    figure = figure if np.count_nonzero(figure) else 0.0
-    return SeidelSums(*surface_sums(c, figure, *_layers(rays), rays.invariant))
+    return SeidelSums(*surface_sums(rays.invariant, c, figure if np.count_nonzero(figure) else 0.0, *_layers(rays)))
 
 
 def _unit_totals(lens: Lens, rays: ParaxialRays) -> tuple:
@@ -85,16 +85,28 @@ def _unit_totals(lens: Lens, rays: ParaxialRays) -> tuple:
         return tuple(map(np.add.reduce, _unit_sums(lens, rays).columns()))
     columns = (column.tolist() for column in (*_shape_terms(lens), *_layers(rays)))
     invariant = float(rays.invariant)
-    return tuple(map(sum, zip(*[surface_sums(*row, invariant) for row in zip(*columns, strict=True)], strict=True)))
+    rows = [surface_sums(invariant, *row) for row in zip(*columns, strict=True)]
+    return tuple(map(sum, zip(*rows, strict=True)))
 
 
-def _layers(rays: ParaxialRays) -> tuple:
-    """Return what both rays are at every surface: n and n', nu and n'u', y, n·ū and ȳ."""
+def _layers(rays: ParaxialRays) -> tuple[np.ndarray, ...]:
+    """Return indices and both rays at every surface: n and n', nu and n'u', y, n·ū and ȳ."""
     index, nu = rays.index, rays.nu
     return index[:-1], index[1:], nu[:-1], nu[1:], rays.y, rays.chief_nu[:-1], rays.chief_y
 
 
-def surface_sums(c, figure, n, after, nu, nu_after, y, chief_nu, chief, invariant) -> tuple:
+def surface_sums(
+    invariant: FloatOrArray,
+    c: FloatOrArray,
+    figure: FloatOrArray,
+    n: FloatOrArray,
+    after: FloatOrArray,
+    nu: FloatOrArray,
+    nu_after: FloatOrArray,
+    y: FloatOrArray,
+    chief_nu: FloatOrArray,
+    chief: FloatOrArray,
+) -> tuple:
     """Return the five sums of a surface of curvature ``c`` and fourth-order ``figure``; numbers or arrays alike."""
     inverse, inverse_after = 1 / n, 1 / after
     square, square_after = inverse * inverse, inverse_after * inverse_after
@@ -115,15 +127,15 @@ def surface_sums(c, figure, n, after, nu, nu_after, y, chief_nu, chief, invarian
     return tuple(map(add, sums, _figuring(figure * (after - n), y, chief)))
 
 
-def _figuring(figure, y, chief):
-    """Return what an asphere (Kc³ + 8A₄)Δn adds to the five sums, without dividing by y (Welford 1986, ch. 8)."""
+def _figuring(figure: FloatOrArray, y: FloatOrArray, chief: FloatOrArray) -> tuple[FloatOrArray, ...]:
+    """Return what an asphere, (Kc³ + 8A₄)Δn, adds to the five sums, without division by y (Welford 1986, ch. 8)."""
     square, cross = figure * y * y, chief * chief
     return square * y * y, square * y * chief, square * cross, 0.0, figure * y * chief * cross
 
 
 @lru_cache(maxsize=64)
-def _shape_terms(lens: Lens):
-    """Return curvature c and fourth-order figure Kc³ + 8A₄ of every surface."""
+def _shape_terms(lens: Lens) -> tuple[np.ndarray, np.ndarray]:
+    """Return curvature c and fourth-order figure Kc³ + 8A₄ of every surface, each (surfaces,)."""
     rows = ((s.curvature, s.conic, s.aspheric[0] if s.aspheric else 0.0) for s in lens.surfaces)
     c, figure = zip(*((c, conic * c**3 + 8 * a4) for c, conic, a4 in rows), strict=True)
     return np.array(c), np.array(figure)
@@ -135,9 +147,9 @@ def _per_surface(column: np.ndarray, ndim: int) -> np.ndarray:
 
 def coefficients(
     lens: Lens,
-    depth_mm,
-    field_slope,
-    wavelength_um,
+    depth_mm: FloatOrArray,
+    field_slope: FloatOrArray,
+    wavelength_um: FloatOrArray,
     stop: Stop | None = None,
     field: Literal["slope", "height"] = "slope",
 ) -> Coefficients:
@@ -145,10 +157,10 @@ def coefficients(
 
     ``depth_mm`` from the first vertex, ``inf`` allowed; ``field_slope`` the tangent at the entrance
     pupil, or with ``field="height"`` the mm the object stands below the axis; the sensor is where the lens
-    puts it (`lens.with_sensor` moves it). Raises GeometryError and GlassError.
+    puts it (`with_sensor` moves it). Raises GeometryError and GlassError.
     Source: Pieroni et al. 2015; Welford 1986, ch. 8.
     """
-    # [()] makes numbers of arrays without axes: numpy is five times faster on those.
+    # [()] turns arrays without axes into numbers, on which numpy is five times faster.
     wavelength_um, field_slope = (np.asarray(x, dtype=float)[()] for x in (wavelength_um, field_slope))
     rays = paraxial_rays(lens, depth_mm, wavelength_um, stop, field)
     spherical, coma, astigmatism, petzval, distortion = _unit_totals(lens, rays)
@@ -173,6 +185,7 @@ def coefficients(
 
 
 def defocus(rays: ParaxialRays, sensor_mm: float) -> np.ndarray:
-    """Return defocus in mm of path, n'u'(u'·sensor + y)/2: no singularity at any depth."""
+    """Return the defocus in mm of path, n'u'(u'·sensor + y)/2, which is regular at every depth."""
     slope = rays.nu[-1] / rays.index[-1]
-    return rays.nu[-1] * (slope * sensor_mm + rays.y[-1]) / 2
+    path: np.ndarray = rays.nu[-1] * (slope * sensor_mm + rays.y[-1]) / 2
+    return path

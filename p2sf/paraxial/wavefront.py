@@ -1,23 +1,24 @@
 """The wavefront W(ξ, η) of six coefficients and how steep it is.
 
-All of it in waves over the entrance-pupil disc ξ² + η² ≤ 1, η towards the field. W11 moves the image
-without blurring it, so it stays out unless asked for (``tilt=True``).
+In waves over the entrance-pupil disc ξ² + η² ≤ 1, η towards the field. W11 moves the image
+without blurring it, so it is left out unless asked for (``tilt=True``).
 """
 
 from functools import lru_cache
 
 import numpy as np
 
+from p2sf.conventions import FloatOrArray
 from p2sf.paraxial.seidel import Coefficients
 
 # Polar samples that find the extremes of these low-order polynomials: within 1 % over random coefficients (tested).
 SLOPE_RADII, SLOPE_ANGLES = 12, 25
 # |4aρ³ + 2bρ| is at most |2b| or |4a + 2b|, whatever the signs; b is the focus across and along, and coma adds 3|W31|.
 _BOUND = np.array([(a, c, b, 2) for a in (0, 4) for b in (0, 2) for c in (-3, 3)], dtype=float).T
-CHORD_MARGIN = 1.04  # along chords the extremes are narrower, and the samples miss them by up to 4 %
+CHORD_MARGIN = 1.04  # along chords the extremes are narrower: the samples miss them by up to 4 %
 
 
-def wavefront(coefficients: Coefficients, xi, eta, tilt: bool = False) -> np.ndarray:
+def wavefront(coefficients: Coefficients, xi: FloatOrArray, eta: FloatOrArray, tilt: bool = False) -> np.ndarray:
     """Return W in waves at pupil points, shape (…coefficients, …points).
 
     W = W40ρ⁴ + W31ρ²η + W22η² + (W20 + Wd)ρ² [+ W11η], Pieroni et al. 2015; Welford 1986, §7.5.
@@ -25,25 +26,27 @@ def wavefront(coefficients: Coefficients, xi, eta, tilt: bool = False) -> np.nda
     xi, eta = np.asarray(xi), np.asarray(eta)
     square = xi * xi + eta * eta
     w40, w31, w22, focus, w11 = (_before(x, square.ndim) for x in shape_coefficients(coefficients, tilt))
-    blur = square * (w40 * square + w31 * eta + focus) + w22 * (eta * eta)
+    blur: np.ndarray = square * (w40 * square + w31 * eta + focus) + w22 * (eta * eta)
     return blur + w11 * eta if tilt else blur
 
 
-def shape_coefficients(coefficients: Coefficients, tilt: bool = False):
+def shape_coefficients(
+    coefficients: Coefficients, tilt: bool = False
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, FloatOrArray]:
     """Return W40, W31, W22, W20 + Wd and (0 unless ``tilt``) W11, each an array of the coefficients' shape."""
     c = coefficients
     return c.w40, c.w31, c.w22, c.w20 + c.wd, c.w11 if tilt else 0.0
 
 
-def spread(*columns) -> np.ndarray:
+def spread(*columns: FloatOrArray) -> np.ndarray:
     """Return broadcast numbers or arrays as one array with a last axis, (…, columns)."""
-    if all(np.ndim(x) == 0 for x in columns):  # one PSF at a time is worth the quick way
+    if all(np.ndim(x) == 0 for x in columns):  # a single PSF, several times faster
         return np.array(columns, dtype=float)
     return np.stack(np.broadcast_arrays(*columns), axis=-1)
 
 
-def _before(values, grid_ndim: int) -> np.ndarray:
-    """Return values with axes for the pupil grid behind their own."""
+def _before(values: FloatOrArray, grid_ndim: int) -> np.ndarray:
+    """Return values with axes of length one for the pupil grid behind their own."""
     values = np.asarray(values)
     return values.reshape(*values.shape, *[1] * grid_ndim)
 
@@ -59,19 +62,20 @@ def steepest_slope(coefficients: Coefficients, tilt: bool = False) -> np.ndarray
 def steepest_of(shape: np.ndarray) -> np.ndarray:
     """Return `steepest_slope` of W40, W31, W22, W20 + Wd and, if there is one, W11 in the last axis."""
     across, along = np.moveaxis(_slopes(shape, _gradient_basis()), -2, 0)
-    return np.sqrt(np.add(across, along, out=across).max(-1))
+    steepest: np.ndarray = np.sqrt(np.add(across, along, out=across).max(-1))
+    return steepest
 
 
 def steepest_polar(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
-    """Return the largest |∂W/∂ρ| and |∂W/∂θ|, waves, within 1 %: what radial and angular sampling must carry."""
+    """Return the largest |∂W/∂ρ| and |∂W/∂θ|, waves, within 1 %: what radial and angular sampling must resolve."""
     steepest = np.sqrt(_slopes(spread(*shape_coefficients(coefficients)[:4]), _polar_basis()).max(-1))
     return steepest[..., 0], steepest[..., 1]
 
 
 def steepest_chords(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
-    """Return the largest |∂W/∂t| and |∂W/∂s|, waves: what the rows and columns of `quadrature.chord_rows` must carry.
+    """Return the largest |∂W/∂t| and |∂W/∂s|, waves: what the rows and columns of `quadrature.chord_rows` resolve.
 
-    There η = cos t and ξ = sin s·sin t: a slope near the rim, where the nodes crowd, counts little, and one
+    With η = cos t and ξ = sin s·sin t, a slope near the rim, where the nodes crowd, counts little, and one
     inside the disc in full. Never too small, at most 4 % too large.
     """
     steepest = chords_of(spread(*shape_coefficients(coefficients)[:4]))
@@ -80,22 +84,26 @@ def steepest_chords(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]
 
 def chords_of(shape: np.ndarray) -> np.ndarray:
     """Return `steepest_chords`, (…, 2), of W40, W31, W22, W20 + Wd in the last axis."""
-    return CHORD_MARGIN * np.sqrt(_slopes(shape, _chord_basis()).max(-1))
+    steepest: np.ndarray = CHORD_MARGIN * np.sqrt(_slopes(shape, _chord_basis()).max(-1))
+    return steepest
 
 
 def bound_of(shape: np.ndarray) -> np.ndarray:
-    """Return a number that no |∇W| of W40, W31, W22, W20 + Wd exceeds: quick, up to twice too large for coma's sake."""
-    return np.abs(shape @ _BOUND).max(-1)
+    """Return an upper bound of |∇W| for W40, W31, W22, W20 + Wd in the last axis: quick, with coma up to twice it."""
+    bound: np.ndarray = np.abs(shape @ _BOUND).max(-1)
+    return bound
 
 
 def _slopes(shape: np.ndarray, basis: np.ndarray) -> np.ndarray:
     """Return the squares of Σ coefficient·basis over the shapes of the last axis, (…, 2, points)."""
-    slopes = (shape @ basis[: shape.shape[-1]]).reshape(*shape.shape[:-1], 2, -1)
-    return np.square(slopes, out=slopes)
+    slopes: np.ndarray = (shape @ basis[: shape.shape[-1]]).reshape(*shape.shape[:-1], 2, -1)
+    np.square(slopes, out=slopes)
+    return slopes
 
 
 @lru_cache(maxsize=1)
-def _slope_points():
+def _slope_points() -> tuple[np.ndarray, ...]:
+    """Return ρ, sin θ and cos θ of a polar grid over the half disc, each (points,)."""
     rho = np.arange(1, SLOPE_RADII + 1)[:, None] / SLOPE_RADII
     theta = np.linspace(0, np.pi, SLOPE_ANGLES)
     return tuple(x.ravel() for x in np.broadcast_arrays(rho, np.sin(theta), np.cos(theta)))

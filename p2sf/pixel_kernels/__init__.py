@@ -1,4 +1,4 @@
-"""Kernels of single pixels: what a sensor's pixels receive from one point, anywhere on it and in any channel."""
+"""Pixel kernels: the light that a sensor's pixels receive from one point, anywhere on it and in any channel."""
 
 from p2sf.pixel_kernels.channel import Colour, Kernels, Recipe
 from p2sf.pixel_kernels.sensor_points import SensorMap, distortion_at, sensor_map

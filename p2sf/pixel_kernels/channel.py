@@ -1,4 +1,4 @@
-"""The kernel of one spectral channel anywhere on the sensor: fits on the radial line, turned and added in colour."""
+"""The kernel of one spectral channel anywhere on the sensor: fits along a radius, rotated, summed over wavelength."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -16,10 +16,10 @@ from p2sf.pixel_kernels.sensor_points import SensorMap
 
 @dataclass(frozen=True)
 class Recipe:
-    """How kernels are made: method, its numbers (None: as the residual asks), samples per λ/(2NA), window margin.
+    """How kernels are computed: method, its numbers (None: as the residual requires), samples per λ/(2NA), margin.
 
-    ``margin`` is a share of the window's half width added on either side before the transform and cut off after it;
-    ``drop_waves`` how much RMS phase the left-out terms may have together.
+    ``margin`` is a fraction of the window's half width, added on either side before the transform and cut off after
+    it; ``drop_waves`` is the RMS phase that the omitted terms may have together.
     """
 
     method: str = "fitted"
@@ -39,10 +39,10 @@ class Colour:
 
 @dataclass(eq=False)
 class Kernels:
-    """Kernels of one view, channel and pixel pitch; pupils are kept per height, since a ring shares them.
+    """Kernels of one view, channel and pixel pitch; pupils are cached per height, since points on a circle share them.
 
-    ``recipe_at(height_mm) -> Recipe`` lets the method fall where a cheaper one holds; ``tables`` by wavelength, where
-    there are any, spare a fit for every height.
+    ``recipe_at(height_mm)`` may choose a cheaper method where it is accurate enough; ``tables`` by wavelength, if
+    any, replace a fit for every height.
     """
 
     seen: SensorMap
@@ -51,22 +51,27 @@ class Kernels:
     recipe_at: Callable[[float], Recipe]
     half: int | None = None
     tables: Mapping[float, PupilTable] = field(default_factory=dict)
-    kept: dict = field(default_factory=dict)
+    kept: dict[float, list[tuple[FrequencyPupil, float]]] = field(default_factory=dict)
 
     def at(self, x_mm: float, y_mm: float, half: int | None = None) -> np.ndarray:
         """Return the kernel of the point that lands at (x, y up), (size, size) float32 of unit sum, row 0 the top."""
         height, angle = hypot(x_mm, y_mm), atan2(x_mm, y_mm)
         rays = self.pupils(height)
         half = half or self.half or self.half_width(height)
-        total = 0.0
+        size = 2 * half + 1
+        total = np.zeros((size, size), np.float32)
         for weight, (pupil, shift_mm) in zip(self.colour.weights, rays, strict=True):
             shift = shift_mm * UM_PER_MM * np.sin(angle), shift_mm * UM_PER_MM * np.cos(angle)
-            total = total + np.float32(weight) * self._one(pupil, angle, half, shift, self.recipe_at(height))
-        return total / total.sum(dtype=float).astype(np.float32)
+            total += np.float32(weight) * self._one(pupil, angle, half, shift, self.recipe_at(height))
+        total /= total.sum(dtype=float).astype(np.float32)
+        return total
 
-    def _one(self, pupil: FrequencyPupil, angle, half: int, shift, recipe: Recipe) -> np.ndarray:
+    def _one(
+        self, pupil: FrequencyPupil, angle: float, half: int, shift: tuple[float, float], recipe: Recipe
+    ) -> np.ndarray:
+        """Return the kernel of one wavelength, (2·half + 1,)²."""
         samples = samples_across(pupil, self.pixel_um, recipe.fineness)
-        # A pencil wider than the window must not come in again on the other side.
+        # The transform is periodic: a pencil wider than the window would wrap around to its other side.
         need = half_width(pupil, self.pixel_um, hypot(*shift))
         wide = max(half, need) + int(np.ceil(recipe.margin * half))
         kernel = pixel_kernel(pupil, angle, PixelWindow(wide, self.pixel_um, samples), shift)
@@ -81,14 +86,14 @@ class Kernels:
             self.kept[key] = [self._pupil(height_mm, w, recipe) for w in self.colour.wavelengths_um]
         return self.kept[key]
 
-    def _pupil(self, height_mm, wavelength_um, recipe: Recipe) -> tuple[FrequencyPupil, float]:
+    def _pupil(self, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[FrequencyPupil, float]:
         table = self.tables.get(wavelength_um)
-        found = table and table.at(height_mm, float(vergence(self.seen.depth_mm)))
+        found = table.at(height_mm, float(vergence(self.seen.depth_mm))) if table else None
         pupil, shift = found or own_pupil(self.seen, height_mm, wavelength_um, recipe)
         return (without(pupil, recipe.drop_waves) if recipe.drop_waves else pupil), shift
 
     def half_width(self, height_mm: float) -> int:
-        """Return how many pixels on either side hold the whole kernel at this height."""
+        """Return how many pixels on either side of the centre hold the whole kernel at this height."""
         return max(half_width(p, self.pixel_um, abs(s) * UM_PER_MM) for p, s in self.pupils(height_mm))
 
     def light(self, height_mm: float) -> float:
@@ -101,7 +106,7 @@ class Kernels:
 
 
 def own_pupil(seen: SensorMap, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[FrequencyPupil, float]:
-    """Return the pupil of one height by its own rays, and its lateral colour in mm; P2SFError says where it failed."""
+    """Return the pupil at one height from its own rays, and its lateral colour in mm; P2SFError names the height."""
     try:
         pupil = pupil_map(seen.lens, seen.source(height_mm, wavelength_um), recipe.method, recipe.numbers)
     except P2SFError as error:

@@ -1,11 +1,12 @@
 """A pencil over its own spatial frequencies, which a uniform grid samples and an FFT sums.
 
-Form 2 of DESIGN.md section 2: phase and entrance-pupil point as polynomials over f = n'K/λ, the image of the unit
-circle as edge and |∂(ξ, η)/∂f| as amplitude (entrance-pupil areas weigh equally, as in the reference). The
-polynomials are Zernike's, so that a field in another direction is the same pupil with turned coefficients:
-rotation costs no interpolation.
+Phase and entrance-pupil point are polynomials over f = n'K/λ; the image of the unit circle is the edge and
+|∂(ξ, η)/∂f| the amplitude (equal areas of the entrance pupil have equal weight, as in the reference). The
+polynomials are Zernike's, so that a field in another direction is the same pupil with rotated coefficients:
+rotation needs no interpolation.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -18,13 +19,13 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, basis_by_powers, gradient, powers, terms
-from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.fit import FittedPencil, Gradient, fit
 
 ORDERS = 6, 18  # the least and the greatest
-FAR_OFF = 30.0  # times what is allowed: then the next order but one is tried, as one alone seldom helps enough
+FAR_OFF = 30.0  # times the allowed residual: then the next order but one is tried, since the next seldom suffices
 NODES = 16, 44
 REACH_NODES = 14, 36
-STRAY = 2e-3  # of the light may land outside the window: next to nothing in L2, and rims of fast lenses throw far
+STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 PHASE_RESIDUAL = 2e-4  # waves RMS: 2e-3 of relative L2 in the finest detail, less in a pixel
 POINT_RESIDUAL = 5e-4  # of the pupil radius
 
@@ -34,7 +35,7 @@ class FrequencyPupil:
     """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
 
     ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``light`` the pupil's area in
-    (cycles/µm)² times λ², proportional to the irradiance of an even object; ``residual_waves`` RMS phase error left.
+    (cycles/µm)² times λ², proportional to the irradiance of a uniform object; ``residual_waves`` RMS phase error left.
     """
 
     order: int
@@ -50,9 +51,9 @@ class FrequencyPupil:
 
 
 def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None) -> FrequencyPupil:
-    """Return the pencil of one source by the method ``method``, "seidel" or "fitted".
+    """Return the pupil of one source by the method "seidel" or "fitted".
 
-    Raises GeometryError where rays do not arrive, or no polynomial follows them.
+    Raises GeometryError where rays do not reach the sensor or the image lies at infinity.
     """
     if method == "seidel":
         return _from_seidel(lens, source)
@@ -67,10 +68,10 @@ def _from_seidel(lens: Lens, source: Source) -> FrequencyPupil:
     nodes, sign = disc_nodes(*NODES), np.sign(scale)
     phase = wavefront(six, nodes.xi, nodes.eta)
     columns = phase, nodes.eta, nodes.xi
-    found = _coefficients(*basis_by_powers(4, sign * nodes.xi, sign * nodes.eta), columns)
-    reach = reach_of(4, found[0], abs(scale))
+    phase, eta, xi = _coefficients(*basis_by_powers(4, sign * nodes.xi, sign * nodes.eta), columns)
+    reach = reach_of(4, phase, abs(scale))
     light = np.pi * (abs(scale) * source.wavelength_um) ** 2
-    return FrequencyPupil(4, abs(scale), *found, reach, float(light), 0.0, "seidel", 6)
+    return FrequencyPupil(4, abs(scale), phase, eta, xi, reach, float(light), 0.0, "seidel", 6)
 
 
 def _from_fit(found: FittedPencil, source: Source) -> FrequencyPupil:
@@ -83,8 +84,8 @@ def _from_fit(found: FittedPencil, source: Source) -> FrequencyPupil:
     order = ORDERS[0]
     while True:
         even_here, odd_here = basis_by_powers(order, u, v)
-        columns = _coefficients(even_here, odd_here, (phase, nodes.eta, nodes.xi))
-        waves, miss = columns[0] @ even_here - phase, columns[1] @ even_here - nodes.eta
+        waves_of, eta_of, xi_of = _coefficients(even_here, odd_here, (phase, nodes.eta, nodes.xi))
+        waves, miss = waves_of @ even_here - phase, eta_of @ even_here - nodes.eta
         residual = float(np.sqrt(nodes.weight @ waves**2))
         excess = max(residual / PHASE_RESIDUAL, float(np.abs(miss).max()) / POINT_RESIDUAL)
         if excess < 1 or order == ORDERS[-1]:
@@ -93,36 +94,38 @@ def _from_fit(found: FittedPencil, source: Source) -> FrequencyPupil:
     area = (found.fx @ slopes_odd[0]) * (found.fy @ slopes[1]) - (found.fx @ slopes_odd[1]) * (found.fy @ slopes[0])
     light = float(nodes.weight @ np.abs(area)) * np.pi * source.wavelength_um**2
     left = float(np.hypot(residual, found.residual_waves))
-    reach = reach_of(order, columns[0], radius)
-    return FrequencyPupil(order, radius, *columns, reach, light, left, "fitted", found.numbers)
+    reach = reach_of(order, waves_of, radius)
+    return FrequencyPupil(order, radius, waves_of, eta_of, xi_of, reach, light, left, "fitted", found.numbers)
 
 
 @lru_cache(maxsize=8)
-def _at_nodes(wave_order: int, map_order: int):
-    """Return even and odd terms, and the map terms' gradients, at the nodes that never change."""
+def _at_nodes(wave_order: int, map_order: int) -> tuple[np.ndarray, np.ndarray, Gradient, Gradient]:
+    """Return even and odd terms, and the gradients of the map's even and odd terms, at the fixed nodes."""
     nodes = disc_nodes(*NODES)
     even = basis(max(wave_order, map_order), nodes.xi, nodes.eta)
     odd = basis(map_order, nodes.xi, nodes.eta, odd=True)
-    slopes = (gradient(map_order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
-    return even, odd, *slopes
+    slopes, slopes_odd = (gradient(map_order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
+    return even, odd, slopes, slopes_odd
 
 
-def _coefficients(even: np.ndarray, odd: np.ndarray, columns):
+def _coefficients(
+    even: np.ndarray, odd: np.ndarray, columns: Sequence[np.ndarray]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return least-squares coefficients of phase and η over the even terms, and of ξ over the odd ones."""
     phase, eta, xi = columns
     both = _solve(even, np.stack([phase, eta], axis=1))
     return both[:, 0], both[:, 1], _solve(odd, xi)
 
 
-def _solve(rows: np.ndarray, values) -> np.ndarray:
-    """Return least squares by the normal equations: nearly orthogonal terms lose no digits that matter."""
+def _solve(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return the least-squares solution by the normal equations, well conditioned for nearly orthogonal terms."""
     normal = rows @ rows.T
     normal[np.diag_indices_from(normal)] *= 1 + 1e-12
     return np.linalg.solve(normal, rows @ values)
 
 
 def reach_of(order: int, phase: np.ndarray, radius: float) -> float:
-    """Return the radius in µm that holds all light but a stray part: rays land at −∂w/∂f (Hamilton)."""
+    """Return the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton)."""
     across, along = _slopes(order)
     distance = np.hypot(phase @ across, phase @ along) / radius
     order_of = np.argsort(distance)
@@ -131,7 +134,7 @@ def reach_of(order: int, phase: np.ndarray, radius: float) -> float:
 
 
 @lru_cache(maxsize=16)
-def _slopes(order: int):
+def _slopes(order: int) -> Gradient:
     nodes = disc_nodes(*REACH_NODES)
     return gradient(order, nodes.xi, nodes.eta)
 
@@ -139,7 +142,7 @@ def _slopes(order: int):
 def dropped_terms(pupil: FrequencyPupil, waves: float) -> list[tuple[int, int, float]]:
     """Return (n, m, RMS waves) of the weakest phase terms that together stay below ``waves`` RMS, weakest first.
 
-    The terms are orthonormal over the disc, so their squares add. Tilt, which moves the picture, is never one of them.
+    The terms are orthonormal over the disc, so their squares add. Tilt, which moves the image, is never dropped.
     """
     named = [(abs(c), n, m) for c, (n, m) in zip(pupil.phase, terms(pupil.order), strict=True) if n > 1]
     out, total = [], 0.0
@@ -162,7 +165,7 @@ def without(pupil: FrequencyPupil, waves: float) -> FrequencyPupil:
 
 @dataclass(frozen=True, eq=False)
 class Turned:
-    """A pupil map as plain powers Σ c[i, j]·uⁱ·vʲ, turned to the direction of its field."""
+    """A frequency pupil as plain powers Σ c[i, j]·uⁱ·vʲ, rotated to the direction of its field."""
 
     radius: float
     phase: np.ndarray
@@ -186,7 +189,8 @@ def turned(pupil: FrequencyPupil, angle: float) -> Turned:
 def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:
     """Return coefficients c[i, j] of uⁱvʲ, (order + 1, order + 1)."""
     forms = _all_powers(order)
-    return (even @ forms[0] + odd @ forms[1]).reshape(order + 1, order + 1)
+    plain: np.ndarray = (even @ forms[0] + odd @ forms[1]).reshape(order + 1, order + 1)
+    return plain
 
 
 @lru_cache(maxsize=16)

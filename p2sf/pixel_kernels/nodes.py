@@ -4,7 +4,7 @@ import numpy as np
 
 
 def nodes_along(pixels: int, count: int) -> np.ndarray:
-    """Return ``count`` node positions from the first pixel to the last; the middle for one."""
+    """Return ``count`` node positions from the first pixel to the last; for one node the middle."""
     return np.array([(pixels - 1) / 2]) if count == 1 or pixels == 1 else np.linspace(0, pixels - 1, count)
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from p2sf.errors import SamplingError
 from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, Turned, turned
 
-TAIL = 8.0  # of λ/NA: what of diffraction's wings is kept beyond where rays land
+TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land
 LARGEST_WINDOW = 4096
-BLOCK = 32768  # samples of the pupil that are worked on at once
+BLOCK = 32768  # samples of the pupil in one block
 
 
 @dataclass(frozen=True)
@@ -36,15 +36,17 @@ def half_width(pupil: FrequencyPupil, pixel_um: float, shift_um: float = 0.0) ->
 def samples_across(pupil: FrequencyPupil, pixel_um: float, finest: float = 1.0) -> int:
     """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 every fringe.
 
-    At least three, so that a pixel's edge falls near enough to where it is.
+    At least three, so that pixel edges are resolved well enough.
     """
     return max(3, ceil(2 * pupil.radius * pixel_um * finest))
 
 
-def pixel_kernel(pupil: FrequencyPupil, angle: float, window: PixelWindow, shift_um=(0.0, 0.0)) -> np.ndarray:
-    """Return the share of a point's light per pixel, (size, size) float32 of unit sum, as a picture shows it.
+def pixel_kernel(
+    pupil: FrequencyPupil, angle: float, window: PixelWindow, shift_um: tuple[float, float] = (0.0, 0.0)
+) -> np.ndarray:
+    """Return the share of a point's light per pixel, (size, size) float32 of unit sum, row 0 at the top.
 
-    The field lies ``angle`` radians from +y towards +x; row 0 is the top. ``shift_um``: where the point's chief ray
+    The field lies ``angle`` radians from +y towards +x. ``shift_um``: where the point's chief ray
     lands, x and y (up) from the centre of the middle pixel. Raises SamplingError for a window too large.
     """
     import scipy.fft
@@ -59,38 +61,41 @@ def pixel_kernel(pupil: FrequencyPupil, angle: float, window: PixelWindow, shift
             samples=window.samples,
             side=side,
         )
-    # Sample 0 of the transform is the window's lowest corner, and samples lie centrally in their pixel.
-    origin = (-(count - 1) / 2 * pitch - shift for shift in shift_um)
-    field = _field(turned(pupil, angle), side, 1 / (side * pitch), tuple(origin))
+    # Sample 0 of the transform is the window's lower left one; the samples of a pixel lie symmetrically in it.
+    corner = -(count - 1) / 2 * pitch
+    origin = corner - shift_um[0], corner - shift_um[1]
+    field = _field(turned(pupil, angle), side, 1 / (side * pitch), origin)
     plane = scipy.fft.ifft2(field, overwrite_x=True)[:count, :count]
     light = plane.real**2 + plane.imag**2
     binned = _binned(light, window.size, window.samples)
-    return np.ascontiguousarray(binned[::-1]) / binned.sum(dtype=float).astype(np.float32)
+    kernel: np.ndarray = np.ascontiguousarray(binned[::-1]) / binned.sum(dtype=float).astype(np.float32)
+    return kernel
 
 
 def _binned(light: np.ndarray, size: int, samples: int) -> np.ndarray:
-    """Return the light of every pixel from ``samples``² samples in it, (size, size), none of it negative."""
+    """Return the light of every pixel from its ``samples``² samples, (size, size), none of it negative."""
     lines = _edged(light.reshape(size, samples, -1))
-    return np.maximum(_edged(np.ascontiguousarray(lines.T).reshape(size, samples, -1)).T, 0)
+    binned: np.ndarray = np.maximum(_edged(np.ascontiguousarray(lines.T).reshape(size, samples, -1)).T, 0)
+    return binned
 
 
 def _edged(light: np.ndarray) -> np.ndarray:
     """Return sums over samples in the middle of equal steps, (pixels, samples, columns) → (pixels, columns).
 
-    The midpoint rule misses h²/24 of the slope's change from edge to edge (Abramowitz & Stegun 1964, 25.4.2 over half
-    steps); the slope at an edge is that of the samples on either side, so pixels exchange it and no light is lost.
+    The midpoint rule errs by h²/24 of the slope's change from edge to edge (Abramowitz & Stegun 1964, 25.4.2 over half
+    steps). The slope at an edge comes from the samples on either side: both pixels use the same, no light is lost.
     """
-    sums = light.sum(1)
+    sums: np.ndarray = light.sum(1)
     passed = (light[1:, 0] - light[:-1, -1]) / np.float32(24)
     sums[:-1] += passed
     sums[1:] -= passed
     return sums
 
 
-def _field(pupil: Turned, side: int, step: float, origin) -> np.ndarray:
-    """Return the pupil's complex amplitude on ``side``² frequencies, complex64, as an inverse FFT wants them.
+def _field(pupil: Turned, side: int, step: float, origin: tuple[float, float]) -> np.ndarray:
+    """Return the pupil's complex amplitude on ``side``² frequencies, complex64, in the order of an inverse FFT.
 
-    A few rows at a time: what one step leaves is still in the processor's cache for the next.
+    Computed a few rows at a time, so that the intermediate results stay in the processor's cache.
     """
     half = int(pupil.radius / step) + 1
     phase = pupil.phase.copy()
@@ -121,19 +126,21 @@ def _field(pupil: Turned, side: int, step: float, origin) -> np.ndarray:
 def _maps_across(pupil: Turned, table: np.ndarray, slopes: np.ndarray) -> np.ndarray:
     """Return (ξ, η) × (value, slope by u) summed over the powers of u, (2, 2, powers of v, columns) float32."""
     forms = np.stack([pupil.xi.T, pupil.eta.T])[:, None]
-    return (forms @ np.stack([table.T, slopes.T])).astype(np.float32)
+    maps: np.ndarray = (forms @ np.stack([table.T, slopes.T])).astype(np.float32)
+    return maps
 
 
-def _amplitude(point, area: np.ndarray, axis: np.ndarray, rows: slice) -> np.ndarray:
+def _amplitude(point: tuple[np.ndarray, np.ndarray], area: np.ndarray, axis: np.ndarray, rows: slice) -> np.ndarray:
     """Return ``area``, |∂(ξ, η)/∂u|, times each cell's share inside the pupil, float32, for some rows.
 
     Across the rim the share falls linearly over one cell, whose width in the pupil is the root of its area there.
     """
     (xi, eta), cell = point, axis[1] - axis[0]
     inside = (1 - np.sqrt(xi * xi + eta * eta)) / (np.sqrt(area) * np.float32(cell) + np.float32(1e-30)) + 0.5
-    inside *= axis[rows, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials mean nothing
+    inside *= axis[rows, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials are not valid
     np.clip(inside, 0, 1, out=inside)
-    return np.multiply(area, inside, out=area)
+    np.multiply(area, inside, out=area)
+    return area
 
 
 def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:
@@ -147,7 +154,7 @@ def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:
 
 
 @lru_cache(maxsize=64)
-def _pieces(half: int, side: int):
+def _pieces(half: int, side: int) -> tuple[tuple[slice, slice], ...]:
     """Return (place in the plane, part of the centred axis) slices that cover −half…half modulo ``side``."""
     out, start = [], -half
     while start <= half:

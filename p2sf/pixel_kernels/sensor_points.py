@@ -1,20 +1,21 @@
-"""Where the points of one object plane land: from sensor height to field, distortion, illumination."""
+"""Where the points of one object plane land: from sensor height to field, distortion, lateral colour."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.conventions import vergence
+from p2sf.conventions import FloatOrArray, vergence
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
+from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import pencil
 
 CHIEF_RAYS = 257
-REACHES = (1.35, 1.15, 1.04, 1.0, 0.9, 0.75)  # of the paraxial slope: how far out chief rays are tried
+REACHES = (1.35, 1.15, 1.04, 1.0, 0.9, 0.75)  # of the paraxial slope: the fields out to which chief rays are tried
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,16 +33,17 @@ class SensorMap:
     heights_mm: np.ndarray
     scale_mm: float
 
-    def slope(self, height_mm):
+    def slope(self, height_mm: FloatOrArray) -> FloatOrArray:
         """Return field slopes whose chief rays land at radial heights, mm."""
-        return np.interp(height_mm, self.heights_mm, self.slopes)
+        slope: FloatOrArray = np.interp(height_mm, self.heights_mm, self.slopes)
+        return slope
 
-    def ideal_height(self, height_mm):
+    def ideal_height(self, height_mm: FloatOrArray) -> FloatOrArray:
         """Return the undistorted (paraxial) height of what lands at these heights, mm."""
         return self.slope(height_mm) * self.scale_mm
 
     def source(self, height_mm: float, wavelength_um: float) -> Source:
-        """Return the object point that lands at a height in the reference colour, seen in another one."""
+        """Return the object point that lands at a height in the reference wavelength, for another wavelength."""
         slope = float(self.slope(height_mm)) * self._slope_ratio(wavelength_um)
         return Source(self.depth_mm, slope, float(wavelength_um))
 
@@ -61,7 +63,7 @@ class SensorMap:
 
 
 def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> SensorMap:
-    """Return the view out to radial ``height_mm`` on the sensor; GeometryError where no chief ray lands that far."""
+    """Return the map out to radial ``height_mm`` on the sensor; GeometryError where no chief ray lands that far."""
     six = coefficients(lens, depth_mm, 1.0, wavelength_um)
     scale = float(six.image_height)
     if scale == 0 or not np.isfinite(scale):
@@ -69,7 +71,7 @@ def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: flo
     for reach in REACHES:
         slopes = np.linspace(0, reach * height_mm / scale, CHIEF_RAYS)
         try:
-            heights = chief_heights(lens, Source(depth_mm, slopes, wavelength_um))
+            heights = chief_heights(lens, Sources(depth_mm, slopes, wavelength_um))
         except GeometryError:
             continue
         if heights[-1] >= height_mm and (np.diff(heights) > 0).all():
@@ -82,12 +84,13 @@ def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: flo
     )
 
 
-def chief_heights(lens: Lens, source: Source) -> np.ndarray:
-    """Return where real chief rays land, mm from the axis along the field's direction, shape of the source."""
-    return pencil(lens, source, [0.0], [0.0]).chief_y[..., 0]
+def chief_heights(lens: Lens, source: Source | Sources) -> np.ndarray:
+    """Return where real chief rays land, mm from the axis along the field's direction, in the shape of the source."""
+    heights: np.ndarray = pencil(lens, source, [0.0], [0.0]).chief_y[..., 0]
+    return heights
 
 
-def distortion_at(seen: SensorMap, height_mm) -> np.ndarray:
+def distortion_at(seen: SensorMap, height_mm: FloatOrArray) -> np.ndarray:
     """Return (real − paraxial)/paraxial height of what lands at these heights; 0 on the axis."""
     ideal = np.asarray(seen.ideal_height(height_mm))
     return np.where(ideal > 0, np.asarray(height_mm) / np.where(ideal > 0, ideal, 1) - 1, 0.0)

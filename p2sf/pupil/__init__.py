@@ -1,1 +1,1 @@
-"""Sampling the pupil: quadrature nodes, Zernike polynomials, and the sums that lead to the focal plane."""
+"""Sampling the pupil: quadrature nodes, Zernike polynomials, and the sums from the pupil to the focal plane."""

@@ -1,19 +1,20 @@
 """Cosine and sine of phases given in waves: the inner loop of every PSF.
 
-Whole waves are taken off first, in the phase's own precision, so that float32 stays accurate behind it. numpy has fast
-float32 functions. Its float64 sine and cosine take ten times as long, its tangent a third of one of them: both then
-come from the tangent of the half angle.
+Whole waves are subtracted first, in the phase's own precision, so that float32 is accurate for the rest. numpy has fast
+float32 functions. Its float64 sine and cosine take ten times as long, its tangent a third of one of them: in float64
+both come from the tangent of the half angle.
 """
 
 from math import pi
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 TURN = 2 * pi
 
 
-def cosine_sine(waves: np.ndarray, dtype) -> np.ndarray:
-    """Return cos 2πw and sin 2πw stacked, (2, …), in ``dtype``, float32 or float64; the waves w are used up."""
+def cosine_sine(waves: np.ndarray, dtype: DTypeLike) -> np.ndarray:
+    """Return cos 2πw and sin 2πw stacked, (2, …), in ``dtype``, float32 or float64; ``waves`` is overwritten."""
     waves -= np.rint(waves)
     if dtype == np.float64:
         return _by_half_angle(waves, np.empty((2, *waves.shape)))
@@ -22,7 +23,7 @@ def cosine_sine(waves: np.ndarray, dtype) -> np.ndarray:
 
 
 def cosine_sine_of_radians(phases: np.ndarray) -> np.ndarray:
-    """Return cos φ and sin φ stacked, (2, …), of phases whose rounding may be seen: whole turns are left on."""
+    """Return cos φ and sin φ stacked, (2, …); whole turns are not subtracted, so large phases keep their rounding."""
     both = np.empty((2, *phases.shape), phases.dtype)
     np.cos(phases, out=both[0])
     np.sin(phases, out=both[1])

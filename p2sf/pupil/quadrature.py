@@ -1,24 +1,29 @@
 """Sample points of the unit disc that integrate a smooth pupil to any accuracy.
 
-A square grid with a yes/no edge converges slowly; Gauss–Legendre in ρ² times uniform angles has no
-edge at all, and converges faster than any power once it resolves the phase.
+A square grid with an all-or-nothing edge converges slowly; Gauss–Legendre in ρ² times uniform angles has
+no such edge, and converges faster than any power once it resolves the phase.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache, wraps
+from functools import lru_cache, update_wrapper
 from math import ceil, pi
+from typing import Generic, TypeVar
 
 import numpy as np
+from numpy.typing import DTypeLike
 
-from p2sf.conventions import protected
+from p2sf.conventions import FloatOrArray, protected
 from p2sf.errors import SamplingError
 
-# The settled picture's promise: relative L2 error of the PSF in its window.
+# Relative L2 error of a converged PSF in its window.
 SETTLED_TOLERANCE = 1e-4
 NEWTON_STEPS = 8
 NEWTON_ENOUGH = 1e-6  # of a step, in units of the closest nodes' distance: the next error is its square
-MOST_KEPT = 2**18  # nodes: 3 MB each, of the half disc
-AT_ONCE = 2**22  # numbers of a table that only a sum is wanted of
+MOST_KEPT = 2**18  # nodes that a cached result may have: 3 MB for the half disc
+AT_ONCE = 2**22  # numbers in one block of a table that is summed
+
+Nodes = TypeVar("Nodes")
 
 
 @dataclass(frozen=True)
@@ -29,30 +34,30 @@ class DiscNodes:
     eta: np.ndarray
     weight: np.ndarray
 
-    def astype(self, dtype) -> "DiscNodes":
+    def astype(self, dtype: DTypeLike) -> "DiscNodes":
         """Return the same nodes in another precision."""
         return DiscNodes(*(x.astype(dtype) for x in (self.xi, self.eta, self.weight)))
 
 
-def kept(make):
-    """Return a function of two counts that keeps its latest results, but not those of more than MOST_KEPT nodes."""
-    known = lru_cache(maxsize=32)(make)
+class _Cached(Generic[Nodes]):
+    """A function of two counts that caches its latest results, except those of more than MOST_KEPT nodes."""
 
-    @wraps(make)
-    def function(*counts: int):
-        return (make if counts[0] * counts[1] > MOST_KEPT else known)(*counts)
+    def __init__(self, make: Callable[[int, int], Nodes]):
+        self._make, self._known = make, lru_cache(maxsize=32)(make)
+        self.cache_clear = self._known.cache_clear
+        update_wrapper(self, make)
 
-    function.cache_clear = known.cache_clear
-    return function
+    def __call__(self, first: int, second: int) -> Nodes:
+        return (self._make if first * second > MOST_KEPT else self._known)(first, second)
 
 
-@kept
+@_Cached
 def disc_nodes(radial: int, angular: int) -> DiscNodes:
     """Return the half-disc nodes of Gauss–Legendre in ρ² times ``angular`` directions around the whole circle.
 
     ``angular`` is even, and the directions lie midway between multiples of 2π/angular: none falls on the
-    fold ξ = 0, so each node's mirror image is a direction of the full rule too and the fold is exact for
-    whatever is even in ξ. Shape (radial·angular/2,). Weights are an area mean. Raises SamplingError.
+    fold ξ = 0, so each node's mirror image is a node of the full rule and the fold is exact for every
+    function even in ξ. Shape (radial·angular/2,); the weighted sum is a mean over the area. Raises SamplingError.
     """
     if radial < 1 or angular < 2 or angular % 2:
         raise SamplingError(
@@ -73,7 +78,7 @@ class RowNodes:
     """Nodes of the quarter disc ξ, η > 0 in rows of equal η, for sums that separate into two products.
 
     ``eta``: (rows,); ``xi``: (rows, columns), or (1, columns) where all rows share it; ``weight``: (rows, columns)
-    counts the three mirror images too and sums to 1. ``name`` says in words what rule it is.
+    counts the three mirror images too and sums to 1. ``name`` describes the rule.
     """
 
     eta: np.ndarray
@@ -87,7 +92,7 @@ class RowNodes:
         return RowNodes(self.eta[some], xi, self.weight[some], self.name)
 
 
-@kept
+@_Cached
 def chord_rows(rows: int, columns: int) -> RowNodes:
     """Return Gauss–Chebyshev rows (second kind) times Gauss–Legendre along each chord; both counts even.
 
@@ -110,7 +115,7 @@ def chord_rows(rows: int, columns: int) -> RowNodes:
 def grid_rows(size: int) -> RowNodes:
     """Return the ``size``² uniform grid over [−1, 1]² with edge cells weighted by their area inside; size even.
 
-    Second-order at best: good for a picture that moves (128²: some 4e-2 relative L2 far off axis).
+    Second-order at best: good enough for a preview (128²: some 4e-2 relative L2 far off axis). Raises SamplingError.
     """
     if size < 2 or size % 2:
         raise SamplingError("a pupil grid of {size} samples; give an even count of at least 2", size=size)
@@ -120,7 +125,7 @@ def grid_rows(size: int) -> RowNodes:
     return RowNodes(protected(centre), protected(centre[None].copy()), protected(area / area.sum()), name)
 
 
-def cell_areas(xi, eta, step: float, strips: int = 16) -> np.ndarray:
+def cell_areas(xi: FloatOrArray, eta: FloatOrArray, step: float, strips: int = 16) -> np.ndarray:
     """Return the fraction of each square cell inside the unit disc, shape (len(eta), len(xi)), centres given.
 
     Exact in η, Gauss–Legendre over ``strips`` strips in ξ.
@@ -133,18 +138,19 @@ def cell_areas(xi, eta, step: float, strips: int = 16) -> np.ndarray:
     return np.concatenate([_overlap(chord, block, step) @ (weight / 2) for block in blocks])
 
 
-def _overlap(chord, bottom, step):
+def _overlap(chord: np.ndarray, bottom: np.ndarray, step: float) -> np.ndarray:
     """Return the share of each strip [bottom, bottom + step] that lies within ±chord."""
     top = np.minimum(chord, bottom + step)
-    return np.maximum(0, top - np.maximum(-chord, bottom)) / step
+    share: np.ndarray = np.maximum(0, top - np.maximum(-chord, bottom)) / step
+    return share
 
 
 @lru_cache(maxsize=256)
 def gauss_legendre(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return nodes in (−1, 1), ascending, and weights (sum 2) of the rule exact to degree 2·count − 1.
+    """Return nodes in (−1, 1), ascending, and weights (sum 2) of the rule that is exact to degree 2·count − 1.
 
     Newton's method on the positive half from Tricomi's guess (Abramowitz & Stegun 1964, 22.16.6 and 25.4.29):
-    a thousand nodes cost some ten milliseconds, where the eigenvalue method takes seconds.
+    a thousand nodes take some ten milliseconds, where the eigenvalue method takes seconds.
     """
     x = (1 - (count - 1) / (8 * count**3)) * np.cos(pi * (np.arange(1, (count + 3) // 2) - 0.25) / (count + 0.5))
     for _ in range(NEWTON_STEPS):
@@ -158,10 +164,10 @@ def gauss_legendre(count: int) -> tuple[np.ndarray, np.ndarray]:
     return protected(np.append(-x, x[::-1][count % 2 :])), protected(np.append(weight, weight[::-1][count % 2 :]))
 
 
-def _legendre(order: int, x: np.ndarray):
+def _legendre(order: int, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return P_n and its derivative by the three-term recurrence (A&S 22.7.10, 22.8.5)."""
     before, value, work = np.ones_like(x), x.copy(), np.empty_like(x)
-    for n in range(1, order):  # in place: short arrays cost as much to make as to add
+    for n in range(1, order):  # in place: allocating short arrays takes as long as adding them
         np.multiply(x, value, out=work)
         work *= (2 * n + 1) / (n + 1)
         before *= n / (n + 1)
@@ -171,7 +177,7 @@ def _legendre(order: int, x: np.ndarray):
 
 
 def nodes_for(slope: float, reach: float, twist: float | None = None) -> tuple[int, int]:
-    """Return (radial, angular) counts that carry a phase, so that the PSF settles to SETTLED_TOLERANCE.
+    """Return the (radial, angular) counts that resolve a phase, so that the PSF converges to SETTLED_TOLERANCE.
 
     ``slope``: steepest |∂W/∂ρ|, ``twist``: steepest |∂W/∂θ| (``slope`` bounds it if not given), both in
     waves; ``reach``: waves per unit radius of the kernel at the window's farthest corner. The margins are
@@ -182,14 +188,20 @@ def nodes_for(slope: float, reach: float, twist: float | None = None) -> tuple[i
     return _stepped(radial / 4 + 4), even_count(angular + 4)
 
 
-def chords_for(row_slope, column_slope, reach: float, reach_across: float | None = None) -> tuple[int, int]:
-    """Return (rows, columns) of `chord_rows` for the slopes of `wavefront.steepest_chords`; promise as `nodes_for`.
+def chords_for(
+    row_slope: FloatOrArray, column_slope: FloatOrArray, reach: float, reach_across: float | None = None
+) -> tuple[int, int]:
+    """Return (rows, columns) of `chord_rows` for the slopes of `wavefront.steepest_chords`, as accurate as `nodes_for`.
 
     ``reach_across``: the kernel's waves at the window's side edge, all that columns meet; ``reach`` bounds it if
-    not given. Of arrays of slopes the largest counts. n Gauss nodes integrate 2n harmonics.
+    not given. Of an array of slopes the largest counts. n Gauss nodes integrate 2n harmonics.
     """
-    pairs = (row_slope, reach), (column_slope, reach if reach_across is None else reach_across)
-    return tuple(even_count(_harmonics(float(np.max(slope)) + waves, 7) / 2 + 4) for slope, waves in pairs)
+    across = reach if reach_across is None else reach_across
+    return _chord_count(row_slope, reach), _chord_count(column_slope, across)
+
+
+def _chord_count(slope: FloatOrArray, reach: float) -> int:
+    return even_count(_harmonics(float(np.max(slope)) + reach, 7) / 2 + 4)
 
 
 def _harmonics(slope: float, tail: float) -> float:
@@ -199,7 +211,7 @@ def _harmonics(slope: float, tail: float) -> float:
     z = 2π·slope.
     """
     z = 2 * pi * abs(slope)
-    return z + tail * np.cbrt(z)
+    return z + tail * float(np.cbrt(z))
 
 
 def even_count(count: float) -> int:
@@ -208,6 +220,6 @@ def even_count(count: float) -> int:
 
 
 def _stepped(count: float) -> int:
-    """Return the next count with four significant bits, so that a dragged slider meets the cache."""
-    step = 2 ** max(0, int(count).bit_length() - 4)
+    """Return the next count with four significant bits, so that neighbouring requests share the cache."""
+    step: int = 2 ** max(0, int(count).bit_length() - 4)
     return step * ceil(count / step)

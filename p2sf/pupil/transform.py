@@ -5,6 +5,7 @@ point (ξ, η) has k = −n'u'(ξ, η)/λ with the signed slope (`conventions`).
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.errors import SamplingError
 
@@ -13,7 +14,9 @@ BLOCK = 4096
 LINE_GRID = 2**15  # frequencies of a sum on a line: 3e-4 at the ends of 513 points
 
 
-def sum_plane_waves(amplitude, kx, ky, x, y, even: bool = True) -> np.ndarray:
+def sum_plane_waves(
+    amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: ArrayLike, y: ArrayLike, even: bool = True
+) -> np.ndarray:
     """Return Σ_j amplitude_j exp(2πi(kx_j x + ky_j y)), complex, shape (…, len(y), len(x)).
 
     ``amplitude``, ``kx``, ``ky``: (…, nodes), broadcast; ``x``, ``y``: 1-D, in units of 1/k. ``even``: the nodes
@@ -25,16 +28,17 @@ def sum_plane_waves(amplitude, kx, ky, x, y, even: bool = True) -> np.ndarray:
     block = _even_block if even else _plain_block
     nodes = amplitude.shape[-1]
     parts = (slice(start, start + BLOCK) for start in range(0, nodes, BLOCK))
-    return sum(block(amplitude[..., part], kx[..., part], ky[..., part], x, y) for part in parts)
+    return np.asarray(sum(block(amplitude[..., part], kx[..., part], ky[..., part], x, y) for part in parts))
 
 
-def _plain_block(amplitude, kx, ky, x, y):
+def _plain_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     rows = amplitude[..., None, :] * _wave(y[:, None] * ky[..., None, :])
-    return rows @ _wave(kx[..., :, None] * x)
+    field: np.ndarray = rows @ _wave(kx[..., :, None] * x)
+    return field
 
 
-def _even_block(amplitude, kx, ky, x, y):
-    """Return the block's sum from all-real products at |x|, |y| only: half the kernels and half the products."""
+def _even_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the block's sum from real products at |x|, |y| only: half the kernels and half the products."""
     columns, from_column = np.unique(np.abs(x), return_inverse=True)
     rows, from_row = np.unique(np.abs(y), return_inverse=True)
     across = np.cos(_radians(kx[..., :, None] * columns))
@@ -42,30 +46,34 @@ def _even_block(amplitude, kx, ky, x, y):
     upright, odd = (_real_product(amplitude, kernel, across) for kernel in (np.cos(phase), np.sin(phase)))
     sign = np.sign(y)[:, None]
     field = upright[..., from_row, :] + (1j * sign).astype(upright.dtype) * odd[..., from_row, :]
-    return field[..., from_column]
+    mirrored: np.ndarray = field[..., from_column]
+    return mirrored
 
 
-def _real_product(amplitude, kernel, across):
+def _real_product(amplitude: np.ndarray, kernel: np.ndarray, across: np.ndarray) -> np.ndarray:
     """Return (amplitude·kernel) @ across with its real and imaginary parts as two real products."""
     real = (amplitude.real[..., None, :] * kernel) @ across
-    return real + 1j * ((amplitude.imag[..., None, :] * kernel) @ across)
+    product: np.ndarray = real + 1j * ((amplitude.imag[..., None, :] * kernel) @ across)
+    return product
 
 
 def _radians(cycles: np.ndarray) -> np.ndarray:
-    """Return 2π times the cycles less their whole part, which keeps float32 exact where phases are large."""
-    return (2 * np.pi) * (cycles - np.rint(cycles))
+    """Return 2π times the cycles less their whole part, which keeps float32 accurate for large phases."""
+    radians: np.ndarray = (2 * np.pi) * (cycles - np.rint(cycles))
+    return radians
 
 
 def _wave(cycles: np.ndarray) -> np.ndarray:
     phase = _radians(cycles)
-    return np.cos(phase) + 1j * np.sin(phase)
+    wave: np.ndarray = np.cos(phase) + 1j * np.sin(phase)
+    return wave
 
 
-def sum_on_line(amplitude, k, count: int, step: float) -> np.ndarray:
+def sum_on_line(amplitude: np.ndarray, k: ArrayLike, count: int, step: float) -> np.ndarray:
     """Return Σ_j amplitude_j exp(2πi·k_j·x) at ``count`` points ``step`` apart, point count//2 at x = 0; complex.
 
-    ``amplitude``, ``k``: (nodes,). The nodes are spread over a grid of frequencies by straight lines and an FFT does
-    the rest: an error of (π·count/2/LINE_GRID)²/2 of each node at the line's ends, less inside.
+    ``amplitude``, ``k``: (nodes,). Each node is split linearly between the two nearest frequencies of a grid, which
+    an FFT sums: an error of (π·count/2/LINE_GRID)²/2 of each node at the line's ends, less inside.
     """
     place = np.asarray(k) * (step * LINE_GRID)
     left = np.floor(place)
@@ -78,30 +86,31 @@ def sum_on_line(amplitude, k, count: int, step: float) -> np.ndarray:
     return np.fft.ifft(grid, norm="forward")[np.arange(count) - count // 2]
 
 
-def matrix_dft(pupil, kx, ky, x, y) -> np.ndarray:
+def matrix_dft(pupil: np.ndarray, kx: ArrayLike, ky: ArrayLike, x: ArrayLike, y: ArrayLike) -> np.ndarray:
     """Return Σ pupil_ji exp(2πi(kx_i x + ky_j y)) on a grid, shape (…, len(y), len(x)): two matrix products.
 
     ``pupil``: (…, len(ky), len(kx)); any pitch and any size on either side (Soummer et al. 2007, eq. 7).
     """
-    up, across = (_wave(np.multiply.outer(np.asarray(a), b)) for a, b in ((y, ky), (kx, x)))
-    return up @ pupil @ across
+    up, across = (_wave(np.multiply.outer(a, b)) for a, b in ((y, ky), (kx, x)))
+    field: np.ndarray = up @ pupil @ across
+    return field
 
 
 def padded_fft(pupil: np.ndarray, pupil_samples: int, pixels: int) -> np.ndarray:
     """Return the same sum by FFT, for kx = j/(pupil_samples·pitch), j centred, at the pitch of x: the paper's way.
 
     ``pupil``: (…, side, side), side even, sample side//2 is j = 0. Returns (…, pixels, pixels), sample pixels//2
-    is x = 0. A pupil wider than ``pupil_samples`` is folded onto itself, which the sum at these x cannot tell
-    apart, so that any pitch is allowed. Source: Pieroni et al. 2015. Raises SamplingError.
+    is x = 0. A pupil wider than ``pupil_samples`` is folded onto itself, which leaves the sum at these x as it is,
+    so that any pitch is allowed. Source: Pieroni et al. 2015. Raises SamplingError.
     """
     check_fft(pupil_samples, pixels)
-    plane = np.fft.ifft2(_wrapped(pupil, pupil_samples), norm="forward")
+    plane: np.ndarray = np.fft.ifft2(_wrapped(pupil, pupil_samples), norm="forward")
     shown = np.arange(pixels) - pixels // 2
     return plane[..., shown[:, None], shown]
 
 
 def check_fft(pupil_samples: int, pixels: int) -> None:
-    """Raise SamplingError unless NPSF is even and NPUPIL an even number of at least twice as many."""
+    """Raise SamplingError unless ``pixels`` is even and ``pupil_samples`` even and at least twice as large."""
     if pixels % 2:
         raise SamplingError(
             "an FFT needs an even number of PSF samples, not {pixels}; add one or use mdft", pixels=pixels

@@ -5,10 +5,17 @@ Z = N·P_k(2ρ² − 1)·H_m with k = (n − m)/2, P_k the Jacobi polynomial of 
 angle and hence smooth at the centre (Born & Wolf 1999, §9.2.1; Abramowitz & Stegun 1964, 22.7.1, 22.8).
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
 from math import comb, factorial
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.conventions import FloatOrArray
+
+_Powers: TypeAlias = dict[tuple[int, int], float]  # coefficients by the exponents of (ξ², η)
 
 
 @lru_cache(maxsize=64)
@@ -32,7 +39,7 @@ def jacobi(degree: int, alpha: float, beta: float, s: np.ndarray) -> np.ndarray:
     return value
 
 
-def basis(order: int, xi, eta, odd: bool = False) -> np.ndarray:
+def basis(order: int, xi: ArrayLike, eta: ArrayLike, odd: bool = False) -> np.ndarray:
     """Return every polynomial up to ``order`` at pupil points, shape (terms, points); unit mean square on the disc."""
     xi, eta = np.asarray(xi, float), np.asarray(eta, float)
     s = 2 * (xi * xi + eta * eta) - 1
@@ -40,14 +47,14 @@ def basis(order: int, xi, eta, odd: bool = False) -> np.ndarray:
     return np.stack([_norm(n, m) * jacobi((n - m) // 2, 0, m, s) * harmonics[m] for n, m in terms(order, odd)])
 
 
-def gradient(order: int, xi, eta, odd: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def gradient(order: int, xi: ArrayLike, eta: ArrayLike, odd: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """Return ∂/∂ξ and ∂/∂η of every polynomial at pupil points, each (terms, points)."""
     xi, eta = np.asarray(xi, float), np.asarray(eta, float)
     rows = [_slopes(n, m, xi, eta, odd) for n, m in terms(order, odd)]
     return np.stack([row[0] for row in rows]), np.stack([row[1] for row in rows])
 
 
-def _slopes(n: int, m: int, xi, eta, odd: bool):
+def _slopes(n: int, m: int, xi: np.ndarray, eta: np.ndarray, odd: bool) -> tuple[np.ndarray, np.ndarray]:
     """Return the gradient of one term by the product rule, d P_k^(0,m)/ds = (k + m + 1)/2 · P_{k−1}^(1,m+1)."""
     k, s, z = (n - m) // 2, 2 * (xi * xi + eta * eta) - 1, eta + 1j * xi
     part = np.imag if odd else np.real
@@ -61,7 +68,7 @@ def _slopes(n: int, m: int, xi, eta, odd: bool):
 
 
 def _norm(n: int, m: int) -> float:
-    """Return what gives a term unit mean square over the disc (Noll 1976, eq. 1)."""
+    """Return the factor that gives a term unit mean square over the disc (Noll 1976, eq. 1)."""
     return float(np.sqrt((n + 1) * (2 if m else 1)))
 
 
@@ -73,9 +80,9 @@ def powers(order: int, odd: bool = False) -> np.ndarray:
     return np.stack([_norm(n, m) * form for (n, m), form in zip(terms(order, odd), products, strict=True)])
 
 
-def _radial_powers(k: int, m: int) -> dict[tuple[int, int], float]:
+def _radial_powers(k: int, m: int) -> _Powers:
     """Return P_k^(0,m)(2ρ² − 1) in powers of (ξ², η) (Born & Wolf 1999, §9.2, eq. 5 with n = m + 2k)."""
-    out: dict[tuple[int, int], float] = {}
+    out: _Powers = {}
     for j in range(k + 1):
         scale = (-1) ** (k - j) * factorial(m + k + j) // (factorial(j) * factorial(k - j) * factorial(m + j))
         for i in range(j + 1):
@@ -84,13 +91,14 @@ def _radial_powers(k: int, m: int) -> dict[tuple[int, int], float]:
     return out
 
 
-def _harmonic_powers(m: int, odd: bool) -> dict[tuple[int, int], float]:
+def _harmonic_powers(m: int, odd: bool) -> _Powers:
     """Return Re (η + iξ)^m, or Im/ξ, in powers of (ξ², η) (binomial theorem)."""
     first = 1 if odd else 0
     return {((k - first) // 2, m - k): (-1) ** (k // 2) * comb(m, k) for k in range(first, m + 1, 2)}
 
 
-def _product(one, two, size) -> np.ndarray:
+def _product(one: _Powers, two: _Powers, size: tuple[int, int]) -> np.ndarray:
+    """Return the product of two polynomials as an array of the powers of (ξ², η)."""
     out = np.zeros(size)
     for (a, b), x in one.items():
         for (c, d), y in two.items():
@@ -98,10 +106,10 @@ def _product(one, two, size) -> np.ndarray:
     return out
 
 
-def basis_by_powers(order: int, xi, eta) -> tuple[np.ndarray, np.ndarray]:
+def basis_by_powers(order: int, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return `basis` of the even and of the odd terms, each (terms, points), as products of powers.
 
-    Several times as fast; digits cancel as the order grows: some 1e-13 at 6 and 1e-9 at 18.
+    Several times as fast; more digits cancel as the order grows: errors of some 1e-13 at order 6 and 1e-9 at 18.
     """
     down, along = _exponents(order)
     squares, lines = (np.vander(v, order + 1, increasing=True).T for v in (xi * xi, eta))
@@ -113,11 +121,12 @@ def basis_by_powers(order: int, xi, eta) -> tuple[np.ndarray, np.ndarray]:
 @lru_cache(maxsize=32)
 def _exponents(order: int) -> tuple[np.ndarray, np.ndarray]:
     """Return a and b of every ξ²ᵃ·ηᵇ up to this degree."""
-    return np.array([(a, b) for a in range(order // 2 + 1) for b in range(order - 2 * a + 1)]).T
+    down, along = np.array([(a, b) for a in range(order // 2 + 1) for b in range(order - 2 * a + 1)]).T
+    return down, along
 
 
 def columns(coefficients: np.ndarray, order: int, odd: bool = False) -> list[list[float]]:
-    """Return Σ coefficient·term as plain numbers c[b][a] of ξ²ᵃ·ηᵇ, for `evaluate`."""
+    """Return Σ coefficient·term as plain numbers c[b][a] for ξ²ᵃ·ηᵇ, as `evaluate` takes them."""
     form = powers(order, odd)
     flat = (coefficients @ form.reshape(len(form), -1)).reshape(form.shape[1:])
     top = order - 1 if odd else order
@@ -125,24 +134,25 @@ def columns(coefficients: np.ndarray, order: int, odd: bool = False) -> list[lis
 
 
 def evaluate(form: list[list[float]], square: np.ndarray, eta: np.ndarray) -> np.ndarray:
-    """Return Σ c[b][a]·squareᵃ·ηᵇ by Horner's rule: as fast as a fit at new points can be had."""
+    """Return Σ c[b][a]·squareᵃ·ηᵇ by Horner's rule, the fastest way to evaluate a fit at new points."""
     return evaluate_in_eta([in_square(column, square) for column in form], eta)
 
 
-def evaluate_in_eta(parts: list, eta: np.ndarray) -> np.ndarray:
+def evaluate_in_eta(parts: Sequence[FloatOrArray], eta: np.ndarray) -> np.ndarray:
     """Return Σ parts[b]·ηᵇ, each part an array or a number."""
-    value = parts[-1] * np.ones_like(eta) if np.ndim(parts[-1]) == 0 else parts[-1].copy()
+    last = parts[-1]
+    value: np.ndarray = last.copy() if isinstance(last, np.ndarray) else last * np.ones_like(eta)
     for part in parts[-2::-1]:
         value *= eta
         value += part
     return value
 
 
-def in_square(column: list[float], square: np.ndarray):
-    """Return Σ column[a]·squareᵃ; a plain number if only column[0] is there."""
+def in_square(column: list[float], square: np.ndarray) -> FloatOrArray:
+    """Return Σ column[a]·squareᵃ; a plain number if there is only column[0]."""
     if len(column) == 1:
         return column[0]
-    value = column[-1] * square
+    value: np.ndarray = column[-1] * square
     for c in column[-2:0:-1]:
         value += c
         value *= square

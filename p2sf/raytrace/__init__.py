@@ -1,1 +1,1 @@
-"""Exact rays: one surface, a whole lens, the pencil of one source, fits to it, vignetting, field curves."""
+"""Exact rays: through a surface and a lens, the pencil of one source, fits to it, vignetting, field curves."""

@@ -1,12 +1,13 @@
-"""What changes over the field and the spectrum: focal surfaces, distortion, colour; exact rays beside the third order.
+"""Curves over the field and the spectrum: focal surfaces, distortion, chromatic shift; exact and to third order.
 
-All focus positions are mm from the sensor, positive behind it; all arrays follow the field slopes they are asked for.
+All focus positions are mm from the sensor, positive behind it; results have the shape of the field slopes.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens
@@ -14,11 +15,11 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import Coefficients, coefficients
-from p2sf.raytrace.aiming import pupil_rays, start
+from p2sf.raytrace.aiming import Sources, pupil_rays, start
 from p2sf.raytrace.surface import Status
 from p2sf.raytrace.trace import run
 
-NEAR = 1e-3  # pupil radii: a neighbour of the chief ray; the error is its square, the rounding 1e-16 over it
+NEAR = 1e-3  # pupil radii from the chief ray to its neighbours: an error of its square, a rounding of 1e-16 over it
 
 
 class Foci(NamedTuple):
@@ -43,22 +44,25 @@ class Heights:
 
     @property
     def third_order_distortion(self) -> np.ndarray:
-        """Return the same to third order."""
+        """Return (third order − paraxial)/paraxial, 0 on the axis."""
         return _share(self.third_order - self.paraxial, self.paraxial)
 
 
-def _share(part, whole):
-    return np.divide(part, whole, out=np.where(np.isnan(part), np.nan, 0.0), where=whole != 0)
+def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
+    """Return part/whole; 0 where the whole is 0, NaN where the part is."""
+    share: np.ndarray = np.divide(part, whole, out=np.where(np.isnan(part), np.nan, 0.0), where=whole != 0)
+    return share
 
 
-def real_foci(lens: Lens, source: Source, field_slope, stop: Stop | None = None) -> Foci:
-    """Return where exact rays close to the chief ray come to focus, as Coddington's equations do.
+def real_foci(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | None = None) -> Foci:
+    """Return the foci of exact rays close to the chief ray, the same as Coddington's equations.
 
-    Two rays at ±`NEAR` of the pupil beside the chief ray, and two above and below it, cross at that focus.
+    The sagittal focus is where a ray `NEAR` beside the chief ray crosses the plane of symmetry, the tangential one
+    where two rays `NEAR` above and below it cross. ``field_slope`` replaces that of ``source``.
     """
     slopes = np.asarray(field_slope, dtype=float)
     xi, eta = np.array([NEAR, 0.0, 0.0]), np.array([0.0, NEAR, -NEAR])
-    rays = pupil_rays(lens, replace(source, field_slope=slopes), xi, eta, stop=stop)
+    rays = pupil_rays(lens, Sources(source.depth_mm, slopes, source.wavelength_um), xi, eta, stop=stop)
     beam = run(lens, start(rays), rays.index)
     lost = (beam.status != Status.PASSED).any(-1)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -74,10 +78,14 @@ def seidel_foci(c: Coefficients) -> Foci:
     return Foci(scale * (c.w20 + c.wd), scale * (c.w20 + c.w22 + c.wd))
 
 
-def heights(lens: Lens, source: Source, field_slope, stop: Stop | None = None) -> Heights:
-    """Return where the chief rays of these fields land; W11 moves the paraxial point by λW11/(n′u′)."""
+def heights(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | None = None) -> Heights:
+    """Return where the chief rays of these fields land; W11 moves the paraxial point by λW11/(n′u′).
+
+    ``field_slope`` replaces that of ``source``.
+    """
     slopes = np.asarray(field_slope, dtype=float)
-    rays = pupil_rays(lens, replace(source, field_slope=slopes), np.zeros(1), np.zeros(1), stop=stop)
+    sources = Sources(source.depth_mm, slopes, source.wavelength_um)
+    rays = pupil_rays(lens, sources, np.zeros(1), np.zeros(1), stop=stop)
     beam = run(lens, start(rays), rays.index)
     real = np.where(beam.status != Status.PASSED, np.nan, beam.y)[..., 0]
     c = coefficients(lens, source.depth_mm, slopes, source.wavelength_um, stop)
@@ -85,13 +93,15 @@ def heights(lens: Lens, source: Source, field_slope, stop: Stop | None = None) -
     return Heights(real, third, c.image_height)
 
 
-def colour_shift(lens: Lens, depth_mm: float, wavelength_um, zones, stop: Stop | None = None) -> np.ndarray:
+def colour_shift(
+    lens: Lens, depth_mm: float, wavelength_um: ArrayLike, zones: ArrayLike, stop: Stop | None = None
+) -> np.ndarray:
     """Return where rays of each zone of the pupil cross the axis, mm behind the sensor, (zones, wavelengths).
 
-    Zone 0 is the paraxial image, others exact rays from that part of the pupil's radius; NaN where a ray is lost.
+    Zone 0 is the paraxial image; another zone is an exact ray at that fraction of the pupil's radius, NaN if lost.
     """
     waves, zones = np.asarray(wavelength_um, dtype=float), np.asarray(zones, dtype=float)
-    rays = pupil_rays(lens, Source(depth_mm, 0.0, waves), np.zeros_like(zones), zones, stop=stop)
+    rays = pupil_rays(lens, Sources(depth_mm, 0.0, waves), np.zeros_like(zones), zones, stop=stop)
     beam = run(lens, start(rays), rays.index)
     with np.errstate(invalid="ignore", divide="ignore"):
         crossing = np.where(beam.status != Status.PASSED, np.nan, -beam.y * beam.r / beam.q).T

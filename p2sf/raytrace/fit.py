@@ -1,14 +1,16 @@
 """Phase and image-space direction cosines of a pencil as polynomials over the entrance pupil.
 
-Form 1 of DESIGN.md section 2. The diffraction integral is a Fourier transform over direction cosines; with
-W, Kx and Ky all given over the pupil disc it needs no edge and no Jacobian, the rays stay at fixed pupil
-points, and a fit is one small product with a least-squares inverse that never changes.
+The diffraction integral is a Fourier transform over direction cosines; with W, Kx and Ky all given over the
+pupil disc it needs no edge and no Jacobian, the rays stay at fixed pupil points, and a fit is one small
+product with a least-squares inverse that never changes.
 """
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
@@ -19,18 +21,20 @@ from p2sf.pupil.zernike import basis, columns, evaluate, gradient, terms
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import RayData, Steepness, ray_data, steepness
 
-# Rays on the rim, where a polynomial strays first, that take no part in the fit: (ξ, η).
+# Rays held out of the fit to test it, on the rim, where a polynomial deviates first: (ξ, η).
 HELD_OUT = np.array([[0.0, 0.0, 1.0, 0.6], [1.0, -1.0, 0.0, 0.8]])
 # RMS phase error in waves up to which an order is kept: 1 − R² then stays below some (4πσ)² = 2e-3.
 RESIDUAL_WAVES = 3.5e-3
-# Weight s^a·(1 − s)^b of a ray at s = ρ², beside its area: the centre makes the core of the PSF and the rim is
-# where a polynomial strays. Near Chebyshev's weight; chosen on the stored rows among powers in steps of 1/4.
+# Weight s^a·(1 − s)^b of a ray at s = ρ², beside its area: the centre makes the core of the PSF, and at the rim a
+# polynomial deviates first. Near Chebyshev's weight; chosen on the stored references among powers in steps of 1/4.
 CENTRE_POWER, RIM_POWER = -0.75, -0.5
+
+Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η of some terms, each (terms, points)
 
 
 @dataclass(frozen=True)
 class Level:
-    """How much a fit may say: orders of W and of the maps, and the radii × directions of rays it is made from."""
+    """The size of a fit: orders of W and of the maps, and the radii × directions of the rays it is made from."""
 
     wave_order: int
     map_order: int
@@ -46,7 +50,7 @@ class Level:
     @property
     def rays(self) -> int:
         """Return how many rays are traced, those held out included."""
-        return self.radii * self.directions + HELD_OUT.shape[1]
+        return self.radii * self.directions + len(HELD_OUT[0])
 
 
 LEVELS = (
@@ -63,7 +67,7 @@ LEVELS = (
 class FittedPencil:
     """Coefficients of the orthonormal polynomials of `zernike`: phase in waves, fx and fy in cycles per µm.
 
-    ``phase`` and ``fy`` go with the even terms, ``fx`` with the odd. ``residual_waves`` is the RMS error of the
+    ``phase`` and ``fy`` belong to the even terms, ``fx`` to the odd. ``residual_waves`` is the RMS error of the
     phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm; ``rays`` counts all that were traced;
     ``blur_um2`` is ∫|field|²dx at unit unaberrated peak.
     """
@@ -85,54 +89,59 @@ class FittedPencil:
 
     @property
     def error_waves(self) -> float:
-        """Return the RMS phase error over all the light: what the map misses counts where diffraction carries it."""
+        """Return the RMS phase error over all the light: the map's error counts as far as diffraction spreads light."""
         return float(np.hypot(self.residual_waves, self.map_residual * self.steepness.light_um))
 
-    def at(self, xi, eta):
+    def at(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return phase (waves), fx and fy (cycles/µm) at pupil points, each (points,)."""
         even = basis(max(self.level.wave_order, self.level.map_order), xi, eta)
         return self.on(even, basis(self.level.map_order, xi, eta, odd=True))
 
-    def on(self, even, odd):
+    def on(self, even: np.ndarray, odd: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return phase, fx and fy where the even and odd terms have these values, (terms, points)."""
         return self.phase @ even[: len(self.phase)], self.fx @ odd, self.fy @ even[: len(self.fy)]
 
-    def at_points(self, xi, eta):
+    def at_points(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return phase and fx as `at` does, but by Horner's rule, at points of any shape."""
         square = xi * xi
         phase = evaluate(columns(self.phase, self.level.wave_order), square, eta)
         return phase, xi * evaluate(columns(self.fx, self.level.map_order, True), square, eta)
 
-    def jacobian(self, xi, eta) -> np.ndarray:
+    def jacobian(self, xi: ArrayLike, eta: ArrayLike) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (cycles/µm)²."""
         order = self.level.map_order
         return _determinant(self.fx, self.fy, gradient(order, xi, eta, odd=True), gradient(order, xi, eta))
 
 
 def fit(
-    lens: Lens, source: Source, numbers=None, aim="paraxial", stop: Stop | None = None, residual_waves=RESIDUAL_WAVES
+    lens: Lens,
+    source: Source,
+    numbers: int | None = None,
+    aim: str = "paraxial",
+    stop: Stop | None = None,
+    residual_waves: float = RESIDUAL_WAVES,
 ) -> FittedPencil:
     """Fit one source's pencil; the order rises until the residual is small enough, or is fixed by ``numbers``.
 
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
-    traced, rays, level = 0, None, None
-    for level_before, level in zip((None, *LEVELS), LEVELS, strict=False):
+    traced, rays, sampling, found = 0, None, None, None
+    for level in LEVELS:
         if numbers not in (None, level.numbers):
             continue
-        if rays is None or (level.radii, level.directions) != (level_before.radii, level_before.directions):
-            rays = _trace(lens, source, level, aim, stop)
+        if rays is None or sampling != (level.radii, level.directions):
+            rays, sampling = _trace(lens, source, level, aim, stop), (level.radii, level.directions)
             traced += level.rays
         found = fit_rays(rays, level, traced)
         if numbers or found.error_waves < residual_waves:
             return found
-    if traced == 0:
+    if found is None:
         offered = tuple(level.numbers for level in LEVELS)
         raise GeometryError("no fit has {numbers} numbers; choose one of {offered}", numbers=numbers, offered=offered)
     return found
 
 
-def _trace(lens, source, level: Level, aim, stop) -> RayData:
+def _trace(lens: Lens, source: Source, level: Level, aim: str, stop: Stop | None) -> RayData:
     xi, eta, _ = level_rays(level)
     rays = pencil(lens, source, xi, eta, aim, stop=stop)
     if not rays.passed.all():
@@ -146,8 +155,8 @@ def _trace(lens, source, level: Level, aim, stop) -> RayData:
 
 
 @lru_cache(maxsize=16)
-def level_rays(level: Level):
-    """Return pupil points (ξ, η) of a level's rays, those held out last, and the area weights of the others."""
+def level_rays(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the pupil points (ξ, η) of a level's rays, those held out last, and the area weights of the others."""
     nodes = disc_nodes(level.radii, 2 * level.directions)
     return np.append(nodes.xi, HELD_OUT[0]), np.append(nodes.eta, HELD_OUT[1]), nodes.weight
 
@@ -172,11 +181,12 @@ def _projection(level: Level) -> Projection:
     root = np.sqrt(weight * square**CENTRE_POWER * (1 - square) ** RIM_POWER)
     waves, maps = even[: len(terms(level.wave_order))], even[: len(terms(level.map_order))]
     inverses = (np.linalg.pinv((part[:, : weight.size] * root).T) * root for part in (waves, maps, odd))
-    return Projection(even, odd, *inverses)
+    phase, fy, fx = inverses
+    return Projection(even, odd, phase, fy, fx)
 
 
 def fit_rays(rays: RayData, level: Level, traced: int, steep: Steepness | None = None) -> FittedPencil:
-    """Return the fit of one level to its rays; ``steep`` spares finding their `steepness` again."""
+    """Return the fit of one level to its rays; their `steepness` is computed unless ``steep`` gives it."""
     xi, eta, weight = level_rays(level)
     project, used = _projection(level), weight.size
     phase, fy, fx = (
@@ -184,7 +194,7 @@ def fit_rays(rays: RayData, level: Level, traced: int, steep: Steepness | None =
         for inverse, column in ((project.phase, rays.phase), (project.fy, rays.fy), (project.fx, rays.fx))
     )
     miss_x, miss_y = fx @ project.odd - rays.fx, fy @ project.even[: fy.size] - rays.fy
-    # At a ray's landing point x the phase of the integrand is w + f·x, so this is the error that matters there.
+    # At a ray's landing point x the integrand's phase is w + f·x, so this is the error that matters there.
     error = phase @ project.even[: phase.size] - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
     residual = _residual(error, weight, phase.size)
     map_residual = np.sqrt(_residual(miss_x, weight, fx.size) ** 2 + _residual(miss_y, weight, fy.size) ** 2)
@@ -194,10 +204,10 @@ def fit_rays(rays: RayData, level: Level, traced: int, steep: Steepness | None =
     return FittedPencil(level, phase, fx, fy, residual, steep, blur, traced, float(map_residual))
 
 
-def _residual(error, weight, unknowns: int) -> float:
-    """Return the RMS error of the fit's own rays, corrected for what it bent to, or of those held out.
+def _residual(error: np.ndarray, weight: np.ndarray, unknowns: int) -> float:
+    """Return the larger RMS error: of the fit's own rays, corrected for its degrees of freedom, or of those held out.
 
-    What a polynomial leaves is four times its RMS at the rim; the held-out rays stand there and count half.
+    At the rim the error of a polynomial fit is four times its RMS; the held-out rays lie there and count half.
     """
     own, held = error[: weight.size], error[weight.size :]
     freedom = 1 - unknowns / weight.size
@@ -205,13 +215,14 @@ def _residual(error, weight, unknowns: int) -> float:
 
 
 @lru_cache(maxsize=16)
-def _slope_basis(level: Level):
+def _slope_basis(level: Level) -> tuple[Gradient, Gradient]:
     """Return (∂/∂ξ, ∂/∂η) of the odd and of the even map terms at a level's own rays."""
     xi, eta, weight = level_rays(level)
     inner = xi[: weight.size], eta[: weight.size]
     return gradient(level.map_order, *inner, odd=True), gradient(level.map_order, *inner)
 
 
-def _determinant(fx, fy, odd, even) -> np.ndarray:
+def _determinant(fx: np.ndarray, fy: np.ndarray, odd: Gradient, even: Gradient) -> np.ndarray:
     """Return ∂(fx, fy)/∂(ξ, η) from the gradients of the odd and even terms."""
-    return (fx @ odd[0]) * (fy @ even[1]) - (fx @ odd[1]) * (fy @ even[0])
+    determinant: np.ndarray = (fx @ odd[0]) * (fy @ even[1]) - (fx @ odd[1]) * (fy @ even[0])
+    return determinant

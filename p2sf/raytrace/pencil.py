@@ -1,22 +1,33 @@
-"""The pencil of one source through the pupil: path differences, spots and fans. Everything is exact skew rays."""
+"""The pencil of one source through the pupil by exact skew rays: path differences, spots and fans."""
 
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import UM_PER_MM, FloatOrArray, protected
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
-from p2sf.raytrace.aiming import PupilRays, entrance, pupil_rays, start
-from p2sf.raytrace.surface import Status
+from p2sf.raytrace.aiming import PupilRays, Sources, entrance, pupil_rays, start
+from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Trace, lens_rims, run, status_message, trace
 
-__all__ = ["Pencil", "PupilRays", "Status", "Trace", "diffraction_phase", "displayed_opd", "pupil_rays", "trace"]
+__all__ = [
+    "Pencil",
+    "PupilRays",
+    "Sources",
+    "Status",
+    "Trace",
+    "diffraction_phase",
+    "displayed_opd",
+    "pupil_rays",
+    "trace",
+]
 
-MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, of rays that are symmetric but for them
+MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, all that a mean over symmetric rays consists of
 
 
 @dataclass(frozen=True)
@@ -24,8 +35,8 @@ class Pencil:
     """The rays of one source at the sensor plane, all relative to its chief ray; leading axes first, (…, ray).
 
     ``dx``, ``dy``: mm from the chief ray's sensor point. ``kx``, ``ky``, ``kz``: direction cosines in image space.
-    ``path``: optical path to the sensor less the chief ray's, mm. ``status``, ``failed_surface``: as in `rays.Trace`.
-    The chief ray: ``chief_y`` mm on the sensor, ``chief_ky``, ``chief_kz``; ``index``: of image space.
+    ``path``: optical path to the sensor less the chief ray's, mm. ``status``, ``failed_surface``: as in `Trace`.
+    Of the chief ray: ``chief_y`` mm on the sensor, ``chief_ky``, ``chief_kz``. ``index``: of image space.
     """
 
     xi: np.ndarray
@@ -41,13 +52,14 @@ class Pencil:
     chief_y: np.ndarray
     chief_ky: np.ndarray
     chief_kz: np.ndarray
-    index: np.ndarray
+    index: FloatOrArray
     wavelength_um: np.ndarray
 
     @property
     def passed(self) -> np.ndarray:
         """Return which rays reach the sensor."""
-        return self.status == Status.PASSED
+        passed: np.ndarray = self.status == Status.PASSED
+        return passed
 
 
 @dataclass(frozen=True)
@@ -70,36 +82,51 @@ class Fan:
     unit: str
 
 
-def pencil(lens: Lens, source: Source, xi, eta, aim="paraxial", clip=False, stop: Stop | None = None) -> Pencil:
+def pencil(
+    lens: Lens,
+    source: Source | Sources,
+    xi: ArrayLike,
+    eta: ArrayLike,
+    aim: str = "paraxial",
+    clip: bool = False,
+    stop: Stop | None = None,
+) -> Pencil:
     """Trace a source's rays through pupil points (ξ, η), each (ray,), to the sensor.
 
-    ``clip`` applies the clear semi-diameters of every surface but the stop, which the pupil already stands for.
-    Raises GeometryError where the chief ray itself does not reach the sensor.
+    ``clip`` applies the clear semi-diameters of every surface but the stop, whose rim the pupil already represents.
+    The axes of `Sources` come first. Raises GeometryError where the chief ray does not reach the sensor.
     """
-    # The chief ray rides along as the last ray, so that one trace does.
+    # The chief ray is traced as the last ray, together with the others.
     xi, eta = np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
     rays = pupil_rays(lens, source, xi, eta, aim, stop)
     beam = start(rays)
-    beam.exempt = 1  # the chief ray is the origin of all differences, whether or not a rim would stop it
+    beam.exempt = 1  # the chief ray is the origin of all differences, even where a rim would stop it
     run(lens, beam, rays.index, lens_rims(lens, keep_stop=False) if clip else None)
     beam.path += rays.path
     if beam.status.any():
         _blank(beam)
     index = rays.index[-1]
-    chief = beam.path[..., -1:], beam.y[..., -1:], beam.q[..., -1:] / index, beam.r[..., -1:] / index
+    chief_y = beam.y[..., -1:]
     return Pencil(
-        *(xi[:-1], eta[:-1]),
-        *(beam.x[..., :-1], beam.y[..., :-1] - chief[1]),
-        *(component[..., :-1] / index for component in (beam.p, beam.q, beam.r)),
-        beam.path[..., :-1] - chief[0],
-        *(beam.status[..., :-1], beam.failed_surface[..., :-1]),
-        *chief[1:],
-        index,
-        np.asarray(source.wavelength_um)[..., None],
+        xi=xi[:-1],
+        eta=eta[:-1],
+        dx=beam.x[..., :-1],
+        dy=beam.y[..., :-1] - chief_y,
+        kx=beam.p[..., :-1] / index,
+        ky=beam.q[..., :-1] / index,
+        kz=beam.r[..., :-1] / index,
+        path=beam.path[..., :-1] - beam.path[..., -1:],
+        status=beam.status[..., :-1],
+        failed_surface=beam.failed_surface[..., :-1],
+        chief_y=chief_y,
+        chief_ky=beam.q[..., -1:] / index,
+        chief_kz=beam.r[..., -1:] / index,
+        index=index,
+        wavelength_um=np.asarray(source.wavelength_um)[..., None],
     )
 
 
-def _blank(beam) -> None:
+def _blank(beam: Beam) -> None:
     """Make failed rays NaN throughout, and refuse a pencil whose chief ray failed."""
     bad = beam.status != Status.PASSED
     if bad[..., -1].any():
@@ -111,53 +138,61 @@ def _blank(beam) -> None:
 
 def diffraction_phase(rays: Pencil) -> np.ndarray:
     """Return w = (OPL ray − OPL chief − n'K·(I − C))/λ in waves, (…, ray): the phase over direction cosines (K)."""
-    shift = rays.kx * rays.dx
+    shift: np.ndarray = rays.kx * rays.dx
     shift += rays.ky * rays.dy
     shift *= rays.index
-    return (rays.path - shift) * (UM_PER_MM / rays.wavelength_um)
+    phase: np.ndarray = (rays.path - shift) * (UM_PER_MM / rays.wavelength_um)
+    return phase
 
 
-def displayed_opd(lens: Lens, source: Source, xi, eta, aim="paraxial", stop: Stop | None = None) -> np.ndarray:
+def displayed_opd(
+    lens: Lens,
+    source: Source | Sources,
+    xi: ArrayLike,
+    eta: ArrayLike,
+    aim: str = "paraxial",
+    stop: Stop | None = None,
+) -> np.ndarray:
     """Return (OPL chief − OPL ray)/λ in waves at pupil points, on the sphere about the chief ray's sensor point.
 
-    The sphere's radius reaches to the chief ray at the paraxial exit-pupil plane; a telecentric lens has a plane.
-    NaN for failed rays. For the displayed wavefront only; diffraction uses `diffraction_phase`.
+    The sphere passes through the chief ray's point in the paraxial exit-pupil plane; for a telecentric lens it is a
+    plane. NaN for failed rays. For display only; diffraction integrals use `diffraction_phase`.
     """
     rays = pencil(lens, source, xi, eta, aim, stop=stop)
     return opd_on_sphere(rays, _exit_radius(lens, source, rays, stop))
 
 
-def opd_on_sphere(rays: Pencil, radius) -> np.ndarray:
+def opd_on_sphere(rays: Pencil, radius: FloatOrArray) -> np.ndarray:
     """Return the displayed OPD in waves for a reference sphere of signed radius (mm, positive before the sensor).
 
-    The ray's way back from the sensor to the sphere is written as a difference to the chief ray's, so that no
-    radius costs digits: t − t_chief = −b − (b² − d²)/(R(1 + √(1 + (b² − d²)/R²))), b = K·(I − C), d = |I − C|.
-    NaN for a ray so far off that it does not meet the sphere.
+    The ray's path back from the sensor to the sphere is written as a difference from the chief ray's, so that no
+    digits are lost at any radius: t − t_chief = −b − (b² − d²)/(R(1 + √(1 + (b² − d²)/R²))), b = K·(I − C),
+    d = |I − C|. NaN for a ray that does not meet the sphere.
     """
     b = rays.kx * rays.dx + rays.ky * rays.dy
     bend = b * b - rays.dx * rays.dx - rays.dy * rays.dy
     with np.errstate(invalid="ignore"):
         back = bend / (radius * (1 + np.sqrt(1 + bend / radius**2)))
-    return (rays.index * (b + back) - rays.path) * (UM_PER_MM / rays.wavelength_um)
+    opd: np.ndarray = (rays.index * (b + back) - rays.path) * (UM_PER_MM / rays.wavelength_um)
+    return opd
 
 
-def _exit_radius(lens: Lens, source: Source, rays: Pencil, stop=None):
-    """Return distance along the chief ray from the paraxial exit-pupil plane to the sensor, mm; the sphere's radius."""
-    return (lens.sensor_mm - entrance(lens, source, stop).exit_plane) / rays.chief_kz
+def _exit_radius(lens: Lens, source: Source | Sources, rays: Pencil, stop: Stop | None = None) -> np.ndarray:
+    """Return the sphere's radius: from the paraxial exit-pupil plane to the sensor along the chief ray, mm."""
+    radius: np.ndarray = (lens.sensor_mm - entrance(lens, source, stop).exit_plane) / rays.chief_kz
+    return radius
 
 
 @lru_cache(maxsize=8)
-def pupil_grid(count: int):
+def pupil_grid(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return cell-centre coordinates (ξ, η) of a count × count grid over the pupil, and which lie in the disc."""
     axis = (2 * np.arange(count) + 1 - count) / count
     xi, eta = np.meshgrid(axis, axis)
     inside = xi * xi + eta * eta <= 1
-    for array in (xi, eta, inside):
-        array.setflags(write=False)  # the cache hands out the same arrays to everybody
-    return xi, eta, inside
+    return protected(xi), protected(eta), protected(inside)
 
 
-def opd_map(lens: Lens, source: Source, count: int = 64, aim="paraxial") -> np.ndarray:
+def opd_map(lens: Lens, source: Source, count: int = 64, aim: str = "paraxial") -> np.ndarray:
     """Return the displayed OPD over the pupil, (count, count) waves, row = η, NaN outside; half the disc is traced."""
     xi, eta, inside = pupil_grid(count)
     right = slice(None), slice(count // 2, None)
@@ -168,8 +203,11 @@ def opd_map(lens: Lens, source: Source, count: int = 64, aim="paraxial") -> np.n
     return values
 
 
-def spot(lens: Lens, source: Source, rings: int = 8, aim="paraxial", clip=False) -> Spot:
-    """Return the spot diagram of ``rings`` hexapolar rings, and its RMS radius about the centroid; µm."""
+def spot(lens: Lens, source: Source | Sources, rings: int = 8, aim: str = "paraxial", clip: bool = False) -> Spot:
+    """Return the spot diagram of ``rings`` hexapolar rings, and its RMS radius about the centroid; µm.
+
+    Raises GeometryError where no ray reaches the sensor.
+    """
     xi, eta = hexapolar(rings)
     rays = pencil(lens, source, xi, eta, aim, clip)
     x, y = rays.dx * UM_PER_MM, rays.dy * UM_PER_MM
@@ -180,32 +218,33 @@ def spot(lens: Lens, source: Source, rings: int = 8, aim="paraxial", clip=False)
     return Spot(x, y, np.sqrt(square), centre_y[..., 0])
 
 
-def _mean(values):
+def _mean(values: np.ndarray) -> np.ndarray:
     """Return the mean over the rays that arrive, (…, 1); 0 where it is nothing but the rounding of their sum."""
-    mean = np.nanmean(values, -1, keepdims=True)
+    mean: np.ndarray = np.nanmean(values, -1, keepdims=True)
     return np.where(np.abs(mean) > MEAN_ROUNDING * np.nanmax(np.abs(values), -1, keepdims=True), mean, 0.0)
 
 
-def hexapolar(rings: int):
+def hexapolar(rings: int) -> tuple[np.ndarray, np.ndarray]:
     """Return pupil points (ξ, η): the centre, then rings of 6, 12, 18 … points, equal area per point."""
     radius = np.concatenate([[0.0], *(np.full(6 * k, k / rings) for k in range(1, rings + 1))])
     angle = np.concatenate([[0.0], *(2 * np.pi * np.arange(6 * k) / (6 * k) for k in range(1, rings + 1))])
     return radius * np.sin(angle), radius * np.cos(angle)
 
 
-def ray_fan(lens: Lens, source: Source, count: int = 65, aim="paraxial") -> Fan:
-    """Return transverse ray errors at the sensor along η (their y) and along ξ (their x); µm."""
+def ray_fan(lens: Lens, source: Source, count: int = 65, aim: str = "paraxial") -> Fan:
+    """Return the transverse ray errors at the sensor along η (their y) and along ξ (their x); µm."""
     line, tangential, sagittal = _two_lines(lens, source, count, aim)
     return Fan(line, tangential.dy * UM_PER_MM, sagittal.dx * UM_PER_MM, "µm")
 
 
-def opd_fan(lens: Lens, source: Source, count: int = 65, aim="paraxial") -> Fan:
+def opd_fan(lens: Lens, source: Source, count: int = 65, aim: str = "paraxial") -> Fan:
     """Return the displayed OPD along η and along ξ; waves."""
     line, tangential, sagittal = _two_lines(lens, source, count, aim)
-    values = (opd_on_sphere(rays, _exit_radius(lens, source, rays)) for rays in (tangential, sagittal))
-    return Fan(line, *values, "waves")
+    along, across = (opd_on_sphere(rays, _exit_radius(lens, source, rays)) for rays in (tangential, sagittal))
+    return Fan(line, along, across, "waves")
 
 
-def _two_lines(lens, source, count, aim):
+def _two_lines(lens: Lens, source: Source, count: int, aim: str) -> tuple[np.ndarray, Pencil, Pencil]:
+    """Return ``count`` points from −1 to 1, and the pencils through those points of η and of ξ."""
     line, zero = np.linspace(-1, 1, count), np.zeros(count)
     return line, pencil(lens, source, zero, line, aim), pencil(lens, source, line, zero, aim)

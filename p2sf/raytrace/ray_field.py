@@ -1,4 +1,4 @@
-"""What a traced pencil says about the field at the sensor: phase, spatial frequency and landing point per ray."""
+"""The field at the sensor from a traced pencil: phase, spatial frequency and landing point per ray."""
 
 from dataclasses import dataclass
 from math import sqrt
@@ -8,7 +8,7 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.raytrace.pencil import Pencil, diffraction_phase
 
-COARSE = 1.15  # what a maximum over some tens of rays may miss
+COARSE = 1.15  # margin for what a maximum over some tens of rays may miss
 SMALLEST = 1e-12
 AIRY_RADIUS = 0.61  # over the largest spatial frequency
 
@@ -26,10 +26,10 @@ class RayData:
 
 @dataclass(frozen=True)
 class Steepness:
-    """What sampling must carry, in waves; ``spread``: largest |f|, cycles per µm.
+    """The slopes that sampling must resolve, in waves; ``spread``: largest |f|, cycles per µm.
 
     ``radial``, ``angular``: steepest |∂w/∂ρ| and |∂w/∂θ|, for disc nodes. ``across``, ``along``: steepest |∂w/∂s| and
-    |∂w/∂t| with η = cos t and ξ = sin s·sin t, for the columns and rows of `rows`: as in `wavefront.steepest_chords`.
+    |∂w/∂t| with η = cos t and ξ = sin s·sin t, for the columns and rows of `chord_rows`, as `steepest_chords` gives.
     """
 
     radial: float
@@ -40,7 +40,7 @@ class Steepness:
 
     @property
     def light_um(self) -> float:
-        """Return how far about its landing point a ray spreads its light, µm: Airy radius or blur/√(Fresnel number)."""
+        """Return how far a ray's light spreads about its landing point, µm: Airy radius or blur/√(Fresnel number)."""
         blur = self.radial / self.spread
         return max(AIRY_RADIUS / self.spread, blur / sqrt(max(self.radial, 1.0)))
 
@@ -52,19 +52,20 @@ def ray_data(rays: Pencil) -> RayData:
     return RayData(diffraction_phase(rays), fx, fy, rays.dx * UM_PER_MM, rays.dy * UM_PER_MM)
 
 
-def steepness(rays: RayData, xi, eta) -> Steepness:
+def steepness(rays: RayData, xi: np.ndarray, eta: np.ndarray) -> Steepness:
     """Return how steep the phase is, from where the rays land: over f it has the gradient −x, dw = −x·df (Hamilton).
 
-    With f nearly proportional to (ξ, η) that needs no derivative. NaN rays are left out.
+    f is nearly proportional to (ξ, η), so no derivative is needed. NaN rays are left out.
     """
     rho2 = xi * xi + eta * eta
-    radial = np.abs(rays.x_um * rays.fx + rays.y_um * rays.fy) / np.sqrt(rho2)
-    angular = np.abs(rays.x_um * rays.fy - rays.y_um * rays.fx)
     sine = np.sqrt(np.maximum(1 - eta * eta, SMALLEST))
-    across = np.abs(rays.x_um) * np.sqrt(np.maximum(1 - rho2, 0))
-    along = np.abs(rays.x_um * (xi * eta / sine) - rays.y_um * sine)
-    square = rays.fx * rays.fx + rays.fy * rays.fy
-    steepest = (float(np.fmax.reduce(column)) for column in (radial, angular, across, along, square))
-    radial, angular, across, along, square = steepest
+    columns = (
+        np.abs(rays.x_um * rays.fx + rays.y_um * rays.fy) / np.sqrt(rho2),
+        np.abs(rays.x_um * rays.fy - rays.y_um * rays.fx),
+        np.abs(rays.x_um) * np.sqrt(np.maximum(1 - rho2, 0)),
+        np.abs(rays.x_um * (xi * eta / sine) - rays.y_um * sine),
+        rays.fx * rays.fx + rays.fy * rays.fy,
+    )
+    radial, angular, across, along, square = (float(np.fmax.reduce(column)) for column in columns)
     spread = sqrt(square)
     return Steepness(radial, angular, COARSE * spread * across, COARSE * spread * along, spread)

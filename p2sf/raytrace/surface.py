@@ -1,9 +1,9 @@
 """One surface at a time: where a skew ray meets it, and how it leaves.
 
-Rays are kept as *optical* direction cosines (P, Q, R) = n·(L, M, N) and the ray parameter τ is length
-per index, so that a step τ moves a point by τ(P, Q, R) and adds n²τ to the optical path: no division
-by the index anywhere. `Beam` is a workbench that the functions change in place, which is what makes
-thousands of rays cheap; it never leaves `rays`.
+Rays have *optical* direction cosines (P, Q, R) = n·(L, M, N) and the ray parameter τ is length
+per index, so that a step τ moves a point by τ(P, Q, R) and adds n²τ to the optical path: nothing is
+divided by the index. The functions change a `Beam` in place, which is what makes thousands of rays
+cheap; none is handed out of this folder.
 """
 
 from enum import IntEnum
@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from p2sf.conventions import FloatOrArray
 from p2sf.lens.lens import Surface
 
 NEWTON_STEPS = 40
@@ -30,10 +31,10 @@ class Status(IntEnum):
 
 
 class Beam:
-    """Rays on their way: position from the current vertex (mm), optical cosines, optical path (mm), fate.
+    """Rays being traced: position from the current vertex (mm), optical cosines, optical path (mm), status.
 
-    ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that whatever treats the
-    components alike is one call. The last ``exempt`` rays pass every rim.
+    ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that an operation on all
+    components is one call. The last ``exempt`` rays pass every rim.
     """
 
     def __init__(self, place: np.ndarray, ray: np.ndarray):
@@ -45,13 +46,13 @@ class Beam:
         self.failed_surface = np.zeros(place.shape[1:], np.int16)
         self.exempt = 0
 
-    def advance(self, step, index) -> None:
+    def advance(self, step: np.ndarray, index: FloatOrArray) -> None:
         """Move every ray by the ray parameter ``step`` in a medium of this index."""
         self.place += step * self.ray
         self.path += step * (index * index)
 
     def fail(self, bad: np.ndarray, why: Status, number: int) -> None:
-        """Write down why and where rays fail; the first reason stands, the ray becomes NaN."""
+        """Record why and where rays fail and make them NaN; a ray keeps its first reason."""
         fresh = bad & (self.status == Status.PASSED)
         self.status[fresh], self.failed_surface[fresh] = why, number
         self.p[fresh] = self.path[fresh] = np.nan
@@ -71,7 +72,7 @@ class Normal(NamedTuple):
     along_square: np.ndarray
 
 
-def to_plane(beam: Beam, index) -> None:
+def to_plane(beam: Beam, index: FloatOrArray) -> None:
     """Carry every ray to the plane z = 0 of the current vertex."""
     back = beam.z / beam.r
     beam.place[:2] -= back * beam.ray[:2]
@@ -80,23 +81,24 @@ def to_plane(beam: Beam, index) -> None:
     beam.path -= back
 
 
-def meet(beam: Beam, surface: Surface, index, number: int) -> Normal | None:
+def meet(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal | None:
     """Carry every ray to the surface and return its normal there; None for a plane."""
     if any(surface.aspheric):
         return _meet_asphere(beam, surface, index, number)
     if surface.curvature:
         return _meet_conic(beam, surface, index, number)
-    return to_plane(beam, index)
+    to_plane(beam, index)
+    return None
 
 
-def _conic_step(beam: Beam, curvature: float, conic: float, index):
+def _conic_step(beam: Beam, curvature: float, conic: float, index: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
     """Carry every ray to the plane of the vertex; return the step from there to a conicoid, and (n·cosI·|normal|)².
 
-    Of the two intersections it is the one where light crosses from the front to the back of the sheet through
-    the vertex; written as F/(G + root) it has no special case for a plane (Welford 1986, §4.3, optical cosines).
+    Of the two intersections, the one where light crosses the sheet through the vertex from front to back; written
+    as F/(G + root) it needs no special case for a plane (Welford 1986, §4.3, with optical cosines).
     """
     to_plane(beam, index)
-    f = beam.x * beam.x
+    f: np.ndarray = beam.x * beam.x
     f += beam.y * beam.y
     f *= curvature
     g = beam.x * beam.p
@@ -110,7 +112,7 @@ def _conic_step(beam: Beam, curvature: float, conic: float, index):
     return f, square
 
 
-def _meet_conic(beam: Beam, surface: Surface, index, number: int) -> Normal:
+def _meet_conic(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal:
     curvature, conic = surface.curvature, surface.conic
     step, along_square = _conic_step(beam, curvature, conic, index)
     beam.advance(step, index)
@@ -122,13 +124,13 @@ def _meet_conic(beam: Beam, surface: Surface, index, number: int) -> Normal:
     if not conic:
         return Normal(curvature, None, None, along, along_square)
     bulge = curvature * beam.z
-    # |normal|² on the conicoid, with c²r² = 2cz − c²(1 + K)z² put in.
+    # |normal|² on the conicoid, by c²r² = 2cz − c²(1 + K)z².
     return Normal(
         curvature, 1 - (1 + conic) * bulge, 1 - conic * bulge * (2 - (1 + conic) * bulge), along, along_square
     )
 
 
-def sag_and_slope(surface: Surface, square):
+def sag_and_slope(surface: Surface, square: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return sag z and dz/d(r²) of an even asphere at squared radius ``square`` mm² (NaN beyond the conic's edge)."""
     c, k = surface.curvature, surface.conic
     root = np.sqrt(1 - (1 + k) * (c * c) * square)
@@ -141,8 +143,11 @@ def sag_and_slope(surface: Surface, square):
     return sag, slope
 
 
-def _meet_asphere(beam: Beam, surface: Surface, index, number: int) -> Normal:
-    """Newton from the underlying conicoid, or from the plane where that is missed; refused unless it has converged."""
+def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal:
+    """Carry rays to an asphere by Newton's method, from the conicoid under it or, where that is missed, the plane.
+
+    A ray for which it does not converge is refused.
+    """
     step, _ = _conic_step(beam, surface.curvature, surface.conic, index)
     beam.advance(np.where(np.isfinite(step), step, 0.0), index)
     for _ in range(NEWTON_STEPS):
@@ -159,7 +164,7 @@ def _meet_asphere(beam: Beam, surface: Surface, index, number: int) -> Normal:
     return Normal(slope, 1.0, 1 + slope * slope * (beam.x * beam.x + beam.y * beam.y), along, along * along)
 
 
-def refract(beam: Beam, normal: Normal | None, before, after, number: int) -> None:
+def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: FloatOrArray, number: int) -> None:
     """Bend every ray by Snell's law, n'K' = nK + (n'cosI' − n·cosI)·unit normal (Welford 1986, eq. 4.36)."""
     gain = (after - before) * (after + before)
     if normal is None:
@@ -182,12 +187,15 @@ def refract(beam: Beam, normal: Normal | None, before, after, number: int) -> No
         beam.ray[:2] -= push * beam.place[:2]
 
 
-def _root(beam: Beam, cosine_square, gain, number: int, out=None):
+def _root(
+    beam: Beam, cosine_square: np.ndarray, gain: FloatOrArray, number: int, out: np.ndarray | None = None
+) -> np.ndarray:
     """Return n'cosI' = √(n²cos²I + n'² − n²); where that is not real the ray is totally reflected."""
-    square = cosine_square + gain
+    square: np.ndarray = cosine_square + gain
     if not square.min() >= 0:
         beam.fail(square < 0, Status.REFLECTED, number)
-    return np.sqrt(square, out=square if out is None else out)
+    root: np.ndarray = np.sqrt(square, out=square if out is None else out)
+    return root
 
 
 def clip(beam: Beam, rim: float, number: int) -> None:

@@ -1,14 +1,21 @@
 """Exact skew rays through a whole lens."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, indices
+from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
 from p2sf.raytrace.surface import Beam, Status, clip, meet, refract, to_plane
+
+Index: TypeAlias = np.ndarray | list[float]  # per medium, object space first; floats for one wavelength
 
 _OUTCOMES = {
     Status.PASSED: "passes",
@@ -22,7 +29,7 @@ _OUTCOMES = {
 
 @dataclass(frozen=True)
 class Trace:
-    """Rays followed from their origins to the sensor.
+    """Rays traced from their origins to the sensor.
 
     ``points``: (surfaces + 2, …, ray, 3) mm from the first vertex: the origin, every surface, the sensor; NaN from
     where the ray failed. ``cosines``: (…, ray, 3) in image space. ``path``: optical path from the origin to
@@ -41,8 +48,10 @@ def status_message(status: int, surface: int) -> Message:
     return Message(_OUTCOMES[Status(status)], surface=surface)
 
 
-def trace(lens: Lens, origins, directions, wavelength_um, clip: bool = False) -> Trace:
-    """Trace skew rays; ``origins`` and ``directions`` (…, ray, 3), mm from the first vertex and any length.
+def trace(
+    lens: Lens, origins: ArrayLike, directions: ArrayLike, wavelength_um: FloatOrArray, clip: bool = False
+) -> Trace:
+    """Trace skew rays; ``origins`` in mm from the first vertex and ``directions`` of any length, each (…, ray, 3).
 
     An origin may lie anywhere on its ray in object space. ``wavelength_um`` broadcasts against the leading
     axes. ``clip`` applies every clear semi-diameter and the stop's rim. A ray that fails becomes NaN and keeps
@@ -52,17 +61,26 @@ def trace(lens: Lens, origins, directions, wavelength_um, clip: bool = False) ->
     with np.errstate(invalid="ignore", divide="ignore"):
         unit = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     index = per_ray(indices(lens, wavelength_um))
-    beam = launch(*np.moveaxis(origins, -1, 0), *np.moveaxis(unit, -1, 0), index[0])
-    beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # no line at all meets no surface
+    beam = launch(index[0], *np.moveaxis(origins, -1, 0), *np.moveaxis(unit, -1, 0))
+    beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # an origin or direction that is not finite
     points = [origins]
-    run(lens, beam, index, lens_rims(lens) if clip else None, visit=lambda vertex: points.append(_points(beam, vertex)))
+    rims = lens_rims(lens) if clip else None
+    run(lens, beam, index, rims, visit=lambda vertex: points.append(_points(beam, vertex)))
     cosines = np.stack([beam.p / index[-1], beam.q / index[-1], beam.r / index[-1]], -1)
     cosines[np.isnan(beam.path)] = np.nan
     return Trace(np.stack(points), cosines, beam.path, beam.status, beam.failed_surface)
 
 
-def launch(x, y, z, cosine_x, cosine_y, cosine_z, index) -> Beam:
-    """Return a fresh beam of rays with these positions from the first vertex and unit cosines."""
+def launch(
+    index: FloatOrArray,
+    x: FloatOrArray,
+    y: FloatOrArray,
+    z: FloatOrArray,
+    cosine_x: FloatOrArray,
+    cosine_y: FloatOrArray,
+    cosine_z: FloatOrArray,
+) -> Beam:
+    """Return a new beam of rays in a medium of this index: positions from the first vertex, mm, and unit cosines."""
     shape = np.broadcast_shapes(*map(np.shape, (x, y, z, cosine_x, cosine_y, cosine_z, index)))
     place, ray = np.empty((3, *shape)), np.empty((3, *shape))
     for row, value in zip((*place, *ray), (x, y, z, cosine_x, cosine_y, cosine_z), strict=True):
@@ -71,18 +89,25 @@ def launch(x, y, z, cosine_x, cosine_y, cosine_z, index) -> Beam:
     return Beam(place, ray)
 
 
-def run(lens: Lens, beam: Beam, index, rims=None, last: int | None = None, visit=None) -> Beam:
+def run(
+    lens: Lens,
+    beam: Beam,
+    index: Index,
+    rims: np.ndarray | None = None,
+    last: int | None = None,
+    visit: Callable[[float], None] | None = None,
+) -> Beam:
     """Carry a beam through the lens to the sensor plane, or onto surface ``last``, and return it.
 
-    ``rims`` in mm clip, one per surface. ``visit(vertex)`` is called on every surface and on the sensor with the
-    current vertex's distance from the first; without it, planes between equal media are passed unseen.
+    ``rims``, one per surface, mm, clip the beam. ``visit(vertex)`` is called on every surface and on the sensor with
+    the current vertex's distance from the first; without it, planes between equal media are skipped.
     """
     vertex = 0.0
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         for number, surface in enumerate(lens.surfaces[:last], 1):
             idle = not surface.curvature and not any(surface.aspheric) and rims is None and visit is None
             if number == last or not (idle and _same(index[number - 1], index[number])):
-                _cross(beam, surface, index, number, rims, (lambda v=vertex: visit(v)) if visit else None)
+                _cross(beam, surface, index, number, rims, partial(visit, vertex) if visit else None)
             if number != last:
                 beam.z -= surface.thickness
                 vertex += surface.thickness
@@ -93,7 +118,15 @@ def run(lens: Lens, beam: Beam, index, rims=None, last: int | None = None, visit
     return beam
 
 
-def _cross(beam, surface, index, number, rims, arrived) -> None:
+def _cross(
+    beam: Beam,
+    surface: Surface,
+    index: Index,
+    number: int,
+    rims: np.ndarray | None,
+    arrived: Callable[[], None] | None,
+) -> None:
+    """Carry a beam to a surface, clip it there, and refract it."""
     before, after = index[number - 1], index[number]
     normal = meet(beam, surface, before, number)
     if arrived:
@@ -104,7 +137,7 @@ def _cross(beam, surface, index, number, rims, arrived) -> None:
         refract(beam, normal, before, after, number)
 
 
-def _same(before, after) -> bool:
+def _same(before: FloatOrArray, after: FloatOrArray) -> bool:
     equal = before == after
     return equal if isinstance(equal, bool) else bool(equal.all())
 
@@ -115,15 +148,16 @@ def _points(beam: Beam, vertex: float) -> np.ndarray:
     return points
 
 
-def per_ray(index: np.ndarray) -> np.ndarray | list[float]:
+def per_ray(index: np.ndarray) -> Index:
     """Return indices with a ray axis behind the wavelength's axes; plain floats for one wavelength."""
-    return index.tolist() if index.ndim == 1 else index[..., None]
+    with_axis: Index = index.tolist() if index.ndim == 1 else index[..., None]
+    return with_axis
 
 
 def lens_rims(lens: Lens, keep_stop: bool = True) -> np.ndarray:
-    """Return rims that clip, mm, a rounding wider than written; the stop's own left out when the bundle is made by it.
+    """Return the rims that clip, mm, a rounding wider than written; without ``keep_stop`` the stop's is infinite.
 
-    Raises GeometryError for a lens whose rims are all unknown: nothing would be clipped.
+    A pencil that fills the stop needs no rim there. Raises GeometryError for a lens that states no rim.
     """
     stop = lens.stop_surface or named_stop(lens)
     rims = rim_radii(lens, stop, stop_rim(lens) if keep_stop else np.inf) * (1 + RIM_TIE)

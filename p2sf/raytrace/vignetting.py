@@ -1,9 +1,9 @@
-"""Pupil nodes that end at the clear apertures: the cat's eye of an oblique pencil, without a jagged edge.
+"""Pupil nodes that end at the clear apertures: the vignetted pupil of an oblique pencil, without a jagged edge.
 
-From a centre inside the clear part every direction is followed to the rim it meets (bisection on real rays), and
-Gauss–Legendre radii run to exactly there. Where one rim takes over from another the outline has a corner; the
-directions are Gauss–Legendre nodes between corners, so that nothing kinks inside an interval. The part must be
-star-shaped about its centre, as every overlap of rims seen through a lens is.
+From a centre inside the clear part, bisection on real rays finds where each direction meets a rim, and
+Gauss–Legendre radii end exactly there. Where one rim takes over from another the outline has a corner; the
+directions are Gauss–Legendre nodes between corners, so that the outline is smooth inside each interval. The clear
+part must be star-shaped about its centre, as every overlap of rims seen through a lens is.
 """
 
 from dataclasses import dataclass
@@ -47,31 +47,32 @@ class ClearNodes:
     share: float
 
 
-def whole_nodes(counts) -> ClearNodes:
+def whole_nodes(counts: tuple[int, int]) -> ClearNodes:
     """Return the nodes of (radial, angular) ``counts`` over the whole pupil."""
     nodes = disc_nodes(*counts)
     return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
 
 
-def clear_nodes(lens: Lens, source: Source, counts, aim: str = "paraxial", clip: bool = True) -> ClearNodes:
+def clear_nodes(
+    lens: Lens, source: Source, counts: tuple[int, int], aim: str = "paraxial", clip: bool = True
+) -> ClearNodes:
     """Return nodes over the clear part of the pupil, about as dense as ``counts`` are over the whole.
 
     Without ``clip`` the clear part ends where rays miss a surface or are totally reflected, not at rims.
-
-    Raises GeometryError when nothing is clear.
+    Raises GeometryError when no part is clear.
     """
     shape = outline(lens, source, aim, clip)
     theta, share = _directions(shape.corners, counts[1])
-    radius, _ = _edge(lens, source, (aim, clip), shape.centre, theta)
+    radius, _ = _edge(lens, source, aim, clip, shape.centre, theta)
     square, weight = gauss_legendre(counts[0])
     rho = np.sqrt((1 + square) / 2)[:, None] * radius
-    # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half, over the whole pupil's area π.
+    # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half and divided by the whole pupil's area π.
     area = (weight[:, None] / 2 * radius**2 * share / np.pi).ravel()
     xi, eta = (rho * np.sin(theta)).ravel(), (shape.centre + rho * np.cos(theta)).ravel()
     return ClearNodes(xi, eta, area / area.sum(), float(area.sum()))
 
 
-def _directions(corners, count: int):
+def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return angles and weights (sum π) of Gauss–Legendre nodes between corners, together some ``count``/2."""
     angles, weights = [], []
     for low, high in pairwise(corners):
@@ -84,7 +85,7 @@ def _directions(corners, count: int):
 
 @lru_cache(maxsize=16)
 def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True) -> Outline:
-    """Return centre and corners of the clear part of the pupil. Raises GeometryError when nothing is clear."""
+    """Return centre and corners of the clear part of the pupil. Raises GeometryError when no part is clear."""
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, aim, clip).passed
     if not passed.any():
@@ -93,34 +94,36 @@ def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True
     if not pencil(lens, source, [0.0], [centre], aim, clip).passed.all():
         raise GeometryError("the clear part of the pupil has no clear centre; leave clip off or reduce the field")
     theta = (np.arange(SCAN) + 0.5) * (np.pi / SCAN)
-    rim = _edge(lens, source, (aim, clip), centre, theta)[1]
+    rim = _edge(lens, source, aim, clip, centre, theta)[1]
     change = np.flatnonzero(np.diff(rim))
     low, high, first = theta[change], theta[change + 1], rim[change]
     for _ in range(CORNER_BISECTIONS if change.size else 0):
         middle = (low + high) / 2
-        same = _edge(lens, source, (aim, clip), centre, middle)[1] == first
+        same = _edge(lens, source, aim, clip, centre, middle)[1] == first
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return Outline(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
 
 
-def _edge(lens, source, way, centre: float, theta):
+def _edge(
+    lens: Lens, source: Source, aim: str, clip: bool, centre: float, theta: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the clear radius along each angle, and the surface that ends it (0: the pupil's own rim)."""
     sine, cosine = np.sin(theta), np.cos(theta)
     # The unit circle seen from the centre: |centre + r·direction| = 1.
     outer = np.sqrt(1 - (centre * sine) ** 2) - centre * cosine
-    rays = pencil(lens, source, outer * sine, centre + outer * cosine, *way)
+    rays = pencil(lens, source, outer * sine, centre + outer * cosine, aim, clip)
     whole, rim = rays.passed, rays.failed_surface.copy()
     low, high = np.zeros_like(outer), outer.copy()
     for _ in range(0 if whole.all() else BISECTIONS):
         middle = (low + high) / 2
-        rays = pencil(lens, source, middle * sine, centre + middle * cosine, *way)
+        rays = pencil(lens, source, middle * sine, centre + middle * cosine, aim, clip)
         low, high = np.where(rays.passed, middle, low), np.where(rays.passed, high, middle)
         rim = np.where(rays.passed, rim, rays.failed_surface)
     return np.where(whole, outer, low), np.where(whole, 0, rim)
 
 
 def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, aim: str) -> float | None:
-    """Return ∫|field|²dx in µm² by Parseval from the fitted pupil map; None where rays are lost and none is fitted."""
+    """Return ∫|field|²dx in µm² by Parseval from the fitted pupil map; None where lost rays prevent a fit."""
     try:
         found = fit(lens, source, aim=aim)
     except GeometryError:
