@@ -105,7 +105,13 @@ def pencil(
     beam.path += rays.path
     if beam.status.any():
         _blank(beam)
-    index = rays.index[-1]
+    return _relative_to_chief(beam, xi, eta, rays.index[-1], source.wavelength_um)
+
+
+def _relative_to_chief(
+    beam: Beam, xi: np.ndarray, eta: np.ndarray, index: FloatOrArray, wavelength_um: FloatOrArray
+) -> Pencil:
+    """Return a beam at the sensor as differences from its last ray, the chief ray."""
     chief_y = beam.y[..., -1:]
     return Pencil(
         xi=xi[:-1],
@@ -122,7 +128,7 @@ def pencil(
         chief_ky=beam.q[..., -1:] / index,
         chief_kz=beam.r[..., -1:] / index,
         index=index,
-        wavelength_um=np.asarray(source.wavelength_um)[..., None],
+        wavelength_um=np.asarray(wavelength_um)[..., None],
     )
 
 

@@ -3,7 +3,7 @@
 Rays have *optical* direction cosines (P, Q, R) = n·(L, M, N) and the ray parameter τ is length
 per index, so that a step τ moves a point by τ(P, Q, R) and adds n²τ to the optical path: nothing is
 divided by the index. The functions change a `Beam` in place, which is what makes thousands of rays
-cheap; none is handed out of this folder.
+fast; none leaves this folder.
 """
 
 from enum import IntEnum

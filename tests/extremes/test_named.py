@@ -1,4 +1,4 @@
-"""Where no ordinary number exists: an exact answer, or an error that says which quantity is missing and why."""
+"""Where no finite number exists: an exact answer, or an error that names the missing quantity and the reason."""
 
 from dataclasses import replace
 from math import inf

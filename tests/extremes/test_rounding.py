@@ -43,7 +43,7 @@ def test_a_ray_that_ends_on_the_axis_keeps_its_angle():
 
 
 def test_each_of_several_rays_is_judged_by_itself():
-    """The fourth ends on the axis, so that only its own angles, not its neighbours' larger ones, say what is small."""
+    """The fourth ends on the axis: only its own angles, not its neighbours' larger ones, set the scale of rounding."""
     size = np.array([1.0, 1.0, 1e6, 1.0])
     y, nu = np.outer(Y, size), np.outer((*NU, 0.0), size)
     y[-1, 3], nu[-1] = 0.0, (BOUND / 2, BOUND * 2, BOUND * 9e5, max(NU) * SUSPICIOUS * 2)

@@ -77,12 +77,12 @@ def error_in_kappa(result: float, value, kappa) -> float:
 
 
 def is_noise(value, kappa) -> bool:
-    """Say whether 1/value is nothing but the rounding of the inputs, so that infinity is the right answer."""
+    """Return whether 1/value is nothing but the rounding of the inputs, so that infinity is the right answer."""
     return isinf(value) or kappa > abs(value) * 1e13
 
 
 def answerable(case: Case) -> Case:
-    """Return the case; where a field angle says nothing (telecentric object space), with an object height."""
+    """Return the case; where a field angle has no meaning (telecentric object space), with an object height."""
     system = witness.exact(system_of(case))
     values = witness.entrance_slope(system)
     kappa = witness.conditioning(witness.entrance_slope, system, values, INPUTS)["entrance slope"]

@@ -4,14 +4,14 @@ A system is a plain dict of floats: ``radius`` (inf for a plane), ``thickness`` 
 sensor), ``index`` (one more than there are surfaces), ``conic``, ``a4``, ``stop`` (from 0), ``rim`` (the stop's
 semi-diameter), ``depth``, ``slope`` (or mm below the axis, as ``field`` says), ``wavelength_mm``. Rays carry
 (height, slope); the Seidel sums take the classical form with the ratio of the refraction invariants, which is
-undefined where the marginal ray meets a surface along its normal: there the ratio is taken a hair beside it,
+undefined where the marginal ray meets a surface along its normal: there the ratio is taken at a tiny distance,
 which leaves 28 of the 50 digits.
 """
 
 from mpmath import inf, mp, mpf
 
 mp.dps = 50
-HAIR = mpf(10) ** -22
+TINY = mpf(10) ** -22
 
 
 def exact(system: dict) -> dict:
@@ -134,8 +134,8 @@ def seidel(system: dict) -> list:
         n, after, c = system["index"][j], system["index"][j + 1], bend(system, j)
         a, ac = n * (u + y * c), n * (uc + yc * c)
         spread = v / after - u / n
-        if a == 0:  # the same surface met a hair off its normal; the sums are smooth there
-            a = HAIR * max(abs(y * c), abs(u), HAIR)
+        if a == 0:  # the same surface met almost along its normal; the sums are smooth there
+            a = TINY * max(abs(y * c), abs(u), TINY)
             u = a / n - y * c
             spread = (n * u - y * c * (after - n)) / after / after - u / n
         ratio = ac / a

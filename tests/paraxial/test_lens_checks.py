@@ -37,7 +37,7 @@ def test_the_shipped_lenses_pass_the_checks(name):
         (singlet(glass=ConstantIndex(1.0)), "every medium of this lens has the index 1, so no surface bends light"),
     ],
 )
-def test_an_impossible_lens_is_told_in_a_sentence(lens, words):
+def test_an_impossible_lens_has_a_warning(lens, words):
     found = [str(warning) for warning in lens_checks(lens)]
     assert any(words in sentence for sentence in found), found
     assert all("; " in sentence for sentence in found)

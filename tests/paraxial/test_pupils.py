@@ -172,11 +172,11 @@ def test_entrance_pupil_at_infinity_is_said_or_named():
 def test_object_in_the_entrance_pupil_is_refused():
     """A stop 4 mm behind a plane window: the pupil stands before the lens only when the stop is virtual."""
     lens = Lens((Surface(thickness=-4.0), Surface()), Aperture("stop_semi_diameter", 1.0), 2)
-    hair = np.finfo(float).eps
+    rounding = np.finfo(float).eps
     for near in (-8, 0, 8):  # the cone of light is known to some roundings of the distance, no better
         with pytest.raises(GeometryError, match=r"^the object lies in the entrance pupil, .* move the object$"):
-            paraxial_rays(lens, 4.0 * (1 + near * hair), 0.5)
-    assert np.isfinite(paraxial_rays(lens, 4.0 * (1 + 12 * hair), 0.5).nu).all()
+            paraxial_rays(lens, 4.0 * (1 + near * rounding), 0.5)
+    assert np.isfinite(paraxial_rays(lens, 4.0 * (1 + 12 * rounding), 0.5).nu).all()
 
 
 def test_a_lens_without_named_stop_lets_the_rims_decide():

@@ -1,4 +1,4 @@
-"""The disc rules are exact where they say so, and their node counts keep the settled picture's promise."""
+"""The disc rules are exact to their degree, and their node counts keep SETTLED_TOLERANCE."""
 
 from math import isqrt
 
@@ -81,7 +81,7 @@ def test_an_odd_grid_is_refused():
 def test_cell_areas_add_up_to_the_disc():
     centre = (np.arange(40) - 19.5) * (2.2 / 40)
     area = cell_areas(centre, centre, 2.2 / 40).sum() * (2.2 / 40) ** 2
-    # Where the rim cuts a cell's corner, 16 Gauss strips see a kink: 6e-5 of π at this step.
+    # Where the rim cuts a cell's corner, the integrand of the 16 Gauss strips has a corner: 6e-5 of π at this step.
     assert abs(area - np.pi) < 1e-4 * np.pi
 
 
@@ -119,7 +119,7 @@ def polar(c, reach, radial, angular, pixels=16):
 
 @pytest.mark.parametrize(("c", "reach"), list(random_cases()))
 def test_the_rules_settle_every_psf(c, reach):
-    """Against four times as many polar nodes; the margin of ten below the promise is what is left for others."""
+    """Against four times as many polar nodes; a tenth of the tolerance, which leaves the rest to other errors."""
     slope, twist = (float(x) for x in steepest_polar(c))
     corner = reach * 2**0.5
     radial, angular = nodes_for(slope, corner, twist)
@@ -131,7 +131,7 @@ def test_the_rules_settle_every_psf(c, reach):
 
 
 def test_a_quarter_of_the_nodes_would_not_settle():
-    """The rule is not merely generous: half the radii and half the directions miss the promise."""
+    """The rule is not merely generous: half the radii or half the directions exceed the tolerance."""
     c = waves(w40=4.0, w31=6, w22=5)
     slope, twist = (float(x) for x in steepest_polar(c))
     radial, angular = nodes_for(slope, 8.0 * 2**0.5, twist)

@@ -85,7 +85,7 @@ def test_fft_and_matrix_agree(pupil, samples):
 
 
 @pytest.mark.parametrize(("samples", "pixels", "words"), [(32, 7, "even"), (14, 8, "at least 16"), (17, 8, "16")])
-def test_the_papers_rules_are_enforced_with_a_sentence(pupil, samples, pixels, words):
+def test_an_fft_of_an_odd_or_too_small_size_is_refused(pupil, samples, pixels, words):
     with pytest.raises(SamplingError, match=words):
         padded_fft(pupil, samples, pixels)
 

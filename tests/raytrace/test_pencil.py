@@ -26,6 +26,7 @@ from p2sf.raytrace.pencil import (
     spot,
     trace,
 )
+from p2sf.raytrace.trace import status_message
 from tests.support.pencils import GLASS, disc, double_gauss, one_surface
 from tests.support.reference import LENSES, case, huygens_rows, prescription_lens
 
@@ -62,9 +63,11 @@ def test_wavelengths_may_be_an_axis():
     assert np.allclose(diffraction_phase(together)[1], diffraction_phase(alone), atol=1e-12)
 
 
-def test_a_chief_ray_that_fails_is_an_error_in_words():
-    with pytest.raises(GeometryError, match=r"the chief ray .* surface \d"):
+def test_a_chief_ray_that_fails_is_an_error_that_says_why_and_where():
+    with pytest.raises(GeometryError, match=r"the chief ray .* surface \d") as refused:
         pencil(double_gauss(), Source(inf, np.tan(np.deg2rad(75)), 0.6562725), [0.0], [0.5])
+    outcome = refused.value.message.values["outcome"]
+    assert outcome == status_message(Status.REFLECTED, 2)
 
 
 def test_an_object_a_million_metres_away_loses_no_digit():

@@ -4,12 +4,14 @@ from dataclasses import replace
 from math import inf
 
 import numpy as np
+import pytest
 
 from p2sf.glass.media import AIR
 from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import image_distance
 from p2sf.raytrace.pencil import Status, diffraction_phase, pencil, pupil_rays, trace
+from p2sf.raytrace.trace import status_message
 from tests.support.pencils import GLASS, disc, double_gauss, one_surface
 
 
@@ -91,3 +93,9 @@ def test_an_asphere_that_newton_cannot_solve_is_refused():
     z = 0.02 * result.points[1, :, 1] ** 4
     good = result.status == Status.PASSED
     assert np.allclose(z[good], result.points[1, good, 2], atol=1e-12)
+
+
+@pytest.mark.parametrize("status", [status for status in Status if status != Status.PASSED])
+def test_every_failure_has_a_message_with_its_surface(status):
+    message = status_message(status, 7)
+    assert message.values == {"surface": 7} and str(message).count("surface 7") == 1
