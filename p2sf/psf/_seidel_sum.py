@@ -1,24 +1,25 @@
-"""The live path: the plain sum of `psf.plain_intensity`, arranged so that almost nothing is left to compute.
+"""The sum of `seidel.plain_intensity`, arranged so that almost nothing is left to compute.
 
-What makes it fast, in the order of gain:
+What makes it fast, the largest gain first:
 
-* **Both folds.** With the field along y the pupil is even in ξ. Let P± be it at (ξ, ±η), η > 0, where W differs by
-  the sign of coma alone; a node and its three mirror images, each of weight w, then add up to
+* **Symmetry.** With the field along y the pupil is even in ξ. Let P± be its value at (ξ, ±η), η > 0: there W differs
+  in the sign of coma alone. A node and its three mirror images, each of weight w, then add up to
 
       2w·cos(kξx)·[(P₊ + P₋)·cos(kηy) + i(P₊ − P₋)·sin(kηy)],   k = −2πn'u'/λ,
 
-  so all kernels are real and belong to a quarter of the pupil and a quarter of the picture.
+  so that all kernels are real and cover a quarter of the pupil and a quarter of the PSF.
 * **Rows.** Nodes of equal η share their kernel in y (`quadrature.RowNodes`): the sum is two small products.
-* **Sine and cosine of the reduced phase.** exp of a complex array costs ten times as much as `turns.cosine_sine`.
-* **Batches and kept kernels.** PSFs of one n'u'/λ share kernels and products.
+* **Sine and cosine of the reduced phase.** exp of a complex array costs ten times as much as `phasors.cosine_sine`.
+* **Batches and cached kernels.** PSFs of one n'u'/λ share kernels and products.
 
-Nothing is written after it is cached, and work arrays belong to one call: any number of threads may render.
+Cached arrays are never written to and work arrays belong to one call, so any number of threads may render.
 """
 
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import shape_coefficients, spread
@@ -26,8 +27,11 @@ from p2sf.pupil.phasors import TURN, cosine_sine, cosine_sine_of_radians
 from p2sf.pupil.quadrature import RowNodes
 
 BATCH = 10  # PSFs at a time: their 128² pupils of float32 just fit a second-level cache
-KERNEL_BYTES = 2**22  # most that one kernel may take; more rows than that are summed block by block
-SINGLE_COLUMNS = 128  # that half a chord may have for phases of float32: they reach 60 waves, rounded by 4e-6 of one
+KERNEL_BYTES = 2**22  # the most that one kernel may take; more rows than that are summed block by block
+SINGLE_COLUMNS = 128  # most columns of half a chord for float32 phases: they reach 60 waves, rounded to 4e-6 wave
+
+Setting = tuple[float, int, np.dtype]
+"""What kernels depend on beside the nodes: cycles per unit pupil radius and pixel, pixels, precision."""
 
 
 @dataclass(frozen=True)
@@ -41,20 +45,22 @@ class DftKernels:
 
 @dataclass(frozen=True)
 class Monomials:
-    """What multiplies W40, W31, W22 and W20 + Wd at η, then at −η, (4, 2·nodes); half the weights, (rows, columns).
+    """Factors of W40, W31, W22 and W20 + Wd at η, then at −η, (4, 2·nodes); half the weights, (rows, columns).
 
-    The phases come in waves as float64, or where there are few of them, and in float32 all is done, in radians.
+    They give phases in waves in float64, or in radians in float32 where phases are small enough for it.
     """
 
     phases: np.ndarray
     weight: np.ndarray
 
 
-def intensities(coefficients: Coefficients, pixels: int, pixel_um: float, rows: RowNodes, dtype=np.float32):
+def intensities(
+    coefficients: Coefficients, pixels: int, pixel_um: float, rows: RowNodes, dtype: DTypeLike = np.float32
+) -> np.ndarray:
     """Return the PSFs of all coefficients, (…, pixels, pixels), in units of the unaberrated peak.
 
     The coefficients broadcast over (depth, field, wavelength); rows of the PSF are +y, sample pixels//2 is the
-    chief ray. ``dtype``, float32 or float64, is the precision of everything behind the reduced phase.
+    chief ray. ``dtype``, float32 or float64, is the precision of everything after the reduced phase.
     """
     terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
@@ -71,19 +77,21 @@ def shape_terms(coefficients: Coefficients) -> np.ndarray:
     return spread(*shape_coefficients(coefficients)[:4], wave_number(coefficients))
 
 
-def batch_intensities(terms: np.ndarray, pixels: int, pixel_um: float, rows: RowNodes, dtype) -> np.ndarray:
-    """Return the PSFs (batch, pixels, pixels) of `shape_terms` (batch, 5) that all have the same last one."""
+def batch_intensities(terms: np.ndarray, pixels: int, pixel_um: float, rows: RowNodes, dtype: DTypeLike) -> np.ndarray:
+    """Return the PSFs (batch, pixels, pixels) of `shape_terms` (batch, 5) of one n'u'/λ, the last term."""
     setting = float(terms[0, 4]) * pixel_um, pixels, np.dtype(dtype)
-    return unfolded(*_fields(terms[:, :4], rows, setting), pixels)
+    even, odd = _fields(terms[:, :4], rows, setting)
+    return unfolded(even, odd, pixels)
 
 
 def wave_number(coefficients: Coefficients) -> np.ndarray:
     """Return cycles per µm on the sensor at unit pupil radius, −n'u'/λ, signed; its size is NA/λ."""
-    return -np.asarray(coefficients.reduced_slope) / coefficients.wavelength_um
+    number: np.ndarray = -np.asarray(coefficients.reduced_slope) / coefficients.wavelength_um
+    return number
 
 
 def groups(scale: np.ndarray) -> list[np.ndarray]:
-    """Return the indices of equal scales together; they share their kernels."""
+    """Return the indices of each set of equal scales: they share their kernels."""
     if scale.size <= 1:
         return [np.zeros(1, dtype=int)] * scale.size
     _, group = np.unique(scale, return_inverse=True)
@@ -91,7 +99,7 @@ def groups(scale: np.ndarray) -> list[np.ndarray]:
     return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
 
 
-def _fields(shape, rows: RowNodes, setting):
+def _fields(shape: np.ndarray, rows: RowNodes, setting: Setting) -> tuple[np.ndarray, np.ndarray]:
     """Return the parts of the fields even and odd in y, (2, batch, y, x) each, axis 0 real and imaginary."""
     blocks = _blocks(rows, setting[1], setting[2])
     even, odd = _block_fields(shape, blocks[0], setting)
@@ -102,17 +110,17 @@ def _fields(shape, rows: RowNodes, setting):
     return even, odd
 
 
-def _block_fields(shape, rows: RowNodes, setting):
-    # A single PSF is likely to be asked for again, a batch of a stack is not and would only fill the cache.
+def _block_fields(shape: np.ndarray, rows: RowNodes, setting: Setting) -> tuple[np.ndarray, np.ndarray]:
+    # A single PSF is likely to be asked for again; a batch of a stack is not, and would only fill the cache.
     kernels = (kernels_for if len(shape) == 1 else kernels_for.__wrapped__)(rows, *setting)
     half = _across(half_pupils(shape, rows, setting[2]), kernels.across)
     upper, lower = half[:, :, 0], half[:, :, 1]
     even, odd = kernels.up_even @ (upper + lower), kernels.up_odd @ (upper - lower)[::-1]
-    np.negative(odd[0], out=odd[0])  # i times the difference
+    np.negative(odd[0], out=odd[0])  # with the rows swapped above: i times the difference
     return even, odd
 
 
-def half_pupils(shape: np.ndarray, rows: RowNodes, dtype) -> np.ndarray:
+def half_pupils(shape: np.ndarray, rows: RowNodes, dtype: np.dtype) -> np.ndarray:
     """Return w/2·exp(i2πW) at η, then at −η, shape (2, batch, 2, rows, columns), axis 0 real and imaginary.
 
     ``shape``: (batch, 4) of W40, W31, W22, W20 + Wd in waves.
@@ -128,16 +136,18 @@ def half_pupils(shape: np.ndarray, rows: RowNodes, dtype) -> np.ndarray:
 def _across(pupil: np.ndarray, across: np.ndarray) -> np.ndarray:
     """Return the product along ξ, (…, rows, x): one product for a shared kernel, else one per row."""
     *parts, rows, columns = pupil.shape
+    product: np.ndarray
     if len(across) == 1:
-        return (pupil.reshape(-1, columns) @ across[0]).reshape(*parts, rows, -1)
-    by_row = pupil.reshape(-1, rows, columns).transpose(1, 0, 2)  # a view serves, here and behind
-    return (by_row @ across).transpose(1, 0, 2).reshape(*parts, rows, -1)
+        product = pupil.reshape(-1, columns) @ across[0]
+    else:  # both transposes are views
+        product = (pupil.reshape(-1, rows, columns).transpose(1, 0, 2) @ across).transpose(1, 0, 2)
+    return product.reshape(*parts, rows, -1)
 
 
 def unfolded(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
-    """Return |even ± odd|² on the whole picture from offsets ≥ 0: plus above the chief ray, even in x.
+    """Return |even ± odd|² of the whole PSF from offsets ≥ 0, plus above the chief ray, (batch, pixels, pixels).
 
-    ``even`` and ``odd`` in y: (2, batch, y, x), real and imaginary, used up; (batch, pixels, pixels).
+    ``even`` and ``odd`` in y, both even in x: (2, batch, y, x), real and imaginary; they are overwritten.
     """
     batch, low = even.shape[1], pixels // 2
     high = pixels - low
@@ -151,20 +161,20 @@ def unfolded(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
 
 
 def _modulus(field: np.ndarray, rows: slice, out: np.ndarray) -> None:
-    """Write the squared modulus of these rows of a field (2, batch, y, x), which is used up, to (batch, y, x)."""
+    """Write the squared modulus of these rows of a field (2, batch, y, x), which is overwritten, to (batch, y, x)."""
     field *= field
     np.add(field[0, :, rows], field[1, :, rows], out=out)
 
 
 @lru_cache(maxsize=8)
-def kernels_for(rows: RowNodes, cycles: float, pixels: int, dtype) -> DftKernels:
-    """Return the kernels of a picture whose samples are ``cycles`` per unit pupil radius apart."""
+def kernels_for(rows: RowNodes, cycles: float, pixels: int, dtype: np.dtype) -> DftKernels:
+    """Return the kernels of a PSF with ``cycles`` cycles per unit pupil radius from one sample to the next."""
     step = np.arange(pixels // 2 + 1) * (TURN * cycles)
     up = (step[:, None] * rows.eta).astype(dtype)
     return DftKernels(_multiples(rows.xi * (TURN * cycles), len(step), dtype), np.cos(up), np.sin(up))
 
 
-def _multiples(angle: np.ndarray, count: int, dtype) -> np.ndarray:
+def _multiples(angle: np.ndarray, count: int, dtype: np.dtype) -> np.ndarray:
     """Return cos(m·angle), m = 0 … count − 1 last; float64 by Chebyshev's recurrence, ten times faster than cos.
 
     In float32 the upper half follows from the lower: cos(h + j)θ = 2·cos hθ·cos jθ − cos(h − j)θ.
@@ -187,7 +197,7 @@ def _multiples(angle: np.ndarray, count: int, dtype) -> np.ndarray:
 
 
 @lru_cache(maxsize=32)
-def _monomials(rows: RowNodes, dtype) -> Monomials:
+def _monomials(rows: RowNodes, dtype: np.dtype) -> Monomials:
     eta = rows.eta[:, None]
     square = rows.xi**2 + eta**2
     upper = np.stack([square**2, square * eta, np.broadcast_to(eta**2, square.shape), square]).reshape(4, -1)
@@ -197,7 +207,7 @@ def _monomials(rows: RowNodes, dtype) -> Monomials:
 
 
 @lru_cache(maxsize=16)
-def _blocks(rows: RowNodes, pixels: int, dtype) -> tuple[RowNodes, ...]:
+def _blocks(rows: RowNodes, pixels: int, dtype: np.dtype) -> tuple[RowNodes, ...]:
     """Return the rows in blocks whose kernels stay within KERNEL_BYTES."""
     per_row = rows.weight.shape[1] * (pixels // 2 + 1) * dtype.itemsize
     size = max(1, KERNEL_BYTES // per_row)

@@ -1,10 +1,11 @@
-"""How far one PSF is from another on the same grid, in the numbers people judge a PSF by."""
+"""How far one PSF is from another on the same grid, in the quantities a PSF is judged by."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from p2sf.errors import SamplingError
+from p2sf.messages import Message
 from p2sf.psf.metrics import centroid, radius_of_energy
 from p2sf.psf.result import Psf
 
@@ -37,15 +38,19 @@ def compare(psf: Psf, reference: Psf) -> Errors:
     return Errors(
         r_squared=r_squared(psf.values, reference.values),
         relative_l2=relative_l2(psf.values, reference.values),
-        strehl=None if None in (psf.strehl, reference.strehl) else float(psf.strehl - reference.strehl),
+        strehl=_difference(psf.strehl, reference.strehl),
         radius_50_um=radii[0],
         radius_80_um=radii[1],
         centroid_um=float(np.hypot(x - x_reference, y - y_reference)),
     )
 
 
+def _difference(one: float | np.ndarray | None, other: float | np.ndarray | None) -> float | None:
+    return None if one is None or other is None else float(one - other)
+
+
 def r_squared(values: np.ndarray, reference: np.ndarray) -> float:
-    """Return R² of two windows (y, x) after both are given unit sum (DESIGN.md section 3)."""
+    """Return R² of two windows (y, x) after both are given unit sum."""
     found, wanted = _unit_sum(values), _unit_sum(reference)
     return float(1 - np.square(wanted - found).sum() / np.square(wanted - wanted.mean()).sum())
 
@@ -57,12 +62,21 @@ def relative_l2(values: np.ndarray, reference: np.ndarray) -> float:
 
 
 def _unit_sum(values: np.ndarray) -> np.ndarray:
-    values = np.asarray(values, dtype=float)
-    return values / values.sum()
+    unit: np.ndarray = np.asarray(values, dtype=float)
+    return unit / float(unit.sum())
 
 
 def _check_same_grid(psf: Psf, reference: Psf) -> None:
     same = abs(psf.pixel_um / reference.pixel_um - 1) < SAME_PITCH
     if psf.values.shape != reference.values.shape or not same:
-        shapes = (f"{p.values.shape} samples at {p.pixel_um:g} µm" for p in (psf, reference))
-        raise SamplingError(f"cannot compare {' with '.join(shapes)}; render both on the same grid")
+        raise SamplingError(
+            "cannot compare {psf} with {reference}; render both on the same grid",
+            psf=_grid(psf),
+            reference=_grid(reference),
+        )
+
+
+def _grid(psf: Psf) -> Message:
+    """Return what grid a PSF has, in words."""
+    shape = " × ".join(map(str, psf.values.shape))
+    return Message("{shape} samples at {pixel_um:g} µm", shape=shape, pixel_um=psf.pixel_um)

@@ -1,14 +1,16 @@
-"""The `fitted` method as a PSF: some tens of numbers from some tens of rays."""
+"""The `fitted` method: a PSF from some tens of numbers, fitted to some tens of rays."""
 
 from functools import lru_cache
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from p2sf.conventions import centred_axis
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.plane_waves import Origin, counts_for, psf_from_intensity, pupil_amplitude, resolved
+from p2sf.messages import Message
+from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
@@ -32,37 +34,41 @@ def fitted_psf(
 ) -> Psf:
     """Return the PSF of the `fitted` method, with ``numbers`` coefficients or as many as the residual asks for.
 
-    "settled" sums in float64 to a relative L2 error of 1e-4 of what the fit describes, "preview" fewer nodes in
-    float32. The nodes lie in rows (`rows`); a pupil map too curved for rows is summed node by node.
+    "settled" sums what the fit describes in float64, to a relative L2 error of 1e-4; "preview" sums fewer nodes in
+    float32. The nodes lie in rows (`separable_sum`); a pupil map too curved for rows is summed node by node.
     Raises GeometryError where rays do not reach the sensor, SamplingError for a window no nodes can carry.
     """
     started = perf_counter()
     return psf_of_fit(fit(lens, source, numbers, aim), source.wavelength_um, (pixels, pixel_um), quality, started)
 
 
-def psf_of_fit(found: FittedPencil, wavelength_um: float, window, quality: str, started: float) -> Psf:
+def psf_of_fit(
+    found: FittedPencil, wavelength_um: float, window: tuple[int, float], quality: str, started: float
+) -> Psf:
     """Return the PSF that a fit describes in a window (pixels, pixel_um); ``started`` is a `perf_counter` reading."""
-    intensity, words = summed(found, *window, quality)
+    intensity, sampling = summed(found, *window, quality)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
-    made = Origin("fitted", found.numbers, found.rays, words, started, tolerance)
+    made = Origin("fitted", found.numbers, found.rays, sampling, started, tolerance)
     blur = found.blur_um2 if resolved(found.steepness.spread, window[1]) else None
     return psf_from_intensity(intensity, window[1], wavelength_um, blur, made)
 
 
-def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, str]:
-    """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and its nodes in words."""
+def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
+    """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and the nodes it took."""
     nodes = rows_for(found, pixels, pixel_um, quality)
     dtype = np.float64 if quality == "settled" else np.float32
     if nodes is None:
         counts = counts_for(found.steepness, pixels, pixel_um)
         intensity = fitted_intensity(found, counts, pixels, pixel_um, dtype)
-        return intensity, f"{counts[0]} radii × {counts[1]} directions, {intensity.dtype.name}"
+        return intensity, Message("{nodes}, {precision}", nodes=disc_words(counts), precision=intensity.dtype.name)
     phase, fx = found.at_points(nodes.xi, nodes.eta)
     intensity = nodes.intensity(phase, fx, pixels, pixel_um, dtype)
-    return intensity, f"{nodes.words}, {intensity.dtype.name}"
+    return intensity, Message("{nodes}, {precision}", nodes=nodes.words, precision=intensity.dtype.name)
 
 
-def fitted_intensity(found: FittedPencil, counts, pixels: int, pixel_um: float, dtype=np.float64) -> np.ndarray:
+def fitted_intensity(
+    found: FittedPencil, counts: tuple[int, int], pixels: int, pixel_um: float, dtype: DTypeLike = np.float64
+) -> np.ndarray:
     """Return |Σ weight·exp(2πi(w + f·x))|² of a fit over disc nodes, (pixels, pixels): the plain sum."""
     level = found.level
     even = _node_basis(max(level.wave_order, level.map_order), *counts, False)
@@ -70,11 +76,12 @@ def fitted_intensity(found: FittedPencil, counts, pixels: int, pixel_um: float, 
     amplitude = pupil_amplitude(disc_nodes(*counts).weight, phase, dtype)
     axis = centred_axis(pixels, pixel_um)
     field = sum_plane_waves(amplitude, fx.astype(dtype), fy.astype(dtype), axis, axis)
-    return field.real**2 + field.imag**2
+    intensity: np.ndarray = field.real**2 + field.imag**2
+    return intensity
 
 
 def _node_basis(order: int, radial: int, angular: int, odd: bool) -> np.ndarray:
-    """Return the basis at the nodes; a large one is up to 200 MB and its sum far slower, so it is not kept."""
+    """Return the basis at the nodes; a large one, up to 200 MB, is not cached: its sum takes far longer anyway."""
     make = _kept_basis if radial * angular <= MOST_KEPT else _kept_basis.__wrapped__
     return make(order, radial, angular, odd)
 

@@ -1,15 +1,17 @@
-"""The paper's baseline: one 2-D Gaussian fitted to the reference. For comparison only."""
+"""The baseline of the paper: one 2-D Gaussian fitted to the reference, for comparison only."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
 
+from p2sf.messages import Message
 from p2sf.psf.metrics import centroid
 from p2sf.psf.result import Psf
 
-WIDTHS = (0.5, 1.0, 2.0)  # starts, times the reference's own spread: narrow core, whole, wide skirt
-NARROWEST = 0.3  # of a pixel: below it a sampled Gaussian is one sample and its width says nothing
+WIDTHS = (0.5, 1.0, 2.0)  # of the starting points, in units of the reference's spread: narrow core, whole, wide skirt
+NARROWEST = 0.3  # in pixels: below it a sampled Gaussian is one sample, whatever its width
 
 
 def gaussian_psf(reference: Psf) -> Psf:
@@ -25,29 +27,44 @@ def gaussian_psf(reference: Psf) -> Psf:
     wanted = np.asarray(reference.values, dtype=float)
     scale = np.linalg.norm(wanted)
 
-    def misfit(parameters):
-        return ((gaussian(x, y, *np.exp(parameters[:2]), parameters[2]) - wanted) / scale).ravel()
+    def misfit(parameters: np.ndarray) -> np.ndarray:
+        width_x, width_y = np.exp(parameters[:2])
+        difference: np.ndarray = (gaussian(x, y, width_x, width_y, parameters[2]) - wanted) / scale
+        return difference.ravel()
 
     low, high = np.log(NARROWEST * reference.pixel_um), np.log(10 * np.ptp(x) + reference.pixel_um)
     bounds = ([low, low, y[0] - reference.pixel_um], [high, high, y[-1] + reference.pixel_um])
     trials = [least_squares(misfit, np.clip(start, *bounds), bounds=bounds) for start in _starts(reference)]
     width_x, width_y, centre = min(trials, key=lambda found: found.cost).x
     values = gaussian(x, y, np.exp(width_x), np.exp(width_y), centre)
-    words = f"σx {np.exp(width_x):.3g} µm, σy {np.exp(width_y):.3g} µm, centre {centre:.3g} µm"
-    # A fit has no pupil behind it, and narrower than the reference it would peak above 1: no Strehl ratio.
-    made = {"numbers": 3, "rays": 0, "sampling": words, "seconds": perf_counter() - started, "tolerance": None}
-    return replace(reference, values=values, method="gaussian", strehl=None, **made)
+    return replace(
+        reference,
+        values=values,
+        method="gaussian",
+        strehl=None,  # a fit has no pupil behind it, and narrower than the reference it would peak above 1
+        numbers=3,
+        rays=0,
+        sampling=Message(
+            "σx {sigma_x:.3g} µm, σy {sigma_y:.3g} µm, centre {centre:.3g} µm",
+            sigma_x=float(np.exp(width_x)),
+            sigma_y=float(np.exp(width_y)),
+            centre=float(centre),
+        ),
+        seconds=perf_counter() - started,
+        tolerance=None,
+    )
 
 
-def gaussian(x_um, y_um, sigma_x, sigma_y, centre_y) -> np.ndarray:
+def gaussian(x_um: np.ndarray, y_um: np.ndarray, sigma_x: float, sigma_y: float, centre_y: float) -> np.ndarray:
     """Return a sampled Gaussian of unit sum in its window, shape (y, x)."""
     across = np.exp(-np.square(x_um / sigma_x) / 2)
     along = np.exp(-np.square((y_um - centre_y) / sigma_y) / 2)
-    values = np.outer(along, across)
-    return values / max(values.sum(), np.finfo(float).tiny)
+    values: np.ndarray = np.outer(along, across)
+    values /= max(values.sum(), np.finfo(float).tiny)
+    return values
 
 
-def _starts(reference: Psf):
+def _starts(reference: Psf) -> Iterator[list[float]]:
     """Return starting points (log σx, log σy, centre y): about the centroid and about the peak."""
     _, centre = centroid(reference)
     highest = reference.y_um[np.unravel_index(reference.values.argmax(), reference.values.shape)[0]]

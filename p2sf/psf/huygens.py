@@ -1,7 +1,7 @@
-"""The `huygens` method, the reference: every traced ray a plane wavelet at the sensor, summed directly.
+"""The `huygens` method, the reference: each traced ray is a plane wave at the sensor, and all are summed directly.
 
-The nodes are Gauss–Legendre radii times uniform directions, so that there is no edge to converge; their
-count rises until two successive pictures agree. Clear apertures (`vignetting`) end each radius at the rim it meets.
+The nodes are Gauss–Legendre radii times uniform directions, so that no pixelated edge slows the convergence; their
+count rises until two successive PSFs agree. Clear apertures (`vignetting`) end each radius at the rim it meets.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,8 @@ from p2sf.conventions import centred_axis
 from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.plane_waves import Origin, counts_for, psf_from_intensity, pupil_amplitude, resolved
+from p2sf.messages import Message
+from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.psf.result import Psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
@@ -23,16 +24,21 @@ from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, whole_nodes
 
-BLOCK = 8192  # rays at a time: few enough for a second-level cache, and an answer to cancel every few milliseconds
+BLOCK = 8192  # rays at a time: few enough for a second-level cache and to check for cancellation every few ms
 GROWTH = 1.3
 MOST_NODES = 2**22
 PROBE = 12, 36
 LIVE = 72, 180  # as many rays as a 128² grid has in the half disc
 
+Window = tuple[int, float]
+"""Pixels on a side, µm per pixel."""
+Counts = tuple[int, int]
+"""Radial and angular node counts of the whole disc."""
+
 
 @dataclass(frozen=True)
 class Filling:
-    """How the pupil is filled: ``aim`` "paraxial" or "real" (`raytrace`), ``clip`` by the clear semi-diameters."""
+    """How rays fill the pupil: ``aim`` "paraxial" or "real" (`raytrace.aiming`), ``clip`` by clear semi-diameters."""
 
     aim: str = "paraxial"
     clip: bool = False
@@ -64,32 +70,36 @@ def huygens_psf(
 
     The agreement reached (relative L2 in the window) is reported as the PSF's ``tolerance``, also where more nodes than
     are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as a
-    128² grid has or as the blur needs, for a live picture that promises nothing. ``progress`` is told the fraction
-    done; ``cancelled`` is asked between blocks, and stops the work with `Cancelled`. Raises GeometryError where the
-    chief ray, or every ray, fails. Where rays fail without ``clip`` the pupil ends where they begin to.
+    128² grid has or as the blur needs, for a preview of no guaranteed accuracy. ``progress`` is called with the
+    fraction done; ``cancelled`` is called between blocks, and True ends the work with `Cancelled`. Raises
+    GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there.
     """
     started = perf_counter()
     window = pixels, pixel_um
     if tolerance is None:
         found, counts = _once(lens, source, window, filling, _Watch(None, cancelled, live=True))
-        reached, rays = None, _nodes(counts)
+        sampling = _sampling(counts, found, filling, Message("one pass in float32"))
+        made = Origin("huygens", 0, _nodes(counts), sampling, started)
     else:
         watch = _Watch(progress, cancelled)
         found, counts, reached, rays = _settle(lens, source, window, filling, tolerance, watch)
-    words = _words(counts, found, filling, reached, tolerance)
-    made = Origin("huygens", 0, rays, words, started, reached)
+        short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
+        sampling = _sampling(counts, found, filling, None if reached <= tolerance else short)
+        made = Origin("huygens", 0, rays, sampling, started, reached)
     intensity = found.values.real**2 + found.values.imag**2
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, found.blur_um2, made)
 
 
-def _once(lens, source, window, filling, watch: "_Watch"):
+def _once(lens: Lens, source: Source, window: Window, filling: Filling, watch: "_Watch") -> tuple[Field, Counts]:
     """Return the field of one pass in float32: as many rays as a 128² grid, more where the blur needs more."""
     needed = first_counts(lens, source, window, filling)
     counts = LIVE if needed[0] <= LIVE[0] and needed[1] <= LIVE[1] else needed
     return huygens_field(lens, source, counts, window, filling, watch), counts
 
 
-def _settle(lens, source, window, filling, tolerance, watch: "_Watch"):
+def _settle(
+    lens: Lens, source: Source, window: Window, filling: Filling, tolerance: float, watch: "_Watch"
+) -> tuple[Field, Counts, float, int]:
     """Return (field, counts, agreement, rays traced) once two successive node counts agree."""
     counts = first_counts(lens, source, window, filling)
     watch.expect(_nodes(counts) + _nodes(_raised(counts)))
@@ -106,22 +116,26 @@ def _settle(lens, source, window, filling, tolerance, watch: "_Watch"):
         watch.expect(_nodes(_raised(counts)))
 
 
-def _raised(counts):
-    return tuple(2 * round(GROWTH * count / 2) for count in counts)
+def _raised(counts: Counts) -> Counts:
+    radial, angular = (2 * round(GROWTH * count / 2) for count in counts)
+    return radial, angular
 
 
-def _nodes(counts) -> int:
+def _nodes(counts: Counts) -> int:
     return counts[0] * counts[1] // 2
 
 
-def _distance(before, after) -> float:
-    """Return relative L2 distance of two intensities."""
+def _distance(before: np.ndarray, after: np.ndarray) -> float:
+    """Return the relative L2 distance of the intensities of two fields."""
     one, two = np.abs(before) ** 2, np.abs(after) ** 2
     return float(np.linalg.norm(one - two) / np.linalg.norm(two))
 
 
-def first_counts(lens, source, window, filling) -> tuple[int, int]:
-    """Return node counts that should carry the phase, from a coarse pencil. Raises SamplingError for too many."""
+def first_counts(lens: Lens, source: Source, window: Window, filling: Filling) -> Counts:
+    """Return node counts that should carry the phase of a coarse pencil.
+
+    Raises GeometryError where no ray passes, SamplingError where more than MOST_NODES nodes would be needed.
+    """
     xi, eta = _probe()
     rays = pencil(lens, source, xi, eta, filling.aim)
     if not rays.passed.any():
@@ -129,25 +143,32 @@ def first_counts(lens, source, window, filling) -> tuple[int, int]:
     counts = counts_for(steepness(ray_data(rays), xi, eta), *window)
     if _nodes(counts) > MOST_NODES:
         raise SamplingError(
-            f"this blur over {window[0]} pixels of {window[1]:g} µm needs {_nodes(counts)} rays; bring the sensor "
-            "nearer to the image, stop down, or show a smaller window"
+            "this blur over {pixels} pixels of {pixel_um:g} µm needs {rays} rays; bring the sensor nearer to the "
+            "image, stop down, or show a smaller window",
+            pixels=window[0],
+            pixel_um=window[1],
+            rays=_nodes(counts),
         )
-    return tuple(2 * -(-count // 2) for count in counts)
+    radial, angular = (2 * -(-count // 2) for count in counts)
+    return radial, angular
 
 
 @lru_cache(maxsize=1)
-def _probe():
-    """Return pupil points (ξ, η) of the coarse pencil; the rim, where phases are steepest, is among them."""
+def _probe() -> tuple[np.ndarray, np.ndarray]:
+    """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest."""
     nodes, angle = disc_nodes(*PROBE), np.linspace(0, np.pi, PROBE[1])
     return np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
 
 
-def huygens_field(lens, source, counts, window, filling: Filling, watch: "_Watch") -> Field:
-    """Return the field of one set of nodes; the sum separates into matrix products over the grid."""
+def huygens_field(
+    lens: Lens, source: Source, counts: Counts, window: Window, filling: Filling, watch: "_Watch"
+) -> Field:
+    """Return the field of one set of nodes; over a grid of samples the sum is a matrix product."""
     nodes = _nodes_of(lens, source, counts, filling)
     blur = None if watch.live else pencil_blur(lens, source, nodes, filling.aim)
     axis, dtype = centred_axis(*window), np.float32 if watch.live else np.float64
-    total, lost, spread = 0.0, 0, 0.0
+    total: np.ndarray | float = 0.0
+    lost, spread = 0, 0.0
     for first in range(0, nodes.xi.size, BLOCK):
         part = slice(first, first + BLOCK)
         data, weight = _block(lens, source, nodes, part, filling.aim)
@@ -157,11 +178,11 @@ def huygens_field(lens, source, counts, window, filling: Filling, watch: "_Watch
         fx, fy = data.fx.astype(dtype), data.fy.astype(dtype)
         total = total + sum_plane_waves(amplitude, fx, fy, axis, axis)
         watch.advance(weight.size)
-    return Field(total, blur if resolved(spread, window[1]) else None, lost)
+    return Field(np.asarray(total), blur if resolved(spread, window[1]) else None, lost)
 
 
-def _nodes_of(lens, source, counts, filling: Filling) -> ClearNodes:
-    """Return nodes that end where rays end: at the pupil's rim, at clear apertures, or where a surface is missed."""
+def _nodes_of(lens: Lens, source: Source, counts: Counts, filling: Filling) -> ClearNodes:
+    """Return nodes up to where rays end: at the pupil's rim, at clear apertures, or where they miss a surface."""
     if filling.clip or not all_reach(lens, source, filling.aim):
         return clear_nodes(lens, source, counts, filling.aim, filling.clip)
     return whole_nodes(counts)
@@ -169,12 +190,12 @@ def _nodes_of(lens, source, counts, filling: Filling) -> ClearNodes:
 
 @lru_cache(maxsize=16)
 def all_reach(lens: Lens, source: Source, aim: str = "paraxial") -> bool:
-    """Return whether rays all over the pupil, its rim included, reach the sensor unclipped."""
+    """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
     xi, eta = hexapolar(PROBE[0])
     return bool(pencil(lens, source, xi, eta, aim).passed.all())
 
 
-def _block(lens, source, nodes: ClearNodes, part: slice, aim) -> tuple[RayData, np.ndarray]:
+def _block(lens: Lens, source: Source, nodes: ClearNodes, part: slice, aim: str) -> tuple[RayData, np.ndarray]:
     rays = pencil(lens, source, nodes.xi[part], nodes.eta[part], aim)
     data, weight = ray_data(rays), nodes.weight[part]
     if rays.passed.all():
@@ -183,7 +204,7 @@ def _block(lens, source, nodes: ClearNodes, part: slice, aim) -> tuple[RayData, 
     return RayData(*columns), np.where(rays.passed, weight, 0.0)
 
 
-def plain_sum(data: RayData, weight, x_um, y_um) -> np.ndarray:
+def plain_sum(data: RayData, weight: np.ndarray, x_um: np.ndarray, y_um: np.ndarray) -> np.ndarray:
     """Return the field Σ weight·exp(2πi(w + f·x)) point by point, (y, x), mirror images included: the definition."""
     field = np.empty((len(y_um), len(x_um)), complex)
     for j, y in enumerate(y_um):
@@ -194,29 +215,38 @@ def plain_sum(data: RayData, weight, x_um, y_um) -> np.ndarray:
     return field
 
 
-def _words(counts, found: Field, filling: Filling, reached, tolerance) -> str:
-    words = f"{counts[0]} radii × {counts[1]} directions"
-    words += ", clipped by the clear semi-diameters" if filling.clip else ""
-    words += ", aimed at the real stop" if filling.aim == "real" else ""
-    words += f", {found.lost} rays lost" if found.lost else ""
-    if reached is None:
-        return words + ", one pass in float32"
-    return words + ("" if reached <= tolerance else f", not converged: agrees to {reached:.1e} only")
+def _sampling(counts: Counts, found: Field, filling: Filling, convergence: Message | None) -> Message:
+    """Return in words what was summed, and how it converged."""
+    parts = [disc_words(counts)]
+    if filling.clip:
+        parts.append(Message("clipped by the clear semi-diameters"))
+    if filling.aim == "real":
+        parts.append(Message("aimed at the real stop"))
+    if found.lost:
+        parts.append(Message("{lost} rays lost", lost=found.lost))
+    if convergence:
+        parts.append(convergence)
+    return Message("{parts}", parts=tuple(parts))
 
 
 class _Watch:
-    """Tells how far the work is, and asks whether it is still wanted."""
+    """Reports progress, and ends the work where the caller cancels it."""
 
-    def __init__(self, progress=None, cancelled=None, live: bool = False):
+    def __init__(
+        self,
+        progress: Callable[[float], None] | None = None,
+        cancelled: Callable[[], bool] | None = None,
+        live: bool = False,
+    ) -> None:
         self.progress, self.cancelled, self.live = progress, cancelled, live
         self.finished, self.expected = 0, 0
 
     def expect(self, nodes: int) -> None:
-        """Note more work to come."""
+        """Add work to come."""
         self.expected += nodes
 
     def advance(self, nodes: int) -> None:
-        """Note work done; raise Cancelled where it is no longer wanted."""
+        """Add work done; raise Cancelled where the caller has cancelled it."""
         self.finished += nodes
         if self.cancelled and self.cancelled():
             raise Cancelled("the reference was cancelled before it was done")
@@ -224,6 +254,6 @@ class _Watch:
             self.progress(min(self.finished / self.expected, 0.99))
 
     def done(self) -> None:
-        """Note that all is done."""
+        """Report that all is done."""
         if self.progress:
             self.progress(1.0)

@@ -1,4 +1,4 @@
-"""The methods, what each will cost in error, and the cheapest that is good enough.
+"""All methods behind one function, the error each is predicted to make, and the cheapest that is good enough.
 
 The prediction needs no reference. Where two descriptions of the same ray differ by a phase e(ray), the fields differ by
 2πe and 1 − R² is of the order (2πσ)², σ the RMS of e over the pupil. For a ray that lands at x,
@@ -6,12 +6,12 @@ The prediction needs no reference. Where two descriptions of the same ray differ
     e = Δw + Δf·x,
 
 Δw the difference of phase and Δf of spatial frequency: for `seidel` against the traced rays themselves (higher
-orders and the departure of the pupil map), for `fitted` on rays the fit has not seen. Diffraction spreads a
+orders and the departure of the pupil map), for `fitted` on rays that took no part in the fit. Diffraction spreads a
 ray's light about x, by the Airy radius or by blur/√(Fresnel number), and Δf counts there too. How far 1 − R² can exceed
 (2πσ)² is measured over random lenses and sources by ``python -m tests.long.method_choice``; SAFETY covers that.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
@@ -19,13 +19,14 @@ import numpy as np
 from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import Filling, huygens_psf
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
+from p2sf.psf.seidel import UNKNOWN_QUALITY, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays
@@ -33,8 +34,8 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 
 METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
-QUICK_LEVELS = LEVELS[:2]  # made from the same 64 rays
-# Measured at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, and 8 where one shows but its core.
+QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
+# Measured: at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, 8 in those that show its core.
 SAFETY = {"seidel": 5.0, "fitted": 8.0}
 TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
 EDGE_ERROR = 1e-4  # over a pupil that ends at rims or where rays are lost (`traced.FALLBACK_TOLERANCE`)
@@ -42,12 +43,53 @@ EDGE_ERROR = 1e-4  # over a pupil that ends at rims or where rays are lost (`tra
 
 @dataclass(frozen=True)
 class Choice:
-    """The method to use, its predicted 1 − R², how many numbers it needs (0: rays), and a sentence why."""
+    """The method to use, its predicted 1 − R², how many numbers it needs (0: rays), and what that was decided on.
+
+    ``tried_rays`` were traced for the choice and ``lost_rays`` of them did not reach the sensor. ``allowed_error`` is
+    the 1 − R² asked for; ``seidel_error`` and ``fitted_error`` are predictions, None where none was made.
+    """
 
     method: str
     predicted_error: float
     numbers: int
-    why: str
+    lost_rays: int = 0
+    tried_rays: int = 0
+    allowed_error: float = 0.0
+    seidel_error: float | None = None
+    fitted_error: float | None = None
+
+    @property
+    def reason(self) -> Message:
+        """Return why this method was chosen, as a sentence."""
+        errors = {"error": self.predicted_error, "allowed": self.allowed_error}
+        if self.method == "seidel":
+            return Message("six coefficients keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed", **errors)
+        if self.method == "fitted":
+            return Message(
+                "{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; "
+                "six coefficients: {seidel:.1e}",
+                numbers=self.numbers,
+                rays=self.tried_rays,
+                seidel=self.seidel_error,
+                **errors,
+            )
+        if self.method == "traced":
+            return Message("exact rays, since {because}", because=self._against_a_fit())
+        return Message("the reference itself, since {because}", because=self._against_a_fit())
+
+    def _against_a_fit(self) -> Message:
+        """Return why no fit will do."""
+        if self.lost_rays:
+            return Message(
+                "{lost} of {rays} rays are lost, and a smooth pupil does not describe that",
+                lost=self.lost_rays,
+                rays=self.tried_rays,
+            )
+        return Message(
+            "{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only",
+            numbers=QUICK_LEVELS[-1].numbers,
+            error=self.fitted_error,
+        )
 
 
 def predicted_error(sigma_waves: float, method: str) -> float:
@@ -56,59 +98,56 @@ def predicted_error(sigma_waves: float, method: str) -> float:
 
 
 def residual_for(tolerance: float) -> float:
-    """Return the RMS phase error in waves that keeps R² of a fit above ``tolerance``; at most the default's."""
+    """Return the RMS phase error in waves that keeps R² of a fit above ``tolerance``; at most RESIDUAL_WAVES."""
     return min(RESIDUAL_WAVES, float(np.sqrt(max(1 - tolerance, 0) / SAFETY["fitted"]) / (2 * np.pi)))
 
 
 def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = False) -> Choice:
     """Return the cheapest method whose predicted R² is at least ``tolerance``, without running the reference.
 
-    For the window that shows the whole PSF; one that shows only its core may do worse. Raises GeometryError where the
-    chief ray does not reach the sensor, RequestError for a tolerance that is not below 1.
+    The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
+    Raises GeometryError where the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
     """
     if not tolerance < 1:
-        raise RequestError(f"a tolerance of {tolerance:g}; give the R² to hold, below 1")
+        raise RequestError("a tolerance of {tolerance:g}; give the R² to hold, below 1", tolerance=tolerance)
     allowed = 1 - tolerance
     xi, eta, weight = level_rays(QUICK_LEVELS[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
     if not rays.passed.all():
-        return _for_lost_rays(int((~rays.passed).sum()), xi.size, allowed)
+        # Only rays know an edge: neither six coefficients nor a fit do.
+        lost = int((~rays.passed).sum())
+        return _by_rays(Choice("traced", EDGE_ERROR, 0, lost, xi.size, allowed), EDGE_ERROR)
     data = ray_data(rays)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     steep = steepness(data, xi, eta)
-    errors = {"seidel": predicted_error(seidel_sigma(c, data, (xi, eta, weight), steep.light_um), "seidel")}
-    if errors["seidel"] <= allowed:
-        return Choice("seidel", errors["seidel"], 6, _sentence("six coefficients", errors["seidel"], allowed))
+    seidel = predicted_error(seidel_sigma(c, data, (xi, eta, weight), steep.light_um), "seidel")
+    tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
+    if seidel <= allowed:
+        return tried
     for level in QUICK_LEVELS:
         found = fit_rays(data, level, level.rays, steep)
-        error = predicted_error(found.error_waves, "fitted")
-        if error <= allowed:
-            why = _sentence(f"{level.numbers} numbers from {level.rays} rays", error, allowed)
-            return Choice("fitted", error, level.numbers, f"{why}; six coefficients: {errors['seidel']:.1e}")
-        errors["fitted"] = error
-    because = f"{QUICK_LEVELS[-1].numbers} fitted numbers leave 1 − R² ≤ {errors['fitted']:.1e} only"
-    return _by_rays(allowed, TRACED_ERROR, because)
+        fitted = predicted_error(found.error_waves, "fitted")
+        if fitted <= allowed:
+            return replace(tried, method="fitted", predicted_error=fitted, numbers=level.numbers, fitted_error=fitted)
+    return _by_rays(replace(tried, fitted_error=fitted), TRACED_ERROR)
 
 
-def _for_lost_rays(lost: int, count: int, allowed: float) -> Choice:
-    """Return the method that knows an edge: neither six coefficients nor a fit do."""
-    return _by_rays(allowed, EDGE_ERROR, f"{lost} of {count} rays are lost, and a smooth pupil does not describe that")
+def _by_rays(tried: Choice, error: float) -> Choice:
+    """Return `traced` where the error it makes is allowed, else the reference."""
+    if error <= tried.allowed_error:
+        return replace(tried, method="traced", predicted_error=error, numbers=0)
+    return replace(tried, method="huygens", predicted_error=SETTLED_TOLERANCE**2, numbers=0)
 
 
-def _by_rays(allowed: float, error: float, because: str) -> Choice:
-    if error <= allowed:
-        return Choice("traced", error, 0, f"exact rays, since {because}")
-    return Choice("huygens", SETTLED_TOLERANCE**2, 0, f"the reference itself, since {because}")
+def seidel_sigma(
+    c: Coefficients, rays: RayData, points: tuple[np.ndarray, np.ndarray, np.ndarray], spread: float
+) -> float:
+    """Return the RMS phase error of the six coefficients in waves, over the rays at ``points``.
 
-
-def _sentence(what: str, error: float, allowed: float) -> str:
-    return f"{what} keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed"
-
-
-def seidel_sigma(c: Coefficients, rays: RayData, points, spread: float) -> float:
-    """Return the RMS phase error of the six coefficients in waves, over the rays at `rayfit.level_rays` points."""
+    ``points``: ξ, η and weights as from `raytrace.fit.level_rays`; ``spread``: how far diffraction spreads light, µm.
+    """
     xi, eta, weight = points
-    # The six coefficients' field is the conjugate of the rays' (DESIGN.md section 3): phase −W, frequency n'u'ξ/λ.
+    # The field of the six coefficients is the conjugate of that of the rays: phase −W, frequency n'u'ξ/λ.
     scale = float(c.reduced_slope) / float(c.wavelength_um)
     miss_x, miss_y = rays.fx - scale * xi, rays.fy - scale * eta
     error = rays.phase + wavefront(c, xi, eta) + miss_x * rays.x_um + miss_y * rays.y_um
@@ -130,9 +169,9 @@ def render(
 ) -> Psf:
     """Return the PSF of one source by one method, or by the cheapest one that holds R² ≥ ``tolerance`` ("auto").
 
-    Without ``pixel_um`` the pitch at which the six coefficients show the whole PSF. A fit takes as many numbers as
-    ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters; methods that describe the whole
-    pupil refuse it where a rim does clip. Raises P2SFError's kinds: an unknown method, no image, no rays.
+    Without ``pixel_um`` the pitch is that at which the six coefficients show the whole PSF. A fit takes as many numbers
+    as ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters; where a rim does clip, methods
+    that describe the whole pupil refuse it. Raises P2SFError: for an unknown method, no image, no rays.
     """
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     if pixel_um is None:
@@ -152,24 +191,32 @@ def render(
     return _by_tracing(lens, source, method, (pixels, pixel_um), quality, Filling(clip=clip))
 
 
-def _by_tracing(lens, source, method, window, quality, filling: Filling) -> Psf:
+def _by_tracing(
+    lens: Lens, source: Source, method: str, window: tuple[int, float], quality: str, filling: Filling
+) -> Psf:
     if quality not in ("settled", "preview"):
-        raise SamplingError(f'quality "{quality}" is unknown; choose "settled" or "preview"')
+        raise SamplingError(UNKNOWN_QUALITY, quality=quality)
     if method == "traced":
         return traced_psf(lens, source, *window, quality, filling)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     if method == "huygens":
-        return huygens_psf(lens, source, *window, tolerance, filling=filling)
+        return huygens_psf(lens, source, *window, tolerance=tolerance, filling=filling)
     if method == "gaussian":
-        return gaussian_psf(huygens_psf(lens, source, *window, tolerance, filling=filling))
-    raise RequestError(f'method "{method}" is unknown; choose auto, {", ".join(METHODS)}')
+        return gaussian_psf(huygens_psf(lens, source, *window, tolerance=tolerance, filling=filling))
+    raise RequestError(
+        'method "{method}" is unknown; choose {methods}', method=method, methods=Alternatives(("auto", *METHODS))
+    )
 
 
-def _check_unclipped(lens, source, method) -> None:
+def _check_unclipped(lens: Lens, source: Source, method: str) -> None:
     xi, eta, _ = level_rays(QUICK_LEVELS[0])
     lost = int((~pencil(lens, source, xi, eta, clip=True).passed).sum())
     if lost:
         raise GeometryError(
-            f"rims clip {lost} of {xi.size} rays, and {method} describes the whole pupil; choose traced or huygens, or "
-            "leave clip off"
+            "rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or "
+            "leave {parameter} off",
+            parameter="clip",
+            lost=lost,
+            rays=xi.size,
+            method=method,
         )

@@ -1,19 +1,24 @@
-"""Numbers one reads off a PSF: peak, centre, energy, profiles, contrast.
+"""Numbers read off a PSF: peak, centre, energy, profiles, contrast.
 
-Every function takes a `Psf` of any stack shape and works on the light inside its window; what falls outside is
-``psf.energy``'s business.
+Every function takes a `Psf` of any stack shape and works on the light inside its window; ``psf.energy`` says how
+much falls outside.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import SamplingError
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import AIRY_RADIUS
 
-NEAR, FINER = 6, 5  # within how many pixels of its centre a PSF is interpolated, and how much finer, for its energy
+NEAR, FINER = 6, 5  # for its energy a PSF is interpolated: within so many pixels of its centre, so much finer
+
+Grid = tuple[np.ndarray, np.ndarray, np.ndarray, float]
+"""Values (y, x), x, y and the pixel."""
 
 
 class Energy(NamedTuple):
@@ -40,18 +45,19 @@ class Mtf(NamedTuple):
     sagittal: np.ndarray
 
 
-def airy_radius_um(wavelength_um, na):
+def airy_radius_um(wavelength_um: ArrayLike, na: float | np.ndarray) -> np.ndarray:
     """Return the radius of the first dark ring, 0.6098 λ/NA (first zero of J1 over 2π; Airy 1835)."""
-    return AIRY_RADIUS * np.asarray(wavelength_um) / na
+    radius: np.ndarray = AIRY_RADIUS * np.asarray(wavelength_um) / na
+    return radius
 
 
-def strehl(psf: Psf):
-    """Return the highest sample over the unaberrated peak of the same pupil, wherever it lies; None without one."""
+def strehl(psf: Psf) -> float | np.ndarray | None:
+    """Return the highest sample, wherever it lies, over the unaberrated peak of the same pupil; None without one."""
     return psf.strehl
 
 
 def centroid(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
-    """Return x and y of the window's centre of gravity, µm from the chief ray, shape of the stack."""
+    """Return x and y of the centroid of the window, µm from the chief ray, shape of the stack."""
     total = psf.values.sum((-2, -1), dtype=float)
     x = (psf.values.sum(-2, dtype=float) * psf.x_um).sum(-1) / total
     y = (psf.values.sum(-1, dtype=float) * psf.y_um).sum(-1) / total
@@ -64,47 +70,52 @@ def peak(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
     return psf.x_um[column], psf.y_um[row]
 
 
-def _peak_samples(psf: Psf):
+def _peak_samples(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
     values = psf.values
-    return np.unravel_index(values.reshape(*values.shape[:-2], -1).argmax(-1), values.shape[-2:])
+    highest = np.asarray(values.reshape(*values.shape[:-2], -1).argmax(-1))
+    row, column = np.unravel_index(highest, values.shape[-2:])
+    return row, column
 
 
-def encircled_energy(psf: Psf, centre=None, radius_um=None) -> Energy:
+def encircled_energy(
+    psf: Psf, centre: tuple[ArrayLike, ArrayLike] | None = None, radius_um: ArrayLike | None = None
+) -> Energy:
     """Return the fraction of the window's light within each radius of ``centre`` (x, y) in µm.
 
-    The centre is the centroid unless given, the radii run to the window's corner unless given. Around the
-    centre the samples are interpolated five times finer; a sample counts by the part of its width that the
-    circle has passed.
+    By default the centre is the centroid and the radii run to the corner of the window. Near the centre the
+    samples are interpolated five times finer; a sample counts by the part of its width that the circle has passed.
     """
     if radius_um is None:
         corner = np.hypot(np.abs(psf.x_um).max(), np.abs(psf.y_um).max()) + psf.pixel_um
         radius_um = np.linspace(0, corner, 2 * max(psf.values.shape[-2:]))
-    radius_um = np.asarray(radius_um, dtype=float)
-    curves = [_energy_curve(*rings, radius_um) for rings in _all_rings(psf, centre)]
-    return Energy(radius_um, np.reshape(curves, (*psf.values.shape[:-2], len(radius_um))))
+    radii = np.asarray(radius_um, dtype=float)
+    curves = [_energy_curve(*rings, radii) for rings in _all_rings(psf, centre)]
+    return Energy(radii, np.reshape(curves, (*psf.values.shape[:-2], len(radii))))
 
 
-def radius_of_energy(psf: Psf, fraction: float = 0.5, centre=None) -> np.ndarray:
+def radius_of_energy(psf: Psf, fraction: float = 0.5, centre: tuple[ArrayLike, ArrayLike] | None = None) -> np.ndarray:
     """Return the radius in µm that holds ``fraction`` (0 to 1) of the window's light, shape of the stack.
 
     Raises SamplingError for a fraction that is not between 0 and 1.
     """
     if not 0 < fraction <= 1:
-        raise SamplingError(f"an energy fraction of {fraction}; give a number between 0 and 1")
+        raise SamplingError("an energy fraction of {fraction}; give a number between 0 and 1", fraction=fraction)
     found = [_radius_within(*rings, fraction) for rings in _all_rings(psf, centre)]
     return np.reshape(found, psf.values.shape[:-2])
 
 
-def _all_rings(psf: Psf, centre):
-    """Yield (inner radius, outer radius, share of the light) of the samples, about each PSF's centre."""
+def _all_rings(
+    psf: Psf, centre: tuple[ArrayLike, ArrayLike] | None
+) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Yield (inner radius, outer radius, share of the light) of the samples, about the centre of each PSF."""
     x0, y0 = (np.broadcast_to(c, psf.values.shape[:-2]).ravel() for c in (centroid(psf) if centre is None else centre))
     for values, x, y in zip(psf.values.reshape(-1, *psf.values.shape[-2:]), x0, y0, strict=True):
         coarse, fine = _split(values.astype(float), psf.x_um - x, psf.y_um - y, psf.pixel_um)
-        rings = [np.concatenate(both) for both in zip(_rings(*coarse), _rings(*fine), strict=True)]
-        yield rings[0], rings[1], rings[2] / rings[2].sum()
+        inner, outer, value = (np.concatenate(both) for both in zip(_rings(*coarse), _rings(*fine), strict=True))
+        yield inner, outer, value / value.sum()
 
 
-def _split(values, x, y, pixel):
+def _split(values: np.ndarray, x: np.ndarray, y: np.ndarray, pixel: float) -> tuple[Grid, Grid]:
     """Return the samples far from the origin as they are, and those near it FINER times finer."""
     near_x, near_y = (np.flatnonzero(np.abs(axis) <= NEAR * pixel) for axis in (x, y))
     fine_x, fine_y = (_finer(axis, near) for axis, near in ((x, near_x), (y, near_y)))
@@ -114,7 +125,7 @@ def _split(values, x, y, pixel):
     return (coarse, x, y, pixel), (fine, fine_x[0], fine_y[0], pixel / FINER)
 
 
-def _finer(axis, near):
+def _finer(axis: np.ndarray, near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return positions FINER times finer than ``axis[near]`` and the matrix that interpolates to them."""
     step = axis[1] - axis[0] if len(axis) > 1 else 1.0
     offset = ((np.arange(FINER) + 0.5) / FINER - 0.5) * step
@@ -123,39 +134,41 @@ def _finer(axis, near):
     return position, weight / weight.sum(1, keepdims=True)
 
 
-def _cubic(distance):
+def _cubic(distance: np.ndarray) -> np.ndarray:
     """Return cubic-convolution weights at a distance in samples (Keys 1981, eq. 15)."""
     near = (1.5 * distance - 2.5) * distance**2 + 1
     far = ((2.5 - 0.5 * distance) * distance - 4) * distance + 2
     return np.where(distance <= 1, near, np.where(distance < 2, far, 0))
 
 
-def _rings(values, x, y, pixel):
-    """Return where a growing circle enters and leaves each square sample, and the sample's value, flat."""
+def _rings(values: np.ndarray, x: np.ndarray, y: np.ndarray, pixel: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the radii at which a growing circle enters and leaves each square sample, and its value, all flat."""
     distance = np.hypot(x, y[:, None])
     width = pixel * (np.abs(x) + np.abs(y[:, None])) / np.maximum(distance, 1e-300)
     half = np.where(distance > 0, width, pixel) / 2
     return np.maximum(distance - half, 0).ravel(), (distance + half).ravel(), values.ravel()
 
 
-def _energy_curve(inner, outer, value, radius):
-    """Return Σ value·(part of [inner, outer] below radius), a sum of ramps, by two sortings."""
+def _energy_curve(inner: np.ndarray, outer: np.ndarray, value: np.ndarray, radius: np.ndarray) -> np.ndarray:
+    """Return Σ value·(part of [inner, outer] below radius), a difference of two sums of ramps."""
     height = value / (outer - inner)
-    return _ramps(inner, height, radius) - _ramps(outer, height, radius)
+    energy: np.ndarray = _ramps(inner, height, radius) - _ramps(outer, height, radius)
+    return energy
 
 
-def _ramps(start, height, radius):
+def _ramps(start: np.ndarray, height: np.ndarray, radius: np.ndarray) -> np.ndarray:
     """Return Σ height·max(0, radius − start) at every radius."""
     order = np.argsort(start)
     start, height = start[order], height[order]
     slope = np.concatenate([[0], np.cumsum(height)])
     offset = np.concatenate([[0], np.cumsum(height * start)])
     passed = np.searchsorted(start, radius)
-    return slope[passed] * radius - offset[passed]
+    ramps: np.ndarray = slope[passed] * radius - offset[passed]
+    return ramps
 
 
-def _radius_within(inner, outer, value, fraction) -> float:
-    """Return where the energy curve meets the fraction: it is piecewise linear, so between two of its corners."""
+def _radius_within(inner: np.ndarray, outer: np.ndarray, value: np.ndarray, fraction: float) -> float:
+    """Return where the energy curve, which is piecewise linear, reaches the fraction."""
     corners = np.unique(np.concatenate([inner, outer]))
     energy = np.maximum.accumulate(_energy_curve(inner, outer, value, corners))
     return float(np.interp(fraction * energy[-1], energy, corners))
@@ -164,10 +177,10 @@ def _radius_within(inner, outer, value, fraction) -> float:
 def profiles(psf: Psf, through: str = "chief") -> Cuts:
     """Return the row and column through the chief ray ("chief") or the highest sample ("peak").
 
-    Raises SamplingError for another word.
+    Raises SamplingError for any other place.
     """
     if through not in ("chief", "peak"):
-        raise SamplingError(f'a profile through "{through}" is unknown; choose "chief" or "peak"')
+        raise SamplingError('a profile through "{place}" is unknown; choose "chief" or "peak"', place=through)
     values = psf.values
     if through == "chief":
         row, column = (np.full(values.shape[:-2], n // 2) for n in values.shape[-2:])
@@ -178,35 +191,37 @@ def profiles(psf: Psf, through: str = "chief") -> Cuts:
     return Cuts(psf.x_um, along_x, psf.y_um, along_y)
 
 
-def mtf(psf: Psf, frequency_per_mm=None) -> Mtf:
+def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None) -> Mtf:
     """Return the contrast of sine patterns, |FT of the PSF| over its value at zero, along y and along x.
 
-    Frequencies in cycles per mm, by default from 0 to the pitch's Nyquist frequency. Tangential contrast is
-    that of a pattern that varies along y, the field's direction. Light outside the window is not seen, which
-    raises every contrast by up to the share that is missing.
+    Frequencies are in cycles per mm, by default from 0 to the Nyquist frequency of the pitch. Tangential contrast is
+    that of a pattern that varies along y, the direction of the field. Light outside the window is missing, which
+    raises every contrast by up to its share.
     """
     if frequency_per_mm is None:
         frequency_per_mm = np.linspace(0, UM_PER_MM / (2 * psf.pixel_um), max(psf.values.shape[-2:]) + 1)
-    frequency_per_mm = np.asarray(frequency_per_mm, dtype=float)
+    frequency = np.asarray(frequency_per_mm, dtype=float)
     line_y, line_x = (psf.values.sum(axis, dtype=float) for axis in (-1, -2))
-    turn = np.exp(-2j * np.pi * psf.pixel_um * frequency_per_mm / UM_PER_MM)
-    waves = _powers(turn, max(psf.values.shape[-2:]))  # from a window's edge on: where they begin turns no modulus
-    return Mtf(frequency_per_mm, _contrast(line_y, waves), _contrast(line_x, waves))
+    step = np.exp(-2j * np.pi * psf.pixel_um * frequency / UM_PER_MM)
+    waves = _powers(step, max(psf.values.shape[-2:]))  # their phase at the window's edge does not change the modulus
+    return Mtf(frequency, _contrast(line_y, waves), _contrast(line_x, waves))
 
 
-def _contrast(line, waves):
-    return np.abs(line @ waves[: line.shape[-1]]) / line.sum(-1, keepdims=True)
+def _contrast(line: np.ndarray, waves: np.ndarray) -> np.ndarray:
+    contrast: np.ndarray = np.abs(line @ waves[: line.shape[-1]]) / line.sum(-1, keepdims=True)
+    return contrast
 
 
-def _powers(factor, count: int):
-    """Return factor⁰, factor¹ … in rows, each doubling one product: a fifth of the time of as many exponentials."""
+def _powers(factor: np.ndarray, count: int) -> np.ndarray:
+    """Return factor⁰, factor¹ … in rows. One product doubles their number: a fifth of the time of exponentials."""
     found = np.ones((1, *np.shape(factor)), complex)
     while len(found) < count:
         found = np.concatenate([found, found * factor ** len(found)])
     return found[:count]
 
 
-def diffraction_mtf(frequency_per_mm, na, wavelength_um) -> np.ndarray:
+def diffraction_mtf(frequency_per_mm: ArrayLike, na: ArrayLike, wavelength_um: float | np.ndarray) -> np.ndarray:
     """Return the contrast of a perfect circular pupil, (2/π)(acos ν − ν√(1−ν²)), ν = λf/(2 NA) (Goodman 2005, 6-31)."""
     nu = np.clip(np.asarray(frequency_per_mm) / UM_PER_MM * wavelength_um / (2 * np.asarray(na)), 0, 1)
-    return 2 / np.pi * (np.arccos(nu) - nu * np.sqrt(1 - nu**2))
+    contrast: np.ndarray = 2 / np.pi * (np.arccos(nu) - nu * np.sqrt(1 - nu**2))
+    return contrast

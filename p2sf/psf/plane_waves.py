@@ -5,27 +5,29 @@ from math import sqrt
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import ArrayLike, DTypeLike
 
+from p2sf.messages import Message
 from p2sf.psf.result import Psf
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import nodes_for
-from p2sf.raytrace.fit import Steepness
+from p2sf.raytrace.ray_field import Steepness
 
 
 @dataclass(frozen=True)
 class Origin:
-    """How a PSF came about, for its labels; ``started`` is a `perf_counter` reading."""
+    """How a PSF was made, for its labels; ``started`` is a `perf_counter` reading."""
 
     method: str
     numbers: int
     rays: int
-    sampling: str
+    sampling: Message
     started: float
     tolerance: float | None = None
 
 
-def pupil_amplitude(weight, phase_waves, dtype=np.float64) -> np.ndarray:
-    """Return weight·exp(2πi·phase), complex; whole waves are taken off first, so that float32 stays accurate."""
+def pupil_amplitude(weight: np.ndarray, phase_waves: ArrayLike, dtype: DTypeLike = np.float64) -> np.ndarray:
+    """Return weight·exp(2πi·phase), complex; whole waves are subtracted first, so that float32 stays accurate."""
     cosine, sine = cosine_sine(np.array(phase_waves, dtype=float), dtype)
     amplitude, weight = np.empty(cosine.shape, np.result_type(dtype, np.complex64)), weight.astype(dtype)
     np.multiply(cosine, weight, out=amplitude.real)
@@ -44,11 +46,18 @@ def counts_for(steepness: Steepness, pixels: int, pixel_um: float) -> tuple[int,
     return nodes_for(steepness.radial, reach, steepness.angular)
 
 
-def psf_from_intensity(intensity, pixel_um: float, wavelength_um: float, blur_um2: float | None, made: Origin) -> Psf:
+def disc_words(counts: tuple[int, int]) -> Message:
+    """Return (radial, angular) node counts in words."""
+    return Message("{radii} radii × {directions} directions", radii=counts[0], directions=counts[1])
+
+
+def psf_from_intensity(
+    intensity: np.ndarray, pixel_um: float, wavelength_um: float, blur_um2: float | None, made: Origin
+) -> Psf:
     """Return the PSF of an intensity in units of the unaberrated peak.
 
     ``blur_um2`` is the integral of that intensity over the whole plane, None if unknown. A sum of samples is an
-    integral only while the pitch is finer than half the finest fringe; the caller passes None where it is not.
+    integral only while the pitch is below half the period of the finest fringe; else the caller passes None.
     """
     total = float(intensity.sum(dtype=float))
     return Psf(

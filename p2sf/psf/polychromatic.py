@@ -1,4 +1,4 @@
-"""The colour PSF: one PSF a wavelength, laid over one another where they fall, as the eye and a screen see it."""
+"""The colour PSF: one PSF per wavelength, added up where each lands, in CIE XYZ."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -6,6 +6,7 @@ from math import isfinite, pi
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.colour.colorimetry import bands, displayable, linear_rgb
 from p2sf.colour.spectrum import Spectrum
@@ -22,19 +23,19 @@ from p2sf.raytrace.pencil import pencil
 
 COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm
 MOST = 400
-LOOKED_AT = 9  # wavelengths that say how wide a window must be
+TRIED = 9  # wavelengths from which the width of a window is chosen
 
 Renderer = Callable[[Lens, Source, int, float], Psf]
-"""What makes one PSF: (lens, source at one wavelength, pixels, µm per pixel)."""
+"""A function that renders one PSF: (lens, source at one wavelength, pixels, µm per pixel)."""
 
 
 @dataclass(frozen=True)
 class ColourPsf:
-    """X, Y, Z of a point's image, ``xyz`` (y, x, 3), rows +y; sample N//2 is the reference wavelength's chief ray.
+    """X, Y, Z of the image of a point, ``xyz`` (y, x, 3), rows +y; sample N//2 is the chief ray of the source's colour.
 
     Y sums to ``light_in_window``, the share of all light that falls into it; None where samples are too far apart to
-    tell, and then Y sums to an estimate. ``wavelengths_um``: what was rendered, by ``methods``; ``shift_um``: how far
-    above the reference's each chief ray lands.
+    tell, and then Y sums to an estimate. ``wavelengths_um`` were rendered by ``methods``; ``shift_um``: how far above
+    that of the source's colour each chief ray lands.
     """
 
     xyz: np.ndarray
@@ -67,20 +68,22 @@ def colour_psf(
 ) -> ColourPsf:
     """Return the PSF of a point with this spectrum over (pixels, µm per pixel), centred on the source's own wavelength.
 
-    ``method``: a method or what makes one PSF. Each wavelength's PSF is shifted by where its chief ray
-    lands (lateral colour), by straight lines between samples, which keeps light and sign. Raises RequestError for
-    a count that is none, GlassError for a line outside the glasses' data.
+    ``method``: the name of a method, or a function that renders one PSF. The PSF of each wavelength is shifted to where
+    its chief ray lands (lateral colour), by linear interpolation, which keeps light and sign. Raises RequestError for
+    a count out of range, GlassError for a line outside the data of a glass.
     """
     started = perf_counter()
     if not 1 <= count <= MOST:
-        raise RequestError(f"{count} wavelengths for a colour PSF; give a whole number from 1 to {MOST}")
+        raise RequestError(
+            "{count} wavelengths for a colour PSF; give a whole number from 1 to {most}", count=count, most=MOST
+        )
     make = method if callable(method) else by_method(method)
     wavelengths, weights = bands(spectrum, count, *_limits(lens))
     shifts = chief_shifts_um(lens, source, wavelengths)
     made = [make(lens, replace(source, wavelength_um=float(wave)), *window) for wave in wavelengths]
     each = zip(made, shares(lens, source, made), shifts, strict=True)
     layers = (shifted_up(share * psf.values, shift / window[1]) for psf, share, shift in each)
-    xyz = sum(layer[..., None] * weight for layer, weight in zip(layers, weights, strict=True))
+    xyz = np.asarray(sum(layer[..., None] * weight for layer, weight in zip(layers, weights, strict=True)))
     methods = tuple(dict.fromkeys(psf.method for psf in made))
     light = None if any(psf.energy is None for psf in made) else float(xyz[..., 1].sum())
     return ColourPsf(xyz, window[1], spectrum.name, wavelengths, shifts, methods, perf_counter() - started, light)
@@ -89,17 +92,17 @@ def colour_psf(
 def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: int, stop: Stop | None = None) -> float:
     """Return the pitch at which the window shows the PSF of every colour, lateral colour included, µm.
 
-    Raises GeometryError where the image of the source's own colour lies at infinity, and so that of none other near.
+    Raises GeometryError where the image of the source's own colour lies at infinity.
     """
     check_image(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop))
-    waves, _ = bands(spectrum, LOOKED_AT, *_limits(lens))
+    waves, _ = bands(spectrum, TRIED, *_limits(lens))
     c = coefficients(lens, source.depth_mm, source.field_slope, waves, stop)
     shift = np.abs(chief_shifts_um(lens, source, waves))
     return float(np.max(suitable_pixel_um(c, pixels) + 2 * shift / pixels))
 
 
 def by_method(method: str) -> Renderer:
-    """Return what renders by a method."""
+    """Return the function that renders by a method of this name."""
     return lambda lens, source, pixels, pixel_um: render(lens, source, method, pixels, pixel_um)
 
 
@@ -109,12 +112,14 @@ def _limits(lens: Lens) -> tuple[tuple[float, float], ...]:
 
 
 def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:
-    """Return the share of all its light that each wavelength's PSF has in the window, by one rule for all of them.
+    """Return the share of all its light that the PSF of each wavelength has in the window.
 
-    What is known where all is; else `estimated_share`, or one wavelength would be weighed otherwise than the next.
+    All by one rule, so that no wavelength is weighed unlike the next: ``energy`` where every PSF has it, else
+    `estimated_share`.
     """
-    if all(psf.energy is not None for psf in made):
-        return np.minimum(1.0, [float(psf.energy) for psf in made])
+    known = [float(psf.energy) for psf in made if psf.energy is not None]
+    if len(known) == len(made):
+        return np.minimum(1.0, known)
     na = coefficients(lens, source.depth_mm, source.field_slope, np.array([psf.wavelength_um for psf in made])).na
     return np.array(
         [estimated_share(psf, float(one)) for psf, one in zip(made, np.broadcast_to(na, len(made)), strict=True)]
@@ -122,22 +127,24 @@ def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:
 
 
 def estimated_share(psf: Psf, na: float) -> float:
-    """Return Σ samples·π(NA·pixel/λ)², the rule of `psf.energy_fraction`, where samples are too far apart for it."""
+    """Return Σ samples·π(NA·pixel/λ)² as `seidel.energy_fraction` does, also where samples are too far apart for it."""
     if psf.strehl is None or not isfinite(psf.strehl):
         return 1.0 if psf.energy is None else min(1.0, float(psf.energy))
     total = float(psf.strehl) / float(psf.values.max())  # in units of the unaberrated peak
     return min(1.0, total * pi * (na * psf.pixel_um / psf.wavelength_um) ** 2)
 
 
-def chief_shifts_um(lens: Lens, source: Source, wavelengths_um) -> np.ndarray:
-    """Return how far above the source's own each wavelength's exact chief ray lands, µm: lateral colour."""
+def chief_shifts_um(lens: Lens, source: Source, wavelengths_um: ArrayLike) -> np.ndarray:
+    """Return how far above that of the source the exact chief ray of each wavelength lands, µm: lateral colour."""
     waves = np.append(np.asarray(wavelengths_um, dtype=float), source.wavelength_um)
-    landed = pencil(lens, replace(source, wavelength_um=waves), np.zeros(1), np.zeros(1)).chief_y[..., 0]
-    return UM_PER_MM * (landed[:-1] - landed[-1])
+    every = Source(source.depth_mm, source.field_slope, waves)  # one trace for all wavelengths
+    landed = pencil(lens, every, np.zeros(1), np.zeros(1)).chief_y[..., 0]
+    shift: np.ndarray = UM_PER_MM * (landed[:-1] - landed[-1])
+    return shift
 
 
 def shifted_up(values: np.ndarray, rows: float) -> np.ndarray:
-    """Return samples moved up by a number of rows, fractions by a straight line; what leaves the window is lost."""
+    """Return samples moved up by a number of rows, fractions linearly interpolated; what leaves the window is lost."""
     whole = int(np.floor(rows))
     part = rows - whole
     return (1 - part) * _moved(values, whole) + (part * _moved(values, whole + 1) if part else 0.0)
@@ -154,18 +161,20 @@ def _moved(values: np.ndarray, rows: int) -> np.ndarray:
 def screen_rgb(found: ColourPsf) -> np.ndarray:
     """Return linear sRGB, (y, x, 3), the brightest channel 1."""
     rgb = displayable(linear_rgb(found.xyz))
-    return rgb / (float(rgb.max()) or 1.0)
+    scaled: np.ndarray = rgb / (float(rgb.max()) or 1.0)
+    return scaled
 
 
 def faint_rgb(found: ColourPsf, stretch: Callable[[np.ndarray], np.ndarray] = np.sqrt) -> np.ndarray:
     """Return linear sRGB as `screen_rgb` does, with the brightest channel of each sample stretched, its hue kept."""
     rgb = screen_rgb(found)
     top = rgb.max(-1, keepdims=True)
-    return rgb * np.divide(stretch(top), top, out=np.zeros_like(top), where=top > 0)
+    stretched: np.ndarray = rgb * np.divide(stretch(top), top, out=np.zeros_like(top), where=top > 0)
+    return stretched
 
 
 def record(found: ColourPsf) -> dict:
-    """Return what a colour PSF knows about itself but the samples."""
+    """Return all that a colour PSF holds but the samples, by name."""
     return {
         "spectrum": found.spectrum,
         "pixel_um": found.pixel_um,

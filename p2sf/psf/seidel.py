@@ -4,9 +4,11 @@ from math import isfinite
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from p2sf.conventions import anywhere, centred_axis
 from p2sf.errors import GeometryError, SamplingError
+from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf._seidel_sum import wave_number
@@ -20,6 +22,7 @@ WINDOW_AIRY_RADII = 5
 LARGEST_SAMPLES = 2**28  # of all PSFs of a call: 2 GiB of float64
 FFT_RADIUS = {"preview": 64, "settled": 256}  # pupil radius in FFT samples: its rim is only second-order accurate
 LARGEST_FFT = 4096
+UNKNOWN_QUALITY = 'quality "{quality}" is unknown; choose "settled" or "preview"'
 
 
 def seidel_psf(
@@ -28,18 +31,18 @@ def seidel_psf(
     pixel_um: float | None = None,
     quality: str = "settled",
     sampling: str = "mdft",
-    dtype=None,
+    dtype: DTypeLike | None = None,
 ) -> Psf:
     """Return the PSF of the six coefficients over a uniform circular pupil, |FT{exp(i2πW)}|² (Pieroni et al. 2015).
 
     Coefficients of any shape give a stack (…, pixels, pixels) at one pitch; without ``pixel_um`` the one that
     shows the widest of them. ``quality``: "settled" keeps a relative L2 error of 1e-4, "preview" is a 128² grid
-    for pictures that move. ``sampling``: "mdft" any size and pitch, "fft" the paper's padded FFT, even sizes.
+    for interactive use. ``sampling``: "mdft" takes any size and pitch, "fft" is the paper's padded FFT for even sizes.
     ``dtype``: float32 or float64, by default float64 settled and float32 preview. Raises GeometryError for an
-    image at infinity, SamplingError for a grid that cannot be.
+    image at infinity, SamplingError for a grid that cannot be computed.
     """
     start = perf_counter()
-    _check_words(quality, sampling)
+    _check_options(quality, sampling)
     check_image(coefficients)
     pixel_um = check_window(coefficients, pixels, pixel_um)
     if sampling == "fft":
@@ -54,35 +57,42 @@ def seidel_psf(
 def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) -> np.ndarray:
     """Return |mean over the disc of exp(i2πW)·exp(−i2πn'u'(ξx + ηy)/λ)|², the definition, of one PSF.
 
-    The tested reference of the fast path: polar nodes, one plane wave each, float64; (pixels, pixels).
+    The formula that `_seidel_sum` is tested against: polar nodes, one plane wave each, float64; (pixels, pixels).
     """
     slope, twist = (float(x) for x in steepest_polar(coefficients))
     scale = wave_number(coefficients)
     nodes = disc_nodes(*nodes_for(slope, corner_reach(abs(float(scale)), pixels, pixel_um), twist))
     pupil = nodes.weight * np.exp(2j * np.pi * wavefront(coefficients, nodes.xi, nodes.eta))
     axis = centred_axis(pixels, pixel_um)
-    return np.abs(sum_plane_waves(pupil, scale * nodes.xi, scale * nodes.eta, axis, axis)) ** 2
+    intensity: np.ndarray = np.abs(sum_plane_waves(pupil, scale * nodes.xi, scale * nodes.eta, axis, axis)) ** 2
+    return intensity
 
 
-def _by_fft(coefficients, pixels, pixel_um, quality) -> SummedStack:
-    """Return the stack by the paper's FFT, one PSF at a time."""
+def _by_fft(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str) -> SummedStack:
+    """Return the PSFs of broadcast coefficients by the paper's FFT, one at a time."""
     shape = np.broadcast_shapes(*(np.shape(x) for x in vars(coefficients).values()))
     samples = fft_samples(coefficients, pixels, pixel_um, quality) if 0 not in shape else 0
     flat = [np.broadcast_to(x, shape).ravel() for x in vars(coefficients).values()]
     planes = [fft_intensity(Coefficients(*one), pixels, pixel_um, samples) for one in zip(*flat, strict=True)]
     values = np.reshape(planes, (*shape, pixels, pixels))
     total, peak = values.sum((-2, -1)), values.max((-2, -1))
-    return SummedStack(values / total[..., None, None], total, peak, f"FFT of {samples} × {samples} pupil samples")
+    sampling = Message("FFT of {samples} × {samples} pupil samples", samples=samples)
+    return SummedStack(values / total[..., None, None], total, peak, sampling)
 
 
 def fft_samples(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str = "preview") -> int:
-    """Return NPUPIL: at least 2·NPSF, a period that holds blur and window, and a rim that is not too coarse."""
+    """Return the paper's NPUPIL: at least 2·NPSF, its period holds blur and window, and the rim is fine enough.
+
+    Raises SamplingError where that is more than LARGEST_FFT.
+    """
     scale = np.abs(wave_number(coefficients)) * pixel_um
     blur = float(np.max(steepest_slope(coefficients) / scale))
     rim = min(LARGEST_FFT, FFT_RADIUS[quality] / float(np.min(scale)))
     samples = even_count(max(2 * pixels, 2 * blur + pixels, rim))
     if samples > LARGEST_FFT or 2 * samples * float(np.max(scale)) > LARGEST_FFT:  # a wide pixel has a wide pupil
-        raise SamplingError(f"an FFT of {samples} × {samples} pupil samples is too large; use mdft or change the pixel")
+        raise SamplingError(
+            "an FFT of {samples} × {samples} pupil samples is too large; use mdft or change the pixel", samples=samples
+        )
     return samples
 
 
@@ -97,48 +107,53 @@ def fft_intensity(coefficients: Coefficients, pixels: int, pixel_um: float, pupi
     axis = np.arange(-half, half) * step
     area = cell_areas(axis, axis, abs(step))
     pupil = area / area.sum() * np.exp(2j * np.pi * wavefront(coefficients, axis, axis[:, None]))
-    return np.abs(padded_fft(pupil, pupil_samples, pixels)) ** 2
+    intensity: np.ndarray = np.abs(padded_fft(pupil, pupil_samples, pixels)) ** 2
+    return intensity
 
 
-def _result(coefficients, stack: SummedStack, pixel_um, tolerance, start) -> Psf:
+def _result(
+    coefficients: Coefficients, stack: SummedStack, pixel_um: float, tolerance: float | None, start: float
+) -> Psf:
     wavelength, single = coefficients.wavelength_um, stack.values.ndim == 2
     energy = energy_fraction(coefficients, stack.total, pixel_um)
     return Psf(
         values=stack.values,
         pixel_um=pixel_um,
-        wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,
+        wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,  # type: ignore[arg-type]  # of a stack
         method="seidel",
         strehl=float(stack.peak) if single else stack.peak,
         energy=float(energy) if single and energy is not None else energy,
         numbers=6,
         rays=2,
-        sampling=stack.words,
+        sampling=stack.sampling,
         seconds=perf_counter() - start,
         tolerance=tolerance,
     )
 
 
-def energy_fraction(coefficients: Coefficients, total, pixel_um: float) -> np.ndarray | None:
+def energy_fraction(coefficients: Coefficients, total: float | np.ndarray, pixel_um: float) -> np.ndarray | None:
     """Return the fraction of all light in a window whose samples, in units of the unaberrated peak, sum to ``total``.
 
-    The field is the transform of a disc of radius NA/λ and amplitude 1/(π(NA/λ)²), so by Parseval all light
-    together is 1/(π(NA/λ)²), whatever W: a sample stands for π(NA·pixel/λ)² of it. None where a pitch of more
-    than λ/(2 NA) makes the sum of samples no integral.
+    The field is the transform of a disc of radius NA/λ and amplitude 1/(π(NA/λ)²), so by Parseval all the light is
+    1/(π(NA/λ)²), whatever W: a sample of 1 is π(NA·pixel/λ)² of it. None where the pitch is above λ/(2 NA), since
+    the sum of samples is then no integral.
     """
     cycles = np.abs(wave_number(coefficients)) * pixel_um
     if anywhere(cycles > 0.5):
         return None
-    return total * (np.pi * cycles**2)
+    fraction: np.ndarray = total * (np.pi * cycles**2)
+    return fraction
 
 
 def suitable_pixel_um(coefficients: Coefficients, pixels: int = 64) -> np.ndarray:
     """Return the pitch at which the window shows the whole PSF, µm, shape of the coefficients.
 
-    Half a window is the farthest ray's distance, |∇W|λ/NA, and five Airy radii for what diffraction adds.
+    Half a window holds the farthest ray, at |∇W|λ/NA, and five Airy radii for diffraction.
     """
     check_image(coefficients)
     blur = steepest_slope(coefficients) + WINDOW_AIRY_RADII * AIRY_RADIUS
-    return 2 * blur / (np.abs(wave_number(coefficients)) * max(1, pixels))
+    pixel: np.ndarray = 2 * blur / (np.abs(wave_number(coefficients)) * max(1, pixels))
+    return pixel
 
 
 def check_image(coefficients: Coefficients) -> None:
@@ -150,28 +165,35 @@ def check_image(coefficients: Coefficients) -> None:
         )
     if anywhere(~np.isfinite(c.w40 + c.w31 + c.w22 + c.w20 + c.wd + c.reduced_slope)):
         names = ("w40", "w31", "w22", "w20", "wd", "reduced_slope")
-        bad = next((name for name in names if not np.isfinite(getattr(c, name)).all()), "their sum")
-        raise GeometryError(f"{bad} is not finite, so there is no wavefront; choose a depth, field or lens with one")
+        bad = next((name for name in names if not np.isfinite(getattr(c, name)).all()), Message("their sum"))
+        raise GeometryError(
+            "{coefficient} is not finite, so there is no wavefront; choose a depth, field or lens with one",
+            coefficient=bad,
+        )
 
 
 def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None) -> float:
-    """Return the pitch in µm, chosen if None, of a window that can be computed. Raises SamplingError."""
+    """Return the pitch in µm, chosen if None; SamplingError for a window that cannot be computed."""
     if isinstance(pixels, bool) or not isinstance(pixels, int | np.integer) or pixels < 1:
-        raise SamplingError(f"a PSF of {pixels} samples; give a whole number from 1")
+        raise SamplingError("a PSF of {pixels} samples; give a whole number from 1", pixels=pixels)
     count = np.broadcast(*vars(coefficients).values()).size * int(pixels) ** 2
     if count > LARGEST_SAMPLES:
-        raise SamplingError(f"{count:.3g} PSF samples exceed {LARGEST_SAMPLES:.3g}; ask for fewer pixels or fewer PSFs")
+        raise SamplingError(
+            "{count:.3g} PSF samples exceed {most:.3g}; ask for fewer pixels or fewer PSFs",
+            count=count,
+            most=LARGEST_SAMPLES,
+        )
     if pixel_um is None:
         if not count:
             raise SamplingError("a stack of no PSFs has no width of its own; give the pixel in µm")
         return float(np.max(suitable_pixel_um(coefficients, pixels)))
     if not (isfinite(pixel_um) and pixel_um > 0):
-        raise SamplingError(f"a pixel of {pixel_um} µm; give a positive number")
+        raise SamplingError("a pixel of {pixel_um} µm; give a positive number", pixel_um=pixel_um)
     return float(pixel_um)
 
 
-def _check_words(quality: str, sampling: str) -> None:
+def _check_options(quality: str, sampling: str) -> None:
     if quality not in ("settled", "preview"):
-        raise SamplingError(f'quality "{quality}" is unknown; choose "settled" or "preview"')
+        raise SamplingError(UNKNOWN_QUALITY, quality=quality)
     if sampling not in ("mdft", "fft"):
-        raise SamplingError(f'sampling "{sampling}" is unknown; choose "mdft" or "fft"')
+        raise SamplingError('sampling "{sampling}" is unknown; choose "mdft" or "fft"', sampling=sampling)

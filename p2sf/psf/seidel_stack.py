@@ -1,8 +1,8 @@
-"""Many PSFs at once, each on about the pupil samples that its own phase asks for.
+"""Many PSFs at once, each on about as many pupil samples as its own phase needs.
 
-One steep corner of a stack must not slow all of it: PSFs of one n'u'/λ are sorted by how steep their phase is and
-summed a batch at a time, on the samples of the steepest in the batch. They share a kernel, which costs as much as
-some PSFs do, so finer classes would save less than they cost.
+One PSF of steep phase must not slow down a whole stack: PSFs of one n'u'/λ are sorted by how steep their phase is
+and summed in batches, on the samples that the steepest of a batch needs. A batch shares a kernel, which costs as
+much as several PSFs, so smaller batches would save less than they cost.
 """
 
 from collections.abc import Iterator
@@ -10,34 +10,37 @@ from dataclasses import dataclass
 from math import ceil, sqrt
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from p2sf.errors import SamplingError
+from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import bound_of, chords_of, steepest_of
-from p2sf.psf._seidel_sum import BATCH, batch_intensities, groups, shape_terms, wave_number
+from p2sf.psf._seidel_sum import BATCH, batch_intensities, groups, shape_terms
 from p2sf.pupil.quadrature import RowNodes, chord_rows, chords_for, even_count, grid_rows
 
 PREVIEW_GRID = 128
 LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
-SORTED_AT_ONCE = 512  # PSFs whose slopes are looked for together: some mebibytes
+SORTED_AT_ONCE = 512  # PSFs whose slopes are found together, which takes some mebibytes
 
 
 @dataclass(frozen=True)
 class SummedStack:
-    """PSFs (…, pixels, pixels) of unit sum; ``total`` and ``peak`` in units of the unaberrated peak; ``words``."""
+    """PSFs (…, pixels, pixels) of unit sum; their sums and peaks in units of the unaberrated peak; the nodes used."""
 
     values: np.ndarray
     total: np.ndarray
     peak: np.ndarray
-    words: str
+    sampling: Message
 
 
-def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str, dtype) -> SummedStack:
-    """Return the PSFs of broadcast coefficients by the fast path. Raises SamplingError where samples get too many."""
+def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str, dtype: DTypeLike) -> SummedStack:
+    """Return the PSFs of broadcast coefficients by `_seidel_sum`; SamplingError for too many pupil samples."""
     terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
     values = np.empty((len(terms), pixels, pixels), dtype)
-    total, peak, most = np.empty(len(terms)), np.empty(len(terms)), None
+    total, peak = np.empty(len(terms)), np.empty(len(terms))
+    most: RowNodes | None = None
     for some, rows in stack_parts(terms, pixels, pixel_um, quality):
         found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
         flat = found.reshape(len(found), -1)
@@ -45,12 +48,21 @@ def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: 
         flat /= total[some, None].astype(dtype)
         values[some] = found
         most = rows if most is None or rows.weight.size > most.weight.size else most
-    words = f"{'' if len(terms) <= 1 else 'up to '}{most.name if most else 'no nodes'}, {values.dtype.type.__name__}"
-    return SummedStack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), words)
+    sampling = Message(
+        "{nodes}, {precision}" if len(terms) <= 1 else "up to {nodes}, {precision}",
+        nodes=most.name if most else Message("no nodes"),
+        precision=values.dtype.type.__name__,
+    )
+    return SummedStack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), sampling)
 
 
-def stack_parts(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> Iterator[tuple]:
-    """Yield indices of PSFs that are summed together and the pupil samples they need; ``terms`` (PSFs, 5)."""
+def stack_parts(
+    terms: np.ndarray, pixels: int, pixel_um: float, quality: str
+) -> Iterator[tuple[slice | np.ndarray, RowNodes]]:
+    """Yield the indices of PSFs that are summed together and the pupil samples they need.
+
+    ``terms``: (PSFs, 5) as `shape_terms` gives them. Raises SamplingError for too many samples.
+    """
     if len(terms) == 1:
         reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)
         yield slice(None), _rows(_slopes(terms[:, :4], reach, quality)[0], reach, quality)
@@ -70,38 +82,36 @@ def _split(values: np.ndarray, most: int) -> list[np.ndarray]:
 
 
 def corner_reach(scale: float, pixels: int, pixel_um: float) -> float:
-    """Return waves per unit pupil radius of the kernel at the window's corner; ``scale`` NA/λ per µm."""
+    """Return waves per unit pupil radius of the kernel at the window's corner; ``scale``: NA/λ, cycles per µm."""
     return scale * pixel_um * (pixels // 2) * sqrt(2)
 
 
-def rows_for(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str) -> RowNodes:
-    """Return the pupil samples that no PSF of these coefficients aliases on. Raises SamplingError if too many."""
-    reach = corner_reach(float(np.abs(wave_number(coefficients)).max()), pixels, pixel_um)
-    return _rows(_slopes(shape_terms(coefficients).reshape(-1, 5)[:, :4], reach, quality).max(0), reach, quality)
-
-
 def _slopes(shape: np.ndarray, reach: float, quality: str) -> np.ndarray:
-    """Return what sampling must carry, waves: (PSFs, 2) along chords if settled, (PSFs, 1) on a grid."""
+    """Return the steepest phase, waves: (PSFs, 2) across and along chords if settled, (PSFs, 1) on a grid."""
     if quality == "settled":
         return chords_of(shape)
-    quick = bound_of(shape)[:, None]
-    return quick if _grid_samples(float(quick.max()), reach) <= PREVIEW_GRID else steepest_of(shape)[:, None]
+    bound = bound_of(shape)[:, None]
+    return bound if _grid_samples(float(bound.max()), reach) <= PREVIEW_GRID else steepest_of(shape)[:, None]
 
 
 def _grid_samples(slope: float, reach: float) -> float:
-    """Return how fine a preview's grid must be: one of step 2/N repeats blur and window every N/2 cycles."""
+    """Return how many samples N a preview's grid needs: its step of 2/N repeats blur and window every N/2 cycles."""
     return 2.1 * (slope + reach)
 
 
 def _rows(slopes: np.ndarray, reach: float, quality: str) -> RowNodes:
-    """Return the rule that carries the largest of each kind of slope."""
+    """Return the pupil samples that carry these slopes, the steepest of each kind."""
     if quality == "settled":
-        rows, columns = chords_for(*slopes, reach, reach / sqrt(2))
+        rows, columns = chords_for(slopes[0], slopes[1], reach, reach / sqrt(2))
     else:
         rows = columns = max(PREVIEW_GRID, even_count(_grid_samples(float(slopes[0]), reach)))
     if rows * columns > 4 * LARGEST_NODES:
         raise SamplingError(
-            f"a phase slope of {slopes.max():.0f} waves over a window of {reach:.0f} cycles needs {rows} × {columns} "
-            "pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window"
+            "a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil "
+            "samples; bring the sensor nearer to the image, stop down, or show a smaller window",
+            slope=float(slopes.max()),
+            cycles=reach,
+            rows=rows,
+            columns=columns,
         )
     return chord_rows(rows, columns) if quality == "settled" else grid_rows(rows)

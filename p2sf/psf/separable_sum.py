@@ -1,12 +1,12 @@
-"""Pupil nodes in rows of equal spatial frequency fy, on which the plane-wave sum separates into small products.
+"""Pupil nodes in rows of equal spatial frequency fy, over which the sum of plane waves separates into small products.
 
 A fit gives fy(ξ, η). Row j passes through the rim point (sin φ_j, cos φ_j), φ_j = jπ/(n + 1), and its nodes follow the
 curve fy(ξ, η) = fy_j, with ξ at Gauss–Legendre fractions of sin φ_j. Then
 
     (1/π)∫∫ F dξ dη = (1/π)∫ |dfy/dφ| dφ ∫ F/|∂fy/∂η| dξ,
 
-exact for any smooth fy that rises along the rim: the trapezoid in φ is Gauss–Chebyshev quadrature, so there is no
-edge to converge, and with fy shared by a row the kernel in y acts once per row, not once per node.
+exact for any smooth fy that rises along the rim: the trapezoid in φ is Gauss–Chebyshev quadrature, so the edge of
+the pupil does not slow the convergence, and since a row shares fy the kernel in y acts once per row, not per node.
 """
 
 from dataclasses import dataclass
@@ -14,9 +14,11 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
+from numpy.typing import DTypeLike
 
 from p2sf.conventions import centred_axis, protected
 from p2sf.errors import SamplingError
+from p2sf.messages import Message
 from p2sf.psf.plane_waves import pupil_amplitude
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import chords_for, even_count, gauss_legendre
@@ -25,20 +27,20 @@ from p2sf.pupil.zernike import evaluate, evaluate_in_eta, in_square
 from p2sf.raytrace.fit import FittedPencil
 
 MOST_NODES = 2**22
-PREVIEW = 0.85  # 1 − R² of the settled sum below 1e-5 on every stored row
+PREVIEW = 0.85  # of the settled counts: 1 − R² against the settled sum is below 1e-5 on every stored row
 NEWTON_STEPS = 8
 MORE_NODES = 10  # than the order of a fit's phase: polynomials of twice as high an order along each row
-STRIDE = 4  # of the cosines that are computed, the others follow from them
-NODES_AT_ONCE = 4096  # so that their cosines stay in the cache
+STRIDE = 4  # of the cosines that are computed; the others follow from them
+NODES_AT_ONCE = 4096  # so many that their cosines stay in the cache
 SETTLED = 1e-5  # a last step this small leaves its square, 1e-10 of the pupil: 1e-8 waves at a slope of 100
 
 
 @dataclass(frozen=True)
 class FrequencyRows:
-    """Nodes on ξ > 0 whose mirror images the weights count too: ``fy`` (rows,), the rest (rows, nodes).
+    """Nodes on ξ > 0, with weights that count the mirror images too: ``fy`` (rows,), the rest (rows, nodes).
 
-    The sum takes ``columns`` on either side together. What a row carries is smooth and even in ξ, so where its own
-    nodes are fewer the polynomial through them gives the others.
+    The sum takes ``columns`` columns, those at ξ < 0 included. Functions along a row are smooth and even in ξ, so
+    where a row has fewer nodes the polynomial through them gives the values at the other columns.
     """
 
     fy: np.ndarray
@@ -48,18 +50,23 @@ class FrequencyRows:
     columns: int
 
     @property
-    def words(self) -> str:
-        """Return what rule this is, the mirror half counted."""
-        return f"{self.xi.shape[0]} rows × {self.columns} columns of equal frequency"
+    def words(self) -> Message:
+        """Return how many rows and columns there are, the mirror half counted."""
+        return Message(
+            "{rows} rows × {columns} columns of equal frequency", rows=self.xi.shape[0], columns=self.columns
+        )
 
-    def intensity(self, phase, fx, pixels: int, pixel_um: float, dtype=np.float64) -> np.ndarray:
+    def intensity(
+        self, phase: np.ndarray, fx: np.ndarray, pixels: int, pixel_um: float, dtype: DTypeLike = np.float64
+    ) -> np.ndarray:
         """Return the intensity (y, x) of phases in waves and fx in cycles/µm, (rows, nodes), on a centred grid."""
         weight, phase, fx = self.on_columns(phase, fx)
         field = sum_rows(pupil_amplitude(weight, phase, dtype), fx, self.fy, pixels, pixel_um)
-        return field.real**2 + field.imag**2
+        intensity: np.ndarray = field.real**2 + field.imag**2
+        return intensity
 
-    def on_columns(self, phase, fx):
-        """Return weights, phases and fx at all columns, (rows, columns/2), of those at the nodes."""
+    def on_columns(self, phase: np.ndarray, fx: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return weights, phases and fx at all columns, (rows, columns/2), from those at the nodes."""
         few = self.xi.shape[1]
         if 2 * few == self.columns:
             return self.weight, phase, fx
@@ -72,16 +79,20 @@ class FrequencyRows:
 def rows_for(
     found: FittedPencil, pixels: int, pixel_um: float, quality: str, every: bool = False
 ) -> FrequencyRows | None:
-    """Return rows that carry the phase of a fit over a window; a preview makes do with PREVIEW of the counts.
+    """Return rows that carry the phase of a fit over a window; a preview takes PREVIEW of the settled counts.
 
-    ``every``: with a node at each column, for weights that are not smooth along a row.
-    None where the map is too curved for rows. Raises SamplingError where too many nodes would be needed.
+    ``every``: put a node at each column, for weights that are not smooth along a row.
+    None where the pupil map is too curved for rows. Raises SamplingError where too many nodes would be needed.
     """
     rows, columns = row_counts(found, pixels, pixel_um, quality)
     if rows * columns > MOST_NODES:
         raise SamplingError(
-            f"this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; "
-            "bring the sensor nearer to the image, stop down, or show a smaller window"
+            "this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; bring the "
+            "sensor nearer to the image, stop down, or show a smaller window",
+            pixels=pixels,
+            pixel_um=pixel_um,
+            rows=rows,
+            columns=columns,
         )
     enough = found.level.wave_order + MORE_NODES
     return frequency_rows(found, rows, columns, None if every or 2 * enough >= columns else enough)
@@ -92,13 +103,14 @@ def row_counts(found: FittedPencil, pixels: int, pixel_um: float, quality: str) 
     steep = found.steepness
     reach = steep.spread * pixel_um * (pixels // 2)
     share = 1.0 if quality == "settled" else PREVIEW
-    return tuple(even_count(share * count) for count in chords_for(steep.along, steep.across, reach))
+    rows, columns = (even_count(share * count) for count in chords_for(steep.along, steep.across, reach))
+    return rows, columns
 
 
 def frequency_rows(found: FittedPencil, rows: int, columns: int, nodes: int | None = None) -> FrequencyRows | None:
     """Return the nodes of a fit, or None where fy does not rise steadily along the rim and across the disc.
 
-    ``nodes``: how many of a row are solved for, from which the columns follow; a node at each if not given.
+    ``nodes``: how many of a row are solved for, from which the columns follow; by default one at each column.
     """
     sine, cosine, xi, share = _rim(rows, 2 * nodes if nodes else columns)
     form = power_columns(found.fy, found.level.map_order)
@@ -123,7 +135,7 @@ def frequency_rows(found: FittedPencil, rows: int, columns: int, nodes: int | No
     return FrequencyRows(fy, xi, eta, share, columns)
 
 
-def _along_rim(form, sine, cosine):
+def _along_rim(form: list[list[float]], sine: np.ndarray, cosine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return fy at the rim points (sin φ, cos φ) and dfy/dφ there."""
     square = sine * sine
     by_square = [[a * c for a, c in enumerate(column)][1:] or [0.0] for column in form]
@@ -133,7 +145,7 @@ def _along_rim(form, sine, cosine):
 
 
 @lru_cache(maxsize=16)
-def _rim(rows: int, columns: int):
+def _rim(rows: int, columns: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return sin φ and cos φ (rows, 1), ξ and the constant part of the weights (rows, columns/2)."""
     angle = (np.arange(1, rows + 1) * (np.pi / (rows + 1)))[:, None]
     fraction, weight = _half_legendre(columns)
@@ -141,9 +153,10 @@ def _rim(rows: int, columns: int):
     return sine, np.cos(angle), sine * fraction, 2 / (rows + 1) * sine * weight
 
 
-def _half_legendre(columns: int):
+def _half_legendre(columns: int) -> tuple[np.ndarray, np.ndarray]:
     """Return Gauss–Legendre nodes on (0, 1) and their weights, (columns/2,)."""
-    return tuple(x[columns // 2 :] for x in gauss_legendre(columns))
+    node, weight = gauss_legendre(columns)
+    return node[columns // 2 :], weight[columns // 2 :]
 
 
 @lru_cache(maxsize=32)
@@ -157,7 +170,7 @@ def _refining(few: int, columns: int) -> np.ndarray:
     return protected((here * share[:, None] * np.arange(1, 4 * few, 4)) @ there.T)
 
 
-def sum_rows(amplitude, fx, fy, pixels: int, pixel_um: float) -> np.ndarray:
+def sum_rows(amplitude: np.ndarray, fx: np.ndarray, fy: np.ndarray, pixels: int, pixel_um: float) -> np.ndarray:
     """Return the field (y, x) on a centred grid, Σ amplitude·cos(2π fx·x)·exp(2πi fy·y) over (rows, columns).
 
     Precision follows ``amplitude``. Samples −x are those of x; the sum goes along the rows first, then across them.
@@ -176,8 +189,8 @@ def sum_rows(amplitude, fx, fy, pixels: int, pixel_um: float) -> np.ndarray:
 def sum_across(amplitude: np.ndarray, angle: np.ndarray, count: int) -> np.ndarray:
     """Return S_m = Σ amplitude·cos(m·angle) over each row's columns, m = 0 … count − 1: (rows, 2, count), re and im.
 
-    The sums Q of amplitude·cos(rθ), r = 0 … 3, with every fourth cosine tell all others (`_unfolding`), which
-    spares three quarters of the cosines and of the products.
+    All follow (`_unfolding`) from the sums Q of amplitude·cos(rθ), r = 0 … 3, with every fourth cosine, which saves
+    three quarters of the cosines and of the products.
     """
     parts = np.stack([amplitude.real, amplitude.imag], axis=1)[:, :, None]
     steps, columns = -(-count // STRIDE), angle.shape[1]
@@ -188,15 +201,15 @@ def sum_across(amplitude: np.ndarray, angle: np.ndarray, count: int) -> np.ndarr
         near, far = _cosines(angle[some], steps, parts.dtype)
         weighted = (parts[some] * near[:, None]).reshape(-1, 2 * STRIDE, columns)
         np.matmul(weighted, far.swapaxes(1, 2), out=sums[some])
-    unfolded = sums.reshape(-1, STRIDE * steps) @ _unfolding(steps, parts.dtype)[:, :count]
+    unfolded: np.ndarray = sums.reshape(-1, STRIDE * steps) @ _unfolding(steps, parts.dtype)[:, :count]
     return unfolded.reshape(len(parts), 2, count)
 
 
 @lru_cache(maxsize=16)
-def _unfolding(steps: int, dtype) -> np.ndarray:
-    """Return the matrix that gives S_m, m in the last axis, of Q_{r,k}: S_{4k + r} = 2Q_{r,k} − S_{4(k − 1) + 4 − r}.
+def _unfolding(steps: int, dtype: np.dtype) -> np.ndarray:
+    """Return the matrix that gives S_m, m in the last axis, from Q_{r,k}: S_{4k + r} = 2Q_{r,k} − S_{4(k − 1) + 4 − r}.
 
-    For 2cos(rθ)cos(4kθ) = cos((4k + r)θ) + cos((4k − r)θ); where r or k is 0, S is Q itself.
+    This is 2cos(rθ)cos(4kθ) = cos((4k + r)θ) + cos((4k − r)θ); where r or k is 0, S is Q itself.
     """
     sums = np.eye(STRIDE * steps).reshape(STRIDE, steps, -1)
     sums[1:, 1:] *= 2
@@ -205,10 +218,10 @@ def _unfolding(steps: int, dtype) -> np.ndarray:
     return protected(np.ascontiguousarray(sums.transpose(2, 1, 0).reshape(STRIDE * steps, -1), dtype))
 
 
-def _cosines(angle: np.ndarray, steps: int, dtype):
+def _cosines(angle: np.ndarray, steps: int, dtype: np.dtype) -> tuple[np.ndarray, np.ndarray]:
     """Return cos(rθ), r = 0 … 3, and cos(4kθ), k = 0 … steps − 1, each (rows, number, columns).
 
-    A cosine is cheap in float32 and dear in float64, where Chebyshev's recurrence serves.
+    A cosine is cheap in float32 and expensive in float64, where Chebyshev's recurrence replaces it.
     """
     if dtype == np.float32:
         angle = (angle - 2 * np.pi * np.rint(angle / (2 * np.pi))).astype(dtype)[:, None]
@@ -219,7 +232,7 @@ def _cosines(angle: np.ndarray, steps: int, dtype):
 
 
 def chebyshev(cosine: np.ndarray, count: int) -> np.ndarray:
-    """Return cos(mθ) of cos θ (rows, columns), m = 0 … count − 1, (rows, count, columns); errors grow with m²."""
+    """Return cos(mθ) from cos θ (rows, columns), m = 0 … count − 1, (rows, count, columns); errors grow with m²."""
     out = np.ones((len(cosine), count, cosine.shape[1]))
     out[:, 1:2] = cosine[:, None]
     twice = 2 * cosine

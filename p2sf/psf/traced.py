@@ -1,8 +1,9 @@
 """The `traced` method: exact rays, thousands of them, at the speed of a separable sum.
 
-The rays go through pupil points that a fit puts in rows of equal spatial frequency (`rows`). A ray's true fy misses
-its row's by what the fit leaves; since the phase over frequency has the gradient −x (Hamilton), moving its
-phase there by −y·(row − ray) is right to second order in that miss. Phase, fx and the area of every node are exact.
+The rays go through pupil points that a fit puts in rows of equal spatial frequency (`separable_sum`). The true fy of a
+ray differs from that of its row by the residual of the fit; since the phase over frequency has the gradient −x
+(Hamilton), adding −y·(row − ray) to its phase is right to second order in that difference. Phase, fx and the area of
+every node are exact.
 """
 
 from collections.abc import Callable
@@ -15,6 +16,7 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.psf.huygens import PLAIN, Filling, huygens_psf
 from p2sf.psf.plane_waves import Origin, psf_from_intensity, resolved
 from p2sf.psf.result import Psf
@@ -24,10 +26,9 @@ from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
 
-# A fifth-order pupil map at least: what is second order in its miss is then below 1e-5 of R² on every stored row.
+# A fifth-order pupil map at least: terms of second order in its error are then below 1e-5 of R² on every stored row.
 FEWEST = 46
-RESIDUAL_WAVES = 1e-3  # of that map times the blur; what is left is second order in it
-
+RESIDUAL_WAVES = 1e-3  # most that the error of the map times the blur may be: the PSF's error is second order in it
 FALLBACK_TOLERANCE = 3e-3  # relative L2 of node by node sums: R² to 1e-5
 
 
@@ -43,7 +44,7 @@ def traced_psf(
     """Return the PSF of exact rays, one pass: "settled" in float64, "preview" fewer rays in float32.
 
     Where rays are lost or clipped, or no fit puts them in rows well enough, they are summed node by node as the
-    reference is, to FALLBACK_TOLERANCE, which takes long: ``cancelled`` is asked between blocks of them (`Cancelled`).
+    reference is, to FALLBACK_TOLERANCE, which takes long: ``cancelled`` is called between blocks of them (`Cancelled`).
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
     started = perf_counter()
@@ -56,36 +57,40 @@ def traced_psf(
     phase, fx = exact_rows(lens, source, nodes, filling.aim)
     intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
-    words = f"{nodes.words}, {intensity.dtype.name}"
-    made = Origin("traced", 0, found.rays + nodes.xi.size, words, started, tolerance)
+    sampling = Message("{nodes}, {precision}", nodes=nodes.words, precision=intensity.dtype.name)
+    made = Origin("traced", 0, found.rays + nodes.xi.size, sampling, started, tolerance)
     blur = found.blur_um2 if resolved(found.steepness.spread, pixel_um) else None
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made)
 
 
 def in_rows(lens: Lens, source: Source) -> bool:
-    """Return whether a fit puts the rays of a whole pupil in rows: whether `traced_psf` is quick."""
+    """Return whether a fit puts the rays of the whole pupil in rows, so that `traced_psf` is fast."""
     return _fit(lens, source, PLAIN.aim) is not None
 
 
-def _rows(lens, source, window, quality, aim) -> tuple[FittedPencil, FrequencyRows] | None:
+def _rows(
+    lens: Lens, source: Source, window: tuple[int, float], quality: str, aim: str
+) -> tuple[FittedPencil, FrequencyRows] | None:
     found = _fit(lens, source, aim)
-    nodes = found and rows_for(found, *window, quality)
-    return nodes and (found, nodes)
+    nodes = None if found is None else rows_for(found, *window, quality)
+    return None if found is None or nodes is None else (found, nodes)
 
 
 @lru_cache(maxsize=2)
 def _fit(lens: Lens, source: Source, aim: str) -> FittedPencil | None:
-    """Return the map that puts rays in rows; None where rays are lost, or no polynomial does it well enough."""
+    """Return the fit that puts rays in rows; None where rays are lost, or no polynomial is accurate enough."""
     try:
         found = fit(lens, source, FEWEST, aim)
         if found.error_waves >= RESIDUAL_WAVES:
             found = fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
-    except GeometryError:  # rays lost: the reference's nodes end where they begin to be
+    except GeometryError:  # rays are lost
         return None
     return None if found.error_waves > RESIDUAL_WAVES else found
 
 
-def exact_rows(lens: Lens, source: Source, nodes: FrequencyRows, aim: str = "paraxial"):
+def exact_rows(
+    lens: Lens, source: Source, nodes: FrequencyRows, aim: str = "paraxial"
+) -> tuple[np.ndarray, np.ndarray]:
     """Return exact phase (waves) and fx (cycles/µm) of rays through rows of nodes, (rows, columns)."""
     rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel(), aim))
     miss = np.repeat(nodes.fy, nodes.xi.shape[1])

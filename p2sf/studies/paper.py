@@ -1,14 +1,16 @@
-"""The paper's two figures, redone on this machine with the ladder drawn in (Pieroni et al. 2015, figures 2 and 3)."""
+"""The two figures of the paper (Pieroni et al. 2015, figures 2 and 3) on this machine, with all methods."""
 
 from collections.abc import Callable
 from statistics import median
 from time import perf_counter
+from typing import TYPE_CHECKING, BinaryIO
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.glass.media import AIR
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.messages import Message
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
@@ -20,12 +22,15 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.traced import traced_psf
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
 LENS, FIELDS_DEG, WAVELENGTH_NM = "double_gauss_28", (0.0, 10.0, 14.0), 656.3
 PIXELS, WINDOW_UM = 32, 22.12
 REPEATS = 31
 DEPTH_MM = 1e4  # of the timed stages: finite, so that no branch is spared
 STAGES = ("SIF", "qSIF", "SVF")
-REFERENCE = "huygens"
 
 
 def paper_figures(progress: Callable[[float], None] = lambda done: None) -> dict:
@@ -44,7 +49,7 @@ def paper_figures(progress: Callable[[float], None] = lambda done: None) -> dict
         "window_um": WINDOW_UM,
         "timing": sorted(timing, key=lambda row: row["elements"]),
         "accuracy": accuracy,
-        "finding": finding(accuracy),
+        "finding": str(finding(accuracy)),
     }
 
 
@@ -58,13 +63,13 @@ def stage_times(lens: Lens) -> dict:
     wavelength, slope = lens.reference_wavelength_um, slope_from_degrees(max(lens.fields_deg))
     stop = find_stop(lens, DEPTH_MM, wavelength)
 
-    def shift_invariant():
+    def shift_invariant() -> object:
         return cardinal_points(lens, wavelength), image_distance(lens, DEPTH_MM, wavelength)
 
-    def quasi_invariant():
+    def quasi_invariant() -> object:
         return pupils(lens, wavelength, find_stop(lens, DEPTH_MM, wavelength, "auto"))
 
-    def spatially_variant():
+    def spatially_variant() -> object:
         return coefficients(lens, DEPTH_MM, slope, wavelength, stop)
 
     seconds = (_median_seconds(stage) for stage in (shift_invariant, quasi_invariant, spatially_variant))
@@ -103,19 +108,23 @@ def psfs(lens: Lens, field_deg: float) -> tuple[Psf, dict[str, Psf]]:
     }
 
 
-def finding(accuracy: list[dict]) -> str:
-    """Return what of the paper's claim is not reproduced, with the measured figures in it, and why."""
-    scores = ", ".join(f"{row['r_squared']['seidel']:.3f} at {row['field_deg']:g}°" for row in accuracy)
-    rescued = min(row["r_squared"]["fitted, 26 numbers"] for row in accuracy)
-    return (
-        f'Not reproduced: that six coefficients are "stable off axis". Their R² against the converged Huygens sum is '
-        f"{scores}, since they are exact to fourth order only and stand on a circular pupil, while the real wavefront "
+def finding(accuracy: list[dict]) -> Message:
+    """Return which claim of the paper is not reproduced, by how much, and why."""
+    scores = tuple(
+        Message("{r_squared:.3f} at {field:g}°", r_squared=row["r_squared"]["seidel"], field=row["field_deg"])
+        for row in accuracy
+    )
+    return Message(
+        'Not reproduced: that six coefficients are "stable off axis". Their R² against the converged Huygens sum is '
+        "{scores}, since they are exact to fourth order only and assume a circular pupil, while the real wavefront "
         "has higher orders and the real pupil, seen in the direction cosines of image space, is squeezed; 26 numbers "
-        f"fitted to exact rays hold R² ≥ {rescued:.4f} at all these fields."
+        "fitted to exact rays hold R² ≥ {fitted:.4f} at all these fields.",
+        scores=scores,
+        fitted=min(row["r_squared"]["fitted, 26 numbers"] for row in accuracy),
     )
 
 
-def draw_timing(handle, figures: dict) -> None:
+def draw_timing(handle: BinaryIO, figures: dict) -> None:
     """Write figure one as a PNG into an open binary file: stage times against the number of refracting elements."""
     figure, axes = _page("refracting elements", "median time of one source, µs")
     for stage, marker in zip(STAGES, "osD", strict=True):
@@ -123,10 +132,10 @@ def draw_timing(handle, figures: dict) -> None:
         axes.plot(*zip(*found, strict=True), marker, label=stage, alpha=0.8)
     axes.set_ylim(bottom=0)
     axes.set_title(f"{len(figures['timing'])} shipped lenses, this machine", loc="left", fontsize=9)
-    _print(figure, axes, handle)
+    _save(figure, axes, handle)
 
 
-def draw_accuracy(handle, figures: dict) -> None:
+def draw_accuracy(handle: BinaryIO, figures: dict) -> None:
     """Write figure two as a PNG into an open binary file: R² of every method against field."""
     figure, axes = _page("field, °", "R² against the Huygens sum")
     fields = [row["field_deg"] for row in figures["accuracy"]]
@@ -135,10 +144,10 @@ def draw_accuracy(handle, figures: dict) -> None:
     axes.axhline(0, color="black", linewidth=0.6)
     grid = f"{figures['pixels']} × {figures['pixels']} samples over {figures['window_um']} µm"
     axes.set_title(f"{figures['lens']}, {figures['wavelength_nm']} nm, {grid}", loc="left", fontsize=9)
-    _print(figure, axes, handle)
+    _save(figure, axes, handle)
 
 
-def _page(x: str, y: str):
+def _page(x: str, y: str) -> "tuple[Figure, Axes]":
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(6.4, 4.4), dpi=150, layout="constrained")
@@ -147,8 +156,6 @@ def _page(x: str, y: str):
     return figure, axes
 
 
-def _print(figure, axes, handle) -> None:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
+def _save(figure: "Figure", axes: "Axes", handle: BinaryIO) -> None:
     axes.legend(fontsize=8)
-    FigureCanvasAgg(figure).print_png(handle)
+    figure.savefig(handle, format="png")

@@ -1,16 +1,19 @@
-"""What every method costs in time and in error, measured on this machine: one table, one picture, one JSON."""
+"""What each method costs in time and in error, measured on this machine: as a table, a plot and JSON."""
 
 import json
 import tracemalloc
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from itertools import product
 from math import inf, isinf
 from statistics import median
 from time import process_time
+from typing import BinaryIO
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import Errors, compare
 from p2sf.psf.gaussian_fit import gaussian_psf
@@ -26,7 +29,7 @@ SLOW_SECONDS = 0.5  # a method this slow is timed once
 
 @dataclass(frozen=True)
 class MethodCost:
-    """One method at one point: its errors, numbers and rays used, median CPU seconds and peak memory of a call."""
+    """One method at one point: its errors, the numbers and rays it takes, median CPU seconds and peak memory."""
 
     method: str
     quality: str
@@ -38,79 +41,102 @@ class MethodCost:
     rays: int
     seconds: float
     bytes: int
-    sampling: str
+    sampling: Message
     tolerance: float | None
 
 
 def tradeoff(
     lens: Lens,
-    fields_deg=None,
-    depths_mm=(inf,),
-    wavelengths_nm=None,
-    methods=METHODS,
+    fields_deg: Iterable[float] | None = None,
+    depths_mm: Iterable[float] = (inf,),
+    wavelengths_nm: Iterable[float] | None = None,
+    methods: Sequence[str] = METHODS,
     pixels: int = PIXELS,
     pixel_um: float | None = None,
 ) -> list[MethodCost]:
     """Return a row per (depth, field, wavelength) and method, each against the settled Huygens sum at that point.
 
-    Fields and wavelengths default to the lens file's. `fitted` and `traced` have a second row for their preview. The
-    window is the one that shows the whole PSF of the six coefficients unless ``pixel_um`` is given.
+    By default the fields are those of the lens file and the wavelength is its reference. `seidel`, `fitted` and
+    `traced` have a second row for their preview. Unless ``pixel_um`` is given, the window is the one that shows the
+    whole PSF of the six coefficients.
     """
     fields = lens.fields_deg if fields_deg is None else fields_deg
     waves = (lens.reference_wavelength_um * NM_PER_UM,) if wavelengths_nm is None else wavelengths_nm
-    rows = []
+    rows: list[MethodCost] = []
     for depth, field, wave in product(depths_mm, fields, waves):
         source = Source(float(depth), float(slope_from_degrees(field)), wave / NM_PER_UM)
-        window = pixels, pixel_um or _window(lens, source, pixels)
+        window = pixels, pixel_um or _pitch(lens, source, pixels)
         reference = huygens_psf(lens, source, *window)
         place = float(depth), float(field), float(wave)
         if not rows:
-            for way in _ways(set(methods) - {"huygens"}):  # the reference has just been summed that way
-                _made(lens, source, window, reference, *way)  # untimed: the first call loads libraries and tables
+            # Untimed, since a first call loads libraries and tables; the reference has just had its own.
+            for way in _ways(set(methods) - {"huygens"}):
+                _made(lens, source, window, reference, *way)
         rows += [_row(lens, source, window, place, reference, *way) for way in _ways(methods)]
     return rows
 
 
-def _window(lens: Lens, source: Source, pixels: int) -> float:
+def _pitch(lens: Lens, source: Source, pixels: int) -> float:
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     return float(suitable_pixel_um(c, pixels))
 
 
-def _ways(methods):
-    """Yield (method, quality): every method settled, those with a live form as preview too."""
+def _ways(methods: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """Yield (method, quality): every method settled, and as preview too those that have one."""
     for method in methods:
         if method in ("seidel", "fitted", "traced"):
             yield method, "preview"
         yield method, "settled"
 
 
-def _row(lens, source, window, place, reference: Psf, method: str, quality: str) -> MethodCost:
+def _row(
+    lens: Lens,
+    source: Source,
+    window: tuple[int, float],
+    place: tuple[float, float, float],
+    reference: Psf,
+    method: str,
+    quality: str,
+) -> MethodCost:
     def once() -> Psf:
         return _made(lens, source, window, reference, method, quality)
 
     psf, seconds = _timed(once)
-    errors = compare(psf, reference)
-    counts = psf.numbers, psf.rays, seconds, _peak_bytes(once)
-    return MethodCost(method, quality, *place, errors, *counts, psf.sampling, psf.tolerance)
+    depth_mm, field_deg, wavelength_nm = place
+    return MethodCost(
+        method=method,
+        quality=quality,
+        depth_mm=depth_mm,
+        field_deg=field_deg,
+        wavelength_nm=wavelength_nm,
+        errors=compare(psf, reference),
+        numbers=psf.numbers,
+        rays=psf.rays,
+        seconds=seconds,
+        bytes=_peak_bytes(once),
+        sampling=psf.sampling,
+        tolerance=psf.tolerance,
+    )
 
 
-def _made(lens, source, window, reference: Psf, method: str, quality: str) -> Psf:
+def _made(lens: Lens, source: Source, window: tuple[int, float], reference: Psf, method: str, quality: str) -> Psf:
     if method == "gaussian":
         return gaussian_psf(reference)
-    return render(lens, source, method, *window, quality)
+    return render(lens, source, method, *window, quality=quality)
 
 
-def _timed(once):
-    """Return the result and the median CPU seconds of a call; the wall clock of a shared machine says little."""
-    psf, seconds = None, []
-    while len(seconds) < REPEATS and sum(seconds) < SLOW_SECONDS:
+def _timed(once: Callable[[], Psf]) -> tuple[Psf, float]:
+    """Return the result and the median CPU seconds of a call; wall-clock times depend on what else the machine does."""
+    seconds: list[float] = []
+    while True:
         start = process_time()
         psf = once()
         seconds.append(process_time() - start)
-    return psf, median(seconds[1:] or seconds)
+        if len(seconds) >= REPEATS or sum(seconds) >= SLOW_SECONDS:
+            return psf, median(seconds[1:] or seconds)
 
 
-def _peak_bytes(once) -> int:
+def _peak_bytes(once: Callable[[], Psf]) -> int:
     tracing = tracemalloc.is_tracing()
     if not tracing:
         tracemalloc.start()
@@ -125,8 +151,12 @@ def _peak_bytes(once) -> int:
 
 def to_json(rows: list[MethodCost]) -> str:
     """Return the rows as a JSON list; an infinite depth is null."""
-    plain = [{**asdict(row), "depth_mm": None if isinf(row.depth_mm) else row.depth_mm} for row in rows]
-    return json.dumps(plain, indent=1, allow_nan=False)
+    return json.dumps([_plain(row) for row in rows], indent=1, allow_nan=False)
+
+
+def _plain(row: MethodCost) -> dict[str, object]:
+    depth = None if isinf(row.depth_mm) else row.depth_mm
+    return {**asdict(row), "depth_mm": depth, "sampling": str(row.sampling)}
 
 
 def table(rows: list[MethodCost]) -> list[tuple[str, ...]]:
@@ -147,8 +177,9 @@ def _texts(row: MethodCost) -> tuple[str, ...]:
 
 
 def front(rows: list[MethodCost]) -> list[MethodCost]:
-    """Return the Pareto front, by time: rows that no other beats in both time and error."""
-    best, out = inf, []
+    """Return the Pareto front, fastest first: rows that no other beats in both time and error."""
+    best = inf
+    out: list[MethodCost] = []
     for row in sorted(rows, key=lambda row: (row.seconds, error(row))):
         if error(row) < best:
             best = error(row)
@@ -156,9 +187,8 @@ def front(rows: list[MethodCost]) -> list[MethodCost]:
     return out
 
 
-def draw(handle, rows: list[MethodCost], title: str = "") -> None:
-    """Write time against error, log–log with the Pareto front marked, as a PNG into an open binary file."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+def draw(handle: BinaryIO, rows: list[MethodCost], title: str = "") -> None:
+    """Write error against time, log–log with the Pareto front marked, as a PNG into an open binary file."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(6.4, 4.4), dpi=150, layout="constrained")
@@ -166,21 +196,21 @@ def draw(handle, rows: list[MethodCost], title: str = "") -> None:
     for method, marker in zip(METHODS, "vosD^", strict=True):
         for quality, filled in (("preview", "none"), ("settled", "full")):
             some = [row for row in rows if (row.method, row.quality) == (method, quality)]
-            style = {"fillstyle": filled, "linestyle": "none", "label": f"{method}, {quality}"}
             if some:
-                axes.plot(*_points(some), marker, color=f"C{METHODS.index(method)}", **style)
+                [line] = axes.plot(*_points(some), marker, color=f"C{METHODS.index(method)}", linestyle="none")
+                line.set(fillstyle=filled, label=f"{method}, {quality}")
     axes.plot(*_points(front(rows)), "-", color="0.5", linewidth=1, zorder=0, label="Pareto front")
     axes.set_title(title, loc="left", fontsize=9)
     axes.grid(alpha=0.3)
     axes.legend(fontsize=7)
-    FigureCanvasAgg(figure).print_png(handle)
+    figure.savefig(handle, format="png")
 
 
-def _points(rows: list[MethodCost]):
+def _points(rows: list[MethodCost]) -> tuple[list[float], list[float]]:
     return [1e3 * row.seconds for row in rows], [error(row) for row in rows]
 
 
 def error(row: MethodCost) -> float:
-    """Return the relative L2 error; of the reference itself, the agreement that it reached."""
+    """Return the relative L2 error; for the reference itself, the agreement that it reached."""
     own = row.tolerance if row.method == "huygens" and row.tolerance else 0.0
     return max(row.errors.relative_l2, own, 1e-12)

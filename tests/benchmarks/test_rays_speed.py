@@ -112,7 +112,7 @@ def test_huygens_32_settled(benchmark, capsys):
 @pytest.mark.parametrize("tolerance", [0.99, 0.9999])
 def test_choose(benchmark, capsys, tolerance):
     """Which method, without the reference: ≤ 1 ms."""
-    score = f"; {choose(LENS, SOURCE, tolerance).why}"
+    score = f"; {choose(LENS, SOURCE, tolerance).reason}"
     report(benchmark, capsys, 1.0, lambda: choose(LENS, SOURCE, tolerance), score)
 
 

@@ -15,8 +15,8 @@ from p2sf.lens.lens import with_f_number, with_sensor
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.paraxial.wavefront import steepest_slope
-from p2sf.psf._seidel_sum import intensities, wave_number
-from p2sf.psf.seidel_stack import corner_reach, rows_for
+from p2sf.psf._seidel_sum import intensities, shape_terms, wave_number
+from p2sf.psf.seidel_stack import corner_reach, stack_parts
 from p2sf.pupil.quadrature import chord_rows
 from tests.support.reference import LENSES, prescription_lens, reference
 
@@ -58,7 +58,7 @@ def random_window(rng, scale: float) -> tuple[int, float]:
 
 def error_of(found: Coefficients, pixels: int, pixel_um: float) -> float:
     """Return the relative L2 error in the window of the settled sampling, unit sum as delivered."""
-    rows = rows_for(found, pixels, pixel_um, "settled")
+    [(_, rows)] = stack_parts(shape_terms(found)[None], pixels, pixel_um, "settled")
     sides = 2 * len(rows.eta), 2 * rows.weight.shape[1]  # the nodes are a quarter of the disc
     fine = chord_rows(*((2 if side > LARGE else 4) * side for side in sides))
     ours, truth = (intensities(found, pixels, pixel_um, nodes, np.float64) for nodes in (rows, fine))

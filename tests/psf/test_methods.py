@@ -1,4 +1,4 @@
-"""The ladder: every method through one door, a choice that holds what it promises, and the measured trade."""
+"""Every method behind one function, a choice that keeps its tolerance, and the measured trade-off."""
 
 import json
 from dataclasses import replace
@@ -14,7 +14,16 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import Filling, huygens_psf
-from p2sf.psf.methods import METHODS, QUICK_LEVELS, choose, predicted_error, render, residual_for, seidel_sigma
+from p2sf.psf.methods import (
+    METHODS,
+    QUICK_LEVELS,
+    Choice,
+    choose,
+    predicted_error,
+    render,
+    residual_for,
+    seidel_sigma,
+)
 from p2sf.raytrace.fit import level_rays
 from p2sf.raytrace.ray_field import RayData
 from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
@@ -30,7 +39,7 @@ def off_axis():
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_every_rung_returns_the_same_kind_of_psf(method):
+def test_every_method_returns_the_same_kind_of_psf(method):
     lens, source, pixel, _ = off_axis()
     psf = render(lens, source, method, 32, pixel)
     assert psf.method == method and psf.values.shape == (32, 32) and psf.pixel_um == pixel
@@ -52,7 +61,7 @@ def test_six_coefficients_miss_by_their_phase_and_by_where_diffraction_takes_the
     assert seidel_sigma(c, rays, points, 5.0) == pytest.approx(wanted, rel=1e-12)
 
 
-def test_rungs_rank_as_the_design_says():
+def test_methods_rank_by_accuracy():
     lens, source, pixel, stored = off_axis()
     score = {m: r_squared(render(lens, source, m, 32, pixel).values, stored) for m in METHODS}
     assert score["seidel"] == pytest.approx(-0.599, abs=0.002)
@@ -68,7 +77,7 @@ def test_quality_passes_through(method):
     assert r_squared(preview.values, settled.values) > (0.9 if method == "seidel" else 0.9999)
 
 
-def test_auto_takes_the_rung_that_choose_names():
+def test_auto_takes_the_method_that_choose_names():
     lens, source, _, _ = off_axis()
     assert choose(lens, source, 0.99).method == "fitted" == render(lens, source, tolerance=0.99).method
     slow = replace(lens, aperture=Aperture("stop_semi_diameter", 1.0))
@@ -82,15 +91,43 @@ def test_tighter_tolerances_cost_more_and_promise_more():
     assert [c.numbers for c in chosen] == [26, 26, 46, 46, 0]
     errors = [c.predicted_error for c in chosen]
     assert errors == sorted(errors, reverse=True)
-    assert all("1 − R²" in c.why for c in chosen)
+    assert all("1 − R²" in str(c.reason) for c in chosen)
 
 
 def test_a_fast_petzval_is_traced():
     lens, source = case("petzval", huygens_rows("petzval")[1][0])
-    assert choose(lens, source, 0.999).method == "traced"
+    choice = choose(lens, source, 0.999)
+    assert choice.method == "traced" and choice.lost_rays == 0 and choice.tried_rays == 64
+    assert choice.allowed_error < choice.fitted_error < choice.seidel_error
 
 
-def test_choose_never_picks_a_rung_below_the_tolerance(capsys):
+TRIED = {"tried_rays": 64, "allowed_error": 0.01}
+
+
+@pytest.mark.parametrize(
+    ("choice", "reason"),
+    [
+        (Choice("seidel", 2e-3, 6, **TRIED), "six coefficients keep 1 − R² ≤ 2.0e-03, where 1.0e-02 is allowed"),
+        (
+            Choice("fitted", 3e-3, 26, **TRIED, seidel_error=1.4),
+            "26 numbers from 64 rays keep 1 − R² ≤ 3.0e-03, where 1.0e-02 is allowed; six coefficients: 1.4e+00",
+        ),
+        (
+            Choice("traced", 5e-5, 0, **TRIED, fitted_error=0.02),
+            "exact rays, since 46 fitted numbers leave 1 − R² ≤ 2.0e-02 only",
+        ),
+        (
+            Choice("huygens", 1e-8, 0, lost_rays=7, **TRIED),
+            "the reference itself, since 7 of 64 rays are lost, and a smooth pupil does not describe that",
+        ),
+    ],
+    ids=lambda value: getattr(value, "method", ""),
+)
+def test_a_choice_gives_its_reason(choice, reason):
+    assert str(choice.reason) == reason
+
+
+def test_choose_never_picks_a_method_below_the_tolerance(capsys):
     outcomes = list(trials(20, seed=2))
     with capsys.disabled():
         print("\n" + summary(outcomes))
@@ -104,12 +141,14 @@ def test_a_fit_takes_the_numbers_that_the_tolerance_asks_for():
     assert predicted_error(residual_for(0.9999), "fitted") == pytest.approx(1e-4)
 
 
-def test_clip_is_refused_by_rungs_that_know_no_edge():
+def test_clip_is_refused_by_methods_that_know_no_edge():
     lens, source, pixel, _ = off_axis()
     for method in ("seidel", "fitted"):
         with pytest.raises(GeometryError, match="choose traced or huygens"):
             render(lens, source, method, 32, pixel, clip=True)
         assert render(lens, replace(source, field_slope=0.0), method, 32, pixel, clip=True).method == method
+    choice = choose(lens, source, clip=True)
+    assert 0 < choice.lost_rays < choice.tried_rays == 64
     auto = render(lens, source, "auto", 32, pixel, clip=True)
     reference = huygens_psf(lens, source, 32, pixel, filling=Filling(clip=True))
     assert auto.method == "traced" and r_squared(auto.values, reference.values) > 0.99

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf import _seidel_sum as fastpath
-from p2sf.psf._seidel_sum import BATCH, intensities, kernels_for
+from p2sf.psf import _seidel_sum
+from p2sf.psf._seidel_sum import BATCH, intensities, kernels_for, shape_terms
 from p2sf.psf.seidel import plain_intensity
-from p2sf.psf.seidel_stack import rows_for
+from p2sf.psf.seidel_stack import stack_parts
 from p2sf.pupil.quadrature import chord_rows, grid_rows
 from p2sf.pupil.transform import matrix_dft
 from tests.support.waves import relative_l2, waves
@@ -48,7 +48,7 @@ def test_chords_are_the_plain_formula(pixels, sign):
 
 def test_single_precision_keeps_the_settled_promise_at_two_hundred_waves():
     c = waves(wd=200.0)
-    rows = rows_for(c, 16, 100.0, "settled")
+    [(_, rows)] = stack_parts(shape_terms(c)[None], 16, 100.0, "settled")
     assert relative_l2(intensities(c, 16, 100.0, rows), intensities(c, 16, 100.0, rows, np.float64)) < 2e-5
 
 
@@ -66,11 +66,11 @@ def test_a_batch_is_its_members_in_any_order_of_apertures():
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_blocks_of_rows_add_up(monkeypatch, dtype):
     whole = intensities(MIXED, 16, 1.1, chord_rows(48, 48), dtype)
-    fastpath._blocks.cache_clear()
-    monkeypatch.setattr(fastpath, "KERNEL_BYTES", 10_000)
+    _seidel_sum._blocks.cache_clear()
+    monkeypatch.setattr(_seidel_sum, "KERNEL_BYTES", 10_000)
     blocks = intensities(MIXED, 16, 1.1, chord_rows(48, 48), dtype)
-    assert len(fastpath._blocks(chord_rows(48, 48), 16, np.dtype(dtype))) > 1
-    fastpath._blocks.cache_clear()
+    assert len(_seidel_sum._blocks(chord_rows(48, 48), 16, np.dtype(dtype))) > 1
+    _seidel_sum._blocks.cache_clear()
     np.testing.assert_allclose(blocks, whole, atol=1e-6 if dtype == np.float32 else 1e-14)
 
 

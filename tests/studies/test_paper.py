@@ -39,7 +39,7 @@ def made_up():
 
 
 def test_the_finding_prints_negative_r_squared_as_it_is():
-    sentence = finding(made_up()["accuracy"])
+    sentence = str(finding(made_up()["accuracy"]))
     assert "-0.600 at 14°" in sentence and "≥ 0.9900" in sentence
 
 
