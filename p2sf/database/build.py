@@ -1,4 +1,4 @@
-"""Building a database: trace where it must, keep the numbers, measure what was lost."""
+"""Building a database: trace the lens at its nodes, and measure what interpolation loses between them."""
 
 from dataclasses import replace
 
@@ -10,35 +10,42 @@ from p2sf.database.grid import RULES, GridDatabase, traced_grid
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
+from p2sf.messages import Alternatives
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import coefficients
 
 INTERPOLANTS = ("exact", *RULES)
-# A smooth glass needs some 20 terms over the visible; what still departs at 192 is not smooth.
+# A smooth glass needs some 20 terms over the visible; one that needs more than 192 is not smooth.
 TERMS = (24, 48, 96, 192)
 TOLERANCE = 1e-12
 ROUND_OFF = 1e-13
 HELD_OUT = 64
 
 
-def build_database(lens: Lens, space: Space, interpolant: str = "exact", stop: Stop | None = None):
+def build_database(
+    lens: Lens, space: Space, interpolant: str = "exact", stop: Stop | None = None
+) -> ExactDatabase | GridDatabase:
     """Return the coefficient database of a lens over ``space``, at one stop for all depths.
 
     ``interpolant``: "exact" (polynomials, exact to round-off), "table1" (the rule of Pieroni et al. 2015,
-    table 1) or "linear". What the interpolant loses against direct evaluation is in ``errors``, in waves.
+    table 1) or "linear". Its ``errors`` against direct evaluation are in waves.
     Raises DatabaseError, GeometryError and GlassError.
     """
     if interpolant not in INTERPOLANTS:
-        raise DatabaseError(f'interpolant "{interpolant}" is unknown; choose {", ".join(INTERPOLANTS)}')
+        raise DatabaseError(
+            'interpolant "{interpolant}" is unknown; choose {interpolants}',
+            interpolant=interpolant,
+            interpolants=Alternatives(INTERPOLANTS),
+        )
     stop = stop or find_stop(lens)
-    if np.ndim(stop.surface):
-        raise DatabaseError("the stop changes with depth or wavelength; a database holds one stop, choose it")
-    return _exact(lens, space, stop) if interpolant == "exact" else _grid(lens, space, interpolant, stop)
+    return build_exact(lens, space, stop) if interpolant == "exact" else _grid(lens, space, interpolant, stop)
 
 
-def _exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
+def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
+    """Return the database of polynomials, at one stop for all depths; errors as `build_database`."""
+    _check_one_stop(stop)
     points = scattered(space, HELD_OUT)
-    direct = coefficients(lens, *points, stop)
+    direct = coefficients(lens, *points, stop=stop)
     floor = ROUND_OFF * path_scale(direct)
     allowed = {kind: TOLERANCE * top + floor for kind, top in largest(direct).items()}
     for terms in TERMS if np.ptp(space.wavelengths_um) else (1,):
@@ -48,12 +55,22 @@ def _exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
             return replace(database, errors=errors)
     worst = max(errors, key=lambda kind: errors[kind] / allowed[kind])
     raise DatabaseError(
-        f"{worst} is {errors[worst]:.2g} waves off with {terms} terms in wavelength, so the glass data have a kink "
-        "between the wavelengths asked; build with the linear interpolant, or narrow the wavelengths"
+        "{coefficient} is {error:.2g} waves off with {terms} terms in wavelength, so the glass data have a kink "
+        "between the wavelengths asked; build with the linear interpolant, or narrow the wavelengths",
+        coefficient=worst,
+        error=errors[worst],
+        terms=terms,
     )
 
 
+def _check_one_stop(stop: Stop) -> None:
+    if np.ndim(stop.surface):
+        raise DatabaseError("the stop changes with depth or wavelength; a database holds one stop, choose it")
+
+
 def _grid(lens: Lens, space: Space, interpolant: str, stop: Stop) -> GridDatabase:
+    _check_one_stop(stop)
     database = GridDatabase(space, traced_grid(lens, space, stop), interpolant, {})
     points = cell_middles(space, database.last_depth_mm)
-    return replace(database, errors=departures(database.coefficients(*points), coefficients(lens, *points, stop)))
+    direct = coefficients(lens, *points, stop=stop)
+    return replace(database, errors=departures(database.coefficients(*points), direct))

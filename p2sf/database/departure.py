@@ -1,4 +1,4 @@
-"""How far a database is from the direct evaluation it stands for."""
+"""How far the coefficients of a database are from those evaluated directly."""
 
 import numpy as np
 
@@ -7,11 +7,14 @@ from p2sf.database.parts import KINDS
 from p2sf.database.space import Space
 from p2sf.paraxial.seidel import Coefficients
 
+Points = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Depth (mm), field slope and wavelength (µm) of points, as arrays that broadcast."""
+
 # Steps of the additive recurrence that fills a cube most evenly (Roberts 2018): powers of 1/g, g⁴ = g + 1.
 EVEN_STEPS = 1.2207440846057596 ** -np.arange(1, 4)
 
 
-def scattered(space: Space, count: int, last_depth_mm: float = np.inf):
+def scattered(space: Space, count: int, last_depth_mm: float = np.inf) -> Points:
     """Return ``count`` points spread evenly over a space: depth (uniform in 1/depth), field slope, wavelength."""
     far = min(float(space.depths_mm[-1]), last_depth_mm)
     cube = (0.5 + np.outer(EVEN_STEPS, np.arange(count))) % 1
@@ -24,7 +27,7 @@ def scattered(space: Space, count: int, last_depth_mm: float = np.inf):
         return np.clip(1 / near, space.depths_mm[0], far), slope, wavelength
 
 
-def cell_middles(space: Space, last_depth_mm: float = np.inf):
+def cell_middles(space: Space, last_depth_mm: float = np.inf) -> Points:
     """Return points in the middle of cells, where interpolation loses most, as axes that broadcast.
 
     All depths (middles in 1/depth), the outermost field, and half a dozen wavelengths from end to end.
@@ -42,7 +45,7 @@ def _middles(nodes: np.ndarray) -> np.ndarray:
 
 
 def departures(found: Coefficients, direct: Coefficients) -> dict[str, float]:
-    """Return the largest difference of each coefficient, waves."""
+    """Return the largest difference in each coefficient, waves."""
     return {kind: float(np.abs(getattr(found, kind) - getattr(direct, kind)).max()) for kind in KINDS}
 
 
@@ -52,9 +55,9 @@ def largest(direct: Coefficients) -> dict[str, float]:
 
 
 def path_scale(direct: Coefficients) -> float:
-    """Return the largest path, waves, that coefficients are small differences of: n'u'·(distance·u')/2.
+    """Return the largest optical path, waves, of which coefficients are small differences: n'u'·(distance·u')/2.
 
-    Rounding leaves a share of this, however small the design or the focus make the coefficient itself.
+    The rounding error is a fraction of this path, however small the coefficient itself is.
     """
     slope = direct.reduced_slope / direct.image_index
     with np.errstate(invalid="ignore"):

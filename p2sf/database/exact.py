@@ -2,11 +2,11 @@
 
 At a fixed stop, with field as the slope at the entrance pupil and s = 1/(distance from object to
 entrance pupil), the marginal ray is linear in s: it is the ray of the infinite object plus s·(pupil
-radius)·(chief ray of unit slope). So every Seidel sum is a polynomial in s (DESIGN.md section 2), with
-no singular depth. In wavelength everything is as smooth as the glasses, hence a Chebyshev series.
+radius)·(chief ray of unit slope). So every Seidel sum is a polynomial in s, with no singular depth.
+In wavelength everything is as smooth as the glasses, hence a Chebyshev series.
 
-Per wavelength: W40 5, W31 4, W22 3, Petzval 1, W11 2, u' 2, last height 2, chief ray 2: the 21 numbers
-of DESIGN.md; the entrance pupil's place and the image-space index make 23, so that a depth is all it needs.
+Per wavelength: W40 5, W31 4, W22 3, Petzval 1, W11 2, u' 2, last height 2, chief ray 2, and 1 each for the place of
+the entrance pupil and the index of image space: 23 numbers, from which the coefficients at any depth follow.
 """
 
 from dataclasses import dataclass, replace
@@ -14,9 +14,10 @@ from functools import cached_property
 from math import acos
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import vergence
-from p2sf.database.parts import Parts, assemble
+from p2sf.database.parts import Numbers, Parts, assemble
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
@@ -47,8 +48,8 @@ class ExactDatabase:
     """Twenty-three numbers per wavelength, as Chebyshev series in wavelength over ``space``.
 
     ``series``: (terms, 23), mm and mm of path, polynomial coefficients in t = (s − ``middle``)/``half``.
-    ``sensor_mm``: where the sensor stands; any other place is as exact. ``errors``: largest departure from
-    direct evaluation found at points held out, in waves, by coefficient.
+    ``sensor_mm``: position of the sensor; at any other one the coefficients are as exact. ``errors``: the largest
+    departure of each coefficient from direct evaluation at points between the nodes, in waves.
     """
 
     space: Space
@@ -64,7 +65,7 @@ class ExactDatabase:
         """Return the same database with the sensor ``sensor_mm`` behind the last vertex; nothing is traced."""
         return replace(self, sensor_mm=float(sensor_mm))
 
-    def coefficients(self, depth_mm, field_slope, wavelength_um) -> Coefficients:
+    def coefficients(self, depth_mm: ArrayLike, field_slope: ArrayLike, wavelength_um: ArrayLike) -> Coefficients:
         """Return the six coefficients at one point or over broadcast arrays; DatabaseError outside the space."""
         if isinstance(depth_mm, float) and isinstance(field_slope, float) and isinstance(wavelength_um, float):
             self.space.check_one(depth_mm, field_slope, wavelength_um)
@@ -83,7 +84,7 @@ class ExactDatabase:
         return float(terms @ self.series[:, PUPIL])
 
     @cached_property
-    def _orders(self):
+    def _orders(self) -> np.ndarray:
         return np.arange(len(self.series))
 
     @cached_property
@@ -91,12 +92,12 @@ class ExactDatabase:
         low, high = float(self.space.wavelengths_um[0]), float(self.space.wavelengths_um[-1])
         return (low + high) / 2, 2 / (high - low) if high > low else 0.0
 
-    def _reduced(self, wavelength):
+    def _reduced(self, wavelength: Numbers) -> Numbers:
         middle, slope = self._mapping
         return (wavelength - middle) * slope
 
-    def _evaluate(self, numbers, near, slope, wavelength) -> Coefficients:
-        """Sum the polynomials in s, Horner's way, from the numbers at each wavelength."""
+    def _evaluate(self, numbers: Numbers, near: Numbers, slope: Numbers, wavelength: Numbers) -> Coefficients:
+        """Sum the polynomials in s by Horner's rule, from the 23 numbers at each wavelength."""
         a0, a1, a2, a3, a4, b0, b1, b2, b3, c0, c1, c2, petzval, d0, d1, nu0, nu1, y0, y1, *last = numbers
         chief_y, chief_nu, pupil, index = last
         t = (near / (1.0 + pupil * near) - self.middle) / self.half
@@ -118,7 +119,7 @@ class ExactDatabase:
 
 
 def chebyshev_terms(x: np.ndarray, count: int) -> np.ndarray:
-    """Return T_0 … T_{count−1} at x, shape (count, *x.shape), by their recurrence T_{k+1} = 2x·T_k − T_{k−1}."""
+    """Return T_0 … T_{count−1} at x, shape (count, *x.shape), by the recurrence T_{k+1} = 2x·T_k − T_{k−1}."""
     terms = np.empty((count, *x.shape))
     terms[0] = 1
     terms[1:2] = x
@@ -140,17 +141,20 @@ def exact_series(lens: Lens, space: Space, stop: Stop, terms: int) -> tuple[np.n
     return kernel @ rows.T, middle, half
 
 
-def _range_of_s(pupil, space: Space) -> tuple[float, float]:
+def _range_of_s(pupil: np.ndarray, space: Space) -> tuple[float, float]:
     """Return middle and half-width of s over the depths asked; DatabaseError when the pupil lies among them.
 
-    Only this range, not all from 0 on, keeps the digits of a lens whose pupil is far off.
+    A range from 0 on would lose digits for a lens whose pupil is far away.
     """
     near = vergence(space.depths_mm[[0, -1], None])
     reach = 1 + pupil * near
     if reach.min() <= 0 <= reach.max():
         raise DatabaseError(
-            f"the entrance pupil, {-pupil.flat[0]:.6g} mm before the first vertex, lies among the depths, "
-            f"{space.depths_mm[0]:g} to {space.depths_mm[-1]:g} mm; build one database on either side of it"
+            "the entrance pupil, {pupil:.6g} mm before the first vertex, lies among the depths, {near:g} to {far:g} "
+            "mm; build one database on either side of it",
+            pupil=-float(pupil.flat[0]),
+            near=float(space.depths_mm[0]),
+            far=float(space.depths_mm[-1]),
         )
     s = near / reach
     middle = float(s.max() + s.min()) / 2
@@ -178,8 +182,8 @@ def _polynomials(lens: Lens, base: ParaxialRays, middle: float, half: float) -> 
     return np.concatenate([columns[name][:length] for name, length in LENGTHS.items()])
 
 
-def rays_at(base: ParaxialRays, s) -> ParaxialRays:
-    """Return the rays for an object 1/s before the entrance pupil, from those of an infinite one.
+def rays_at(base: ParaxialRays, s: float | np.ndarray) -> ParaxialRays:
+    """Return the rays for an object 1/s before the entrance pupil, from those for one at infinity.
 
     The marginal ray gains s·(pupil radius)·(chief ray of unit slope): the two meet the pupil at its rim and
     at its centre, so their sum still passes the rim. ``s``: (…, 1) or a number, per mm.

@@ -1,19 +1,20 @@
 """The `fitted` method over a whole (depth, field, wavelength) space: a tensor of Chebyshev series.
 
-The coefficients of a fit run smoothly with s = 1/(object to entrance pupil), with h² and with wavelength, h
-the field slope: under h → −h, η → −η nothing changes, so each coefficient is even or odd in h and an odd one
-is h times a function of h². They are kept as optical path (times λ), which is smoother than waves.
+The coefficients of a fit vary smoothly with s = 1/(object to entrance pupil), with h² and with wavelength, h
+being the field slope: under h → −h, η → −η nothing changes, so each coefficient is even or odd in h and an odd one
+is h times a function of h². They are stored as optical path (times λ), which is smoother than waves.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.conventions import vergence
 from p2sf.database.exact import ExactDatabase, chebyshev_terms
-from p2sf.database.render import Sampling, critical_pixel_um
+from p2sf.database.render import Points, Sampling, critical_pixel_um
 from p2sf.database.space import Space
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
@@ -23,7 +24,8 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.zernike import basis, gradient, terms
-from p2sf.raytrace.fit import FittedPencil, Level, Steepness, level_rays
+from p2sf.raytrace.fit import FittedPencil, Level, level_rays
+from p2sf.raytrace.ray_field import Steepness
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,8 +33,8 @@ class FittedDatabase:
     """Chebyshev series (s, h², wavelength, number) of a fit's coefficients, and the Seidel database of the same lens.
 
     ``series``: path in µm for the phase, pure numbers for fx and fy, the chief ray's height (mm) last.
-    ``errors``: RMS phase in waves where the rays land, the largest found at points held out; ``residual_waves``:
-    what the fits themselves leave.
+    ``errors``: the largest RMS phase error in waves where the rays land, at points between the nodes;
+    ``residual_waves``: that of the fits themselves.
     """
 
     seidel: ExactDatabase
@@ -45,10 +47,10 @@ class FittedDatabase:
 
     @property
     def space(self) -> Space:
-        """Return what is covered."""
+        """Return the space that is covered."""
         return self.seidel.space
 
-    def coefficients(self, depth_mm, field_slope, wavelength_um) -> Coefficients:
+    def coefficients(self, depth_mm: ArrayLike, field_slope: ArrayLike, wavelength_um: ArrayLike) -> Coefficients:
         """Return the six Seidel coefficients and scales of the same lens; DatabaseError outside the space."""
         return self.seidel.coefficients(depth_mm, field_slope, wavelength_um)
 
@@ -59,29 +61,31 @@ class FittedDatabase:
             chebyshev_terms(np.array(np.clip(x, -1, 1)), count)
             for x, count in zip(self._axes.reduced(source), self.series.shape[:3], strict=True)
         )
-        path = np.einsum("i,j,k,ijkn->n", *weights, self.series, optimize=True)
-        return path * powers(self.level, source)
+        numbers: np.ndarray = np.einsum("i,j,k,ijkn->n", *weights, self.series, optimize=True)
+        numbers *= powers(self.level, source)
+        return numbers
 
     def fit_at(self, source: Source) -> FittedPencil:
         """Return the fitted pencil of one source, looked up and not traced; DatabaseError outside the space."""
         phase, fx, fy, _ = split(self.level, self.numbers_at(source))
         steep = steepness(self.level, phase, fx, fy)
-        known = {"level": self.level, "phase": phase, "fx": fx, "fy": fy, "steepness": steep, "rays": 0}
-        known["residual_waves"] = self.residual_waves
-        return FittedPencil(**{field.name: known.get(field.name, np.nan) for field in fields(FittedPencil)})
+        return FittedPencil(self.level, phase, fx, fy, self.residual_waves, steep, blur_um2=np.nan, rays=0)
 
     def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:
-        """Return the PSF of one source, from looked-up numbers; DatabaseError, SamplingError."""
+        """Return the PSF of one source, from looked-up numbers.
+
+        Raises DatabaseError outside the space, SamplingError for a window no nodes can carry.
+        """
         started = perf_counter()
         found = self.fit_at(source)
         six = self.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
         pixel_um = pixel_um or float(suitable_pixel_um(six, pixels))
-        intensity, words = summed(found, pixels, pixel_um)
-        made = Origin("fitted", found.numbers, 0, words, started, SETTLED_TOLERANCE)
+        intensity, sampling = summed(found, pixels, pixel_um)
+        made = Origin("fitted", found.numbers, 0, sampling, started, SETTLED_TOLERANCE)
         return psf_from_intensity(intensity, pixel_um, source.wavelength_um, None, made)
 
-    def rendered(self, points, sampling: Sampling, dtype=np.float32) -> np.ndarray:
-        """Return unit-sum PSFs, (*points' broadcast shape, pixels, pixels), as `database.render.rendered`."""
+    def rendered(self, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32) -> np.ndarray:
+        """Return unit-sum PSFs, (*points' broadcast shape, pixels, pixels), as `database.render.rendered` does."""
         pixels, pixel_um = sampling.pixels, sampling.pixel_um or critical_pixel_um(self)
         axes = np.broadcast_arrays(*points)
         out = np.empty((axes[0].size, pixels, pixels), dtype)
@@ -97,9 +101,9 @@ class FittedDatabase:
 
 @dataclass(frozen=True)
 class Axes:
-    """Middle and half-width of s (per mm), h² and wavelength (µm), and the pupil's place that turns a depth into s.
+    """Middle and half-width of s (per mm), h² and wavelength (µm), and the place of the pupil, from which s is counted.
 
-    ``spread`` says which of the three vary at all.
+    ``spread``: which of the three vary at all.
     """
 
     middle: np.ndarray
@@ -111,10 +115,11 @@ class Axes:
         """Return (s, h², λ) of a source mapped to −1…1."""
         near = float(vergence(source.depth_mm))
         s = near / (1 + self.pupil_mm * near)
-        return (np.array([s, source.field_slope**2, source.wavelength_um]) - self.middle) / self.half
+        reduced: np.ndarray = (np.array([s, source.field_slope**2, source.wavelength_um]) - self.middle) / self.half
+        return reduced
 
-    def source(self, reduced) -> Source:
-        """Return the source at a place in −1…1 along s, h² and λ."""
+    def source(self, reduced: ArrayLike) -> Source:
+        """Return the source at (s, h², λ), each mapped to −1…1."""
         s, square, wavelength = self.middle + self.half * np.asarray(reduced)
         with np.errstate(divide="ignore"):
             depth = np.divide(1.0, s) - self.pupil_mm
@@ -132,23 +137,24 @@ def axes_of(space: Space, seidel: ExactDatabase) -> Axes:
 
 
 def powers(level: Level, source: Source) -> np.ndarray:
-    """Return h^(0 or 1)/λ of every number: parity in h from that of its polynomial in η, path from waves."""
+    """Return h^(0 or 1)/λ for every number: odd in h where its polynomial asks for it, path turned into waves."""
     even_phase = [m % 2 for _, m in terms(level.wave_order)]
     odd_map = [(m + 1) % 2 for _, m in terms(level.map_order, True)]
     even_map = [(m + 1) % 2 for _, m in terms(level.map_order)]
     parity = np.array([*even_phase, *odd_map, *even_map, 1])
     wavelength = np.full(parity.size, source.wavelength_um)
     wavelength[-1] = 1.0
-    return np.where(parity == 1, source.field_slope, 1.0) / wavelength
+    scale: np.ndarray = np.where(parity == 1, source.field_slope, 1.0) / wavelength
+    return scale
 
 
-def split(level: Level, numbers: np.ndarray):
-    """Return phase, fx, fy and the chief ray's height out of one row of numbers."""
+def split(level: Level, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """Return phase, fx, fy and the chief ray's height from the numbers of one source."""
     waves, odd = len(terms(level.wave_order)), len(terms(level.map_order, True))
     return numbers[:waves], numbers[waves : waves + odd], numbers[waves + odd : -1], float(numbers[-1])
 
 
-def steepness(level: Level, phase, fx, fy) -> Steepness:
+def steepness(level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> Steepness:
     """Return how steep looked-up polynomials are, at the points of the level's rays."""
     xi, eta, _ = level_rays(level)
     across, along = (phase @ part[: phase.size] for part in gradient(level.wave_order, xi, eta))

@@ -1,11 +1,12 @@
-"""Building a fitted database: fits at Chebyshev nodes, more of them until points held out agree."""
+"""Building a fitted database: fits at Chebyshev nodes, more of them until points between the nodes agree."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 
 import numpy as np
 
-from p2sf.database.build import build_database
+from p2sf.database.build import build_exact
 from p2sf.database.departure import scattered
 from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
 from p2sf.database.space import Space
@@ -14,8 +15,9 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.pupil.zernike import terms
-from p2sf.raytrace.fit import LEVELS, FittedPencil, Level, fit, level_rays, ray_data
+from p2sf.raytrace.fit import LEVELS, FittedPencil, Level, fit, level_rays
 from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.ray_field import ray_data
 
 START = (4, 4, 4)  # nodes along s, h² and wavelength
 MOST_NODES = 24
@@ -23,13 +25,15 @@ TOLERANCE_WAVES = 1e-3  # RMS phase where the rays land; the fit itself is allow
 HELD_OUT = 12
 
 
-def build_fitted(lens: Lens, space: Space, stop: Stop | None = None, tolerance_waves: float = TOLERANCE_WAVES):
-    """Return the fitted database of a lens: nodes are added until points held out agree to the tolerance.
+def build_fitted(
+    lens: Lens, space: Space, stop: Stop | None = None, tolerance_waves: float = TOLERANCE_WAVES
+) -> FittedDatabase:
+    """Return the fitted database of a lens; nodes are added until points between them agree to the tolerance.
 
-    Raises DatabaseError when they never do, GeometryError where rays do not reach the sensor.
+    Raises DatabaseError where MOST_NODES are not enough, GeometryError where rays do not reach the sensor.
     """
     stop = stop or find_stop(lens)
-    seidel = build_database(lens, space, stop=stop)
+    seidel = build_exact(lens, space, stop)
     axes = axes_of(space, seidel)
     level, left = _level_for(lens, axes, stop)
     held = list(held_out(lens, space, level, stop))
@@ -42,19 +46,23 @@ def build_fitted(lens: Lens, space: Space, stop: Stop | None = None, tolerance_w
             return replace(database, errors={"phase": worst})
         counts[_least_settled(series, level)] += 2
     raise DatabaseError(
-        f"the fits are still {worst:.2g} waves off between {' × '.join(map(str, counts))} nodes; narrow the depths, "
-        "the fields or the wavelengths, or use the seidel method"
+        "the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the "
+        "depths, the fields or the wavelengths, or use the seidel method",
+        error=worst,
+        depths=counts[0],
+        fields=counts[1],
+        wavelengths=counts[2],
     )
 
 
 def _level_for(lens: Lens, axes: Axes, stop: Stop) -> tuple[Level, float]:
-    """Return the highest level that a corner of the space asks for, and the largest residual it then leaves."""
+    """Return the highest level that a corner of the space needs, and the largest residual at that level."""
     corners = [axes.source(place) for place in product(*([-1.0, 1.0] if spread else [0.0] for spread in axes.spread))]
     level = max((fit(lens, corner, stop=stop).level for corner in corners), key=LEVELS.index)
     return level, max(fit(lens, corner, level.numbers, stop=stop).residual_waves for corner in corners)
 
 
-def traced_series(lens: Lens, axes: Axes, level: Level, counts, stop: Stop) -> np.ndarray:
+def traced_series(lens: Lens, axes: Axes, level: Level, counts: Sequence[int], stop: Stop) -> np.ndarray:
     """Return the Chebyshev series from fits at the tensor of Chebyshev nodes, (*counts, numbers + 1)."""
     nodes = [np.cos(np.pi * (np.arange(count) + 0.5) / count) for count in counts]
     rows = [_row(lens, axes.source(place), level, stop) for place in product(*nodes)]
@@ -67,16 +75,19 @@ def traced_series(lens: Lens, axes: Axes, level: Level, counts, stop: Stop) -> n
 
 
 def _row(lens: Lens, source: Source, level: Level, stop: Stop) -> np.ndarray:
-    """Return one source's numbers, freed of what `powers` puts back."""
+    """Return the numbers of one source, divided by `powers`."""
     found = fit(lens, source, level.numbers, stop=stop)
     chief = pencil(lens, source, np.zeros(1), np.zeros(1), stop=stop).chief_y
     numbers = np.concatenate([found.phase, found.fx, found.fy, np.ravel(chief)])
     scale = powers(level, source)
-    return np.divide(numbers, scale, out=np.zeros_like(numbers), where=scale != 0)
+    row: np.ndarray = np.divide(numbers, scale, out=np.zeros_like(numbers), where=scale != 0)
+    return row
 
 
-def held_out(lens: Lens, space: Space, level: Level, stop: Stop):
-    """Return (source, fit, landing x, landing y in µm) at points between the nodes."""
+def held_out(
+    lens: Lens, space: Space, level: Level, stop: Stop
+) -> Iterator[tuple[Source, FittedPencil, np.ndarray, np.ndarray]]:
+    """Yield (source, fit, landing x, landing y in µm) at points between the nodes."""
     xi, eta, _ = level_rays(level)
     for point in zip(*(x.tolist() for x in scattered(space, HELD_OUT)), strict=True):
         source = Source(*point)
@@ -84,8 +95,10 @@ def held_out(lens: Lens, space: Space, level: Level, stop: Stop):
         yield source, fit(lens, source, level.numbers, stop=stop), rays.x_um, rays.y_um
 
 
-def ray_error(database: FittedDatabase, source: Source, direct: FittedPencil, x_um, y_um) -> float:
-    """Return the RMS phase error in waves where the rays land, of looked-up numbers against the fit itself."""
+def ray_error(
+    database: FittedDatabase, source: Source, direct: FittedPencil, x_um: np.ndarray, y_um: np.ndarray
+) -> float:
+    """Return the RMS phase error in waves of looked-up numbers against the fit itself, where the rays land."""
     level = database.level
     phase, fx, fy, _ = split(level, database.numbers_at(source))
     difference = replace(direct, phase=phase - direct.phase, fx=fx - direct.fx, fy=fy - direct.fy)

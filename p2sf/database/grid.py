@@ -1,21 +1,23 @@
-"""Databases on nodes: the paper's rule and straight lines.
+"""Databases on nodes: the rule of the paper, and linear interpolation.
 
-The paper (Pieroni et al. 2015, table 1) names for each coefficient how it runs with depth and with field.
-We read "inverse" as a + b/d through the two nodes beside the point, "linear", "quadratic" and "cubic" as
+The paper (Pieroni et al. 2015, table 1) names for each coefficient how it varies with depth and with field.
+"Inverse" is taken as a + b/d through the two nodes on either side of the point, "linear", "quadratic" and "cubic" as
 the polynomial through the nearest two, three and four, "constant" as the nearest node. On wavelength the
-paper says nothing: straight lines, of optical path, between the two nodes beside.
+paper says nothing: optical path is interpolated linearly between the two nodes on either side.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import vergence
-from p2sf.database.parts import KINDS, PARTS, Parts, assemble, traced_parts
+from p2sf.database.parts import KINDS, PARTS, Numbers, Parts, assemble, traced_parts
 from p2sf.database.space import ROUNDING, Space
-from p2sf.database.stencil import NodeAxis, crossed, placed, weighted
+from p2sf.database.stencil import NodeAxis, Stencil, Table, crossed, placed, weighted
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import Stop
@@ -23,7 +25,7 @@ from p2sf.paraxial.seidel import Coefficients
 
 
 class Depth(NamedTuple):
-    """How parts run with depth: the coordinate, the number of nodes, and which parts."""
+    """How parts are interpolated over depth: in 1/depth or in depth, from how many nodes, and which parts."""
 
     inverse: bool
     nodes: int
@@ -31,15 +33,15 @@ class Depth(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """An interpolation rule: groups over depth, and how many nodes each coefficient takes over field."""
+    """An interpolation rule: groups of parts over depth, and how many nodes each coefficient takes over field."""
 
     depth: tuple[Depth, ...]
     field: dict[str, int]
     finite_only: bool
 
 
-SCALES = ("nu", "y")  # what scales the PSF is a marginal ray, linear in 1/depth but for the pupil's place
-PER_WAVELENGTH = ("chief", "image_index")  # what changes with wavelength alone
+SCALES = ("nu", "y")  # the marginal ray, which scales the PSF: almost linear in 1/depth
+PER_WAVELENGTH = ("chief", "image_index")  # parts that depend on wavelength alone
 RULES = {
     "table1": Rule(
         (
@@ -69,8 +71,8 @@ class GridDatabase:
     """Coefficients on the nodes of ``space``, and a rule between them.
 
     Only (depth, wavelength) is stored: a Seidel coefficient's value at a field node is its value at unit
-    slope times a power of that slope. ``errors``: largest departure from direct evaluation at points
-    between the nodes, in waves, by coefficient.
+    slope times a power of that slope. ``errors``: the largest departure of each coefficient from direct
+    evaluation at points between the nodes, in waves.
     """
 
     space: Space
@@ -81,32 +83,35 @@ class GridDatabase:
 
     @property
     def rule(self) -> Rule:
-        """Return the interpolation rule in force."""
+        """Return the interpolation rule."""
         return RULES[self.interpolant]
 
     @cached_property
     def last_depth_mm(self) -> float:
-        """Return the farthest depth that the rule reaches without a gap, mm."""
+        """Return the farthest depth up to which the rule has no gap, mm."""
         depths = self.space.depths_mm
         finite = depths[np.isfinite(depths)]
         return float(finite[-1] if self.rule.finite_only and finite.size else depths[-1])
 
-    def coefficients(self, depth_mm, field_slope, wavelength_um) -> Coefficients:
+    def coefficients(self, depth_mm: ArrayLike, field_slope: ArrayLike, wavelength_um: ArrayLike) -> Coefficients:
         """Return the six coefficients at one point or over broadcast arrays.
 
         Raises DatabaseError outside the space and, for table1, between the last finite depth and infinity.
         """
-        point = (depth_mm, field_slope, wavelength_um)
-        if all([isinstance(x, float) for x in point]):
-            self.space.check_one(*point)
-            return self._interpolate(*point, self._one)
-        self.space.check(*point)
-        return self._interpolate(*(np.asarray(x, dtype=float) for x in point), self._many)
+        if isinstance(depth_mm, float) and isinstance(field_slope, float) and isinstance(wavelength_um, float):
+            self.space.check_one(depth_mm, field_slope, wavelength_um)
+            return self._interpolate(depth_mm, field_slope, wavelength_um, self._one)
+        self.space.check(depth_mm, field_slope, wavelength_um)
+        depth, slope, wavelength = (np.asarray(x, dtype=float) for x in (depth_mm, field_slope, wavelength_um))
+        return self._interpolate(depth, slope, wavelength, self._many)
 
-    def _interpolate(self, depth, slope, wavelength, tables) -> Coefficients:
-        """Weigh the nodes around: over (depth, wavelength), then each coefficient's own power of the field."""
+    def _interpolate(
+        self, depth: Numbers, slope: Numbers, wavelength: Numbers, tables: Sequence[Table]
+    ) -> Coefficients:
+        """Interpolate over (depth, wavelength), then multiply by each coefficient's own power of the field."""
         colour, width = placed(self._axes["wavelength"].stencil(wavelength, 2)), len(self.space.wavelengths_um)
-        rule, values = self.rule, []
+        rule = self.rule
+        values: list[Numbers] = []
         if rule.finite_only:
             self._check_gap(depth)
         for group, table in zip(rule.depth, tables[1:], strict=True):
@@ -114,10 +119,10 @@ class GridDatabase:
         parts = Parts(*[values[place] for place in self._places])
         return assemble(parts, self._powers(slope, tables[0]), wavelength)
 
-    def _powers(self, slope, table) -> list:
-        """Return what interpolation makes of the field slope, its square and its cube; ``table``: at the nodes.
+    def _powers(self, slope: Numbers, table: Table) -> list[Numbers]:
+        """Return the field slope, its square and its cube as interpolated from ``table``, their values at the nodes.
 
-        The polynomial through more nodes than its degree is the power itself.
+        The polynomial through more nodes than its degree is the power itself, which then needs no table.
         """
         powers = [slope, slope * slope, slope * slope * slope]
         for count, which in self._short.items():
@@ -128,7 +133,7 @@ class GridDatabase:
 
     @cached_property
     def _short(self) -> dict[int, list[int]]:
-        """Return which powers of the field, from 0, have too few nodes to be exact, by how many they have."""
+        """Return by number of nodes which powers of the field, from 0, are inexact with so few."""
         counts = [min(self.rule.field[kind], len(self.space.field_slopes)) for kind in ("w31", "w22", "w11")]
         return {
             n: [k for k, count in enumerate(counts) if count == n <= k + 1]
@@ -137,11 +142,11 @@ class GridDatabase:
 
     @cached_property
     def _places(self) -> list[int]:
-        """Return where each part stands among what the tables give one after the other."""
+        """Return the place of each part among all columns of the tables."""
         given = [name for group in self.rule.depth for name in group.parts]
         return [given.index(name) for name in PARTS]
 
-    def _depth_stencil(self, group: Depth, depth):
+    def _depth_stencil(self, group: Depth, depth: Numbers) -> Stencil:
         if not self.rule.finite_only:
             return self._axes["inverse"].stencil(-1.0 / depth, group.nodes)
         near = min(depth, self.last_depth_mm) if isinstance(depth, float) else np.minimum(depth, self.last_depth_mm)
@@ -149,8 +154,8 @@ class GridDatabase:
         first, weights = axis.stencil(at, group.nodes)
         return self._at_infinity(depth, first, weights)
 
-    def _at_infinity(self, depth, first, weights):
-        """Infinity is a node like any other, but nobody's neighbour: it stands alone."""
+    def _at_infinity(self, depth: Numbers, first: Numbers, weights: list[Numbers]) -> Stencil:
+        """Return the stencil with infinity as a node by itself, from which nothing is interpolated."""
         last = len(self.space.depths_mm) - 1
         if isinstance(depth, float):
             return (last, [1.0]) if depth == np.inf else (first, weights)
@@ -159,15 +164,17 @@ class GridDatabase:
             return first, weights
         return np.where(alone, last, first), [np.where(alone, k == 0, w) for k, w in enumerate(weights)]
 
-    def _check_gap(self, depth) -> None:
+    def _check_gap(self, depth: Numbers) -> None:
         last = self.last_depth_mm
         if isinstance(depth, float) and (depth <= last or depth == np.inf):
             return
         gap = (np.asarray(depth) > last * (1 + ROUNDING)) & np.isfinite(depth)
         if gap.any():
             raise DatabaseError(
-                f"depth {np.asarray(depth)[gap].ravel()[0]:.6g} mm lies between the last finite node, {last:.6g} mm, "
-                "and infinity, where table1 has no rule; add nodes or build with the exact interpolant"
+                "depth {depth:.6g} mm lies between the last finite node, {last:.6g} mm, and infinity, where table1 has "
+                "no rule; add nodes or build with the exact interpolant",
+                depth=float(np.asarray(depth)[gap].ravel()[0]),
+                last=last,
             )
 
     @cached_property
@@ -183,22 +190,22 @@ class GridDatabase:
 
     @cached_property
     def _many(self) -> list[np.ndarray]:
-        """Return tables (parts, nodes): the field's powers, then the parts of every depth group."""
+        """Return tables (parts, nodes): the powers of the field, then the parts of every depth group."""
         depth, colour = self.grid.depth, self.grid.wavelength
         both = np.concatenate([depth, np.broadcast_to(colour, (*depth.shape[:-1], colour.shape[-1]))], axis=-1)
         columns = [[KEPT.index(name) for name in group.parts] for group in self.rule.depth]
         tables = [both[..., some].reshape(-1, len(some)).T for some in columns]
-        powers = [self.space.field_slopes**power for power in (1, 2, 3)]
+        powers = np.stack([self.space.field_slopes**power for power in (1, 2, 3)])
         return [np.ascontiguousarray(table) for table in (powers, *tables)]
 
     @cached_property
-    def _one(self) -> list[list]:
-        """Return the same as plain rows, one per node, which one lookup is read from ten times faster."""
+    def _one(self) -> list[list[list[float]]]:
+        """Return the same tables as plain rows, one per node: ten times faster where one point is looked up."""
         return [table.T.tolist() for table in self._many]
 
 
 def traced_grid(lens: Lens, space: Space, stop: Stop) -> NodeGrid:
-    """Trace a lens at every (depth, wavelength) node of a space."""
+    """Return the parts of a lens traced at every (depth, wavelength) node of a space."""
     parts = traced_parts(lens, space.depths_mm[:, None], space.wavelengths_um, stop)
     shape = (len(space.depths_mm), len(space.wavelengths_um))
     depth = np.stack([np.broadcast_to(getattr(parts, name), shape) for name in STORED], axis=-1)

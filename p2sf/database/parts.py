@@ -1,13 +1,15 @@
-"""What every database stores per (depth, wavelength), and how six coefficients come out of it.
+"""What every database stores per (depth, wavelength), and how the six coefficients follow from it.
 
-Everything is kept as mm of optical path at unit field slope: free of the 1/λ that would otherwise be
-interpolated too, and with the field dependence left to its exact powers.
+Everything is stored as mm of optical path at unit field slope, so that neither the 1/λ of waves nor the powers of
+the field have to be interpolated.
 """
 
+from collections.abc import Sequence
 from math import copysign, inf
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens
@@ -15,6 +17,9 @@ from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
 from p2sf.paraxial.seidel import Coefficients, defocus, seidel_sums
 
 KINDS = ("w40", "w31", "w22", "w20", "w11", "wd")
+
+Numbers = Any
+"""A float, for a fast look-up of one point, or an array; the same arithmetic serves both."""
 
 
 class Parts(NamedTuple):
@@ -40,7 +45,7 @@ PARTS = Parts._fields
 
 
 def parts_of(lens: Lens, rays: ParaxialRays) -> Parts:
-    """Return what a database stores for these paraxial rays (Welford 1986, eq. 8.40; DESIGN.md section 3)."""
+    """Return what a database stores for these paraxial rays (Welford 1986, eq. 8.40)."""
     total = seidel_sums(lens, rays).total()
     index = rays.index[-1]
     return Parts(
@@ -57,13 +62,13 @@ def parts_of(lens: Lens, rays: ParaxialRays) -> Parts:
     )
 
 
-def traced_parts(lens: Lens, depth_mm, wavelength_um, stop: Stop) -> Parts:
+def traced_parts(lens: Lens, depth_mm: ArrayLike, wavelength_um: ArrayLike, stop: Stop) -> Parts:
     """Return the parts over broadcast (depth, wavelength), traced directly."""
     return parts_of(lens, paraxial_rays(lens, depth_mm, wavelength_um, stop))
 
 
-def assemble(parts: Parts, powers, wavelength_um) -> Coefficients:
-    """Return coefficients in waves from parts and the field's powers 1, 2, 3; numbers or arrays alike."""
+def assemble(parts: Parts, powers: Sequence[Numbers], wavelength_um: Numbers) -> Coefficients:
+    """Return coefficients in waves from parts and the powers 1, 2, 3 of the field, numbers or arrays alike."""
     waves = UM_PER_MM / wavelength_um
     first, second, third = powers
     return Coefficients(
@@ -81,8 +86,8 @@ def assemble(parts: Parts, powers, wavelength_um) -> Coefficients:
     )
 
 
-def _quotient(above, below):
-    """Return above/below, infinite where below is 0: an image at infinity."""
+def _quotient(above: Numbers, below: Numbers) -> Numbers:
+    """Return above/below, infinite where below is 0: the image is at infinity."""
     if isinstance(below, float):
         return above / below if below else copysign(inf, above)
     with np.errstate(divide="ignore"):

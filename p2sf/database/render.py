@@ -1,21 +1,52 @@
-"""From a database to pictures: coefficients looked up, pupils summed in batches."""
+"""PSFs from a database: coefficients looked up, pupils summed in batches."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from time import perf_counter
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike, DTypeLike
 
+from p2sf.database.space import Space
 from p2sf.lens.source import Source
+from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, check_window, seidel_psf
 from p2sf.psf.seidel_stack import stack_of
+
+Points = Iterable[ArrayLike]
+"""Depth (mm), field slope and wavelength (µm), which broadcast."""
+
+
+class Database(Protocol):
+    """A coefficient database of any kind; one whose PSFs are more than six coefficients renders them itself."""
+
+    @property
+    def space(self) -> Space:
+        """Return the space that is covered."""
+
+    @property
+    def method(self) -> str:
+        """Return the method that its PSFs are of."""
+
+    @property
+    def interpolant(self) -> str:
+        """Return how points between the nodes are found."""
+
+    @property
+    def errors(self) -> dict[str, float]:
+        """Return the largest errors against direct evaluation, waves."""
+
+    def coefficients(self, depth_mm: ArrayLike, field_slope: ArrayLike, wavelength_um: ArrayLike) -> Coefficients:
+        """Return the six coefficients at one point or over broadcast arrays; DatabaseError outside the space."""
 
 
 @dataclass(frozen=True)
 class Sampling:
     """Samples along each side, their pitch in µm (None: what the finest PSF on the nodes needs), and how exact.
 
-    ``quality``: "settled", relative L2 below 1e-4, or "preview", a 128² pupil grid, as `psf.seidel_psf` has them.
+    ``quality``: "settled", relative L2 below 1e-4, or "preview", a 128² pupil grid, as in `seidel_psf`.
     """
 
     pixels: int = 64
@@ -23,14 +54,15 @@ class Sampling:
     quality: str = "settled"
 
 
-def rendered(database, points, sampling: Sampling, dtype=np.float32) -> np.ndarray:
+def rendered(database: Database, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32) -> np.ndarray:
     """Return unit-sum PSFs, (*points' broadcast shape, pixels, pixels), at (depth mm, slope, wavelength µm).
 
-    They are summed a few at a time (`batches`), so that little more memory than the result is used. Raises
+    They are summed in batches (`seidel_stack`), so that little more memory than the result is used. Raises
     DatabaseError outside the database's space, GeometryError and SamplingError where there is no PSF to sample.
     """
     if hasattr(database, "rendered"):
-        return database.rendered(points, sampling, dtype)
+        values: np.ndarray = database.rendered(points, sampling, dtype)
+        return values
     pixels, pixel_um = sampling.pixels, sampling.pixel_um or critical_pixel_um(database)
     found = database.coefficients(*(np.asarray(x, dtype=float) for x in points))
     check_image(found)
@@ -38,18 +70,19 @@ def rendered(database, points, sampling: Sampling, dtype=np.float32) -> np.ndarr
     return stack_of(found, pixels, pixel_um, sampling.quality, dtype).values
 
 
-def database_psf(database, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
+def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
     """Return the settled PSF of one source, float64, looked up instead of traced; errors as `rendered`."""
     if hasattr(database, "psf"):
-        return database.psf(source, pixels, pixel_um)
+        own: Psf = database.psf(source, pixels, pixel_um)
+        return own
     start = perf_counter()
     found = database.coefficients(float(source.depth_mm), float(source.field_slope), float(source.wavelength_um))
     psf = seidel_psf(found, pixels, pixel_um)
     return replace(psf, seconds=perf_counter() - start)
 
 
-def critical_pixel_um(database) -> float:
-    """Return the coarsest pitch that loses nothing of the finest PSF on the nodes: λ/(4 NA), its band limit.
+def critical_pixel_um(database: Database) -> float:
+    """Return the coarsest pitch that samples the finest PSF on the nodes without loss: λ/(4 NA), its band limit.
 
     Source: an incoherent image holds no frequency above 2NA/λ (Goodman, Introduction to Fourier Optics, §6.3).
     """

@@ -1,20 +1,27 @@
-"""The part of (depth, field, wavelength) space that a database covers, and the nodes laid through it."""
+"""The part of (depth, field, wavelength) space that a database covers, and its nodes."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf, isfinite
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, vergence
 from p2sf.errors import DatabaseError
+from p2sf.messages import Message
 
-# A limit typed in degrees or nanometres comes back a rounding or two away from the node it was meant to be.
+# Converted from degrees or nanometres and back, a limit is a rounding or two away from its node.
 ROUNDING = 1e-9
+
+Limits = tuple[float, float]
+DEPTH, FIELD, WAVELENGTH = Message("depth"), Message("field"), Message("wavelength")
 
 
 @dataclass(frozen=True, eq=False)
 class Space:
-    """Nodes along each axis, ascending; what lies between the outermost nodes is covered.
+    """Nodes along each axis, ascending; a database covers all between the outermost ones.
 
     Attributes
     ----------
@@ -30,13 +37,17 @@ class Space:
     field_slopes: np.ndarray
     wavelengths_um: np.ndarray
 
-    def __post_init__(self):
-        for key, name in (("depths_mm", "depth"), ("field_slopes", "field"), ("wavelengths_um", "wavelength")):
-            object.__setattr__(self, key, _ascending(getattr(self, key), name))
+    def __post_init__(self) -> None:
+        for key, axis in (("depths_mm", DEPTH), ("field_slopes", FIELD), ("wavelengths_um", WAVELENGTH)):
+            object.__setattr__(self, key, _ascending(getattr(self, key), axis))
         if not self.depths_mm[0] > 0:
-            raise DatabaseError(f"depth {self.depths_mm[0]:g} mm is not in front of the lens; give positive depths")
-        limits = [_widened(float(x[0]), float(x[-1])) for x in (self.depths_mm, self.field_slopes, self.wavelengths_um)]
-        object.__setattr__(self, "_limits", limits)
+            raise DatabaseError(
+                "depth {depth:g} mm is not in front of the lens; give positive depths", depth=float(self.depths_mm[0])
+            )
+
+    @cached_property
+    def _limits(self) -> tuple[Limits, Limits, Limits]:
+        return _widened(self.depths_mm), _widened(self.field_slopes), _widened(self.wavelengths_um)
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -54,44 +65,71 @@ class Space:
         if not (near <= depth_mm <= far and low <= field_slope <= high and blue <= wavelength_um <= red):
             self.check(depth_mm, field_slope, wavelength_um)
 
-    def check(self, depth_mm, field_slope, wavelength_um) -> None:
+    def check(self, depth_mm: ArrayLike, field_slope: ArrayLike, wavelength_um: ArrayLike) -> None:
         """Raise DatabaseError, naming the range, unless every point is covered."""
-        kinds = (("depth", "mm", _same), ("field", "degrees", degrees_from_slope), ("wavelength", "nm", _in_nm))
-        for values, limits, kind in zip((depth_mm, field_slope, wavelength_um), self._limits, kinds, strict=True):
-            _check_axis(np.asarray(values, dtype=float), limits, *kind)
+        points = (depth_mm, field_slope, wavelength_um)
+        for values, limits, shown in zip(points, self._limits, SHOWN_AXES, strict=True):
+            _check_axis(np.asarray(values, dtype=float), limits, *shown)
 
 
-def _same(value):
+def _same(value: float) -> float:
     return value
 
 
-def _in_nm(value):
-    return value * NM_PER_UM
+def _in_degrees(slope: float) -> float:
+    return float(degrees_from_slope(slope))
 
 
-def _widened(low: float, high: float) -> tuple[float, float]:
+def _in_nm(wavelength_um: float) -> float:
+    return wavelength_um * NM_PER_UM
+
+
+# How errors show each axis: its name, its unit and the conversion to that unit.
+SHOWN_AXES = (
+    (DEPTH, Message("mm"), _same),
+    (FIELD, Message("degrees"), _in_degrees),
+    (WAVELENGTH, Message("nm"), _in_nm),
+)
+
+
+def _widened(nodes: np.ndarray) -> Limits:
+    """Return the outermost nodes, moved out by ROUNDING."""
+    low, high = float(nodes[0]), float(nodes[-1])
     return (low - ROUNDING * abs(low) if isfinite(low) else low), high + ROUNDING * abs(high)
 
 
-def _check_axis(values: np.ndarray, limits, name: str, unit: str, shown) -> None:
+def _check_axis(
+    values: np.ndarray, limits: Limits, axis: Message, unit: Message, shown: Callable[[float], float]
+) -> None:
     inside = (values >= limits[0]) & (values <= limits[1])
-    if not inside.all():
-        wrong = values[~inside].ravel()[0]
-        bad, low, high = (shown(x) for x in (wrong, *limits))
-        mirrored = name == "field" and limits[0] <= -wrong <= limits[1]
-        way = f"ask for {-bad:.6g} {unit}, whose PSF is the same upside down" if mirrored else "ask inside"
-        raise DatabaseError(
-            f"{name} {bad:.6g} {unit} is outside this database, which covers {low:.6g} to {high:.6g} {unit}; "
-            f"{way}, or build one that reaches there"
+    if inside.all():
+        return
+    wrong = float(values[~inside].ravel()[0])
+    remedy = Message("ask inside, or build one that reaches there")
+    if axis is FIELD and limits[0] <= -wrong <= limits[1]:
+        remedy = Message(
+            "ask for {mirror:.6g} {unit}, whose PSF is the same upside down, or build one that reaches there",
+            mirror=-shown(wrong),
+            unit=unit,
         )
+    raise DatabaseError(
+        "{axis} {value:.6g} {unit} is outside this database, which covers {low:.6g} to {high:.6g} {unit}; {remedy}",
+        axis=axis,
+        value=shown(wrong),
+        unit=unit,
+        low=shown(limits[0]),
+        high=shown(limits[1]),
+        remedy=remedy,
+    )
 
 
-def _ascending(values, name: str) -> np.ndarray:
+def _ascending(values: ArrayLike, axis: Message) -> np.ndarray:
+    """Return nodes as a write-protected array. Raises DatabaseError."""
     nodes = np.array(values, dtype=float, ndmin=1)
     if nodes.ndim != 1 or not nodes.size or np.isnan(nodes).any() or not (nodes[1:] > nodes[:-1]).all():
-        raise DatabaseError(f"the {name} nodes must be one or more numbers in ascending order; sort them")
-    if not np.isfinite(nodes[:-1]).all() or (name != "depth" and not np.isfinite(nodes[-1])):
-        raise DatabaseError(f"a {name} node is not finite; only a depth may be infinite")
+        raise DatabaseError("the {axis} nodes must be one or more numbers in ascending order; sort them", axis=axis)
+    if not np.isfinite(nodes[:-1]).all() or (axis is not DEPTH and not np.isfinite(nodes[-1])):
+        raise DatabaseError("a {axis} node is not finite; only a depth may be infinite", axis=axis)
     nodes.flags.writeable = False
     return nodes
 

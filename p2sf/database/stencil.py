@@ -1,39 +1,49 @@
-"""Polynomials through the nearest nodes of an axis, for one number (plain floats, for speed) or for arrays."""
+"""Polynomials through the nearest nodes of an axis, for one point (plain floats, for speed) or for arrays of them."""
 
 from bisect import bisect_right
+from collections.abc import Sequence
 from math import prod
 from typing import NamedTuple
 
 import numpy as np
 
+from p2sf.database.parts import Numbers
+
+Stencil = tuple[Numbers, list[Numbers]]
+"""The first of consecutive nodes, and the weight of each: numbers for one point, or arrays."""
+Pairs = list[tuple[Numbers, Numbers]]
+"""Places in a table, and their weights."""
+Table = list[list[float]] | np.ndarray
+"""An array (parts, places), or for one point plain rows (places, parts)."""
+
 
 class NodeAxis:
-    """Ascending nodes that can be searched for one number or for many."""
+    """Ascending nodes that are searched for one number or for an array."""
 
-    def __init__(self, nodes: np.ndarray):
+    def __init__(self, nodes: np.ndarray) -> None:
         self.nodes = nodes
         self.numbers = nodes.tolist()
-        self.plans = {}
+        self.rules: dict[int, StencilRule] = {}
 
-    def stencil(self, at, count: int):
-        """Return the first of the nodes that a point takes, and the list of their weights.
+    def stencil(self, at: Numbers, count: int) -> Stencil:
+        """Return the ``count`` consecutive nodes nearest to a point: the first of them, and the list of their weights.
 
-        The ``count`` consecutive nodes nearest to the point with Lagrange's weights, so that the polynomial of
-        degree count − 1 through them is met exactly. An axis of fewer nodes takes all it has.
+        The weights are Lagrange's: they give the value of the polynomial of degree count − 1 through the nodes. Where
+        the axis has fewer nodes, all are taken.
         """
-        if count not in self.plans:
-            self.plans[count] = self._plan(min(count, len(self.numbers)))
-        plan = self.plans[count]
+        if count not in self.rules:
+            self.rules[count] = self._rule(min(count, len(self.numbers)))
+        rule = self.rules[count]
         if isinstance(at, float):
-            first = bisect_right(plan.breaks, at) - plan.before
-            first = 0 if first < 0 else min(first, plan.last)
-            return first, lagrange(self.numbers[first : first + plan.count], plan.scales[first], at)
-        first = np.clip(np.searchsorted(plan.breaks, at, side="right") - plan.before, 0, plan.last)
-        nodes = [self.nodes.take(first + k) for k in range(plan.count)]
-        return first, lagrange(nodes, np.transpose(plan.scales).take(first, axis=1), at)
+            first = bisect_right(rule.breaks, at) - rule.before
+            first = 0 if first < 0 else min(first, rule.last)
+            return first, lagrange(self.numbers[first : first + rule.nodes], rule.scales[first], at)
+        starts = np.clip(np.searchsorted(rule.breaks, at, side="right") - rule.before, 0, rule.last)
+        nodes = [self.nodes.take(starts + k) for k in range(rule.nodes)]
+        return starts, lagrange(nodes, np.transpose(rule.scales).take(starts, axis=1), at)
 
-    def _plan(self, count: int) -> "StencilRule":
-        """Return how points find their stencil of ``count`` nodes: where the nearest ones change."""
+    def _rule(self, count: int) -> "StencilRule":
+        """Return how points find their stencil of ``count`` nodes."""
         middles = ((self.nodes[1:] + self.nodes[:-1]) / 2).tolist()
         last = len(self.numbers) - count
         stencils = (self.numbers[first : first + count] for first in range(last + 1))
@@ -42,48 +52,48 @@ class NodeAxis:
 
 
 class StencilRule(NamedTuple):
-    """Stencils of ``count`` nodes: they change at ``breaks`` and begin ``before`` nodes earlier, at ``last`` at most.
+    """Stencils of so many ``nodes``: they change at ``breaks`` and begin ``before`` nodes earlier, at ``last`` at most.
 
-    ``scales``: for every stencil 1/Π(node − other node), the constant part of Lagrange's weights.
+    ``scales``: for every stencil 1/Π(node − other node), the constant factors of Lagrange's weights.
     """
 
-    count: int
+    nodes: int
     breaks: list[float]
     before: int
     last: int
     scales: list[list[float]]
 
 
-def lagrange(nodes: list, scales: list, at) -> list:
+def lagrange(nodes: Sequence[Numbers], scales: Sequence[Numbers] | np.ndarray, at: Numbers) -> list[Numbers]:
     """Return Lagrange's weights of the polynomial through ``nodes`` at a point; ``scales`` as `NodeAxis` keeps them."""
     if len(nodes) == 1:
         return [1.0]
-    if len(nodes) == 2:  # by far the most frequent
+    if len(nodes) == 2:  # by far the most frequent case
         share = (at - nodes[0]) * scales[1]
         return [1.0 - share, share]
     steps = [at - node for node in nodes]
     return [prod(steps[:i] + steps[i + 1 :], start=scale) for i, scale in enumerate(scales)]
 
 
-def placed(stencil) -> list:
+def placed(stencil: Stencil) -> Pairs:
     """Return (place, weight) pairs of a stencil."""
     first, weights = stencil
     return [(first + k, weight) for k, weight in enumerate(weights)]
 
 
-def crossed(rows, pairs, width: int) -> list:
-    """Return (place, weight) pairs of a stencil and another's pairs on a table stored row by row, ``width`` a row."""
+def crossed(rows: Stencil, pairs: Pairs, width: int) -> Pairs:
+    """Return pairs over a table of ``width`` columns, stored row by row: a stencil of rows times pairs of columns."""
     first, weights = rows
     return [((first + k) * width + column, outer * inner) for k, outer in enumerate(weights) for column, inner in pairs]
 
 
-def weighted(table, pairs) -> list:
-    """Return the weighted sums over places of a table: (parts, places), or for one point plain rows, one per place."""
+def weighted(table: Table, pairs: Pairs) -> list[Numbers]:
+    """Return the weighted sum over places for every part of a table."""
     if isinstance(table, list):
         (place, weight), *others = pairs
         sums = [value * weight for value in table[place]]
         for place, weight in others:
             sums = [total + value * weight for total, value in zip(sums, table[place], strict=True)]
         return sums
-    # One part after the other, so that its sum stays in the cache.
+    # One part at a time, so that its sum stays in the cache.
     return [sum(column.take(place, mode="clip") * weight for place, weight in pairs) for column in table]

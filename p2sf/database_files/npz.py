@@ -1,7 +1,10 @@
-"""Coefficient databases as files: a few kilobytes that need no lens to be rendered from."""
+"""Coefficient databases as files: a few kilobytes, from which PSFs are rendered without the lens."""
 
 import json
+from collections.abc import Callable
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -9,6 +12,7 @@ from p2sf.database import ExactDatabase, GridDatabase, Space
 from p2sf.database.exact import NUMBERS
 from p2sf.database.fitted import FittedDatabase
 from p2sf.database.grid import PER_WAVELENGTH, STORED, NodeGrid
+from p2sf.database.render import Database
 from p2sf.database_files.provenance import Stored, provenance
 from p2sf.database_files.sealed import opened, read_sealed, sealed, write_sealed
 from p2sf.errors import DatabaseError
@@ -20,18 +24,22 @@ SCHEMA = 1
 MARK = "p2sf_database"
 LEVEL = ("wave_order", "map_order", "radii", "directions")
 
+Arrays = dict[str, np.ndarray]
+Meta = dict[str, Any]
+"""What JSON holds about a database."""
 
-def save_database(database, lens: Lens, path, stop: Stop | None = None) -> Path:
+
+def save_database(database: Database, lens: Lens, path: str | PathLike[str], stop: Stop | None = None) -> Path:
     """Write a database and its provenance as .npz, whole or not at all; ExportError where that is impossible."""
     return write_sealed(path, _arrays(database, lens, stop))
 
 
-def database_bytes(database, lens: Lens, stop: Stop | None = None) -> bytes:
+def database_bytes(database: Database, lens: Lens, stop: Stop | None = None) -> bytes:
     """Return what `save_database` writes."""
     return sealed(_arrays(database, lens, stop))
 
 
-def load_database(path) -> Stored:
+def load_database(path: str | PathLike[str]) -> Stored:
     """Return a database and its provenance.
 
     Raises DatabaseError for a file that is missing, foreign, cut short, damaged, or of a newer schema.
@@ -39,60 +47,67 @@ def load_database(path) -> Stored:
     return _stored(read_sealed(path, MARK), path)
 
 
-def database_from_bytes(raw: bytes, name) -> Stored:
-    """Return the database that `database_bytes` turned into bytes; errors as `load_database`."""
+def database_from_bytes(raw: bytes, name: str | PathLike[str]) -> Stored:
+    """Return the database in the bytes of a file, which errors call ``name``; errors as `load_database`."""
     return _stored(opened(raw, MARK, name), name)
 
 
 def same_database(one: bytes, other: bytes) -> bool:
-    """Return whether two files hold the same database, whichever versions of the software wrote them."""
+    """Return whether two files hold the same database, whatever versions of the software wrote them."""
     (first, first_meta), (second, second_meta) = _content(one), _content(other)
     same = first.keys() == second.keys() and all(np.array_equal(first[key], second[key]) for key in first)
     return same and first_meta == second_meta
 
 
-def _content(raw: bytes):
+def _content(raw: bytes) -> tuple[Arrays, Meta]:
     arrays = opened(raw, MARK, "the database")
     meta = json.loads(str(arrays.pop(MARK)))
     return arrays, {**meta, "versions": None}
 
 
-def _arrays(database, lens: Lens, stop: Stop | None) -> dict[str, np.ndarray]:
-    arrays, numbers = _KINDS[type(database).__name__][0](database)
+def _arrays(database: Database, lens: Lens, stop: Stop | None) -> Arrays:
+    pack, _ = _KINDS[type(database).__name__]
+    arrays, numbers = pack(database)
     head = {"schema": SCHEMA, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
     space = database.space
     axes = {"depths_mm": space.depths_mm, "field_slopes": space.field_slopes, "wavelengths_um": space.wavelengths_um}
     return {MARK: np.array(json.dumps(head, ensure_ascii=False)), **axes, **arrays}
 
 
-def _stored(arrays: dict[str, np.ndarray], name) -> Stored:
+def _stored(arrays: Arrays, name: str | PathLike[str]) -> Stored:
     try:
         meta = json.loads(str(arrays[MARK]))
         if meta["schema"] > SCHEMA:
             raise DatabaseError(
-                f"{name} has schema {meta['schema']}, newer than {SCHEMA}, the newest this P2SF reads; update P2SF"
+                "{name} has schema {schema}, newer than {newest}, the newest this P2SF reads; update P2SF",
+                name=str(name),
+                schema=meta["schema"],
+                newest=SCHEMA,
             )
         space = Space(arrays["depths_mm"], arrays["field_slopes"], arrays["wavelengths_um"])
-        return Stored(_KINDS[meta["kind"]][1](space, arrays, meta), meta)
+        _, unpack = _KINDS[meta["kind"]]
+        return Stored(unpack(space, arrays, meta), meta)
     except (KeyError, TypeError, IndexError, json.JSONDecodeError) as error:
-        raise DatabaseError(f"{name} lacks what a P2SF database holds, {error!r}; build it again") from error
+        raise DatabaseError(
+            "{name} lacks what a P2SF database holds, {reason}; build it again", name=str(name), reason=repr(error)
+        ) from error
 
 
-def _pack_exact(database: ExactDatabase):
+def _pack_exact(database: ExactDatabase) -> tuple[Arrays, Meta]:
     numbers = {"middle": database.middle, "half": database.half, "sensor_mm": database.sensor_mm}
     return {"series": database.series}, numbers
 
 
-def _unpack_exact(space: Space, arrays, meta) -> ExactDatabase:
+def _unpack_exact(space: Space, arrays: Arrays, meta: Meta) -> ExactDatabase:
     series, numbers = _shaped(arrays["series"], (None, NUMBERS)), meta["numbers"]
     return ExactDatabase(space, series, numbers["middle"], numbers["half"], numbers["sensor_mm"], meta["errors_waves"])
 
 
-def _pack_grid(database: GridDatabase):
+def _pack_grid(database: GridDatabase) -> tuple[Arrays, Meta]:
     return {"depth": database.grid.depth, "wavelength": database.grid.wavelength}, {}
 
 
-def _unpack_grid(space: Space, arrays, meta) -> GridDatabase:
+def _unpack_grid(space: Space, arrays: Arrays, meta: Meta) -> GridDatabase:
     depths, _, wavelengths = space.shape
     grid = NodeGrid(
         _shaped(arrays["depth"], (depths, wavelengths, len(STORED))),
@@ -101,14 +116,14 @@ def _unpack_grid(space: Space, arrays, meta) -> GridDatabase:
     return GridDatabase(space, grid, meta["interpolant"], meta["errors_waves"])
 
 
-def _pack_fitted(database: FittedDatabase):
+def _pack_fitted(database: FittedDatabase) -> tuple[Arrays, Meta]:
     arrays, numbers = _pack_exact(database.seidel)
     level = [getattr(database.level, name) for name in LEVEL]
     numbers = {**numbers, "level": level, "seidel_errors_waves": database.seidel.errors}
     return {**arrays, "fits": database.series}, {**numbers, "residual_waves": database.residual_waves}
 
 
-def _unpack_fitted(space: Space, arrays, meta) -> FittedDatabase:
+def _unpack_fitted(space: Space, arrays: Arrays, meta: Meta) -> FittedDatabase:
     numbers = meta["numbers"]
     level = Level(*(int(count) for count in numbers["level"]))
     fits = _shaped(arrays["fits"], (None, None, None, level.numbers + 1))
@@ -116,14 +131,14 @@ def _unpack_fitted(space: Space, arrays, meta) -> FittedDatabase:
     return FittedDatabase(seidel, fits, level, meta["errors_waves"], numbers["residual_waves"])
 
 
-def _shaped(array: np.ndarray, shape: tuple) -> np.ndarray:
-    """Return an array as it is, KeyError unless it has the shape its axes ask for."""
+def _shaped(array: np.ndarray, shape: tuple[int | None, ...]) -> np.ndarray:
+    """Return an array as it is; KeyError unless it has this shape, None being any length."""
     if array.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, array.shape, strict=True)):
         raise KeyError(f"an array of shape {shape}")
     return array
 
 
-_KINDS = {
+_KINDS: dict[str, tuple[Callable[..., tuple[Arrays, Meta]], Callable[[Space, Arrays, Meta], Database]]] = {
     "ExactDatabase": (_pack_exact, _unpack_exact),
     "GridDatabase": (_pack_grid, _unpack_grid),
     "FittedDatabase": (_pack_fitted, _unpack_fitted),

@@ -1,11 +1,14 @@
-"""What a database says of itself: lens, glasses, method, units, conventions, versions."""
+"""What a file says about its database: lens, glasses, method, units, conventions, versions."""
 
 import hashlib
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
+from p2sf.database.render import Database
 from p2sf.files.writing import plain
+from p2sf.glass.media import Medium
 from p2sf.io.record import versions
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
@@ -26,22 +29,22 @@ CONVENTIONS = (
 
 @dataclass(frozen=True, eq=False)
 class Stored:
-    """A database as a file holds it: the numbers, and ``meta``, what is known about them."""
+    """A database as a file holds it: the database, and ``meta``, the provenance stored with it."""
 
-    database: object
-    meta: dict
+    database: Any  # an ExactDatabase, GridDatabase or FittedDatabase: `method` and `interpolant` say which
+    meta: dict[str, Any]
 
     @cached_property
     def lens(self) -> Lens:
-        """Return the lens the database was built from; LensFileError or GlassError when it cannot be made again."""
+        """Return the lens the database was built from; LensFileError or GlassError where it cannot be read."""
         return parse_toml(self.meta["lens"]["toml"], self.meta["lens"]["name"])
 
 
-def provenance(database, lens: Lens, stop: Stop | None = None) -> dict:
-    """Return what a file says about a database of this lens; everything in it is plain JSON."""
+def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict[str, Any]:
+    """Return what a file says about a database of this lens, as plain JSON values."""
     stop, toml, space = stop or find_stop(lens), lens_to_toml(lens), database.space
     low, high = (float(degrees_from_slope(space.field_slopes[k])) for k in (0, -1))
-    return plain(
+    record: dict[str, Any] = plain(
         {
             "method": database.method,
             "interpolant": database.interpolant,
@@ -67,14 +70,15 @@ def provenance(database, lens: Lens, stop: Stop | None = None) -> dict:
             "versions": versions(),
         }
     )
+    return record
 
 
-def _glasses(lens: Lens) -> dict:
-    """Return (name, where its data come from) of every medium once, in the order light meets them."""
+def _glasses(lens: Lens) -> dict[tuple[str, str], None]:
+    """Return (name, source of its data) of every medium once, in the order of the light path."""
     return dict.fromkeys((medium.label, data_source(medium)) for medium in lens.media)
 
 
-def data_source(medium) -> str:
+def data_source(medium: Medium) -> str:
     """Return where the index of a medium comes from, in a few words."""
     entry = getattr(medium, "entry", None)
     if entry is not None:

@@ -1,10 +1,13 @@
-"""How a PSF stack lies on disk: a Zarr v3 group that carries its own database and axes."""
+"""PSF stacks on disk: a Zarr v3 group with its axes and the database it was rendered from."""
 
 import json
 import os
 import shutil
 from dataclasses import dataclass
+from itertools import product
+from os import PathLike
 from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 
@@ -13,28 +16,29 @@ from p2sf.database_files import Stored, database_from_bytes
 from p2sf.errors import DatabaseError
 
 SCHEMA = 1
-CHUNK_BYTES = 1 << 20  # a chunk is what a kill can lose and what a reader must load at least
+CHUNK_BYTES = 1 << 20  # a chunk is what is lost when a writer is killed, and the least that a reader loads
 AXES = ("depth_mm", "field_deg", "wavelength_nm", "y_um", "x_um")
 TEMPORARY = ".part"
 
 
 @dataclass(frozen=True, eq=False)
 class Stack:
-    """An open PSF stack: ``psf`` (depth, field, wavelength, y, x) reads like an array and loads what is asked.
+    """An open PSF stack: ``psf`` (depth, field, wavelength, y, x) is indexed like an array and loads only what is read.
 
-    ``complete`` says whether every chunk is there; a missing one reads as NaN. ``raw``: its database's file.
+    ``complete``: whether every chunk is there; a missing one reads as NaN. ``raw``: the file of its database.
     """
 
     path: Path
-    psf: object
+    psf: Any  # a zarr.Array
     raw: bytes
     stored: Stored
     pixel_um: float
 
     @property
     def chunks(self) -> list[tuple[int, int, int]]:
-        """Return the (depth, field, wavelength) numbers of all chunks."""
-        return list(np.ndindex(*(-(-n // c) for n, c in zip(self.psf.shape[:3], self.psf.chunks[:3], strict=True))))
+        """Return the (depth, field, wavelength) indices of all chunks."""
+        depths, fields, wavelengths = (-(-n // c) for n, c in zip(self.psf.shape[:3], self.psf.chunks[:3], strict=True))
+        return list(product(range(depths), range(fields), range(wavelengths)))
 
     @property
     def missing(self) -> list[tuple[int, int, int]]:
@@ -48,40 +52,40 @@ class Stack:
         return not self.missing
 
     def region(self, chunk: tuple[int, int, int]) -> tuple[slice, ...]:
-        """Return which part of the array a chunk is."""
+        """Return the part of the array that a chunk covers."""
         return tuple(
             slice(k * c, min((k + 1) * c, n))
             for k, c, n in zip(chunk, self.psf.chunks[:3], self.psf.shape[:3], strict=True)
         )
 
 
-def needed(name: str):
-    """Import a library of an extra; DatabaseError, saying how to install it, where it is missing."""
+def needed(name: str) -> Any:
+    """Return the module of an optional library; DatabaseError, with how to install it, where it is missing."""
     from importlib import import_module
 
     try:
         return import_module(name)
     except ImportError as error:
         raise DatabaseError(
-            f"PSF stacks need {error.name}, which is not installed; pip install 'p2sf[dask]'"
+            "PSF stacks need {library}, which is not installed; pip install 'p2sf[dask]'", library=error.name
         ) from error
 
 
-def create(path, raw: bytes, pixels: int, pixel_um: float) -> None:
-    """Lay an empty stack for the nodes of a database, given as its file's bytes: there whole or not at all."""
+def create(path: str | PathLike[str], raw: bytes, pixels: int, pixel_um: float) -> None:
+    """Create an empty stack for the nodes of a database, given as the bytes of its file; OSError leaves nothing."""
     target = Path(path)
     stored = database_from_bytes(raw, path)
     draft = target.with_name(f".{target.name}{TEMPORARY}")
     shutil.rmtree(draft, ignore_errors=True)
     try:
-        _lay(draft, stored, raw, pixels, pixel_um)
+        _create_arrays(draft, stored, raw, pixels, pixel_um)
         os.replace(draft, target)
     except OSError:
         shutil.rmtree(draft, ignore_errors=True)
         raise
 
 
-def _lay(draft: Path, stored: Stored, raw: bytes, pixels: int, pixel_um: float) -> None:
+def _create_arrays(draft: Path, stored: Stored, raw: bytes, pixels: int, pixel_um: float) -> None:
     zarr, shape = needed("zarr"), stored.database.space.shape
     group = zarr.create_group(draft, zarr_format=3, attributes=_attributes(stored, pixel_um))
     group.create_array(
@@ -98,60 +102,71 @@ def _lay(draft: Path, stored: Stored, raw: bytes, pixels: int, pixel_um: float) 
     group.create_array("database", data=np.frombuffer(raw, dtype=np.uint8))
 
 
-def _attributes(stored: Stored, pixel_um: float) -> dict:
+def _attributes(stored: Stored, pixel_um: float) -> dict[str, Any]:
     known = {key: stored.meta[key] for key in ("method", "interpolant", "lens", "glasses", "conventions", "versions")}
     units = {"psf": "fraction of the window's light per sample", "depth_mm": "mm, from the first vertex"}
     return {"p2sf_stack_schema": SCHEMA, "pixel_um": pixel_um, "units": units, **known}
 
 
-def _axes(stored: Stored, pixels: int, pixel_um: float):
+def _axes(stored: Stored, pixels: int, pixel_um: float) -> tuple[np.ndarray, ...]:
     space, across = stored.database.space, centred_axis(pixels, pixel_um)
     fields = degrees_from_slope(space.field_slopes)
     return space.depths_mm, fields, space.wavelengths_um * NM_PER_UM, across, across
 
 
 def chunk_shape(shape: tuple[int, int, int], pixels: int) -> tuple[int, int, int]:
-    """Return (depths, fields, wavelengths) of a chunk of about a mebibyte: fields first, which share kernels."""
+    """Return (depths, fields, wavelengths) of a chunk of about a mebibyte; fields first, since they share kernels."""
     room = max(1, CHUNK_BYTES // (4 * pixels * pixels))
     fields = min(shape[1], room)
     return 1, fields, min(shape[2], max(1, room // fields))
 
 
-def open_stack(path, mode: str = "r") -> Stack:
+def open_stack(path: str | PathLike[str], mode: Literal["r", "r+"] = "r") -> Stack:
     """Return a stack on disk; DatabaseError for a foreign, damaged or newer one, or one that is not there."""
     zarr = needed("zarr")
     if not Path(path).is_dir():
-        raise DatabaseError(f"{path} is not there; build it with p2sf database build --stack")
+        raise DatabaseError(
+            "{path} is not there; build it with {command}", path=str(path), command="p2sf database build --stack"
+        )
     try:
         group = zarr.open_group(path, mode=mode, zarr_format=3)
         schema = group.attrs["p2sf_stack_schema"]
         if schema > SCHEMA:
-            raise DatabaseError(f"{path} has stack schema {schema}, newer than {SCHEMA}; update P2SF")
+            raise DatabaseError(
+                "{path} has stack schema {schema}, newer than {newest}; update P2SF",
+                path=str(path),
+                schema=schema,
+                newest=SCHEMA,
+            )
         psf, raw = group["psf"], group["database"][:].tobytes()
         stored = database_from_bytes(raw, path)
         stack = Stack(Path(path), psf, raw, stored, float(group.attrs["pixel_um"]))
         if psf.shape[:3] != stored.database.space.shape or psf.dtype != np.float32 or psf.shape[3] != psf.shape[4]:
-            raise DatabaseError(f"{path} is damaged, its PSFs do not fit its database; build it again")
+            raise DatabaseError("{path} is damaged, its PSFs do not fit its database; build it again", path=str(path))
     except DatabaseError:
         raise
     except (KeyError, TypeError, ValueError, OSError, RuntimeError, AttributeError, json.JSONDecodeError) as error:
         raise DatabaseError(
-            f"{path} is not a P2SF stack, or its header is damaged ({type(error).__name__}); build it again"
+            "{path} is not a P2SF stack, or its header is damaged ({reason}); build it again",
+            path=str(path),
+            reason=type(error).__name__,
         ) from error
     return stack
 
 
-def read_psfs(stack: Stack, where) -> np.ndarray:
+def read_psfs(stack: Stack, where: Any) -> np.ndarray:
     """Return stored PSFs at an index or slice of (depth, field, wavelength).
 
     Raises DatabaseError for a chunk whose checksum is wrong, and for PSFs not written yet.
     """
     try:
-        values = stack.psf[where]
+        values: np.ndarray = stack.psf[where]
     except (RuntimeError, ValueError, OSError) as error:
         raise DatabaseError(
-            f"{stack.path} has a damaged chunk; delete it and build the stack again, it resumes"
+            "{path} has a damaged chunk; delete it and build the stack again, it resumes", path=str(stack.path)
         ) from error
     if np.isnan(values).any():
-        raise DatabaseError(f"{stack.path} is not complete; build it again with the same command, it resumes")
+        raise DatabaseError(
+            "{path} is not complete; build it again with the same command, it resumes", path=str(stack.path)
+        )
     return values

@@ -1,15 +1,17 @@
-"""Filling a PSF stack, chunk by chunk, on local threads or on a cluster: dask does the scheduling."""
+"""Filling a PSF stack chunk by chunk, on local threads or on a cluster, scheduled by dask."""
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from p2sf.database.render import Sampling, critical_pixel_um, rendered
+from p2sf.database.render import Database, Sampling, critical_pixel_um, rendered
 from p2sf.database_files import database_bytes, same_database
 from p2sf.database_files.stack import TEMPORARY, Stack, create, needed, open_stack
 from p2sf.errors import DatabaseError
@@ -20,7 +22,7 @@ Progress = Callable[[int, int, float], None]
 
 @dataclass(frozen=True)
 class StackProgress:
-    """How a long job is watched: ``progress(done, total, seconds_left)`` and ``cancelled()``, asked between chunks."""
+    """``progress(done, total, seconds_left)`` and ``cancelled()``, both called between chunks."""
 
     progress: Progress = lambda done, total, seconds_left: None
     cancelled: Callable[[], bool] = lambda: False
@@ -31,38 +33,46 @@ USUAL = Sampling()
 
 
 def write_stack(
-    database, lens: Lens, path, sampling: Sampling = USUAL, watch: StackProgress = UNWATCHED, scheduler=None
+    database: Database,
+    lens: Lens,
+    path: str | PathLike[str],
+    sampling: Sampling = USUAL,
+    watch: StackProgress = UNWATCHED,
+    scheduler: str | None = None,
 ) -> Stack:
-    """Render every node of a database into a Zarr v3 stack and return it; what is there already is kept.
+    """Render every node of a database into a Zarr v3 stack and return it; chunks already there are kept.
 
     ``scheduler``: the address of a dask.distributed scheduler whose workers see the same ``path``; None for
     the threads of this machine. Cancelled or killed, the stack keeps all finished chunks, and the same call
-    goes on from there. Raises DatabaseError, also when ``path`` holds another stack.
+    resumes from there. Raises DatabaseError, also when ``path`` holds another stack.
     """
     raw = database_bytes(database, lens)
     pitch = sampling.pixel_um or critical_pixel_um(database)
     if not Path(path).exists():
-        with _kept(path):
+        with _disk_errors(path):
             create(path, raw, sampling.pixels, pitch)
     stack = open_stack(path, "r+")
     if stack.psf.shape[-1] != sampling.pixels or stack.pixel_um != pitch or not same_database(stack.raw, raw):
-        raise DatabaseError(f"{path} holds a stack of another lens, nodes or samples; choose another name or delete it")
-    with _kept(path):
+        raise DatabaseError(
+            "{path} holds a stack of another lens, nodes or samples; choose another name or delete it", path=str(path)
+        )
+    with _disk_errors(path):
         for torn in Path(path).rglob(f"*{TEMPORARY}*"):
-            torn.unlink()  # what a killed writer had not yet renamed
+            torn.unlink()  # left by a writer that was killed
         _fill(stack, watch, scheduler)
     return stack
 
 
 @contextmanager
-def _kept(path):
-    """Turn a failure of the disk into a DatabaseError; the chunks that are done stay."""
+def _disk_errors(path: str | PathLike[str]) -> Iterator[None]:
+    """Turn an OSError into a DatabaseError; finished chunks stay."""
     try:
         yield
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
         raise DatabaseError(
-            f"{path} cannot be written, {reason}; make room and give the same command again, which keeps what is done"
+            "{path} cannot be written, {reason}; make room and give the same command again, which keeps what is done",
+            path=str(path),
+            reason=(error.strerror or str(error)).lower(),
         ) from error
 
 
@@ -81,7 +91,7 @@ def _fill(stack: Stack, watch: StackProgress, scheduler: str | None) -> None:
             watch.progress(before + done, total, left)
 
 
-def _stores(stack: Stack, whole, chunks) -> list:
+def _stores(stack: Stack, whole: Any, chunks: Sequence[tuple[int, int, int]]) -> list[Any]:
     """Return one lazy write per chunk."""
     array = needed("dask.array")
     blocks = [whole.blocks[(*chunk, 0, 0)] for chunk in chunks]
@@ -92,8 +102,8 @@ def _stores(stack: Stack, whole, chunks) -> list:
     ]
 
 
-def lazy_stack(stack: Stack):
-    """Return all PSFs of a stack as a dask array, rendered where and when they are asked for."""
+def lazy_stack(stack: Stack) -> Any:
+    """Return all PSFs of a stack as a dask.array.Array, rendered when and where they are computed."""
     array = needed("dask.array")
     shape, chunks = stack.psf.shape, stack.psf.chunks
     space = stack.stored.database.space
@@ -114,14 +124,21 @@ def lazy_stack(stack: Stack):
     )
 
 
-def _render_block(depth, slope, wavelength, database, pixels, pixel_um):
+def _render_block(
+    depth: np.ndarray,
+    slope: np.ndarray,
+    wavelength: np.ndarray,
+    database: Database,
+    pixels: int,
+    pixel_um: float,
+) -> np.ndarray:
     points = (x[..., 0, 0] for x in (depth, slope, wavelength))
     return rendered(database, points, Sampling(pixels, pixel_um))
 
 
 @contextmanager
-def _workers(address: str | None):
-    """Run dask on the scheduler at an address, or on local threads of one BLAS thread each; give how many."""
+def _workers(address: str | None) -> Iterator[int]:
+    """Run dask on the scheduler at an address, or on local threads of one BLAS thread each; yield how many."""
     if address:
         with needed("distributed").Client(address) as client:
             yield max(1, sum(client.nthreads().values()))

@@ -214,7 +214,7 @@ def test_glass_with_a_kink_is_refused_by_exact_and_taken_by_linear():
 
 def test_unknown_interpolants_and_moving_stops_are_refused():
     lens, space = dispersive_lens("tessar"), space_of("tessar")
-    with pytest.raises(DatabaseError, match='interpolant "cubic" is unknown; choose exact, table1, linear'):
+    with pytest.raises(DatabaseError, match='interpolant "cubic" is unknown; choose exact, table1 or linear'):
         build_database(lens, space, "cubic")
     with pytest.raises(DatabaseError, match="a database holds one stop"):
         build_database(lens, space, stop=find_stop(lens, space.depths_mm, mode="auto"))
