@@ -9,7 +9,6 @@ from math import copysign, inf
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens
@@ -62,7 +61,7 @@ def parts_of(lens: Lens, rays: ParaxialRays) -> Parts:
     )
 
 
-def traced_parts(lens: Lens, depth_mm: ArrayLike, wavelength_um: ArrayLike, stop: Stop) -> Parts:
+def traced_parts(lens: Lens, depth_mm: float | np.ndarray, wavelength_um: float | np.ndarray, stop: Stop) -> Parts:
     """Return the parts over broadcast (depth, wavelength), traced directly."""
     return parts_of(lens, paraxial_rays(lens, depth_mm, wavelength_um, stop))
 

@@ -204,17 +204,6 @@ def _block(lens: Lens, source: Source, nodes: ClearNodes, part: slice, aim: str)
     return RayData(*columns), np.where(rays.passed, weight, 0.0)
 
 
-def plain_sum(data: RayData, weight: np.ndarray, x_um: np.ndarray, y_um: np.ndarray) -> np.ndarray:
-    """Return the field Σ weight·exp(2πi(w + f·x)) point by point, (y, x), mirror images included: the definition."""
-    field = np.empty((len(y_um), len(x_um)), complex)
-    for j, y in enumerate(y_um):
-        for i, x in enumerate(x_um):
-            right = np.exp(2j * np.pi * (data.phase + data.fx * x + data.fy * y))
-            left = np.exp(2j * np.pi * (data.phase - data.fx * x + data.fy * y))
-            field[j, i] = weight @ (right + left) / 2
-    return field
-
-
 def _sampling(counts: Counts, found: Field, filling: Filling, convergence: Message | None) -> Message:
     """Return in words what was summed, and how it converged."""
     parts = [disc_words(counts)]
@@ -224,7 +213,7 @@ def _sampling(counts: Counts, found: Field, filling: Filling, convergence: Messa
         parts.append(Message("aimed at the real stop"))
     if found.lost:
         parts.append(Message("{lost} rays lost", lost=found.lost))
-    if convergence:
+    if convergence is not None:
         parts.append(convergence)
     return Message("{parts}", parts=tuple(parts))
 

@@ -131,7 +131,7 @@ def estimated_share(psf: Psf, na: float) -> float:
     if psf.strehl is None or not isfinite(psf.strehl):
         return 1.0 if psf.energy is None else min(1.0, float(psf.energy))
     total = float(psf.strehl) / float(psf.values.max())  # in units of the unaberrated peak
-    return min(1.0, total * pi * (na * psf.pixel_um / psf.wavelength_um) ** 2)
+    return min(1.0, total * pi * (na * psf.pixel_um / float(psf.wavelength_um)) ** 2)
 
 
 def chief_shifts_um(lens: Lens, source: Source, wavelengths_um: ArrayLike) -> np.ndarray:

@@ -119,7 +119,7 @@ def _result(
     return Psf(
         values=stack.values,
         pixel_um=pixel_um,
-        wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,  # type: ignore[arg-type]  # of a stack
+        wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,
         method="seidel",
         strehl=float(stack.peak) if single else stack.peak,
         energy=float(energy) if single and energy is not None else energy,

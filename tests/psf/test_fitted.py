@@ -47,13 +47,13 @@ def test_gradients_equal_differences(odd):
     assert np.allclose(across, around[0], atol=1e-6) and np.allclose(along, around[1], atol=1e-6)
 
 
-def test_the_levels_count_what_the_design_counts():
+def test_the_first_two_levels_have_26_and_46_numbers_from_64_rays():
     assert [level.numbers for level in LEVELS[:2]] == [26, 46]
     assert LEVELS[0].rays == LEVELS[1].rays == 64
 
 
 @pytest.mark.parametrize("name", [name for name in LENSES if name != "petzval"])
-def test_sixty_four_rays_hold_what_the_ladder_promises(name):
+def test_sixty_four_rays_keep_the_promised_accuracy(name):
     for lens, source, pixel, stored in cases(name):
         few, more, default = (fitted_psf(lens, source, 32, pixel, n) for n in (26, 46, None))
         assert few.rays == more.rays == 64
@@ -84,7 +84,7 @@ def test_the_residual_is_that_of_rays_the_fit_has_not_seen(name):
 
 
 def test_the_map_of_the_pupil_is_squeezed_off_axis_as_the_witness_found():
-    """DESIGN.md section 2: NA × 0.979 sagittal and × 0.945 tangential on the Double Gauss at 14°."""
+    """The stored reference: NA × 0.979 sagittal and × 0.945 tangential on the Double Gauss at 14°."""
     squeeze = []
     for index in (0, 2):
         lens, source, _, _ = list(cases("double_gauss_28"))[index]
@@ -146,7 +146,7 @@ def test_where_no_rows_can_be_the_nodes_are_summed_one_by_one_to_the_same_pictur
 
 
 def test_a_fitted_psf_is_settled_unless_told():
-    """In float64, on as many rows as the settled promise asks for; a preview makes do with fewer."""
+    """In float64, on as many rows as the settled promise asks for; a preview takes fewer."""
     lens, source, pixel, _ = next(cases("double_gauss_28"))
     found = fit(lens, source)
     rows, columns = row_counts(found, 16, pixel, "settled")

@@ -1,4 +1,4 @@
-"""The reference: against the witness's PSFs, against its own definition, and what it says of itself."""
+"""The reference: against the witness's PSFs, against its own definition, and what it reports about itself."""
 
 from dataclasses import replace
 from math import inf
@@ -11,7 +11,7 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
-from p2sf.psf.huygens import Filling, first_counts, huygens_field, huygens_psf, plain_sum
+from p2sf.psf.huygens import Filling, first_counts, huygens_field, huygens_psf
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
@@ -33,6 +33,17 @@ def test_the_reference_equals_the_witness(name):
 def off_axis():
     row, stored, _ = huygens_rows("double_gauss_28")[2]
     return *case("double_gauss_28", row), row["pixel_um"], stored
+
+
+def plain_sum(data, weight, x_um, y_um):
+    """Return the field Σ weight·exp(2πi(w + f·x)) point by point, (y, x), mirror images included: the definition."""
+    field = np.empty((len(y_um), len(x_um)), complex)
+    for j, y in enumerate(y_um):
+        for i, x in enumerate(x_um):
+            right = np.exp(2j * np.pi * (data.phase + data.fx * x + data.fy * y))
+            left = np.exp(2j * np.pi * (data.phase - data.fx * x + data.fy * y))
+            field[j, i] = weight @ (right + left) / 2
+    return field
 
 
 def test_the_matrix_products_equal_the_double_loop():
@@ -59,7 +70,7 @@ def test_a_live_picture_promises_nothing_and_takes_more_rays_where_it_needs_them
     assert 1 - r_squared(live.values, stored) < 1e-6  # float32 phases, one pass
 
 
-def test_it_says_where_it_has_not_converged(monkeypatch):
+def test_a_sum_that_has_not_converged_says_so(monkeypatch):
     lens, source, pixel, _ = off_axis()
     monkeypatch.setattr("p2sf.psf.huygens.first_counts", lambda *a: (8, 16))
     monkeypatch.setattr("p2sf.psf.huygens.MOST_NODES", 200)
@@ -132,7 +143,7 @@ def test_the_cats_eye_converges_and_loses_light():
     assert share == pytest.approx(passed.mean(), abs=5e-3)  # counting on a 200² grid is good to its edge cells
 
 
-def test_nothing_clear_is_said_in_words():
+def test_a_pupil_that_is_clipped_altogether_is_refused():
     lens = double_gauss()
     surfaces = (replace(lens.surfaces[0], semi_diameter=0.1), *lens.surfaces[1:])
     with pytest.raises(GeometryError, match="rims clip every ray"):

@@ -73,7 +73,7 @@ def test_quality_passes_through(method):
     lens, source, pixel, _ = off_axis()
     preview, settled = (render(lens, source, method, 32, pixel, q) for q in ("preview", "settled"))
     assert preview.tolerance is None and settled.tolerance is not None
-    # The preview of six coefficients is a 128² grid with a hard edge: 4e-2 of the light here (DESIGN.md section 7).
+    # The preview of six coefficients is a 128² grid with a hard edge: 4e-2 of the light here.
     assert r_squared(preview.values, settled.values) > (0.9 if method == "seidel" else 0.9999)
 
 
@@ -154,7 +154,7 @@ def test_clip_is_refused_by_methods_that_know_no_edge():
     assert auto.method == "traced" and r_squared(auto.values, reference.values) > 0.99
 
 
-def test_bad_words_and_tolerances_are_named():
+def test_unknown_methods_and_qualities_and_bad_tolerances_are_refused():
     lens, source, pixel, _ = off_axis()
     with pytest.raises(RequestError, match="choose auto, gaussian, seidel"):
         render(lens, source, "magic", 32, pixel)

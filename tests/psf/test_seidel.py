@@ -222,7 +222,7 @@ def test_what_no_computer_holds_is_refused_before_it_is_tried():
         seidel_psf(waves(wd=1e6), 16, 1.0, sampling="fft")
 
 
-def test_an_image_at_infinity_is_a_sentence():
+def test_an_image_at_infinity_is_refused():
     with pytest.raises(
         GeometryError, match=r"^the image of this object lies at infinity \(NA 0\), .* no PSF; .* refocus$"
     ):
@@ -232,7 +232,7 @@ def test_an_image_at_infinity_is_a_sentence():
 
 
 @pytest.mark.parametrize("words", [{"quality": "good"}, {"sampling": "dft"}])
-def test_unknown_words_are_answered_with_the_known_ones(words):
+def test_unknown_options_are_answered_with_the_known_ones(words):
     with pytest.raises(SamplingError, match="choose"):
         seidel_psf(waves(), 16, **words)
 

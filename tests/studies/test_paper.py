@@ -9,7 +9,7 @@ from p2sf.cli import main
 from p2sf.lensfile.library import find_lens
 from p2sf.studies.paper import STAGES, draw_accuracy, draw_timing, elements, fidelity, finding, stage_times
 
-# DESIGN.md section 2, an independent witness at 656.27 nm; the catalogue's glass and 656.3 nm move them by 2e-3.
+# By an independent witness at 656.27 nm; the glass of the catalogue and 656.3 nm change them by 2e-3.
 SEIDEL = {0.0: 0.997, 10.0: 0.751, 14.0: -0.599}
 FITTED = 0.994  # the bound for 26 numbers
 
