@@ -130,7 +130,7 @@ def _meet_conic(beam: Beam, surface: Surface, index: FloatOrArray, number: int) 
     )
 
 
-def sag_and_slope(surface: Surface, square: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def sag_and_slope(surface: Surface, square: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
     """Return sag z and dz/d(r²) of an even asphere at squared radius ``square`` mm² (NaN beyond the conic's edge)."""
     c, k = surface.curvature, surface.conic
     root = np.sqrt(1 - (1 + k) * (c * c) * square)
