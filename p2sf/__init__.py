@@ -1,6 +1,75 @@
 """P2SF: from a lens prescription to its point spread functions, with measured accuracy.
 
-The modules stand in layers and import only downwards; see ``conventions`` for every sign and unit.
+>>> import p2sf
+>>> lens = p2sf.load_lens("double_gauss_28")
+>>> psf = p2sf.render(lens, p2sf.Source(depth_mm=3000, field_deg=10, wavelength_nm=550), focus_mm=3000)
+
+``p2sf.conventions`` states every sign and unit. Modules load when a name is first used.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from p2sf.api import (
+        build_database,
+        choose_method,
+        coefficients,
+        form_image,
+        load_lens,
+        open_database,
+        plan,
+        render,
+        tradeoff,
+    )
+    from p2sf.errors import P2SFError
+    from p2sf.io.psf_plot import draw_psf
+    from p2sf.lens.lens import Lens
+    from p2sf.lens.source import Source
+    from p2sf.psf.from_opd import psf_of_opd
+    from p2sf.psf.result import Psf
+    from p2sf.scene.scene import Scene
+    from p2sf.scene.sensor import Sensor
+
 __version__ = "0.1.0"
+__all__ = [
+    "Lens",
+    "P2SFError",
+    "Psf",
+    "Scene",
+    "Sensor",
+    "Source",
+    "build_database",
+    "choose_method",
+    "coefficients",
+    "draw_psf",
+    "form_image",
+    "load_lens",
+    "open_database",
+    "plan",
+    "psf_of_opd",
+    "render",
+    "tradeoff",
+]
+_ELSEWHERE = {
+    "Lens": "p2sf.lens.lens",
+    "P2SFError": "p2sf.errors",
+    "Psf": "p2sf.psf.result",
+    "Scene": "p2sf.scene.scene",
+    "Sensor": "p2sf.scene.sensor",
+    "Source": "p2sf.lens.source",
+    "draw_psf": "p2sf.io.psf_plot",
+    "psf_of_opd": "p2sf.psf.from_opd",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(_ELSEWHERE.get(name, "p2sf.api")), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,6 +1,9 @@
 """What a person may set, each named once: its Python name, its flag on the command line, its control in a window."""
 
 from dataclasses import dataclass
+from math import inf, isfinite
+
+from p2sf.errors import RequestError
 
 
 @dataclass(frozen=True)
@@ -24,9 +27,12 @@ PARAMETERS = {
         Parameter("focus_mm", "Focus distance", "mm"),
         Parameter("sensor_shift_um", "Sensor shift", "µm"),
         Parameter("field_deg", "Field", "°"),
+        Parameter("field_slope", "Field"),
+        Parameter("azimuth_deg", "Azimuth", "°"),
         Parameter("object_height_mm", "the object height", "mm"),
         Parameter("image_height_mm", "the image height", "mm"),
         Parameter("wavelength_nm", "Wavelength", "nm"),
+        Parameter("wavelength_um", "Wavelength", "µm"),
         Parameter("f_number", "f-number"),
         Parameter("stop", "Stop"),
         Parameter("method", "Method"),
@@ -45,3 +51,48 @@ def control(name: str) -> str:
     """Return the English name of the control that sets a parameter; of one without a control its own, in words."""
     found = PARAMETERS.get(name)
     return found.control if found else name.replace("_", " ")
+
+
+def unit_behind(name: str) -> str:
+    """Return the unit of a parameter as it is written behind a number: "°", " mm", or nothing."""
+    unit = PARAMETERS[name].unit if name in PARAMETERS else ""
+    return f" {unit}" if unit not in ("", "°") else unit
+
+
+def check_positive(name: str, value: float | None, infinite: bool = False) -> None:
+    """Raise RequestError unless a parameter is positive and, where ``infinite`` is not allowed, finite; None passes."""
+    if value is None or (value > 0 and (infinite or value < inf)):
+        return
+    if infinite:
+        raise RequestError(
+            "{parameter} is {value:g}{unit}; give a positive number, inf allowed",
+            parameter=name,
+            value=value,
+            unit=unit_behind(name),
+        )
+    raise RequestError(
+        "{parameter} is {value:g}{unit}; give a positive finite number",
+        parameter=name,
+        value=value,
+        unit=unit_behind(name),
+    )
+
+
+def check_finite(name: str, value: float | None) -> None:
+    """Raise RequestError for a parameter that is infinite or not a number; None passes."""
+    if value is not None and not isfinite(value):
+        raise RequestError(
+            "{parameter} is {value:g}{unit}; give a finite number", parameter=name, value=value, unit=unit_behind(name)
+        )
+
+
+def check_angle(name: str, value: float | None) -> None:
+    """Raise RequestError for an angle in degrees at which no ray enters a lens; None passes."""
+    check_finite(name, value)
+    if value is not None and not abs(value) < 90:
+        raise RequestError(
+            "{parameter} is {value:g}°, and no ray at 90° or more from the axis enters a lens; "
+            "give an angle between −90 and 90°, both ends left out",
+            parameter=name,
+            value=value,
+        )

@@ -4,13 +4,15 @@ The command line and the app both come through here, so that a setup is the same
 """
 
 from dataclasses import dataclass, replace
-from math import inf, isfinite, isinf, isnan
+from math import inf, isfinite, isinf
 from typing import Literal
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Aperture, Lens, indices, with_f_number, with_sensor
 from p2sf.lens.source import Source
+from p2sf.messages import Message, ParameterName
+from p2sf.parameters import check_angle, check_finite, check_positive, unit_behind
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import (
     Stop,
@@ -21,6 +23,7 @@ from p2sf.paraxial.pupils import (
     rim_radii,
 )
 
+StopChoice = Literal["file", "auto"]
 FIELDS = ("field_deg", "object_height_mm", "image_height_mm")
 
 
@@ -58,15 +61,16 @@ class Request:
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
     f_number: float | None = None
-    stop: Literal["file", "auto"] = "file"
+    stop: StopChoice = "file"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("depth_mm", "focus_mm"):
-            _check_positive(name, getattr(self, name), infinite=True)
+            check_positive(name, getattr(self, name), infinite=True)
         for name in ("wavelength_nm", "f_number"):
-            _check_positive(name, getattr(self, name))
-        for name in (*FIELDS, "sensor_shift_um"):
-            _check_finite(name, getattr(self, name))
+            check_positive(name, getattr(self, name))
+        for name in ("object_height_mm", "image_height_mm", "sensor_shift_um"):
+            check_finite(name, getattr(self, name))
+        check_angle("field_deg", self.field_deg)
         _check_one_field(self)
         _check_stop(self.stop)
 
@@ -103,6 +107,28 @@ def set_up(lens: Lens, request: Request) -> Setup:
     return Setup(used, Source(request.depth_mm, slope, wavelength), stop, lens)
 
 
+def set_up_source(
+    lens: Lens,
+    source: Source,
+    *,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+) -> Setup:
+    """Return the setup of a source that is known already; parameters of the camera and errors as `Request` has them."""
+    request = Request(
+        depth_mm=source.depth_mm,
+        field_deg=source.field_deg,
+        wavelength_nm=source.wavelength_um * NM_PER_UM,
+        focus_mm=focus_mm,
+        sensor_shift_um=sensor_shift_um,
+        f_number=f_number,
+        stop=stop,
+    )
+    return replace(set_up(lens, request), source=source)  # to the last digit, which degrees and nanometres may round
+
+
 def wavelength_um(lens: Lens, request: Request) -> float:
     """Return the asked wavelength in µm, the lens's middle one when none is asked."""
     if request.wavelength_nm is None:
@@ -120,8 +146,11 @@ def sensor_position(lens: Lens, request: Request) -> float:
     shifted = place + request.sensor_shift_um / UM_PER_MM
     if shifted <= 0 < place:
         raise RequestError(
-            f"--sensor-shift-um is {request.sensor_shift_um:g} µm, which moves the sensor from {place:g} mm behind the "
-            "lens into it; give a smaller shift"
+            "{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into it; "
+            "give a smaller shift",
+            parameter="sensor_shift_um",
+            value=request.sensor_shift_um,
+            place=place,
         )
     return shifted
 
@@ -131,23 +160,26 @@ def _focused(lens: Lens, focus_mm: float | None) -> float:
         return lens.sensor_mm
     place = float(image_distance(lens, focus_mm, lens.reference_wavelength_um))
     if not (isfinite(place) and place > 0):
-        where = f"{place:g} mm from the last vertex" if isfinite(place) else "at infinity"
+        finite = Message("{place:g} mm from the last vertex", place=place)
         raise RequestError(
-            f"{place_of('focus_mm')} is {focus_mm:g} mm, but the image of that distance lies {where} and "
-            "not on a sensor behind the lens; give a distance whose image is real, as a rule a longer one"
+            "{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind "
+            "the lens; give a distance whose image is real, as a rule a longer one",
+            parameter="focus_mm",
+            value=focus_mm,
+            where=finite if isfinite(place) else Message("at infinity"),
         )
     return place
 
 
-def field_slope(lens: Lens, request: Request, wavelength, stop: Stop) -> float:
+def field_slope(lens: Lens, request: Request, wavelength_um: float, stop: Stop) -> float:
     """Return the field slope that the one stated field means; 0 when none is stated."""
     if request.object_height_mm is not None:
-        slope = field_from_object_height(lens, request.depth_mm, wavelength, request.object_height_mm, stop)
+        slope = field_from_object_height(lens, request.depth_mm, wavelength_um, request.object_height_mm, stop)
     elif request.image_height_mm is not None:
-        slope = field_from_image_height(lens, wavelength, request.image_height_mm, stop)
+        slope = field_from_image_height(lens, wavelength_um, request.image_height_mm, stop)
     else:
         slope = slope_from_degrees(request.field_deg or 0.0)
-    paraxial_rays(lens, request.depth_mm, wavelength, stop)  # names the depths and stops that have no chief ray
+    paraxial_rays(lens, request.depth_mm, wavelength_um, stop)  # names the depths and stops that have no chief ray
     _check_slope(request, float(slope))
     return float(slope)
 
@@ -158,8 +190,10 @@ def _check_slope(request: Request, slope: float) -> None:
         return
     name = next(name for name in FIELDS if getattr(request, name) is not None)
     raise RequestError(
-        f"{place_of(name)} is {getattr(request, name):g}{_unit(name)}, which needs a chief ray at 90° to the axis; "
-        "give a smaller one"
+        "{parameter} is {value:g}{unit}, which needs a chief ray at 90° to the axis; give a smaller one",
+        parameter=name,
+        value=getattr(request, name),
+        unit=unit_behind(name),
     )
 
 
@@ -167,59 +201,38 @@ def _opened(lens: Lens, f_number: float | None) -> Lens:
     return lens if f_number is None else with_f_number(lens, f_number)
 
 
-def _stopped(lens: Lens, request: Request, wavelength) -> tuple[Lens, Stop]:
+def _stopped(lens: Lens, request: Request, wavelength_um: float) -> tuple[Lens, Stop]:
     """Return the stop in use, and the lens naming it, so that every later step agrees on it."""
-    stop = find_stop(lens, request.depth_mm, wavelength, request.stop)
+    stop = find_stop(lens, request.depth_mm, wavelength_um, request.stop)
     if request.stop == "file":
         return lens, stop
-    named = find_stop(lens, request.depth_mm, wavelength)
+    named = find_stop(lens, request.depth_mm, wavelength_um)
     rims = rim_radii(lens, int(named.surface), float(named.semi_diameter))
     surfaces = tuple(replace(s, semi_diameter=float(rim)) for s, rim in zip(lens.surfaces, rims, strict=True))
     aperture = Aperture("stop_semi_diameter", float(stop.semi_diameter))
     return replace(lens, surfaces=surfaces, stop_surface=int(stop.surface), aperture=aperture), stop
 
 
-def place_of(name: str) -> str:
-    """Return how a sentence names an option, as it is typed on the command line."""
-    return f"--{name.replace('_', '-')}"
-
-
-def _unit(name: str) -> str:
-    return {"deg": "°", "mm": " mm", "nm": " nm", "um": " µm"}.get(name.rsplit("_", 1)[-1], "")
-
-
-def _check_positive(name: str, value: float | None, infinite: bool = False) -> None:
-    if value is None or (value > 0 and (infinite or not isinf(value))):
-        return
-    what = "a positive number, inf allowed" if infinite else "a positive finite number"
-    raise RequestError(f"{place_of(name)} is {value:g}{_unit(name)}; give {what}")
-
-
-def _check_finite(name: str, value: float | None) -> None:
-    if value is None:
-        return
-    if isnan(value) or isinf(value):
-        raise RequestError(f"{place_of(name)} is {value:g}{_unit(name)}; give a finite number")
-    if name == "field_deg" and not abs(value) < 90:
-        raise RequestError(
-            f"--field-deg is {value:g}°, and no ray at 90° or more from the axis enters a lens; "
-            "give an angle between −90 and 90°, both ends left out"
-        )
-
-
 def _check_one_field(request: Request) -> None:
-    stated = [name for name in FIELDS if getattr(request, name) is not None]
+    stated = [ParameterName(name) for name in FIELDS if getattr(request, name) is not None]
     if len(stated) > 1:
+        *others, last = stated
         raise RequestError(
-            f"the field is stated {len(stated)} times, by {' and '.join(map(place_of, stated))}; keep one"
+            "the field is stated {count} times, by {others} and {last}; keep one",
+            count=len(stated),
+            others=tuple(others),
+            last=last,
         )
     if request.object_height_mm is not None and isinf(request.depth_mm):
         raise RequestError(
-            f"--object-height-mm is {request.object_height_mm:g} mm, but an object at infinity has no height; "
-            "give --depth-mm as well, or the field as an angle or an image height"
+            "{parameter} is {value:g} mm, but an object at infinity has no height; "
+            "give {depth} as well, or the field as an angle or an image height",
+            parameter="object_height_mm",
+            value=request.object_height_mm,
+            depth=ParameterName("depth_mm"),
         )
 
 
 def _check_stop(stop: str) -> None:
     if stop not in ("file", "auto"):
-        raise RequestError(f'--stop is "{stop}"; choose file or auto')
+        raise RequestError('{parameter} is "{value}"; choose file or auto', parameter="stop", value=stop)

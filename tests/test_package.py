@@ -10,8 +10,9 @@ from tests.support.interpreter import loaded_by
 ROOT = Path(__file__).parents[1]
 # A folder imports from those on the lines above its own and from itself.
 LAYERS = (
-    "p2sf.conventions p2sf.messages p2sf.parameters",
+    "p2sf.conventions p2sf.messages p2sf.notebook",
     "p2sf.errors",
+    "p2sf.parameters",
     "p2sf.files p2sf.glass p2sf.colour p2sf.pupil",
     "p2sf.lens",
     "p2sf.paraxial",
@@ -20,6 +21,7 @@ LAYERS = (
     "p2sf.database p2sf.io p2sf.scene p2sf.studies",
     "p2sf.database_files p2sf.image",
     "p2sf.interchange",
+    "p2sf.api",
     "p2sf_explorer.i18n p2sf_explorer.state",
     "p2sf_explorer.compute p2sf_explorer.store",
     "p2sf_explorer.charts p2sf_explorer.files p2sf_explorer.workers",

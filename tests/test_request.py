@@ -78,22 +78,22 @@ def test_stop_auto_hands_on_a_lens_that_names_the_narrowest_rim():
 
 
 BAD = [
-    ({"depth_mm": 0}, "--depth-mm is 0 mm"),
-    ({"depth_mm": -5}, "--depth-mm is -5 mm"),
-    ({"depth_mm": nan}, "--depth-mm is nan mm"),
-    ({"focus_mm": nan}, "--focus-mm is nan mm"),
-    ({"focus_mm": 20}, "--focus-mm is 20 mm"),
-    ({"wavelength_nm": 0}, "--wavelength-nm is 0 nm"),
-    ({"wavelength_nm": inf}, "--wavelength-nm is inf nm"),
-    ({"f_number": -1}, "--f-number is -1"),
-    ({"sensor_shift_um": inf}, "--sensor-shift-um is inf µm"),
-    ({"sensor_shift_um": -70e3}, "--sensor-shift-um is -70000 µm"),
-    ({"field_deg": 90}, "--field-deg is 90°"),
-    ({"field_deg": -120}, "--field-deg is -120°"),
-    ({"field_deg": nan}, "--field-deg is nan°"),
-    ({"field_deg": 3, "image_height_mm": 2}, "--field-deg and --image-height-mm"),
-    ({"object_height_mm": 3}, "--object-height-mm is 3 mm"),
-    ({"stop": "open"}, '--stop is "open"'),
+    ({"depth_mm": 0}, "depth_mm is 0 mm"),
+    ({"depth_mm": -5}, "depth_mm is -5 mm"),
+    ({"depth_mm": nan}, "depth_mm is nan mm"),
+    ({"focus_mm": nan}, "focus_mm is nan mm"),
+    ({"focus_mm": 20}, "focus_mm is 20 mm"),
+    ({"wavelength_nm": 0}, "wavelength_nm is 0 nm"),
+    ({"wavelength_nm": inf}, "wavelength_nm is inf nm"),
+    ({"f_number": -1}, "f_number is -1"),
+    ({"sensor_shift_um": inf}, "sensor_shift_um is inf µm"),
+    ({"sensor_shift_um": -70e3}, "sensor_shift_um is -70000 µm"),
+    ({"field_deg": 90}, "field_deg is 90°"),
+    ({"field_deg": -120}, "field_deg is -120°"),
+    ({"field_deg": nan}, "field_deg is nan°"),
+    ({"field_deg": 3, "image_height_mm": 2}, "field_deg and image_height_mm"),
+    ({"object_height_mm": 3}, "object_height_mm is 3 mm"),
+    ({"stop": "open"}, 'stop is "open"'),
 ]
 
 
@@ -109,6 +109,6 @@ def test_what_cannot_be_is_one_sentence_with_place_value_and_remedy(values, word
 def test_focusing_into_the_front_focal_plane_is_named():
     simple = prescription_lens("plano_convex", 587.5618)
     front = -float(cardinal_points(simple, 0.5875618).front_focal_distance)
-    with pytest.raises(P2SFError, match="--focus-mm"):
+    with pytest.raises(P2SFError, match="focus_mm"):
         set_up(simple, Request(focus_mm=front * (1 - 1e-9)))
     assert np.isfinite(set_up(simple, Request(focus_mm=front * 1.01)).lens.sensor_mm)

@@ -1,18 +1,23 @@
 """What a file says about its database: lens, glasses, method, units, conventions, versions."""
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from math import inf
 from typing import Any
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
-from p2sf.database.render import Database
+from p2sf.database.render import Database, database_psf
 from p2sf.files.writing import plain
 from p2sf.glass.media import Medium
 from p2sf.io.record import versions
 from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.notebook import html_table
 from p2sf.paraxial.pupils import Stop, find_stop
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.psf.result import Psf
 
 COEFFICIENT_UNITS = {
     "w40 w31 w22 w20 w11 wd errors": "waves",
@@ -38,6 +43,28 @@ class Stored:
     def lens(self) -> Lens:
         """Return the lens the database was built from; LensFileError or GlassError where it cannot be read."""
         return parse_toml(self.meta["lens"]["toml"], self.meta["lens"]["name"])
+
+    def coefficients(self, source: Source) -> Coefficients:
+        """Return the six coefficients of one source, looked up; DatabaseError outside what is covered."""
+        place = source.depth_mm, source.field_slope, source.wavelength_um
+        return self.database.coefficients(*map(float, place))
+
+    def psf(self, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
+        """Return the PSF of one source, looked up and not traced.
+
+        Without ``pixel_um`` the samples, ``pixels`` along each side, are as far apart as shows the whole PSF. Raises
+        DatabaseError outside what is covered, GeometryError and SamplingError where there is no PSF to sample.
+        """
+        return replace(database_psf(self.database, source, pixels, pixel_um), azimuth_deg=source.azimuth_deg)
+
+    def __repr__(self) -> str:
+        nodes = " × ".join(map(str, self.meta["nodes"]))
+        kind = f"{self.meta['method']}, {self.meta['interpolant']}"
+        return f"<PSF database of {self.meta['lens']['name']}: {kind}, {nodes} nodes (depth × field × wavelength)>"
+
+    def _repr_html_(self) -> str:
+        covers = [(name, low, inf if high is None else high) for name, (low, high) in self.meta["covers"].items()]
+        return html_table(repr(self), ("covers", "from", "to"), covers)
 
 
 def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict[str, Any]:

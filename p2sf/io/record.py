@@ -68,8 +68,9 @@ def versions() -> dict[str, str]:
 
 
 def facts(psf: Psf) -> dict:
-    """Return all fields of a PSF but the samples, as JSON can carry them."""
-    known = {f.name: getattr(psf, f.name) for f in fields(psf) if f.name != "values"}
+    """Return what a PSF says about itself but its samples, as JSON can carry it; its azimuth where it has one."""
+    left_out = {"values"} if psf.azimuth_deg else {"values", "azimuth_deg"}
+    known = {f.name: getattr(psf, f.name) for f in fields(psf) if f.name not in left_out}
     return {name: plain(value) for name, value in (known | {"sampling": str(psf.sampling)}).items()}
 
 

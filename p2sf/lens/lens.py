@@ -1,4 +1,4 @@
-"""The lens as plain frozen data. Nothing here computes optics."""
+"""A lens as plain frozen data: surfaces, media, aperture, sensor."""
 
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -6,10 +6,12 @@ from math import inf, isfinite
 from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, Medium
+from p2sf.notebook import html_table
 
 # Far below any atom, and far above where the cube of a curvature overflows.
 SMALLEST_RADIUS_MM = 1e-30
@@ -21,8 +23,20 @@ ApertureKind = Literal["stop_semi_diameter", "entrance_pupil_diameter", "f_numbe
 class Surface:
     """One refracting surface, or a bare plane such as a stop, and what follows it.
 
-    ``radius`` and ``thickness`` (to the next vertex) in mm; ``aspheric`` holds A4, A6, … in
-    mm^-3, mm^-5, …; ``semi_diameter`` is the clear rim in mm.
+    Parameters
+    ----------
+    radius : float
+        Radius of curvature, mm, positive where the centre lies to the right; inf for a plane.
+    thickness : float
+        Distance to the next vertex, or of the last surface to the sensor, mm.
+    medium : Medium
+        What the light enters behind the surface.
+    conic : float
+        Conic constant K; 0 is a sphere, −1 a paraboloid.
+    aspheric : tuple of float
+        A4, A6, …, in mm⁻³, mm⁻⁵, …
+    semi_diameter : float
+        Radius of the clear aperture, mm.
     """
 
     radius: float = inf
@@ -34,13 +48,16 @@ class Surface:
 
     @property
     def curvature(self) -> float:
-        """1/radius, per mm."""
+        """Return 1/radius, per mm."""
         return 1.0 / self.radius
 
 
 @dataclass(frozen=True)
 class Aperture:
-    """How wide the lens is open: a stop rim or pupil diameter in mm, or EFL/EPD at the reference wavelength."""
+    """How wide the lens is open: the stop's radius or the pupil's diameter in mm, or the f-number.
+
+    The pupil's diameter and the f-number (focal length/pupil diameter) hold at the lens's reference wavelength.
+    """
 
     kind: ApertureKind
     value: float
@@ -48,10 +65,29 @@ class Aperture:
 
 @dataclass(frozen=True)
 class Lens:
-    """A rotationally symmetric refracting lens; the last thickness is where the sensor sits.
+    """A rotationally symmetric refracting lens and its sensor; `p2sf.load_lens` reads one.
 
-    ``stop_surface`` counts from 1; None lets the rims decide. ``character`` is what a list of lenses
-    says about this one, in a line.
+    Parameters
+    ----------
+    surfaces : tuple of Surface
+        In the order light meets them; the thickness of the last is the distance to the sensor, mm.
+    aperture : Aperture
+        How wide the lens is open.
+    stop_surface : int, optional
+        The surface that is the aperture stop, from 1; the narrowest rim for an object at infinity if not given.
+    name, title, source, comment : str
+        A short name, a title, where the numbers come from, and anything else.
+    character : str
+        What a list of lenses says about this one, in a line.
+    fields_deg, wavelengths_nm : tuple of float
+        Field angles, degrees, and wavelengths, nm, that the lens is meant for; the middle wavelength is its reference.
+    object_medium : Medium
+        What the object stands in.
+
+    Raises
+    ------
+    GeometryError
+        For a surface, stop, aperture or wavelength that cannot be.
     """
 
     surfaces: tuple[Surface, ...]
@@ -66,24 +102,42 @@ class Lens:
     wavelengths_nm: tuple[float, ...] = (587.5618,)
     object_medium: Medium = AIR
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _check_surfaces(self.surfaces)
         _check_stop(self.stop_surface, len(self.surfaces))
         if not (isfinite(self.aperture.value) and self.aperture.value > 0):
-            raise GeometryError(f"aperture {self.aperture.kind} is {self.aperture.value}; give a positive number")
-        if not self.wavelengths_nm or min(self.wavelengths_nm) <= 0:
-            raise GeometryError(f"wavelengths are {self.wavelengths_nm} nm; give at least one positive number")
+            raise GeometryError(
+                "aperture {kind} is {value}; give a positive number", kind=self.aperture.kind, value=self.aperture.value
+            )
+        if not self.wavelengths_nm:
+            raise GeometryError("the lens has no wavelengths; give at least one")
+        if min(self.wavelengths_nm) <= 0:
+            raise GeometryError(
+                "wavelengths are {wavelengths} nm; give positive numbers", wavelengths=self.wavelengths_nm
+            )
 
-    def __hash__(self):
+    def __hash__(self) -> int:
         return self._hash
 
+    def __repr__(self) -> str:
+        opened = f"{self.aperture.kind} {self.aperture.value:g}"
+        return f"<Lens {self.name}: {len(self.surfaces)} surfaces, {opened}>"
+
+    def _repr_html_(self) -> str:
+        columns = ("surface", "radius, mm", "thickness, mm", "medium", "conic", "semi-diameter, mm")
+        rows = (
+            (number, s.radius, s.thickness, s.medium.label, s.conic, s.semi_diameter)
+            for number, s in enumerate(self.surfaces, 1)
+        )
+        return html_table(self.title or self.name, columns, rows)
+
     def __getstate__(self) -> dict:
-        # Texts hash otherwise in each process, so the hash of this one must not travel into another.
+        # The hash of a str differs from process to process, so the hash kept here must not be pickled.
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
     def _hash(self) -> int:
-        # Every slider step looks a lens up a dozen times, and there are a hundred numbers to hash.
+        # A slider step looks up the lens in a dozen caches, and hashing its hundred numbers takes a while.
         return hash(tuple(getattr(self, field.name) for field in fields(self)))
 
     @property
@@ -93,7 +147,7 @@ class Lens:
 
     @property
     def sensor_mm(self) -> float:
-        """Return sensor position from the last vertex."""
+        """Return the position of the sensor, mm behind the last vertex."""
         return self.surfaces[-1].thickness
 
     @cached_property
@@ -118,8 +172,11 @@ def with_f_number(lens: Lens, f_number: float) -> Lens:
     return replace(lens, aperture=Aperture("f_number", float(f_number)))
 
 
-def indices(lens: Lens, wavelength_um) -> np.ndarray:
-    """Return refractive indices, shape (surfaces + 1, *wavelength_um.shape); GlassError outside a glass's range."""
+def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:
+    """Return the refractive index of every medium, shape (surfaces + 1, *wavelength_um.shape).
+
+    Raises GlassError for a wavelength, µm, outside a glass's data.
+    """
     wavelength, media = np.asarray(wavelength_um, dtype=float), lens.media
     known = {id(medium): medium.index(wavelength) for medium in {id(medium): medium for medium in media}.values()}
     rows = np.empty((len(media), *wavelength.shape))
@@ -141,15 +198,29 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
         raise GeometryError("the lens has no surfaces; give at least one")
     for number, surface in enumerate(surfaces, 1):
         if not abs(surface.radius) >= SMALLEST_RADIUS_MM:
-            raise GeometryError(f"surface {number}: radius {surface.radius} mm; write inf for a plane")
+            raise GeometryError(
+                "surface {surface}: radius {radius} mm; write inf for a plane", surface=number, radius=surface.radius
+            )
         if not isfinite(surface.thickness):
-            raise GeometryError(f"surface {number}: thickness {surface.thickness} mm; give a finite number")
+            raise GeometryError(
+                "surface {surface}: thickness {thickness} mm; give a finite number",
+                surface=number,
+                thickness=surface.thickness,
+            )
         if not surface.semi_diameter > 0:
-            raise GeometryError(f"surface {number}: semi-diameter {surface.semi_diameter} mm; give a positive number")
+            raise GeometryError(
+                "surface {surface}: semi-diameter {semi_diameter} mm; give a positive number",
+                surface=number,
+                semi_diameter=surface.semi_diameter,
+            )
         if not all(isfinite(x) for x in (surface.conic, *surface.aspheric)):
-            raise GeometryError(f"surface {number}: conic or aspheric coefficient is not finite; correct it")
+            raise GeometryError(
+                "surface {surface}: conic or aspheric coefficient is not finite; correct it", surface=number
+            )
 
 
 def _check_stop(stop: int | None, count: int) -> None:
     if stop is not None and not 1 <= stop <= count:
-        raise GeometryError(f"stop surface {stop} does not exist; the lens has surfaces 1 to {count}")
+        raise GeometryError(
+            "stop surface {stop} does not exist; the lens has surfaces 1 to {count}", stop=stop, count=count
+        )

@@ -1,13 +1,134 @@
 """One point source: the place in (depth, field, wavelength) that a PSF belongs to."""
 
 from dataclasses import dataclass
-from math import inf
+from math import atan2, degrees, hypot, inf
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
+from p2sf.errors import RequestError
+from p2sf.messages import ParameterName
+from p2sf.parameters import check_angle, check_finite, check_positive
+
+D_LINE_UM = 0.5875618
+_set = object.__setattr__  # what a frozen dataclass fills its own fields with
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Source:
-    """Depth in mm from the first vertex, chief-ray slope at the entrance pupil, wavelength in µm."""
+    """A point source: how far away, how far off the axis, and of which wavelength.
+
+    Parameters
+    ----------
+    depth_mm : float
+        Distance of the object plane from the first vertex, mm; inf (the default) is allowed.
+    field_slope : float
+        Slope (tangent) of the chief ray at the entrance pupil; a positive one lands above the axis. 0 when not given.
+    wavelength_um : float
+        Wavelength, µm; the d line of helium, 0.5875618, when not given.
+    field_deg : float or (float, float)
+        Instead of ``field_slope``: the angle of the chief ray, degrees, or its angles (x, y) where the source does
+        not stand in the plane of x = 0. Such a source is described as one in that plane, seen from ``azimuth_deg``.
+    wavelength_nm : float
+        Instead of ``wavelength_um``: the wavelength, nm.
+    azimuth_deg : float
+        The direction in which the chief ray lands on the sensor, degrees from +y towards +x.
+
+    Raises
+    ------
+    RequestError
+        For a value that no source can have, and for one quantity given twice.
+
+    Examples
+    --------
+    >>> Source(field_deg=10, wavelength_nm=587.6)
+    Source(depth_mm=inf, field_deg=10, wavelength_nm=587.6)
+    >>> round(Source(field_deg=(3, 4)).azimuth_deg, 2)
+    36.85
+    """
 
     depth_mm: float = inf
     field_slope: float = 0.0
-    wavelength_um: float = 0.5875618
+    wavelength_um: float = D_LINE_UM
+    azimuth_deg: float = 0.0
+
+    def __init__(
+        self,
+        depth_mm: float | np.ndarray = inf,
+        field_slope: float | np.ndarray | None = None,
+        wavelength_um: float | np.ndarray | None = None,
+        *,
+        field_deg: float | tuple[float, float] | None = None,
+        wavelength_nm: float | None = None,
+        azimuth_deg: float = 0.0,
+    ):
+        if field_deg is not None:
+            _check_once("field_deg", "field_slope", field_slope)
+            field_slope, azimuth_deg = _direction(field_deg, azimuth_deg)
+        elif field_slope is None:
+            field_slope = 0.0
+        if wavelength_nm is not None:
+            _check_once("wavelength_nm", "wavelength_um", wavelength_um)
+            check_positive("wavelength_nm", wavelength_nm)
+            wavelength_um = wavelength_nm / NM_PER_UM
+        elif wavelength_um is None:
+            wavelength_um = D_LINE_UM
+        _set(self, "depth_mm", depth_mm)
+        _set(self, "field_slope", field_slope)
+        _set(self, "wavelength_um", wavelength_um)
+        _set(self, "azimuth_deg", azimuth_deg)
+        try:
+            possible = depth_mm > 0 and -inf < field_slope < inf and 0 < wavelength_um < inf
+        except ValueError:  # arrays, which stand for many sources at once, are checked by what computes with them
+            return
+        if not possible or azimuth_deg:
+            _check(self)
+
+    @property
+    def field_deg(self) -> float:
+        """Return the angle of the chief ray at the entrance pupil, degrees."""
+        return float(degrees_from_slope(self.field_slope))
+
+    def __repr__(self) -> str:
+        place = f"depth_mm={_shown(self.depth_mm)}, field_deg={_shown(degrees_from_slope(self.field_slope))}"
+        turned = f", azimuth_deg={self.azimuth_deg:.10g}" if self.azimuth_deg else ""
+        return f"Source({place}, wavelength_nm={_shown(self.wavelength_um * NM_PER_UM)}{turned})"
+
+
+def _shown(value: float | np.ndarray) -> str:
+    return f"{value:.10g}" if np.ndim(value) == 0 else np.array2string(np.asarray(value), precision=6, threshold=6)
+
+
+def _check(source: Source) -> None:
+    check_positive("depth_mm", source.depth_mm, infinite=True)
+    check_finite("field_slope", source.field_slope)
+    check_positive("wavelength_um", source.wavelength_um)
+    check_finite("azimuth_deg", source.azimuth_deg)
+
+
+def _check_once(name: str, other: str, value: object) -> None:
+    if value is not None:
+        raise RequestError(
+            "{parameter} and {other} are both given; keep one of them", parameter=name, other=ParameterName(other)
+        )
+
+
+def _direction(field_deg: float | tuple[float, float], azimuth_deg: float) -> tuple[float, float]:
+    """Return the radial field slope of an angle, or of angles (x, y), and the azimuth in degrees."""
+    if isinstance(field_deg, float | int):
+        check_angle("field_deg", field_deg)
+        return float(slope_from_degrees(field_deg)), azimuth_deg
+    if np.shape(field_deg) != (2,):
+        raise RequestError(
+            "{parameter} is {value}; give one angle in degrees, or two, x and y",
+            parameter="field_deg",
+            value=f"{field_deg!r:.40}",
+        )
+    for angle in field_deg:
+        check_angle("field_deg", angle)
+    x, y = (float(slope_from_degrees(angle)) for angle in field_deg)
+    if x == 0:
+        return y, azimuth_deg
+    if azimuth_deg:
+        _check_once("azimuth_deg", "field_deg", field_deg)
+    return hypot(x, y), degrees(atan2(x, y))

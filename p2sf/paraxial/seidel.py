@@ -13,6 +13,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.lens.lens import Lens
+from p2sf.notebook import cell, html_table
 from p2sf.paraxial.first_order import crossing
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
 
@@ -55,6 +56,14 @@ class Coefficients:
     image_distance: np.ndarray
     image_height: np.ndarray
     wavelength_um: np.ndarray
+
+    def __repr__(self) -> str:
+        waves = (f"{name} {cell(getattr(self, name))}" for name in ("w40", "w31", "w22", "w20", "w11", "wd"))
+        return f"<Coefficients in waves: {', '.join(waves)}; NA {cell(self.na)}>"
+
+    def _repr_html_(self) -> str:
+        names = ("w40", "w31", "w22", "w20", "w11", "wd")
+        return html_table("Wavefront coefficients", ("", "waves"), [(n.capitalize(), getattr(self, n)) for n in names])
 
     @property
     def na(self) -> np.ndarray:

@@ -54,9 +54,16 @@ def test_an_aperture_is_positive_and_finite(value):
         with_f_number(LENS, value)
 
 
-@pytest.mark.parametrize("wavelengths", [(), (0.0,), (500.0, -1.0)])
-def test_wavelengths_are_positive(wavelengths):
-    with pytest.raises(GeometryError, match=r"wavelengths are \(.*\) nm; give at least one positive number"):
+@pytest.mark.parametrize(
+    ("wavelengths", "words"),
+    [
+        ((), "no wavelengths; give at least one"),
+        ((0.0,), "wavelengths are 0.0 nm; give positive numbers"),
+        ((500.0, -1.0), "wavelengths are 500.0, -1.0 nm; give positive numbers"),
+    ],
+)
+def test_wavelengths_are_positive(wavelengths, words):
+    with pytest.raises(GeometryError, match=words):
         replace(LENS, wavelengths_nm=wavelengths)
 
 

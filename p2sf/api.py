@@ -1,0 +1,496 @@
+"""What ``import p2sf`` offers: each function finds the modules that do the work when it is first called.
+
+Degrees and nanometres are taken here, slopes and micrometres inside (`p2sf.conventions`).
+"""
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import inf
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.errors import RequestError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.messages import Alternatives
+from p2sf.notebook import html_table
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.request import Request, StopChoice, set_up, set_up_source
+
+if TYPE_CHECKING:
+    from p2sf.database_files.provenance import Stored
+    from p2sf.psf.methods import Choice
+    from p2sf.psf.result import Psf
+    from p2sf.scene.plan import Plan
+    from p2sf.scene.scene import Scene
+    from p2sf.studies.tradeoff import MethodCost
+
+Path = str | os.PathLike[str]
+Method = Literal["auto", "seidel", "fitted", "traced", "huygens", "gaussian"]
+ON_AXIS = Source()
+
+
+def load_lens(name_or_path: Path) -> Lens:
+    """Load a shipped lens or a lens file.
+
+    Parameters
+    ----------
+    name_or_path : str or path
+        The name of a shipped lens, such as "double_gauss_28" (``p2sf lenses`` lists them), or a file of P2SF (TOML),
+        Zemax, CODE V, ISET, the Optical Bench, or a CSV table; the content says which.
+
+    Returns
+    -------
+    Lens
+        The prescription, frozen.
+
+    Raises
+    ------
+    LensFileError
+        For a name that is neither shipped nor a file, and for a file that cannot be read; says which line.
+    GlassError
+        For a glass that no catalogue has.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> p2sf.load_lens("double_gauss_28")
+    <Lens double_gauss_28: 11 surfaces, stop_semi_diameter 10.5673>
+    """
+    from p2sf.lensfile.library import find_lens
+
+    return find_lens(name_or_path)
+
+
+def render(
+    lens: Lens,
+    source: Source = ON_AXIS,
+    method: Method = "auto",
+    *,
+    pixels: int = 64,
+    pixel_um: float | None = None,
+    quality: Literal["settled", "preview"] = "settled",
+    tolerance: float = 0.99,
+    clip: bool = False,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+) -> "Psf":
+    """Compute the point spread function of one source.
+
+    Parameters
+    ----------
+    lens : Lens
+        The lens, see `load_lens`.
+    source : Source
+        The point source; at infinity on the axis when not given.
+    method : {"auto", "seidel", "fitted", "traced", "huygens", "gaussian"}
+        How it is computed; "auto" takes the cheapest method whose predicted R² is at least ``tolerance``.
+    pixels : int
+        Samples along each side.
+    pixel_um : float, optional
+        Distance between samples, µm; one that shows the whole PSF when not given.
+    quality : {"settled", "preview"}
+        Converged (relative L2 error of the sum at most 1e-4), or quick.
+    tolerance : float
+        Least R² against the exact reference that "auto" accepts.
+    clip : bool
+        Stop rays at every clear semi-diameter, not at the aperture stop alone.
+    focus_mm : float, optional
+        Put the sensor at the paraxial image of this distance, mm; inf is allowed. As in the lens when not given.
+    sensor_shift_um : float
+        Move the sensor on top of that, µm, away from the lens.
+    f_number : float, optional
+        Focal length over entrance-pupil diameter, instead of the lens's aperture.
+    stop : {"file", "auto"}
+        The stop that the lens names, or the narrowest rim at this depth.
+
+    Returns
+    -------
+    Psf
+        Samples with unit sum, rows towards the field, and how they were computed.
+
+    Raises
+    ------
+    RequestError
+        For a value that cannot be.
+    GeometryError
+        Where this lens forms no image of this source.
+    GlassError
+        For a wavelength outside the data of a glass.
+    SamplingError
+        For a grid that cannot carry the PSF.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> lens = p2sf.load_lens("double_gauss_28")
+    >>> p2sf.render(lens, p2sf.Source(field_deg=10), focus_mm=3000, f_number=5.6).method
+    'fitted'
+    """
+    from p2sf.psf import methods
+
+    setup = set_up_source(
+        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop
+    )
+    psf = methods.render(setup.lens, setup.source, method, pixels, pixel_um, quality, tolerance, clip)
+    return replace(psf, azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf
+
+
+def coefficients(
+    lens: Lens,
+    source: Source = ON_AXIS,
+    *,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+) -> Coefficients:
+    """Compute the six wavefront coefficients of one source (Pieroni et al. 2015; Welford 1986, ch. 8).
+
+    Parameters
+    ----------
+    lens, source, focus_mm, sensor_shift_um, f_number, stop
+        As for `render`.
+
+    Returns
+    -------
+    Coefficients
+        W40, W31, W22, W20, W11 and Wd in waves, peak values at this field; numerical aperture, image distance and
+        image height in mm. W = (optical path of the chief ray − that of the ray)/λ.
+
+    Raises
+    ------
+    RequestError, GeometryError, GlassError
+        As for `render`.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> six = p2sf.coefficients(p2sf.load_lens("double_gauss_28"), p2sf.Source(field_deg=10))
+    >>> round(float(six.w40), 2)
+    6.45
+    """
+    from p2sf.paraxial import seidel
+
+    setup = set_up_source(
+        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop
+    )
+    place = source.depth_mm, source.field_slope, source.wavelength_um
+    return seidel.coefficients(setup.lens, *place, setup.stop)
+
+
+def choose_method(
+    lens: Lens,
+    source: Source = ON_AXIS,
+    tolerance: float = 0.99,
+    *,
+    clip: bool = False,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+) -> "Choice":
+    """Choose the cheapest method whose predicted R² is at least ``tolerance``, without computing the reference.
+
+    Parameters
+    ----------
+    lens, source, focus_mm, sensor_shift_um, f_number, stop
+        As for `render`.
+    tolerance : float
+        Least R² against the exact reference, below 1, in a window that shows the whole PSF.
+    clip : bool
+        Stop rays at every clear semi-diameter.
+
+    Returns
+    -------
+    Choice
+        The method, its predicted 1 − R², how many numbers describe the PSF, and the reason.
+
+    Raises
+    ------
+    RequestError
+        For a tolerance that is not below 1.
+    GeometryError
+        Where the chief ray does not reach the sensor.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> p2sf.choose_method(p2sf.load_lens("double_gauss_28"), p2sf.Source(field_deg=14), tolerance=0.99).method
+    'fitted'
+    """
+    from p2sf.psf.methods import choose
+
+    setup = set_up_source(
+        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop
+    )
+    return choose(setup.lens, source, tolerance, clip)
+
+
+class TradeoffTable(list["MethodCost"]):
+    """What `tradeoff` measured: a list of rows that prints as a table."""
+
+    def __repr__(self) -> str:
+        lines = self._cells()
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        return "\n".join("  ".join(map(str.ljust, line, widths)).rstrip() for line in lines)
+
+    def _repr_html_(self) -> str:
+        head, *rows = self._cells()
+        return html_table("Each method against the Huygens sum", head, rows)
+
+    def _cells(self) -> list[tuple[str, ...]]:
+        from p2sf.studies.tradeoff import table
+
+        return table(self)
+
+
+def tradeoff(
+    lens: Lens,
+    fields_deg: Sequence[float] | None = None,
+    depths_mm: Sequence[float] = (inf,),
+    wavelengths_nm: Sequence[float] | None = None,
+    *,
+    methods: Sequence[str] = ("gaussian", "seidel", "fitted", "traced", "huygens"),
+    pixels: int = 64,
+    pixel_um: float | None = None,
+) -> TradeoffTable:
+    """Measure what each method costs in time and in error against the settled Huygens sum of exact rays.
+
+    Parameters
+    ----------
+    lens : Lens
+        The lens, see `load_lens`.
+    fields_deg, wavelengths_nm : sequence of float, optional
+        Field angles, degrees, and wavelengths, nm; the fields and the middle wavelength of the lens if not given.
+    depths_mm : sequence of float
+        Object distances from the first vertex, mm.
+    methods : sequence of str
+        Which methods are measured.
+    pixels : int
+        Samples along each side of the compared window.
+    pixel_um : float, optional
+        Their distance, µm; one that shows the whole PSF when not given.
+
+    Returns
+    -------
+    TradeoffTable
+        A list with one row per point, method and quality: errors, numbers, rays, CPU seconds, peak memory in bytes.
+
+    Raises
+    ------
+    GeometryError, GlassError, SamplingError
+        As for `render`.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> rows = p2sf.tradeoff(p2sf.load_lens("landscape"), fields_deg=[0], methods=["seidel"], pixels=16)
+    >>> [row.quality for row in rows]
+    ['preview', 'settled']
+    """
+    from p2sf.studies import tradeoff as study
+
+    return TradeoffTable(study.tradeoff(lens, fields_deg, depths_mm, wavelengths_nm, methods, pixels, pixel_um))
+
+
+def build_database(
+    lens: Lens,
+    depths_mm: ArrayLike,
+    fields_deg: ArrayLike,
+    wavelengths_nm: ArrayLike,
+    *,
+    method: Literal["seidel", "fitted"] = "seidel",
+    interpolant: Literal["exact", "table1", "linear"] = "exact",
+    path: Path | None = None,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+) -> "Stored":
+    """Describe every PSF of a lens in a box of depth, field and wavelength by a few numbers.
+
+    Parameters
+    ----------
+    lens : Lens
+        The lens, see `load_lens`.
+    depths_mm, fields_deg, wavelengths_nm : array_like
+        Nodes along each axis, ascending: object distances from the first vertex, mm, of which the last may be inf;
+        field angles, degrees; wavelengths, nm. What lies between the outermost nodes is covered.
+    method : {"seidel", "fitted"}
+        The method whose numbers are kept.
+    interpolant : {"exact", "table1", "linear"}
+        For "seidel": polynomials exact to round-off, the rule of Pieroni et al. 2015, table 1, or straight lines.
+    path : str or path, optional
+        Where the database is written as well, a file that ends in .npz.
+    focus_mm, sensor_shift_um, f_number, stop
+        As for `render`; a stop that is "auto" is that of an object at infinity.
+
+    Returns
+    -------
+    Stored
+        ``.psf(source)`` and ``.coefficients(source)`` look sources up; ``.meta`` says what the numbers come from and
+        ``.meta["errors_waves"]`` how exact they are.
+
+    Raises
+    ------
+    DatabaseError
+        For nodes that are no axis, and for glass data that no series follows.
+    RequestError, GeometryError, GlassError
+        As for `render`.
+    ExportError
+        For a place that cannot be written.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> lens = p2sf.load_lens("double_gauss_28")
+    >>> database = p2sf.build_database(lens, [2000, 5000, float("inf")], [0, 7, 14], [450, 550, 650])
+    >>> database.psf(p2sf.Source(3000, field_deg=5, wavelength_nm=500)).method
+    'seidel'
+    """
+    from p2sf.database.space import Space
+    from p2sf.database_files import Stored, provenance, save_database
+
+    request = Request(focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop)
+    setup = set_up(lens, request)
+    slopes = slope_from_degrees(np.asarray(fields_deg, dtype=float))
+    space = Space(np.asarray(depths_mm, dtype=float), slopes, np.asarray(wavelengths_nm, dtype=float) / NM_PER_UM)
+    if method == "fitted":
+        from p2sf.database.fitted_build import build_fitted
+
+        database = build_fitted(setup.lens, space, setup.stop)
+    elif method == "seidel":
+        from p2sf.database.build import build_database as build
+
+        database = build(setup.lens, space, interpolant, setup.stop)
+    else:
+        raise RequestError(
+            '{parameter} is "{value}"; choose {choices}',
+            parameter="method",
+            value=method,
+            choices=Alternatives(("seidel", "fitted")),
+        )
+    if path is not None:
+        save_database(database, setup.lens, path, setup.stop)
+    return Stored(database, provenance(database, setup.lens, setup.stop))
+
+
+def open_database(path: Path) -> "Stored":
+    """Open a PSF database, a .npz file or a stack that `build_database` or ``p2sf database build`` wrote.
+
+    Parameters
+    ----------
+    path : str or path
+        The file, or the folder of a stack (.zarr).
+
+    Returns
+    -------
+    Stored
+        ``.psf(source)`` and ``.coefficients(source)`` look sources up, ``.meta`` says what the numbers come from.
+
+    Raises
+    ------
+    DatabaseError
+        For a file that is missing, foreign, cut short, damaged or of a newer version.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> p2sf.open_database("dg.npz").psf(p2sf.Source(field_deg=7))  # doctest: +SKIP
+    """
+    from p2sf.interchange import open_stored
+
+    return open_stored(path)
+
+
+def plan(lens: Lens, scene: "Scene | Path", check: Callable[[], None] | None = None) -> "Plan":
+    """Find the cheapest model of a lens that keeps the tolerance of a scene.
+
+    Parameters
+    ----------
+    lens : Lens
+        The lens, see `load_lens`.
+    scene : Scene or path
+        Sensor, depths, colours and tolerance, or a TOML file of them (``p2sf plan --help``).
+    check : callable, optional
+        Called now and then; what it raises stops the work.
+
+    Returns
+    -------
+    Plan
+        What `form_image` needs; ``.decisions`` says what was decided and why, ``.predicted_error`` the relative error,
+        ``.meets`` whether that is within the tolerance.
+
+    Raises
+    ------
+    RequestError
+        For a scene that cannot be.
+    GeometryError, GlassError
+        Where the lens cannot form the image of the scene.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), tolerance=0.2, f_number=8)
+    >>> p2sf.plan(p2sf.load_lens("double_gauss_28"), scene).meets
+    True
+    """
+    from p2sf.scene import Scene, read_scene
+    from p2sf.scene import plan as cheapest_plan
+
+    return cheapest_plan(lens, scene if isinstance(scene, Scene) else read_scene(scene), check)
+
+
+def form_image(
+    planned: "Plan",
+    values: ArrayLike,
+    depth_mm: ArrayLike | None = None,
+    *,
+    method: Literal["patches", "lowrank"] = "patches",
+    surround: Literal["edge", "black"] = "edge",
+) -> np.ndarray:
+    """Form the picture that the sensor receives through the lens: distortion, illumination, blur, pixels.
+
+    Parameters
+    ----------
+    planned : Plan
+        What `plan` found for the lens and the scene.
+    values : array_like
+        The picture without the lens, linear light, shape (rows, columns, channels) of the scene's sensor and colours.
+    depth_mm : array_like, optional
+        Depth of every pixel, mm, shape (rows, columns); the far end of the scene when not given.
+    method : {"patches", "lowrank"}
+        By patches that overlap, or by few kernels for the whole picture.
+    surround : {"edge", "black"}
+        What is beyond the picture: its last pixels, or nothing.
+
+    Returns
+    -------
+    numpy.ndarray
+        The formed picture, linear light, float32, shape (rows, columns, channels).
+
+    Raises
+    ------
+    RequestError
+        For shapes that do not fit the scene, and for values that are not finite.
+
+    Examples
+    --------
+    >>> import numpy as np, p2sf
+    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), tolerance=0.2, f_number=8)
+    >>> planned = p2sf.plan(p2sf.load_lens("double_gauss_28"), scene)
+    >>> p2sf.form_image(planned, np.ones((20, 30, 3))).shape
+    (20, 30, 3)
+    """
+    from p2sf.image import Forming
+    from p2sf.image import form_image as form
+
+    depths = None if depth_mm is None else np.asarray(depth_mm, dtype=float)
+    return form(planned, np.asarray(values), depths, Forming(method, surround))

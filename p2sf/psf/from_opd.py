@@ -1,0 +1,145 @@
+"""The PSF of anybody's wavefront array, such as an interferometer or another program gives."""
+
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.conventions import NM_PER_UM, centred_axis
+from p2sf.errors import SamplingError
+from p2sf.messages import Message
+from p2sf.parameters import check_positive
+from p2sf.psf.opd_array import opd_intensity
+from p2sf.psf.plane_waves import Origin, psf_from_intensity, resolved
+from p2sf.psf.result import Psf
+from p2sf.pupil.quadrature import cell_areas
+from p2sf.pupil.transform import matrix_dft
+
+STEEPEST_STEP = 0.5  # waves between neighbouring cells: a steeper phase cannot be told from a flatter one
+
+
+def psf_of_opd(
+    opd_waves: ArrayLike,
+    na: float,
+    wavelength_nm: float,
+    *,
+    amplitude: ArrayLike | None = None,
+    pixels: int = 64,
+    pixel_um: float | None = None,
+) -> Psf:
+    """Compute the PSF of a wavefront that is given as an array over the pupil, |FT{A·exp(i2πW)}|².
+
+    Parameters
+    ----------
+    opd_waves : array_like
+        W in waves on the cells of a square grid over the pupil, shape (size, size): cell centres at
+        (2k + 1 − size)/size of the pupil's radius, rows towards +η, columns towards +ξ. W = (optical path of the chief
+        ray − that of the ray)/λ, positive for undercorrected spherical aberration. A cell that is NaN is opaque.
+    na : float
+        Numerical aperture n'·sin u' of the image at the pupil's rim.
+    wavelength_nm : float
+        Wavelength, nm.
+    amplitude : array_like, optional
+        Amplitude that each cell lets through, 0 to 1, same shape; how much of it the unit disc covers when not given.
+    pixels : int
+        Samples along each side.
+    pixel_um : float, optional
+        Distance between samples, µm; λ/(4·na), which loses nothing, when not given.
+
+    Returns
+    -------
+    Psf
+        Samples with unit sum; a wavefront with a tilt towards −η (W falls with η) lands at +y.
+
+    Raises
+    ------
+    RequestError
+        For a numerical aperture, wavelength or distance that is not positive.
+    SamplingError
+        For arrays that are no equal squares, a grid too coarse for the wavefront or the window, an opaque pupil.
+
+    Examples
+    --------
+    >>> import numpy as np, p2sf
+    >>> p2sf.psf_of_opd(np.zeros((128, 128)), na=0.1, wavelength_nm=550)
+    <Psf: opd, 64 × 64 samples of 1.375 µm, 550 nm, Strehl ratio 1>
+    """
+    start = perf_counter()
+    for name, value in (("na", na), ("wavelength_nm", wavelength_nm), ("pixel_um", pixel_um)):
+        check_positive(name, value)
+    wavelength_um = wavelength_nm / NM_PER_UM
+    opd, clear = _pupil(opd_waves, amplitude)
+    size, spread = len(opd), na / wavelength_um
+    pixel_um = 1 / (4 * spread) if pixel_um is None else float(pixel_um)
+    _check_window(size, spread, pixels, pixel_um)
+    cycles = spread * pixel_um
+    if size % 2 == 0 and np.array_equal(opd, opd[:, ::-1]) and np.array_equal(clear, clear[:, ::-1]):
+        intensity = opd_intensity(opd, clear, cycles, pixels, np.float64)
+    else:
+        frequency, axis = cycles * centres(size), centred_axis(pixels)
+        field = matrix_dft(clear * np.exp(2j * np.pi * opd), frequency, frequency, axis, axis)
+        intensity = np.abs(field / clear.sum()) ** 2
+    # By Parseval, in units of the unaberrated peak; a cell that the rim cuts lets its covered part through.
+    power = clear.sum() if amplitude is None else (clear**2).sum()
+    light = power / clear.sum() ** 2 * (size / (2 * spread)) ** 2 if resolved(spread, pixel_um) else None
+    made = Origin("opd", int(np.count_nonzero(clear)), 0, Message("{size} × {size} cells", size=size), start)
+    return psf_from_intensity(intensity, pixel_um, wavelength_um, light, made)
+
+
+def centres(size: int) -> np.ndarray:
+    """Return the centres of the cells along one side of a grid over −1…1, shape (size,)."""
+    return (2 * np.arange(size) + 1 - size) / size
+
+
+def _pupil(opd_waves: ArrayLike, amplitude: ArrayLike | None) -> tuple[np.ndarray, np.ndarray]:
+    """Return the wavefront, 0 where nothing passes, and the amplitude."""
+    opd = np.array(opd_waves, dtype=float)
+    if opd.ndim != 2 or opd.shape[0] != opd.shape[1] or not opd.size:
+        raise SamplingError("the wavefront has the shape {shape}; give a square array", shape=str(opd.shape))
+    cells = centres(len(opd))
+    clear = cell_areas(cells, cells, 2 / len(opd)) if amplitude is None else np.array(amplitude, dtype=float)
+    if clear.shape != opd.shape:
+        raise SamplingError(
+            "the amplitude has the shape {shape} and the wavefront {wavefront}; give both on the same cells",
+            shape=str(clear.shape),
+            wavefront=str(opd.shape),
+        )
+    clear = np.where(np.isfinite(opd), clear, 0.0)
+    if not (np.isfinite(clear).all() and (clear >= 0).all() and clear.any()):
+        raise SamplingError("the amplitude is not finite, negative, or 0 everywhere; give one that lets light through")
+    opd[clear == 0] = 0.0
+    _check_steps(opd, clear)
+    return opd, clear
+
+
+def _check_steps(opd: np.ndarray, clear: np.ndarray) -> None:
+    """Raise SamplingError where the wavefront changes too fast from cell to cell for its grid."""
+    steps = [np.abs(np.diff(opd, axis=k))[(np.minimum(*_pairs(clear, k)) > 0)].max(initial=0.0) for k in (0, 1)]
+    if max(steps) > STEEPEST_STEP:
+        raise SamplingError(
+            "the wavefront changes by {step:.3g} waves from one cell to the next, and more than {most:g} is ambiguous; "
+            "give it on a finer grid, without jumps of whole waves",
+            step=max(steps),
+            most=STEEPEST_STEP,
+        )
+
+
+def _pairs(values: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return every value but the last along an axis, and its neighbour."""
+    moved = np.moveaxis(values, axis, 0)
+    return np.moveaxis(moved[:-1], 0, axis), np.moveaxis(moved[1:], 0, axis)
+
+
+def _check_window(size: int, spread: float, pixels: int, pixel_um: float) -> None:
+    """Raise SamplingError for a window in which the PSF of a grid would repeat."""
+    if not (isinstance(pixels, int | np.integer) and pixels >= 1):
+        raise SamplingError("{parameter} is {value}; give a whole number from 1 on", parameter="pixels", value=pixels)
+    period, window = size / (2 * spread), pixels * pixel_um
+    if window > period * (1 + 1e-9):
+        raise SamplingError(
+            "a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm "
+            "wide; give a finer grid or a smaller window",
+            size=size,
+            period=period,
+            window=window,
+        )

