@@ -3,14 +3,19 @@
 import os
 import sys
 from collections.abc import Sequence
+from io import TextIOWrapper
+from typing import TYPE_CHECKING
 
 from p2sf import __version__
 from p2sf.errors import P2SFError
 from p2sf.messages import Style
 from p2sf.parameters import flag
 
+if TYPE_CHECKING:
+    from cyclopts import App, CycloptsError
+
 FAILED, INTERRUPTED = 2, 130
-STYLE = Style(parameter=flag)
+STYLE = Style(parameter=flag)  # how every command puts messages into words
 COMMANDS = {
     "info": ("first_order:info", "First-order data of a lens: focal and principal points, stop, pupils, image."),
     "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
@@ -34,14 +39,15 @@ COMMANDS = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command line, the process's own by default, and return its exit code.
 
-    A failure is one sentence on standard error and code 2; nothing of the inside is shown.
+    A failure is one sentence on standard error and code 2, without a traceback.
     """
     from cyclopts import CycloptsError
 
     for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(errors="replace")  # a terminal without ∞ or µ shows "?" and does not fail
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal without ∞ or µ shows "?" and does not fail
     try:
-        code = _app()(arguments, exit_on_error=False, print_error=False)
+        code: int | None = _app()(arguments, exit_on_error=False, print_error=False)
         sys.stdout.flush()
         return code or 0
     except CycloptsError as error:
@@ -58,22 +64,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
 
 
-def _app():
+def _app() -> "App":
     """Return the tree of commands."""
     from cyclopts import App
 
-    described = "From a lens prescription to its point spread functions, with their accuracy."
-    words = {"name": "p2sf", "help": described, "version": __version__}
-    app = App(**words, result_action="return_value", suppress_keyboard_interrupt=False)
+    app = App(
+        name="p2sf",
+        help="From a lens prescription to its point spread functions, with their accuracy.",
+        version=__version__,
+        result_action="return_value",
+        suppress_keyboard_interrupt=False,
+    )
     for name, (place, summary) in COMMANDS.items():
         app.command(f"p2sf.cli.{place}", name=name, help=summary)
     return app
 
 
-def _usage(error) -> str:
+def _usage(error: "CycloptsError") -> str:
     """Return a wrong command line as one sentence that says where to look."""
     told, known, _ = str(error).partition("Available commands: ")
-    text = f"{told}{known}{', '.join(COMMANDS)}" if known and not error.command_chain else str(error)  # not eight alone
+    names_eight = known and not error.command_chain  # of our commands, and leaves out the others
+    text = f"{told}{known}{', '.join(COMMANDS)}" if names_eight else str(error)
     first, *others = text.removesuffix(", ...").rstrip(".").split(". ")
     parts = [first, *(part[:1].lower() + part[1:] for part in others)]
     command = " ".join(("p2sf", *(error.command_chain or ())))

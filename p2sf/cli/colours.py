@@ -1,25 +1,36 @@
 """`p2sf psf --spectrum`: the colour PSF of a point that is not of one wavelength."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from p2sf.cli.cautions import TOO_COARSE
 from p2sf.cli.options import check_output
-from p2sf.cli.screen import heading, print_json, print_table, warn
+from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.colour.colorimetry import chromaticity
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import RequestError
 from p2sf.io.colour_files import COLOUR_ENDINGS, write_colour_psf
 from p2sf.io.record import describe
+from p2sf.messages import ParameterName
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
 from p2sf.request import Setup
 
+if TYPE_CHECKING:
+    from p2sf.cli.images import Picture
 
-def colour(setup: Setup, spectrum: str, picture, output: Path | None, as_json: bool) -> None:
+
+def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None, as_json: bool) -> None:
     """Compute, write and report the colour PSF of a setup; ``picture`` is how each wavelength's PSF is made."""
     wanted = spectrum_of(spectrum)
     check_output(output, COLOUR_ENDINGS)
     if picture.sampling:
-        raise RequestError(f"--sampling is {picture.sampling}, and --spectrum takes its samples by --method alone")
+        raise RequestError(
+            "{parameter} is {value}, and {spectrum} takes its samples by {method} alone",
+            parameter="sampling",
+            value=picture.sampling,
+            spectrum=ParameterName("spectrum"),
+            method=ParameterName("method"),
+        )
     pitch = suitable_pitch_um(setup.lens, setup.source, wanted, picture.pixels, setup.stop)
     window = picture.pixels, picture.pixel_um or pitch
     found = colour_psf(setup.lens, setup.source, wanted, window, picture.method or "auto")
@@ -31,18 +42,18 @@ def colour(setup: Setup, spectrum: str, picture, output: Path | None, as_json: b
     return print_table(heading(setup), ("colour point spread function", "value", "unit"), rows(found, output))
 
 
-def figures(found: ColourPsf) -> dict:
+def figures(found: ColourPsf) -> dict[str, Any]:
     """Return what the colour PSF knows, and its colour as a whole, in CIE x and y."""
     x, y = chromaticity(found.xyz.sum((0, 1)))
     return {**record(found), "chromaticity_xy": [float(x), float(y)]}
 
 
-def rows(found: ColourPsf, output: Path | None) -> list[tuple]:
+def rows(found: ColourPsf, output: Path | None) -> list[Row]:
     """Return the rows that tell a person what was computed."""
     known = figures(found)
     x, y = known["chromaticity_xy"]
     shift = float(found.shift_um.max() - found.shift_um.min())
-    table = [
+    table: list[Row] = [
         ("spectrum", found.spectrum, ""),
         ("wavelengths rendered", len(found.wavelengths_um), ""),
         ("methods", ", ".join(found.methods), ""),

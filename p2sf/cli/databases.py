@@ -4,14 +4,13 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import App, Parameter
 
-from p2sf.cli.images import MOST_PIXELS
-from p2sf.cli.options import Json, LensName, Whole
-from p2sf.cli.screen import print_json, print_table, text
+from p2sf.cli.options import Json, LensName, Whole, check_samples
+from p2sf.cli.screen import Row, print_json, print_table, text
 from p2sf.cli.spans import even_span, span
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import Space, depth_nodes
@@ -19,8 +18,14 @@ from p2sf.database.render import Sampling
 from p2sf.database_files import load_database, save_database
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import check_place
+from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
-from p2sf.request import Request, set_up
+from p2sf.messages import Message, ParameterName
+from p2sf.request import Request, Setup, StopChoice, set_up
+
+if TYPE_CHECKING:
+    from p2sf.database import ExactDatabase, GridDatabase
+    from p2sf.database.fitted import FittedDatabase
 
 app = App(name="database", help="Every PSF of a lens as a file: build one, look into one.")
 
@@ -63,21 +68,21 @@ class Camera:
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
     f_number: float | None = None
-    stop: Literal["file", "auto"] = "file"
+    stop: StopChoice = "file"
 
 
 @dataclass(frozen=True)
 class Kind:
-    """What is kept, and how.
+    """Which numbers are kept, and as what kind of file.
 
     Attributes
     ----------
     method
-        Rung of the methods that the numbers describe.
+        Method whose numbers are kept.
     interpolant
-        What stands between the nodes: exact polynomials, the paper's table 1, or straight lines.
+        How values between the nodes are found: exact polynomials, the paper's table 1, or straight lines.
     stack
-        Write the rendered PSFs too, as a Zarr v3 folder; a stack that was stopped goes on where it was.
+        Write the rendered PSFs too, as a Zarr v3 folder; a stack that was stopped continues where it was.
     pixels
         Samples along each side of a stack's PSFs.
     pixel_um
@@ -93,13 +98,15 @@ class Kind:
     pixel_um: float | None = None
     scheduler: str | None = None
 
-    def __post_init__(self):
-        if not 2 <= self.pixels <= MOST_PIXELS:
-            raise RequestError(f"--pixels is {self.pixels}; give a whole number from 2 to {MOST_PIXELS}")
-        if self.pixel_um is not None and not 0 < self.pixel_um < 1e6:
-            raise RequestError(f"--pixel-um is {self.pixel_um:g} µm; give a positive number below a metre")
+    def __post_init__(self) -> None:
+        check_samples(self.pixels, self.pixel_um)
         if self.method == "fitted" and self.interpolant != "exact":
-            raise RequestError(f"--interpolant is {self.interpolant}, which is for --method seidel; leave it away")
+            raise RequestError(
+                "{parameter} is {value}, which is for {method} seidel; leave it out",
+                parameter="interpolant",
+                value=self.interpolant,
+                method=ParameterName("method"),
+            )
 
 
 @app.command
@@ -113,7 +120,7 @@ def build(
     kind: Annotated[Kind, Parameter(name="*")] = Kind(),
     as_json: Json = False,
 ) -> None:
-    """Build the PSF database of a lens and write it, with the error it makes, measured."""
+    """Build the PSF database of a lens and write it, with its error, measured."""
     _check_ending(output, ".zarr" if kind.stack else ".npz")
     found = find_lens(lens)
     setup = set_up(found, Request(**vars(camera)))
@@ -128,14 +135,14 @@ def build(
     about = {"file": str(output), "bytes": size, "nodes": database.space.shape, "build_seconds": seconds}
     if as_json:
         return print_json({**about, "errors_waves": database.errors})
-    rows = [("nodes, depth × field × wavelength", " × ".join(map(str, database.space.shape)), "")]
+    rows: list[Row] = [("nodes, depth × field × wavelength", " × ".join(map(str, database.space.shape)), "")]
     rows += [("coefficients built in", 1e3 * seconds, "ms"), ("file", str(output), ""), ("size", size / 1e3, "kB")]
     return print_table(
         f"{found.title or found.name}: PSF database", ("", "value", "unit"), rows + error_rows(database.errors)
     )
 
 
-def _built(setup, space: Space, kind: Kind):
+def _built(setup: Setup, space: Space, kind: Kind) -> "ExactDatabase | GridDatabase | FittedDatabase":
     """Return the coefficients of a setup over a space."""
     if kind.method == "fitted":
         from p2sf.database.fitted_build import build_fitted
@@ -146,30 +153,48 @@ def _built(setup, space: Space, kind: Kind):
     return build_database(setup.lens, space, kind.interpolant, setup.stop)
 
 
-def space_of(nodes: Nodes, lens) -> Space:
-    """Return the nodes that a person asked for; without fields, 21 up to the lens's widest. RequestError."""
-    asked = span(nodes.depths_mm, "--depths-mm")
+def space_of(nodes: Nodes, lens: Lens) -> Space:
+    """Return the space of the nodes asked for, without fields 21 up to the lens's widest; RequestError."""
+    asked = span(nodes.depths_mm, "depths_mm")
     if not asked[0] > 0:
-        raise RequestError(f"--depths-mm is {nodes.depths_mm}; give distances in front of the lens, above 0")
+        raise RequestError(
+            "{parameter} is {value}; give distances in front of the lens, above 0",
+            parameter="depths_mm",
+            value=nodes.depths_mm,
+        )
     depths = asked if isinstance(asked, np.ndarray) else depth_nodes(*asked)
-    fields = even_span(nodes.fields_deg or f"0:{max((1.0, *lens.fields_deg))!r}:21", "--fields-deg")
+    fields = even_span(nodes.fields_deg or f"0:{max((1.0, *lens.fields_deg))!r}:21", "fields_deg")
     if not (0 <= fields[0] and fields[-1] < 90):
-        raise RequestError(f"--fields-deg is {nodes.fields_deg}; give angles from 0 to below 90 degrees")
-    colours = even_span(nodes.wavelengths_nm, "--wavelengths-nm")
+        raise RequestError(
+            "{parameter} is {value}; give angles from 0 to below 90 degrees",
+            parameter="fields_deg",
+            value=str(nodes.fields_deg),
+        )
+    colours = even_span(nodes.wavelengths_nm, "wavelengths_nm")
     if not colours[0] > 0:
-        raise RequestError(f"--wavelengths-nm is {nodes.wavelengths_nm}; give wavelengths above 0")
+        raise RequestError(
+            "{parameter} is {value}; give wavelengths above 0", parameter="wavelengths_nm", value=nodes.wavelengths_nm
+        )
     return Space(depths, slope_from_degrees(fields), colours / NM_PER_UM)
 
 
 def _check_ending(output: Path, ending: str) -> None:
     if output.suffix.lower() != ending:
-        wanted = "a stack is a .zarr folder" if ending == ".zarr" else "a database is a .npz file, a --stack a .zarr"
-        raise ExportError(f"--output is {output}; {wanted}, choose a name that ends in {ending}")
+        database = Message("a database is a .npz file, a {stack} a .zarr", stack=ParameterName("stack"))
+        raise ExportError(
+            "{parameter} is {path}; {wanted}, choose a name that ends in {ending}",
+            parameter="output",
+            path=str(output),
+            wanted=Message("a stack is a .zarr folder") if ending == ".zarr" else database,
+            ending=ending,
+        )
     if ending == ".npz":
         check_place(output)
 
 
-def _write_stack(database, lens, output: Path, kind: Kind) -> None:
+def _write_stack(
+    database: "ExactDatabase | GridDatabase | FittedDatabase", lens: Lens, output: Path, kind: Kind
+) -> None:
     """Fill a stack, with a line of progress on a terminal."""
     from p2sf.database_files.stack_write import StackProgress, write_stack
 
@@ -184,14 +209,16 @@ def _write_stack(database, lens, output: Path, kind: Kind) -> None:
 
 @app.command
 def info(file: Path, /, *, as_json: Json = False) -> None:
-    """Say what a database or a stack holds, where it comes from, and how exact it is."""
-    stack = None
+    """Show what a database or a stack holds, where it comes from, and how exact it is."""
+    held: dict[str, Any] = {}
     if file.is_dir():
         from p2sf.database_files.stack import open_stack
 
         stack = open_stack(file)
-    meta = (stack or load_database(file)).stored.meta if stack else load_database(file).meta
-    held = {} if stack is None else {"psfs": stack.psf.shape, "pixel_um": stack.pixel_um, "complete": stack.complete}
+        meta = stack.stored.meta
+        held = {"psfs": stack.psf.shape, "pixel_um": stack.pixel_um, "complete": stack.complete}
+    else:
+        meta = load_database(file).meta
     if as_json:
         return print_json({**{key: value for key, value in meta.items() if key != "numbers"}, **held})
     return print_table(
@@ -199,12 +226,12 @@ def info(file: Path, /, *, as_json: Json = False) -> None:
     )
 
 
-def about_rows(meta: dict, held: dict) -> list[tuple]:
+def about_rows(meta: dict[str, Any], held: dict[str, Any]) -> list[Row]:
     """Return the rows that tell a person what a database holds."""
     covers = {
         key: f"{text(low)} to {'∞' if high is None else text(high)}" for key, (low, high) in meta["covers"].items()
     }
-    rows = [
+    rows: list[Row] = [
         ("lens", meta["lens"]["name"], ""),
         ("method", meta["method"], ""),
         ("interpolant", meta["interpolant"], ""),
@@ -216,10 +243,10 @@ def about_rows(meta: dict, held: dict) -> list[tuple]:
     ]
     if held:
         rows += [("PSFs", " × ".join(map(str, held["psfs"])), ""), ("pixel", held["pixel_um"], "µm")]
-        rows += [("complete", "yes" if held["complete"] else "no, build it again to go on", "")]
+        rows += [("complete", "yes" if held["complete"] else "no, build it again to continue", "")]
     return rows + error_rows(meta["errors_waves"])
 
 
-def error_rows(errors: dict[str, float]) -> list[tuple]:
+def error_rows(errors: dict[str, float]) -> list[Row]:
     """Return one row per coefficient: the largest error against direct evaluation."""
     return [(f"largest error of {kind.capitalize()}", value, "waves") for kind, value in errors.items()]

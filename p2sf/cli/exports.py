@@ -6,13 +6,11 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from p2sf.cli.images import MOST_PIXELS
-from p2sf.cli.options import Json, Whole, check_output
+from p2sf.cli.options import Json, Whole, check_output, check_samples
 from p2sf.cli.screen import print_json
 from p2sf.database.render import Sampling
-from p2sf.errors import RequestError
 
-# The first is what a file gets that is not named; its readers know the format by it.
+# The first ending of a format is the one a file gets when no --output is given.
 ENDINGS = {"iset": (".mat",), "fits": (".fits", ".fit", ".fts"), "tiff": (".tif", ".tiff"), "csv": (".csv",)}
 
 
@@ -34,11 +32,8 @@ class Rendered:
     pixel_um: float | None = None
     depth_mm: float | None = None
 
-    def __post_init__(self):
-        if self.pixels is not None and not 2 <= self.pixels <= MOST_PIXELS:
-            raise RequestError(f"--pixels is {self.pixels}; give a whole number from 2 to {MOST_PIXELS}")
-        if self.pixel_um is not None and not 0 < self.pixel_um < 1e6:
-            raise RequestError(f"--pixel-um is {self.pixel_um:g} µm; give a positive number below a metre")
+    def __post_init__(self) -> None:
+        check_samples(self.pixels, self.pixel_um)
 
 
 def export(

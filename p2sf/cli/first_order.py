@@ -1,11 +1,12 @@
-"""`p2sf info` and `p2sf coefficients`: what paraxial rays and Seidel sums say about a lens."""
+"""`p2sf info` and `p2sf coefficients`: first-order data, wavefront coefficients and Seidel sums of a lens."""
 
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
-from p2sf.cli.screen import heading, print_json, print_table, warn
+from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, magnification
 from p2sf.paraxial.lens_checks import lens_checks
@@ -49,11 +50,11 @@ def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = 
     facts = first_order(setup)
     if as_json:
         return print_json(facts)
-    for sentence in (setup.stop.warning, *lens_checks(setup.prescription)):
-        warn(sentence)
+    for message in (setup.stop.warning, *lens_checks(setup.prescription)):
+        warn(message)
     chosen = {"file": "as the file says", "auto": "the narrowest rim"}[setup.stop.chosen_by]
     notes = {"stop_surface": chosen}
-    rows = [(label, _look_up(facts, key), unit or notes.get(key, "")) for key, label, unit in INFO_ROWS]
+    rows: list[Row] = [(label, _look_up(facts, key), unit or notes.get(key, "")) for key, label, unit in INFO_ROWS]
     rows += [
         (f"ABCD matrix, {name}", value, unit) for name, value, unit in zip("ABCD", facts["abcd"], _ABCD, strict=True)
     ]
@@ -63,8 +64,8 @@ def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = 
 _ABCD = ("", "mm", "1/mm", "")
 
 
-def first_order(setup: Setup) -> dict:
-    """Return the first-order facts of a setup; mm, positive to the right of the named vertex, infinite where so."""
+def first_order(setup: Setup) -> dict[str, Any]:
+    """Return the first-order data of a setup; distances in mm, positive to the right of the vertex in their name."""
     lens, depth, wavelength = setup.lens, setup.source.depth_mm, setup.source.wavelength_um
     ends = pupils(lens, wavelength, setup.stop)
     return {
@@ -81,7 +82,7 @@ def first_order(setup: Setup) -> dict:
     }
 
 
-def _look_up(facts: dict, key: str):
+def _look_up(facts: Any, key: str) -> object:
     for part in key.split("."):
         facts = facts[part]
     return facts
@@ -94,7 +95,7 @@ def coefficients_command(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, 
     if as_json:
         return print_json({**wave_record(six, setup), "per_surface": sums.tolist()})
     warn(setup.stop.warning)
-    rows = [(label, float(getattr(six, name)), "waves") for name, label in WAVES]
+    rows: list[Row] = [(label, float(getattr(six, name)), "waves") for name, label in WAVES]
     rows.append(("numerical aperture n'|u'|", float(six.na), ""))
     rows.append(("image distance, from the last vertex", float(six.image_distance), "mm"))
     rows.append(("image height on the sensor", float(six.image_height), "mm"))
@@ -113,7 +114,7 @@ def seidel_numbers(setup: Setup) -> tuple[Coefficients, np.ndarray]:
     return six, np.stack(columns, axis=-1)
 
 
-def wave_record(six: Coefficients, setup: Setup) -> dict:
+def wave_record(six: Coefficients, setup: Setup) -> dict[str, float]:
     """Return the coefficients of one source as JSON names them."""
     record = {name: float(getattr(six, name)) for name, _ in WAVES}
     mm = {"na": six.na, "image_distance": six.image_distance, "image_height": six.image_height}

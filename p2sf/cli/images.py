@@ -2,24 +2,23 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
 from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import is_database, looked_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
-from p2sf.cli.screen import heading, print_json, print_table
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_samples
+from p2sf.cli.screen import Row, heading, print_json, print_table
 from p2sf.colour.spectrum import WORDS
 from p2sf.errors import RequestError, SamplingError
 from p2sf.io.psf_files import ENDINGS, write_psf
 from p2sf.io.record import describe, facts
 from p2sf.lensfile.library import find_lens
+from p2sf.messages import Message, ParameterName
 from p2sf.psf.metrics import centroid, radius_of_energy
 from p2sf.psf.result import Psf
-from p2sf.request import Setup, set_up
-
-MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine
+from p2sf.request import Request, Setup, set_up
 
 
 @dataclass(frozen=True)
@@ -29,7 +28,7 @@ class Picture:
     Attributes
     ----------
     method
-        Rung of the methods; auto takes the cheapest one that holds the tolerance.
+        How the PSF is computed; auto takes the cheapest method that holds the tolerance.
     tolerance
         Least R² against the exact reference that auto accepts.
     sampling
@@ -46,22 +45,30 @@ class Picture:
     pixels: Whole = 64
     pixel_um: float | None = None
 
-    def __post_init__(self):
-        if not 2 <= self.pixels <= MOST_PIXELS:
-            raise RequestError(f"--pixels is {self.pixels}; give a whole number from 2 to {MOST_PIXELS}")
-        if self.pixel_um is not None and not 0 < self.pixel_um < 1e6:
-            raise RequestError(f"--pixel-um is {self.pixel_um:g} µm; give a positive number below a metre")
+    def __post_init__(self) -> None:
+        check_samples(self.pixels, self.pixel_um)
         if not 0 < self.tolerance < 1:
-            raise RequestError(f"--tolerance is {self.tolerance:g}; give an R² between 0 and 1, such as 0.99")
+            raise RequestError(
+                "{parameter} is {value:g}; give an R² between 0 and 1, such as 0.99",
+                parameter="tolerance",
+                value=self.tolerance,
+            )
         if self.sampling and self.method not in (None, "seidel"):
             raise RequestError(
-                f"--sampling is {self.sampling}, which samples Seidel coefficients and not --method {self.method}; "
-                "leave one of the two away"
+                "{parameter} is {value}, which samples Seidel coefficients and not {method} {name}; "
+                "leave one of the two out",
+                parameter="sampling",
+                value=self.sampling,
+                method=ParameterName("method"),
+                name=self.method,
             )
         if self.sampling == "fft" and self.pixels % 2:
             raise SamplingError(
-                f"--pixels is {self.pixels}, and --sampling fft needs an even size; "
-                f"give {self.pixels + 1} or choose --sampling mdft"
+                "{parameter} is {value}, and {sampling} fft needs an even size; give {even} or choose {sampling} mdft",
+                parameter="pixels",
+                value=self.pixels,
+                even=self.pixels + 1,
+                sampling=ParameterName("sampling"),
             )
 
     @property
@@ -71,6 +78,7 @@ class Picture:
 
 
 USUAL = Picture()
+NO_STREHL = Message("not defined for a fitted shape")
 SpectrumName = Annotated[str | None, Parameter(help=f"Colour PSF of a point with this spectrum: {WORDS}.")]
 
 
@@ -90,7 +98,12 @@ def psf(
     check_output(output, ENDINGS)
     if is_database(lens):
         if picture.sampling or picture.method not in (None, "auto"):
-            raise RequestError(f"--method and --sampling need the lens, and {lens} is a database; leave them away")
+            raise RequestError(
+                "{parameter} and {sampling} need the lens, and {path} is a database; leave them out",
+                parameter="method",
+                sampling=ParameterName("sampling"),
+                path=lens,
+            )
         result, about, title = looked_up(lens, request, picture.pixels, picture.pixel_um)
     else:
         setup = set_up(find_lens(lens), request)
@@ -105,23 +118,30 @@ def psf(
     return print_table(title, ("point spread function", "value", "unit"), summary(result, output))
 
 
-def _in_colour(lens: str, request, picture: Picture, spectrum: str, output: Path | None, as_json: bool) -> None:
+def _in_colour(
+    lens: str, request: Request, picture: Picture, spectrum: str, output: Path | None, as_json: bool
+) -> None:
     from p2sf.cli.colours import colour
 
     if is_database(lens):
-        raise RequestError(f"--spectrum needs the lens, and {lens} is a database; leave it away or name the lens")
+        raise RequestError(
+            "{parameter} needs the lens, and {path} is a database; leave it out or name the lens",
+            parameter="spectrum",
+            path=lens,
+        )
     return colour(set_up(find_lens(lens), request), spectrum, picture, output, as_json)
 
 
 def render(setup: Setup, picture: Picture) -> Psf:
-    """Return the asked PSF: by the ladder, or straight from the six coefficients when they are asked for."""
+    """Return the PSF by the method asked for, or from the six coefficients when their sampling is."""
     method = picture.method or "auto"
     if picture.seidel:
         return _from_coefficients(setup, picture)
     from p2sf.psf import methods
 
-    grid = {"pixels": picture.pixels, "pixel_um": picture.pixel_um}
-    return methods.render(setup.lens, setup.source, method=method, tolerance=picture.tolerance, **grid)
+    return methods.render(
+        setup.lens, setup.source, method, picture.pixels, picture.pixel_um, tolerance=picture.tolerance
+    )
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
@@ -133,21 +153,21 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     return seidel_psf(six, picture.pixels, picture.pixel_um, sampling=picture.sampling or "mdft")
 
 
-def figures(result: Psf) -> dict:
+def figures(result: Psf) -> dict[str, Any]:
     """Return the centroid, from the chief ray, and the radii around it that hold 50 and 80 % of the window's light."""
     x, y = centroid(result)
     half, most = (float(radius_of_energy(result, share)) for share in (0.5, 0.8))
     return {"centroid_um": [float(x), float(y)], "radius_50_um": half, "radius_80_um": most}
 
 
-def summary(result: Psf, output: Path | None) -> list[tuple]:
+def summary(result: Psf, output: Path | None) -> list[Row]:
     """Return the rows that tell a person what was computed."""
     known, measured = facts(result), figures(result)
-    rows = [
+    rows: list[Row] = [
         ("method", result.method, ""),
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", ""),
         ("pixel", result.pixel_um, "µm"),
-        ("Strehl ratio", known["strehl"], "not defined for a fitted shape" if known["strehl"] is None else ""),
+        ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else ""),
         ("light in the picture", known["energy"], TOO_COARSE if known["energy"] is None else ""),
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
         ("radius of 50 % of the light in the picture", measured["radius_50_um"], "µm"),

@@ -1,12 +1,12 @@
 """`p2sf import`: a lens from another program's file, with a report on what was read and how."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from p2sf.cli.options import Json, Output
-from p2sf.cli.screen import print_json
+from p2sf.cli.screen import print_json, text
 from p2sf.errors import LensFileError
 from p2sf.lensfile.importing import Import, import_lens
 
@@ -31,7 +31,8 @@ def import_(
         write_lens(found.lens, output)
     if as_json:
         return print_json(record(found, output))
-    print(found.report.text)
+    for line in found.report.lines():
+        print(text(line))
     return print(f"written: {output}") if output else None
 
 
@@ -41,7 +42,7 @@ def _check_apart(output: Path, file: Path) -> None:
         raise LensFileError("the output is the file that was read; choose another name", str(output))
 
 
-def record(found: Import, output: Path | None) -> dict:
+def record(found: Import, output: Path | None) -> dict[str, Any]:
     """Return the report of one import as plain values."""
     report = found.report
     notes = [{"kind": n.kind, "text": str(n.message), "surface": n.surface, "line": n.line} for n in report.notes]

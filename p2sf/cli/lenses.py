@@ -1,4 +1,6 @@
-"""`p2sf lenses`: what is on the shelf."""
+"""`p2sf lenses`: the shipped lenses."""
+
+from typing import Any
 
 from p2sf.cli.options import Json
 from p2sf.cli.screen import print_json, print_table
@@ -18,8 +20,8 @@ def lenses(*, as_json: Json = False) -> None:
     return print_table("Shipped lenses", columns, rows)
 
 
-def record(lens: Lens) -> dict:
-    """Return what a list says about one lens, at its middle wavelength."""
+def record(lens: Lens) -> dict[str, Any]:
+    """Return the entry of one lens in the list, at its middle wavelength."""
     wavelength = lens.reference_wavelength_um
     return {
         "name": lens.name,

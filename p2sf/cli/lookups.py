@@ -1,9 +1,11 @@
-"""`p2sf psf FILE.npz`: a PSF out of a database, with no lens."""
+"""`p2sf psf FILE.npz`: a PSF looked up in a database, without the lens."""
 
 from math import isinf
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
+from p2sf.database import ExactDatabase
 from p2sf.database.render import database_psf
 from p2sf.database_files import Stored
 from p2sf.errors import RequestError
@@ -11,6 +13,12 @@ from p2sf.files.writing import plain
 from p2sf.lens.source import Source
 from p2sf.psf.result import Psf
 from p2sf.request import Request
+
+if TYPE_CHECKING:
+    from p2sf.database import GridDatabase
+    from p2sf.database.fitted import FittedDatabase
+
+    Database = ExactDatabase | GridDatabase | FittedDatabase
 
 FROM_THE_LENS = {"object_height_mm": None, "focus_mm": None, "f_number": None, "stop": "file"}
 
@@ -20,7 +28,7 @@ def is_database(name: str) -> bool:
     return Path(name).suffix.lower() in (".npz", ".zarr")
 
 
-def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) -> tuple[Psf, dict, str]:
+def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) -> tuple[Psf, dict[str, Any], str]:
     """Return the PSF a request means in a database file, what a file says about it, and a heading.
 
     Raises RequestError for what only the lens could answer, DatabaseError outside what the database covers.
@@ -28,52 +36,59 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
     from p2sf.interchange import open_stored
 
     stored = open_stored(name)
-    for option, usual in FROM_THE_LENS.items():
-        if getattr(request, option) != usual:
-            flag = "--" + option.replace("_", "-")
-            raise RequestError(f"{flag} needs the lens, which {name} does not trace; give p2sf psf the lens itself")
+    for parameter, usual in FROM_THE_LENS.items():
+        if getattr(request, parameter) != usual:
+            raise RequestError(
+                "{parameter} needs the lens, which {path} does not trace; give p2sf psf the lens itself",
+                parameter=parameter,
+                path=name,
+            )
     database = shifted(stored.database, request.sensor_shift_um)
     source = source_of(database, request)
     psf = database_psf(database, source, pixels, pixel_um)
     return psf, description(stored, source), _heading(stored, source)
 
 
-def shifted(database, shift_um: float):
+def shifted(database: "Database", shift_um: float) -> "Database":
     """Return the database with its sensor moved; RequestError where the interpolant fixes the sensor."""
     if not shift_um:
         return database
-    if not hasattr(database, "with_sensor"):
+    if not isinstance(database, ExactDatabase):
         raise RequestError(
-            f"--sensor-shift-um needs the exact interpolant and this is {database.interpolant}; leave it away"
+            "{parameter} needs the exact interpolant and this is {interpolant}; leave it out",
+            parameter="sensor_shift_um",
+            interpolant=database.interpolant,
         )
     return database.with_sensor(database.sensor_mm + shift_um / UM_PER_MM)
 
 
-def source_of(database, request: Request) -> Source:
+def source_of(database: "Database", request: Request) -> Source:
     """Return the source a request means; the database's middle wavelength when none is asked."""
     colours = database.space.wavelengths_um
     colour = float(colours[len(colours) // 2]) if request.wavelength_nm is None else request.wavelength_nm / NM_PER_UM
     if request.image_height_mm is not None:
-        slope = _slope_of_height(database, request, colour)
+        slope = _slope_of_height(database, request.depth_mm, request.image_height_mm, colour)
     else:
         slope = float(slope_from_degrees(request.field_deg or 0.0))
-    return Source(float(request.depth_mm), slope, colour)
+    return Source(request.depth_mm, slope, colour)
 
 
-def _slope_of_height(database, request: Request, colour: float) -> float:
+def _slope_of_height(database: "Database", depth_mm: float, height_mm: float, colour: float) -> float:
     """Return the field slope of an image height, in proportion to that of the widest field; RequestError."""
     widest = float(database.space.field_slopes[-1])
-    height = float(database.coefficients(request.depth_mm, widest, colour).image_height)
+    height = float(database.coefficients(depth_mm, widest, colour).image_height)
     if height == 0:
         raise RequestError(
-            f"--image-height-mm is {request.image_height_mm:g} mm, and this database lands no field off the axis; "
-            "leave it away, or build one with fields"
+            "{parameter} is {value:g} mm, and this database lands no field off the axis; "
+            "leave it out, or build one with fields",
+            parameter="image_height_mm",
+            value=height_mm,
         )
-    return request.image_height_mm / height * widest
+    return height_mm / height * widest
 
 
-def description(stored: Stored, source: Source) -> dict:
-    """Return what a PSF file says about where its numbers come from, as `export.describe` does for a lens."""
+def description(stored: Stored, source: Source) -> dict[str, Any]:
+    """Return what a PSF file says about where its numbers come from, as `io.record.describe` does for a lens."""
     meta = stored.meta
     setup = {
         "depth_mm": source.depth_mm,
@@ -83,9 +98,9 @@ def description(stored: Stored, source: Source) -> dict:
     }
     lens = {key: value for key, value in meta["lens"].items() if key != "toml"}
     kept = {key: meta[key] for key in ("method", "interpolant", "errors_waves")}
-    return plain(
-        {"lens": lens, "setup": setup, "database": kept, **{k: meta[k] for k in ("units", "conventions", "versions")}}
-    )
+    versions = {k: meta[k] for k in ("units", "conventions", "versions")}
+    found: dict[str, Any] = plain({"lens": lens, "setup": setup, "database": kept, **versions})
+    return found
 
 
 def _heading(stored: Stored, source: Source) -> str:

@@ -1,18 +1,20 @@
-"""The words that several commands share: how a lens, a setup and an output are asked for."""
+"""Options that several commands share: the lens, the request, the samples and the output."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 
-from p2sf.errors import ExportError
+from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import check_place
 from p2sf.request import Request
 
+MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine
 
-def _whole(_, tokens) -> int:
-    """Return a whole number; cyclopts itself would round 2.5 to 2 and say nothing."""
+
+def _whole(_: type, tokens: Sequence[Token]) -> int:
+    """Return a whole number; cyclopts itself would silently round 2.5 to 2."""
     try:
         return int(tokens[0].value)
     except ValueError as error:
@@ -29,9 +31,37 @@ AS_IN_THE_FILE = Request()
 
 
 def check_output(output: Path | None, endings: Iterable[str]) -> None:
-    """Refuse an unknown ending or a missing folder before the work and not after it; ExportError."""
+    """Raise ExportError for an unknown ending or a missing folder; call before the work."""
     if output is None:
         return
     if output.suffix.lower() not in endings:
-        raise ExportError(f'--output is {output}, its ending "{output.suffix}" is unknown; choose {", ".join(endings)}')
+        raise ExportError(
+            '{parameter} is {path}, its ending "{ending}" is unknown; choose {endings}',
+            parameter="output",
+            path=str(output),
+            ending=output.suffix,
+            endings=tuple(endings),
+        )
     check_place(output)
+
+
+def check_whole(name: str, value: int, low: int, high: int) -> None:
+    """Raise RequestError unless a whole number lies between two, both allowed."""
+    if not low <= value <= high:
+        raise RequestError(
+            "{parameter} is {value}; give a whole number from {low} to {high}",
+            parameter=name,
+            value=value,
+            low=low,
+            high=high,
+        )
+
+
+def check_samples(pixels: int | None, pixel_um: float | None) -> None:
+    """Raise RequestError for samples that no picture can have; None passes."""
+    if pixels is not None:
+        check_whole("pixels", pixels, 2, MOST_PIXELS)
+    if pixel_um is not None and not 0 < pixel_um < 1e6:
+        raise RequestError(
+            "{parameter} is {value:g} µm; give a positive number below a metre", parameter="pixel_um", value=pixel_um
+        )

@@ -6,17 +6,19 @@ from math import inf
 from os.path import exists, samefile
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, LensName, Output, Whole, check_output
+from p2sf.cli.options import Json, LensName, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.image.charts import CHARTS, draw_chart
 from p2sf.io.photo_files import READABLE, read_photo, write_photo
+from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
+from p2sf.messages import Message, ParameterName
 from p2sf.scene import Plan, Scene, plan, read_scene, verify
 from p2sf.scene.table import plan_facts, plan_rows, plan_sentences
 
@@ -27,6 +29,7 @@ SCENE_HELP = (
     "A scene as TOML: tolerance = 0.05, f_number, focus_mm; [sensor] rows, columns, pixel_um, centre_mm; "
     "[depth] near_mm, far_mm or map; [[channel]] name, wavelengths_nm, weights, by default red, green and blue."
 )
+TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")
 SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]
 
 
@@ -39,15 +42,14 @@ def plan_command(
     as_json: Json = False,
 ) -> None:
     """Decide what a scene requires of a lens model, and say why."""
-    if not 0 <= check <= 1000:
-        raise RequestError(f"--check is {check}; give a whole number from 0 to 1000")
+    check_whole("check", check, 0, 1000)
     glass = find_lens(lens)
     planned = _planned(glass, _asked(glass, scene))
     verdict = verify(planned, check) if check else None
     measured = None if verdict is None else {"points": check, "worst": verdict.worst, "kept": verdict.kept}
     if as_json:
         return print_json({"lens": lens, "scene": planned.scene.name, **plan_facts(planned), "measured": measured})
-    warn(None if planned.meets else "the plan cannot keep the tolerance; loosen it or reduce the scene")
+    warn(None if planned.meets else TOO_TIGHT)
     title = f"{glass.title or glass.name}: {planned.scene.name}"
     print_table(title, ("decision", "choice", "error", "why"), plan_rows(planned))
     sentences = plan_sentences(planned)
@@ -58,34 +60,42 @@ def plan_command(
     return None
 
 
-def _asked(glass, path: Path) -> Scene:
-    """Return a file's scene; a focus or f-number the lens cannot take is told by the file's words for it."""
+def _asked(glass: Lens, path: Path) -> Scene:
+    """Return a file's scene; a focus or f-number that the lens cannot take is named as in the file."""
     scene = read_scene(path)
     try:
         scene.camera(glass)
     except RequestError as error:
-        told = str(error).replace("--focus-mm", "focus_mm").replace("--f-number", "f_number")
-        raise RequestError(f"{path}: {told}") from error
+        # The keys of the file are Python's names, so the error is put into plain words here, not with the flags.
+        raise RequestError("{path}: {error}", path=str(path), error=str(error)) from error
     return scene
 
 
-def _planned(glass, scene: Scene) -> Plan:
+@dataclass
+class PlanningProgress:
+    """How many measurements of a plan there were, and after how many seconds that was last printed."""
+
+    count: int = 0
+    seconds: float = 0.0
+
+
+def _planned(glass: Lens, scene: Scene) -> Plan:
     """Return the plan, with a line of progress on a terminal; Ctrl+C stops it."""
     if not sys.stderr.isatty():
         return plan(glass, scene)
-    begun, told = perf_counter(), [0, 0.0]
+    begun, told = perf_counter(), PlanningProgress()
 
     def tell() -> None:
-        told[0], passed = told[0] + 1, perf_counter() - begun
-        if passed - told[1] > TELL_EVERY_S:
-            told[1] = passed
-            line = f"\rplanning: {told[0]} measurements in {passed:.0f} s, Ctrl+C stops "
+        told.count, passed = told.count + 1, perf_counter() - begun
+        if passed - told.seconds > TELL_EVERY_S:
+            told.seconds = passed
+            line = f"\rplanning: {told.count} measurements in {passed:.0f} s, Ctrl+C stops "
             print(line, end="", file=sys.stderr, flush=True)
 
     try:
         return plan(glass, scene, tell)
     finally:
-        if told[1]:
+        if told.seconds:
             print("\r" + " " * 60 + "\r", end="", file=sys.stderr)
 
 
@@ -100,7 +110,7 @@ class Shown:
     surround
         What is beyond the picture: its last pixels (edge), or nothing (black).
     deblur
-        Sharpen the formed picture again with the same kernels.
+        Sharpen the formed picture with the same kernels.
     noise
         Add noise of this standard deviation, white being 1.
     encoding
@@ -116,11 +126,17 @@ class Shown:
     encoding: Literal["srgb", "linear"] | None = None
     preview: bool = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not 0 <= self.noise < inf:
-            raise RequestError(f"--noise is {self.noise:g}; give a standard deviation from 0 on")
+            raise RequestError(
+                "{parameter} is {value:g}; give a standard deviation from 0 on", parameter="noise", value=self.noise
+            )
         if self.deblur and self.preview:
-            raise RequestError("--deblur needs the plan's kernels, which --preview does without; leave one away")
+            raise RequestError(
+                "{parameter} needs the plan's kernels, which {preview} does without; leave one out",
+                parameter="deblur",
+                preview=ParameterName("preview"),
+            )
 
 
 USUAL = Shown()
@@ -138,7 +154,9 @@ def image(
 ) -> None:
     """Form the picture that the lens makes of a scene, and write it as .png or .tif."""
     if output is None:
-        raise RequestError("there is no --output; say with -o where the picture goes, such as -o out.png")
+        raise RequestError(
+            "there is no {parameter}; say with -o where the picture goes, such as -o out.png", parameter="output"
+        )
     check_output(output, READABLE)
     glass = find_lens(lens)
     asked = _asked(glass, scene)
@@ -158,13 +176,18 @@ def image(
 
 
 def _check_kept(output: Path, picture: str, scene: Scene) -> None:
-    """Refuse to write over what the picture is made of; RequestError."""
+    """Raise RequestError where the output would overwrite the picture or the depth map it is made of."""
     for path in filter(None, (None if picture.startswith(CHART) else picture, scene.depth_map)):
         if exists(path) and exists(output) and samefile(path, output):
-            raise RequestError(f"--output is {output}, which would overwrite the input {path}; choose another name")
+            raise RequestError(
+                "{parameter} is {path}, which would overwrite the input {input}; choose another name",
+                parameter="output",
+                path=str(output),
+                input=path,
+            )
 
 
-def _short(value) -> str:
+def _short(value: object) -> str:
     return f"{value:.3g}" if isinstance(value, float) else str(value)
 
 
@@ -182,17 +205,22 @@ def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray
         return np.repeat(values, wanted, axis=-1), encoding
     if wanted == 1:
         return (values @ LUMINANCE)[..., None], encoding
-    raise RequestError(f"{picture} has {given} channels and the scene {wanted}; give the scene 1 or {given}")
+    raise RequestError(
+        "{path} has {given} channels and the scene {wanted}; give the scene 1 or {given}",
+        path=picture,
+        given=given,
+        wanted=wanted,
+    )
 
 
-def _formed(glass, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict]:
+def _formed(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
     from p2sf.image import Forming, form_image, preview
 
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
     planned = _planned(glass, scene)
-    warn(None if planned.meets else "the plan cannot keep the tolerance; loosen it or reduce the scene")
+    warn(None if planned.meets else TOO_TIGHT)
     formed = form_image(planned, values, depth, Forming(shown.method, shown.surround))
     if shown.noise:
         formed = formed + np.random.default_rng(0).normal(0, shown.noise, formed.shape).astype(np.float32)
@@ -219,12 +247,16 @@ def depth_map(scene: Scene) -> np.ndarray | None:
         return None
     photo = read_photo(scene.depth_map, "linear")
     if photo.depth != "float":
-        raise RequestError(f"{scene.depth_map} holds whole numbers; give depths in mm as a float TIFF, 0 for infinity")
+        raise RequestError(
+            "{path} holds whole numbers; give depths in mm as a float TIFF, 0 for infinity", path=scene.depth_map
+        )
     values = photo.values[..., 0].astype(float)
     return np.where(values == 0, inf, values)
 
 
 def _for_file(values: np.ndarray, scene: Scene) -> np.ndarray:
     if values.shape[-1] not in (1, 3):
-        raise RequestError(f"the scene has {len(scene.channels)} channels, and a picture file 1 or 3; change the scene")
+        raise RequestError(
+            "the scene has {count} channels, and a picture file 1 or 3; change the scene", count=len(scene.channels)
+        )
     return values

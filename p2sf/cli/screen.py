@@ -1,21 +1,26 @@
-"""What commands print: tables with units for people, one JSON object for programs, warnings aside."""
+"""What commands print: tables with units for people, one JSON object for programs, warnings on standard error."""
 
 import json
 import sys
+from collections.abc import Mapping, Sequence
 from math import isinf
+from typing import Any
 
+from p2sf.cli import STYLE
 from p2sf.files.writing import plain
+from p2sf.messages import Message
 from p2sf.request import Setup
 
+Row = tuple[object, ...]
 WIDE = 240  # columns of a page that no terminal limits
 
 
-def print_json(value: dict) -> None:
+def print_json(value: Mapping[str, Any]) -> None:
     """Print one JSON object; infinite numbers become null."""
     print(json.dumps(plain(value), allow_nan=False))
 
 
-def print_table(title: str, columns: tuple[str, ...], rows: list[tuple]) -> None:
+def print_table(title: str, columns: tuple[str, ...], rows: Sequence[Row]) -> None:
     """Print a table, with rules and colours only on a terminal; numbers to six digits, columns of them to the right."""
     from rich import box
     from rich.console import Console
@@ -36,19 +41,19 @@ def print_table(title: str, columns: tuple[str, ...], rows: list[tuple]) -> None
     sys.stdout.write(page.get())  # printed by the console itself, a closed pipe would exit with a code of rich's choice
 
 
-def text(value) -> str:
-    """Return a number to six significant digits, ∞ for an infinite one, a dash for none."""
+def text(value: object) -> str:
+    """Return a message in words, a number to six significant digits, ∞ for an infinite one, a dash for None."""
     if value is None:
         return "–"
     if isinstance(value, float):
         return ("−∞" if value < 0 else "∞") if isinf(value) else f"{value + 0.0:.6g}"
-    return str(value)
+    return value.text(STYLE) if isinstance(value, Message) else str(value)
 
 
-def warn(sentence: str | None) -> None:
-    """Print a warning beside the results, where it cannot be mistaken for one of them."""
-    if sentence:
-        print(f"warning: {sentence}", file=sys.stderr)
+def warn(message: Message | None) -> None:
+    """Print a warning on standard error, apart from the results."""
+    if message:
+        print(f"warning: {text(message)}", file=sys.stderr)
 
 
 def heading(setup: Setup) -> str:

@@ -2,14 +2,13 @@
 
 from math import inf
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import heading, print_json, print_table, warn
-from p2sf.errors import RequestError
 from p2sf.files.writing import write_beside, write_json
 from p2sf.io.record import describe
 from p2sf.lensfile.library import find_lens
@@ -39,12 +38,12 @@ def spot(
     as_json: Json = False,
 ) -> None:
     """Trace exact rays and show the spot they make on the sensor; write it as .csv, .json or .png."""
-    _check(rings)
+    check_whole("rings", rings, 1, MOST_RINGS)
     check_output(output, WRITERS)
     setup = set_up(find_lens(lens), request)
     points, figures = trace_spot(setup, rings, aim, clip)
     if output:
-        _write(points, {**describe(setup), "spot": figures}, output)
+        WRITERS[output.suffix.lower()](points, {**describe(setup), "spot": figures}, output)
     if as_json:
         return print_json({"file": None if output is None else str(output), **figures, "points_um": points.tolist()})
     warn(setup.stop.warning)
@@ -62,7 +61,7 @@ ROWS = (
 )
 
 
-def trace_spot(setup: Setup, rings: int, aim: str, clip: bool) -> tuple[np.ndarray, dict]:
+def trace_spot(setup: Setup, rings: int, aim: str, clip: bool) -> tuple[np.ndarray, dict[str, Any]]:
     """Return the arriving rays' (x, y) in µm from the chief ray, shape (rays, 2), and the spot's figures."""
     from p2sf.raytrace import pencil as raytrace
 
@@ -80,25 +79,16 @@ def trace_spot(setup: Setup, rings: int, aim: str, clip: bool) -> tuple[np.ndarr
     }
 
 
-def _check(rings: int) -> None:
-    if not 1 <= rings <= MOST_RINGS:
-        raise RequestError(f"--rings is {rings}; give a whole number from 1 to {MOST_RINGS}")
-
-
-def _write(points: np.ndarray, record: dict, output: Path) -> None:
-    WRITERS[output.suffix.lower()](points, record, output)
-
-
-def _write_csv(points: np.ndarray, record: dict, output: Path) -> None:
+def _write_csv(points: np.ndarray, record: dict[str, Any], output: Path) -> None:
     lines = ["x_um,y_um", *(f"{x!r},{y!r}" for x, y in points.tolist())]
     write_beside(output, lambda handle: handle.write(("\n".join(lines) + "\n").encode()))
 
 
-def _write_json(points: np.ndarray, record: dict, output: Path) -> None:
+def _write_json(points: np.ndarray, record: dict[str, Any], output: Path) -> None:
     write_json(output, {**record, "points_um": points})
 
 
-def _write_png(points: np.ndarray, record: dict, output: Path) -> None:
+def _write_png(points: np.ndarray, record: dict[str, Any], output: Path) -> None:
     from p2sf.io.psf_plot import draw_spot
 
     figures, setup = record["spot"], record["setup"]

@@ -1,25 +1,30 @@
 """`p2sf tradeoff` and `p2sf paper`: what each method costs in time and in error, measured on this machine."""
 
+from collections.abc import Sequence
 from math import inf
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, LensName, Output, Whole, check_output
+from p2sf.cli.options import Json, LensName, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import write_beside, write_json
 from p2sf.lensfile.library import find_lens
-from p2sf.request import Request, set_up
+from p2sf.request import Request, StopChoice, set_up
 
+if TYPE_CHECKING:
+    from p2sf.studies.tradeoff import MethodCost
+
+Axis = list[float] | None
 WRITTEN = (".json", ".csv", ".png")
 Several = Parameter(consume_multiple=True, negative="")
 Fields = Annotated[list[float] | None, Several, Parameter(help="Field angles, °; the file's when not given.")]
 Depths = Annotated[list[float] | None, Several, Parameter(help="Object distances, mm, inf allowed; ∞ when not given.")]
 Waves = Annotated[list[float] | None, Several, Parameter(help="Wavelengths, nm; the file's middle one when not given.")]
 StopName = Annotated[
-    Literal["file", "auto"],
+    StopChoice,
     Parameter(help="Take the stop from the file, or let the narrowest rim for the first depth decide (auto)."),
 ]
 Pixels = Annotated[Whole, Parameter(help="Samples along each side of the compared window.")]
@@ -54,32 +59,39 @@ def tradeoff(
     return print_table(title, head, lines)
 
 
-def _check(pixels: int, fields_deg, depths_mm, wavelengths_nm) -> None:
-    """Refuse what cannot be before the work and not after it."""
-    if not 8 <= pixels <= 512:
-        raise RequestError(f"--pixels is {pixels}; give a whole number from 8 to 512")
+def _check(pixels: int, fields_deg: Axis, depths_mm: Axis, wavelengths_nm: Axis) -> None:
+    """Raise RequestError for what cannot be measured; call before the work."""
+    check_whole("pixels", pixels, 8, 512)
     for field in fields_deg or ():
         if not abs(field) < 90:
-            raise RequestError(f"--fields-deg has {field:g}°; give angles between −90 and 90°, both ends left out")
-    lengths = ("--depths-mm", depths_mm), ("--wavelengths-nm", wavelengths_nm)
-    for name, values in (("--fields-deg", fields_deg), *lengths):
+            raise RequestError(
+                "{parameter} has {value:g}°; give angles between −90 and 90°, both ends left out",
+                parameter="fields_deg",
+                value=field,
+            )
+    lengths = ("depths_mm", depths_mm), ("wavelengths_nm", wavelengths_nm)
+    for name, values in (("fields_deg", fields_deg), *lengths):
         if values == []:
-            raise RequestError(f"{name} has no number behind it; give one or more, or leave it away")
+            raise RequestError("{parameter} has no number behind it; give one or more, or leave it out", parameter=name)
     for name, values in lengths:
         for value in values or ():
             if not value > 0:
-                raise RequestError(f"{name} has {value:g}; give positive numbers")
+                raise RequestError("{parameter} has {value:g}; give positive numbers", parameter=name, value=value)
 
 
-def _write_tradeoff(output: Path, rows, lines, title: str) -> None:
+def _write_tradeoff(output: Path, rows: list["MethodCost"], lines: Sequence[tuple[str, ...]], title: str) -> None:
     from p2sf.studies import tradeoff
 
-    contents = {
-        ".json": lambda handle: handle.write(tradeoff.to_json(rows).encode()),
-        ".csv": lambda handle: handle.write("".join(",".join(line) + "\n" for line in lines).encode()),
-        ".png": lambda handle: tradeoff.draw(handle, rows, title.replace(": ", "\n")),
-    }
-    write_beside(output, contents[output.suffix.lower()])
+    def write(handle: BinaryIO) -> None:
+        match output.suffix.lower():
+            case ".json":
+                handle.write(tradeoff.to_json(rows).encode())
+            case ".csv":
+                handle.write("".join(",".join(line) + "\n" for line in lines).encode())
+            case ".png":
+                tradeoff.draw(handle, rows, title.replace(": ", "\n"))
+
+    write_beside(output, write)
 
 
 Folder = Annotated[Path, Parameter(["--output", "-o"], negative="", help="Folder for the figures, made if missing.")]
@@ -111,5 +123,8 @@ def _make(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ExportError(
-            f"--output is {folder}, and that folder cannot be made ({error.strerror}); choose another"
+            "{parameter} is {path}, and that folder cannot be made ({reason}); choose another",
+            parameter="output",
+            path=str(folder),
+            reason=str(error.strerror),
         ) from error
