@@ -1,6 +1,6 @@
-"""What a user asks for, in a user's terms, and the lens and source that it means.
+"""What a user asks for, in a user's terms, and the lens, source and stop that it means.
 
-The command line and the app both come through here, so that a setup is the same wherever it is typed.
+The library, the command line and the window all come through `set_up`, so that a request means the same everywhere.
 """
 
 from dataclasses import dataclass, replace
@@ -218,10 +218,9 @@ def _check_one_field(request: Request) -> None:
     if len(stated) > 1:
         *others, last = stated
         raise RequestError(
-            "the field is stated {count} times, by {others} and {last}; keep one",
+            "the field is stated {count} times, by {names}; keep one",
             count=len(stated),
-            others=tuple(others),
-            last=last,
+            names=Message("{others} and {last}", others=tuple(others), last=last),
         )
     if request.object_height_mm is not None and isinf(request.depth_mm):
         raise RequestError(

@@ -1,4 +1,4 @@
-"""A request means the same lens, sensor, stop and source wherever it is typed."""
+"""A request means the same lens, sensor, stop and source to the library, the command line and the window."""
 
 from math import inf, nan
 
