@@ -163,6 +163,8 @@ class Lens:
 
 def with_sensor(lens: Lens, sensor_mm: float) -> Lens:
     """Return the same lens with its sensor ``sensor_mm`` behind the last vertex."""
+    if lens.sensor_mm == sensor_mm:
+        return lens  # caches find the very same object without comparing a hundred numbers
     last = replace(lens.surfaces[-1], thickness=float(sensor_mm))
     return replace(lens, surfaces=(*lens.surfaces[:-1], last))
 

@@ -81,6 +81,7 @@ def test_the_middle_wavelength_is_the_reference():
 def test_a_changed_lens_is_another_lens():
     moved, opened = with_sensor(LENS, 3), with_f_number(LENS, 8)
     assert (moved.sensor_mm, LENS.sensor_mm) == (3.0, 48.0)
+    assert with_sensor(LENS, 48.0) is LENS
     assert moved.surfaces[0] == LENS.surfaces[0] and moved.surfaces[1].radius == -50.0
     assert opened.aperture == Aperture("f_number", 8.0) and LENS.aperture == RIM
     with pytest.raises(FrozenInstanceError):
