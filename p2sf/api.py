@@ -22,6 +22,7 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.request import Request, StopChoice, set_up, set_up_source
 
 if TYPE_CHECKING:
+    from p2sf.database.render import Database
     from p2sf.database_files.provenance import Stored
     from p2sf.psf.methods import Choice
     from p2sf.psf.result import Psf
@@ -365,7 +366,7 @@ def build_database(
     if method == "fitted":
         from p2sf.database.fitted_build import build_fitted
 
-        database = build_fitted(setup.lens, space, setup.stop)
+        database: Database = build_fitted(setup.lens, space, setup.stop)
     elif method == "seidel":
         from p2sf.database.build import build_database as build
 

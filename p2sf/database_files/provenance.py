@@ -47,7 +47,8 @@ class Stored:
     def coefficients(self, source: Source) -> Coefficients:
         """Return the six coefficients of one source, looked up; DatabaseError outside what is covered."""
         place = source.depth_mm, source.field_slope, source.wavelength_um
-        return self.database.coefficients(*map(float, place))
+        found: Coefficients = self.database.coefficients(*map(float, place))
+        return found
 
     def psf(self, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
         """Return the PSF of one source, looked up and not traced.

@@ -8,6 +8,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.render import Sampling, critical_pixel_um, rendered
+from p2sf.database.space import Space
 from p2sf.database_files import Stored, load_database
 from p2sf.database_files.stack import open_stack, read_psfs
 from p2sf.errors import DatabaseError
@@ -27,17 +28,22 @@ class Cube:
     @property
     def depths_mm(self) -> np.ndarray:
         """Return the depth of each PSF along the first axis, mm."""
-        return self.stored.database.space.depths_mm
+        return self._space.depths_mm
 
     @property
     def fields_deg(self) -> np.ndarray:
         """Return the field angle along the second axis, degrees."""
-        return degrees_from_slope(self.stored.database.space.field_slopes)
+        return degrees_from_slope(self._space.field_slopes)
 
     @property
     def wavelengths_nm(self) -> np.ndarray:
         """Return the wavelength along the third axis, nm."""
-        return self.stored.database.space.wavelengths_um * NM_PER_UM
+        return self._space.wavelengths_um * NM_PER_UM
+
+    @property
+    def _space(self) -> Space:
+        space: Space = self.stored.database.space
+        return space
 
 
 def open_stored(path: str | os.PathLike[str]) -> Stored:

@@ -143,7 +143,7 @@ def real_blur(live, depths, rings: int) -> np.ndarray:
 def sharp(setup, tolerated_um: float) -> tuple[float, float] | None:
     """Return nearest and farthest depth in mm with a blur within ``tolerated_um``; None if no real depth has one.
 
-    In s = 1/(object to entrance pupil) the marginal ray is linear (DESIGN.md section 2): h = h∞ + k·s. The nearest is
+    In s = 1/(object to entrance pupil) the marginal ray is linear (handbook 7.1): h = h∞ + k·s. The nearest is
     0 where an object on the first surface is still sharp.
     """
     pupil, half_mm = float(setup.pupils.entrance_from_first), tolerated_um / 2 / UM_PER_MM

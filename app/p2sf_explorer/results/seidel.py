@@ -17,7 +17,7 @@ class PerSurface:
 
 
 def per_surface(live) -> PerSurface:
-    """Return W40, W31, W22, W20 and W11 split over the surfaces (DESIGN.md section 3)."""
+    """Return W40, W31, W22, W20 and W11 split over the surfaces (handbook 3.2)."""
     setup = live.setup
     sums = seidel_sums(setup.lens, setup.rays, setup.source.field_slope)
     waves = UM_PER_MM / setup.source.wavelength_um
