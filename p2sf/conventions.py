@@ -1,4 +1,4 @@
-"""Every sign and unit of the project, stated once.
+"""Every sign and unit of the project, stated once (handbook 1).
 
 Geometry. Light travels +z. A radius is positive when the centre of curvature lies to the right.
 Surfaces count from 1 in every message and file. Seidel signs are Welford's (Aberrations of

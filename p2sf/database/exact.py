@@ -1,4 +1,4 @@
-"""The whole (depth, field, wavelength) space of a lens as polynomials, exact to round-off.
+"""The whole (depth, field, wavelength) space of a lens as polynomials, exact to round-off (handbook 7.1).
 
 At a fixed stop, with field as the slope at the entrance pupil and s = 1/(distance from object to
 entrance pupil), the marginal ray is linear in s: it is the ray of the infinite object plus s·(pupil

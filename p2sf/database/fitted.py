@@ -1,4 +1,4 @@
-"""The `fitted` method over a whole (depth, field, wavelength) space: a tensor of Chebyshev series.
+"""The `fitted` method over a whole (depth, field, wavelength) space: a tensor of Chebyshev series (handbook 7.3).
 
 The coefficients of a fit vary smoothly with s = 1/(object to entrance pupil), with h² and with wavelength, h
 being the field slope: under h → −h, η → −η nothing changes, so each coefficient is even or odd in h and an odd one

@@ -1,4 +1,4 @@
-"""Databases on nodes: the rule of the paper, and linear interpolation.
+"""Databases on nodes: the rule of the paper, and linear interpolation (handbook 7.2).
 
 The paper (Pieroni et al. 2015, table 1) names for each coefficient how it varies with depth and with field.
 "Inverse" is taken as a + b/d through the two nodes on either side of the point, "linear", "quadratic" and "cubic" as

@@ -1,4 +1,4 @@
-"""Pictures sharpened by the same kernels that blurred them.
+"""Pictures sharpened by the same kernels that blurred them (handbook 10.4).
 
 Both methods work on the lattice of a plan, so the kernel follows the field. Wiener's filter is linear and takes one
 step; Richardson and Lucy's iteration keeps the light positive.

@@ -1,4 +1,7 @@
-"""A picture through a lens by a plan: distortion, illumination, blur over field, colour and depth, pixels."""
+"""A picture through a lens by a plan: distortion, illumination, blur over field, colour and depth, pixels.
+
+See handbook 10.1.
+"""
 
 from dataclasses import dataclass
 

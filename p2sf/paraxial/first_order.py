@@ -1,4 +1,4 @@
-"""First-order optics: the shift-invariant features (SIF) of a lens.
+"""First-order optics: the shift-invariant features (SIF) of a lens (handbook 2.1).
 
 Everything follows from two basis rays, (y, nu) = (1, 0) and (0, 1) at the first vertex: their
 heights and reduced angles at every surface are the running system matrices.

@@ -1,4 +1,7 @@
-"""Aperture stop, entrance and exit pupil, marginal and chief ray: the quasi-invariant features (qSIF)."""
+"""Aperture stop, entrance and exit pupil, marginal and chief ray: the quasi-invariant features (qSIF).
+
+See handbook 2.2.
+"""
 
 from dataclasses import dataclass
 from typing import Literal

@@ -1,4 +1,4 @@
-"""Seidel sums and the six wavefront coefficients: the spatially variant features (SVF).
+"""Seidel sums and the six wavefront coefficients: the spatially variant features (SVF) (handbook 3.2).
 
 The chief ray enters with unit field slope; its powers multiply the sums afterwards. That keeps the
 work on (depth, wavelength) only and gives exactly zero for a zero field.

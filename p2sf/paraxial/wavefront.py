@@ -1,4 +1,4 @@
-"""The wavefront W(ξ, η) of six coefficients and how steep it is.
+"""The wavefront W(ξ, η) of six coefficients and how steep it is (handbook 3.1).
 
 In waves over the entrance-pupil disc ξ² + η² ≤ 1, η towards the field. W11 moves the image
 without blurring it, so it is left out unless asked for (``tilt=True``).

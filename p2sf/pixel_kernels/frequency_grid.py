@@ -1,4 +1,4 @@
-"""A pencil over its own spatial frequencies, which a uniform grid samples and an FFT sums.
+"""A pencil over its own spatial frequencies, which a uniform grid samples and an FFT sums (handbook 5.8).
 
 Phase and entrance-pupil point are polynomials over f = n'K/λ; the image of the unit circle is the edge and
 |∂(ξ, η)/∂f| the amplitude (equal areas of the entrance pupil have equal weight, as in the reference). The

@@ -1,4 +1,4 @@
-"""How far one PSF is from another on the same grid, in the quantities a PSF is judged by."""
+"""How far one PSF is from another on the same grid, in the quantities a PSF is judged by (handbook 6.1)."""
 
 from dataclasses import dataclass
 

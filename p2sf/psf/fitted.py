@@ -1,4 +1,4 @@
-"""The `fitted` method: a PSF from some tens of numbers, fitted to some tens of rays."""
+"""The `fitted` method: a PSF from some tens of numbers, fitted to some tens of rays (handbook 5.3)."""
 
 from functools import lru_cache
 from time import perf_counter

@@ -2,6 +2,8 @@
 
 The nodes are Gauss–Legendre radii times uniform directions, so that no pixelated edge slows the convergence; their
 count rises until two successive PSFs agree. Clear apertures (`vignetting`) end each radius at the rim it meets.
+
+See handbook 5.5.
 """
 
 from collections.abc import Callable

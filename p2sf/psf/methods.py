@@ -9,6 +9,8 @@ The prediction needs no reference. Where two descriptions of the same ray differ
 orders and the departure of the pupil map), for `fitted` on rays that took no part in the fit. Diffraction spreads a
 ray's light about x, by the Airy radius or by blur/√(Fresnel number), and Δf counts there too. How far 1 − R² can exceed
 (2πσ)² is measured over random lenses and sources by ``python -m tests.long.method_choice``; SAFETY covers that.
+
+See handbook 5.6.
 """
 
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""Numbers read off a PSF: peak, centre, energy, profiles, contrast.
+"""Numbers read off a PSF: peak, centre, energy, profiles, contrast (handbook 6.3).
 
 Every function takes a `Psf` of any stack shape and works on the light inside its window; ``psf.energy`` says how
 much falls outside.

@@ -1,4 +1,4 @@
-"""The colour PSF: one PSF per wavelength, added up where each lands, in CIE XYZ."""
+"""The colour PSF: one PSF per wavelength, added up where each lands, in CIE XYZ (handbook 9.1)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

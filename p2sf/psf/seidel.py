@@ -1,4 +1,4 @@
-"""The PSF of the six coefficients over a uniform circular pupil: the `seidel` method."""
+"""The PSF of the six coefficients over a uniform circular pupil: the `seidel` method (handbook 4.1)."""
 
 from math import isfinite
 from time import perf_counter

@@ -1,4 +1,4 @@
-"""The `traced` method: exact rays, thousands of them, at the speed of a separable sum.
+"""The `traced` method: exact rays, thousands of them, at the speed of a separable sum (handbook 5.4).
 
 The rays go through pupil points that a fit puts in rows of equal spatial frequency (`separable_sum`). The true fy of a
 ray differs from that of its row by the residual of the fit; since the phase over frequency has the gradient −x

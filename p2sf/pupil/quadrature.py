@@ -1,4 +1,4 @@
-"""Sample points of the unit disc that integrate a smooth pupil to any accuracy.
+"""Sample points of the unit disc that integrate a smooth pupil to any accuracy (handbook 4.2).
 
 A square grid with an all-or-nothing edge converges slowly; Gauss–Legendre in ρ² times uniform angles has
 no such edge, and converges faster than any power once it resolves the phase.

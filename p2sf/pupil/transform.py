@@ -2,6 +2,8 @@
 
 All three share one sign: field(x, y) = Σ amplitude · exp(+2πi(kx·x + ky·y)), k in cycles per µm. A pupil
 point (ξ, η) has k = −n'u'(ξ, η)/λ with the signed slope (`conventions`).
+
+See handbook 4.1.
 """
 
 import numpy as np

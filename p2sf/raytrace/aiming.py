@@ -1,4 +1,7 @@
-"""The rays of a source as they enter: through the paraxial entrance pupil, or aimed to fill the real stop."""
+"""The rays of a source as they enter: through the paraxial entrance pupil, or aimed to fill the real stop.
+
+See handbook 8.2.
+"""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache

@@ -1,6 +1,8 @@
 """Curves over the field and the spectrum: focal surfaces, distortion, chromatic shift; exact and to third order.
 
 All focus positions are mm from the sensor, positive behind it; results have the shape of the field slopes.
+
+See handbook 8.3.
 """
 
 from dataclasses import dataclass

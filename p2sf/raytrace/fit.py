@@ -1,4 +1,4 @@
-"""Phase and image-space direction cosines of a pencil as polynomials over the entrance pupil.
+"""Phase and image-space direction cosines of a pencil as polynomials over the entrance pupil (handbook 5.3).
 
 The diffraction integral is a Fourier transform over direction cosines; with W, Kx and Ky all given over the
 pupil disc it needs no edge and no Jacobian, the rays stay at fixed pupil points, and a fit is one small

@@ -1,4 +1,4 @@
-"""The field at the sensor from a traced pencil: phase, spatial frequency and landing point per ray."""
+"""The field at the sensor from a traced pencil: phase, spatial frequency and landing point per ray (handbook 4.3)."""
 
 from dataclasses import dataclass
 from math import sqrt

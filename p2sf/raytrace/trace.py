@@ -1,4 +1,4 @@
-"""Exact skew rays through a whole lens."""
+"""Exact skew rays through a whole lens (handbook 8.1)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The plan: the least model of a lens that keeps a scene's error, each decision with its reason."""
+"""The plan: the least model of a lens that keeps a scene's error, each decision with its reason (handbook 10.2)."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
