@@ -23,6 +23,12 @@ class ParameterName(str):
     __slots__ = ()
 
 
+class Number(str):
+    """A number in digits already, such as "12.50" or "−3.1 mm", where no format specification writes it that way."""
+
+    __slots__ = ()
+
+
 class Alternatives(tuple[object, ...]):
     """Choices of which one is to be taken: written "a, b or c"."""
 
@@ -47,8 +53,8 @@ PLAIN = Style()
 class Message:
     """A sentence or a part of one. Without values the template is a text and its braces mean nothing.
 
-    Values are texts, numbers, other messages, `ParameterName`, `Alternatives`, or tuples of these, which are joined
-    by commas. A format specification behind a name, ``{angle:.0f}``, belongs to the template.
+    Values are texts, numbers, other messages, `ParameterName`, `Number`, `Alternatives`, or tuples of these, which are
+    joined by commas. A format specification behind a name, ``{angle:.0f}``, belongs to the template.
     """
 
     __slots__ = ("template", "values")
@@ -94,4 +100,4 @@ class _Filling(Formatter):
         if isinstance(value, tuple | list):
             return ", ".join(self.format_field(item, format_spec) for item in value)
         said = format(value, format_spec)
-        return self.style.number(said) if isinstance(value, Real) and not isinstance(value, bool) else said
+        return self.style.number(said) if isinstance(value, Number | Real) and not isinstance(value, bool) else said

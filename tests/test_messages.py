@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, LensFileError, P2SFError
-from p2sf.messages import Alternatives, Message, ParameterName, Style
+from p2sf.messages import Alternatives, Message, Number, ParameterName, Style
 
 GERMAN = {
     "{parameter} is {value:g} mm; give {remedy}": "{parameter} ist {value:g} mm; {remedy} angeben",
@@ -44,6 +44,11 @@ def test_only_numbers_are_written_as_numbers():
         share=np.float32(7.5),
     )
     assert said.text(WINDOW) == "a-1.5.toml: version 0.1, 2 of 7,5 %"
+
+
+def test_a_number_in_digits_is_written_as_a_number_where_it_is_shown():
+    said = Message("f/{aperture}, {name}", aperture=Number("4.00"), name="4.00")
+    assert said.text(WINDOW) == "f/4,00, 4.00" and str(said) == "f/4.00, 4.00"
 
 
 def test_choices_and_lists_are_joined():
