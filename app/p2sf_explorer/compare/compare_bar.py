@@ -1,11 +1,16 @@
-"""The strip that says what A and B are, which is on screen, and what moves both."""
+"""The strip that names what differs between A and B, which is on screen, and what moves both."""
+
+from html import escape
 
 from PySide6.QtWidgets import QButtonGroup, QFrame, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
 
+from p2sf.messages import Message
 from p2sf_explorer.compare.contrasts import LINK_WORDS, contrasts
+from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import CHOICES, LINKABLE
 from p2sf_explorer.state.pinning import link_toggled, pin, swapped, unpin
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
@@ -98,7 +103,7 @@ class CompareBar(QFrame):
         sides = CHOICES["shown"]
         self._store.update(shown=sides[(sides.index(self._store.state.shown) + 1) % len(sides)])
 
-    def show_state(self, state) -> None:
+    def show_state(self, state: State) -> None:
         """Follow a state."""
         self.setVisible(state.pinned is not None)
         if not state.pinned:
@@ -107,9 +112,16 @@ class CompareBar(QFrame):
         for key, action in self.links.items():
             action.setChecked(key in state.linked)
         self.link.setText(tr("Link: {count}", count=len(state.linked)) if state.linked else tr("Link"))
-        found = contrasts(state)
-        parts = [f"<b>{tr(name)}</b>&nbsp; A {a} &nbsp;|&nbsp; B {b}" for name, a, b in found]
+        parts = [
+            f"<b>{tr(name)}</b>&nbsp; A {marked_up(a)} &nbsp;|&nbsp; B {marked_up(b)}"
+            for name, a, b in contrasts(state)
+        ]
         words = " &nbsp;·&nbsp; ".join(parts) or tr(SAME)
         if self.words.text() != words:
             self.words.setText(words)
             self.words.setToolTip("<br>".join(parts))
+
+
+def marked_up(value: Message) -> str:
+    """Return a value in the window's language as rich text."""
+    return escape(value.text(WINDOW), quote=False)

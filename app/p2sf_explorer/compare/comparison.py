@@ -7,6 +7,8 @@ from time import perf_counter
 
 import numpy as np
 
+from p2sf.lens.lens import Lens
+from p2sf.messages import Message
 from p2sf_explorer.compare.differences import WHY, subtracted
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
@@ -24,13 +26,13 @@ DIFFERENCE = "A − B"
 class Difference:
     """A − B: the PSFs (each of unit sum) over the larger peak, the wavefronts, the six coefficients in waves.
 
-    ``why``: by panel, a sentence on why it shows A in place of a difference.
+    ``why``: by panel, why it shows A in place of a difference.
     """
 
     psf: np.ndarray
     pupil: PupilMap
     coefficients: Mapping[str, float]
-    why: Mapping[str, str] = field(default_factory=dict)
+    why: Mapping[str, Message] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,7 @@ class Answers:
     @property
     def pending(self) -> SumRequest | None:
         """Return the sum of waves that A's picture stands in for, else B's."""
-        return self.a.pending or (self.b and self.b.pending)
+        return self.a.pending or (self.b.pending if self.b else None)
 
 
 def answers(
@@ -66,21 +68,21 @@ def answers(
         return Answers(a, None, a)
     begun, other = perf_counter(), side_b(state)
     a = compute.live(state, quality, {}, kept_method(last.a if last and moving else None, state), cache=cache)
-    asks = _Asks(
+    conditions = _Conditions(
         quality,
         kept_method(last.b if last and moving else None, other),
         width_um(a),
         cache,
         cache.version if cache else 0,
     )
-    b = _b(other, asks, prescription(other))
+    b = _b(other, conditions, prescription(other))
     if width_um(b) > width_um(a) * (1 + 1e-9):
         a = compute.live(state, quality, {}, a.method if state.method == "auto" else "", width_um(b), cache)
     return Answers(a, b, seen(state, a, b, views, begun))
 
 
 @dataclass(frozen=True)
-class _Asks:
+class _Conditions:
     """What B's answer depends on beside its state; ``version`` is that of ``cache``."""
 
     quality: str
@@ -91,9 +93,9 @@ class _Asks:
 
 
 @lru_cache(maxsize=4)
-def _b(state: State, asks: _Asks, lens) -> Live:
+def _b(state: State, conditions: _Conditions, lens: Lens) -> Live:
     """Return B's answer; it stands still while only A moves. ``lens`` tells of a file that has changed."""
-    return compute.live(state, asks.quality, {}, asks.kept, asks.at_least_um, asks.cache)
+    return compute.live(state, conditions.quality, {}, conditions.kept, conditions.at_least_um, conditions.cache)
 
 
 def kept_method(last: Live | None, state: State) -> str:
@@ -112,9 +114,9 @@ def seen(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], be
     if state.shown != "difference":
         return replace(chosen, side=state.shown.upper())
     found = {name: subtracted(name, chosen.views[name], compute.attempted(view, b)) for name, view in views.items()}
-    why = WHY | {name: sentence for name, (_, sentence) in found.items() if sentence}
-    made = replace(difference(a, b), why=why)
-    return replace(chosen, views={name: view for name, (view, _) in found.items()}, side=DIFFERENCE, difference=made)
+    why = WHY | {name: message for name, (_, message) in found.items() if message}
+    minus = replace(difference(a, b), why=why)
+    return replace(chosen, views={name: view for name, (view, _) in found.items()}, side=DIFFERENCE, difference=minus)
 
 
 def difference(a: Live, b: Live) -> Difference:

@@ -1,43 +1,42 @@
 """A − B of what the panels show beside PSF, pupil and coefficients, or why there is none. No Qt in here."""
 
-import re
 from collections.abc import Callable
 from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 
+from p2sf.messages import Message, Number
 from p2sf.raytrace.field_curves import Foci, Heights
 from p2sf_explorer.compute.live import Refused
-from p2sf_explorer.i18n.messages import spoken
-from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.chromatic import Chromatic
 from p2sf_explorer.results.field import FieldView, exaggeration, grid
+from p2sf_explorer.results.first_order import NONE, Row
 from p2sf_explorer.results.seidel import PerSurface
 from p2sf_explorer.results.through_focus import Strip
 from p2sf_explorer.state.scales import signed
 
 FROM_ANSWERS = ("psf", "pupil", "coefficients")  # what `p2sf_explorer.compare.comparison.difference` holds
 WHY = {
-    "layout": "This is A: two lenses drawn to scale have no difference that could be drawn.",
-    "field_map": "This is A: over the field the pictures of A and of B have windows of their own; PSF shows A − B.",
-    "beside": "This is A: here it is compared with a perfect lens.",
-    "colour": "This is A: one colour less another is no colour.",
-    "spot": "This is A: a spot is places of rays, not amounts; the fans show A − B.",
-    "lens": "This is A: it is the lens that is edited here; the strip above names what differs.",
-    "ybar": "This is A: the diagram's points are surfaces, and those of B are others.",
-    "depth_of_field": "This is A: how far it is sharp is where it begins and ends, which B does not move.",
-    "solid": "This is A: bodies in space have no difference that could be shown.",
-    "import": "This is A: it is what was read from its file.",
-    "image": "This is A: light that A has less of than B cannot be shown as a photograph.",
-    "database": "This is A: a database belongs to one lens.",
-    "accuracy": "This is A: each lens is measured against its own rays.",
+    "layout": Message("This is A: two lenses drawn to scale have no difference that could be drawn."),
+    "field_map": Message(
+        "This is A: over the field the pictures of A and of B have windows of their own; PSF shows A − B."
+    ),
+    "beside": Message("This is A: here it is compared with a perfect lens."),
+    "colour": Message("This is A: one colour less another is no colour."),
+    "spot": Message("This is A: a spot is places of rays, not amounts; the fans show A − B."),
+    "lens": Message("This is A: it is the lens that is edited here; the strip above names what differs."),
+    "ybar": Message("This is A: the diagram's points are surfaces, and those of B are others."),
+    "depth_of_field": Message("This is A: how far it is sharp is where it begins and ends, which B does not move."),
+    "solid": Message("This is A: bodies in space have no difference that could be shown."),
+    "import": Message("This is A: it is what was read from its file."),
+    "image": Message("This is A: light that A has less of than B cannot be shown as a photograph."),
+    "database": Message("This is A: a database belongs to one lens."),
+    "accuracy": Message("This is A: each lens is measured against its own rays."),
 }
-OTHER_SURFACES = "This is A: it has {a} surfaces and B has {b}, so that none stands for another."
-NONE_OF_B = "This is A: B has none. {why}"
-NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?")
 
 
-def curves(a, b):
+def curves(a: Any, b: Any) -> Any:
     """Return A − B of two views' curves at A's positions, their first entry; beyond B's last there is nothing."""
     places, *names = (field.name for field in fields(a))
     at, known = getattr(a, places), getattr(b, places)
@@ -45,11 +44,11 @@ def curves(a, b):
     return replace(a, **{n: getattr(a, n) - np.interp(at, known, getattr(b, n), 0.0, 0.0) for n in same})
 
 
-def surfaces(a: PerSurface, b: PerSurface) -> PerSurface | str:
-    """Return what A's surfaces add to each coefficient more than B's, waves; a sentence where they are others."""
+def surfaces(a: PerSurface, b: PerSurface) -> PerSurface | Message:
+    """Return what A's surfaces add to each coefficient more than B's, waves; a message if their numbers differ."""
     counts = {name: len(view.waves["w40"]) for name, view in (("a", a), ("b", b))}
     if counts["a"] != counts["b"]:
-        return tr(OTHER_SURFACES, **counts)
+        return Message("This is A: it has {a} surfaces and B has {b}, so that none stands for another.", **counts)
     return PerSurface({name: waves - b.waves[name] for name, waves in a.waves.items()}, a.stop_surface)
 
 
@@ -59,12 +58,12 @@ def field(a: FieldView, b: FieldView) -> FieldView:
     def less(mine: np.ndarray, other: np.ndarray) -> np.ndarray:
         return mine - np.interp(a.field_deg, b.field_deg, other, right=np.nan)
 
-    foci = [Foci(*map(less, mine, other)) for mine, other in ((a.real, b.real), (a.third, b.third))]
-    real = less(a.heights.distortion, b.heights.distortion)
-    third = less(a.heights.third_order_distortion, b.heights.third_order_distortion)
-    unit, times = a.heights.paraxial, exaggeration(real)
-    made = Heights(unit * (1 + real), unit * (1 + third), unit)
-    return FieldView(a.field_deg, *foci, made, a.straight, grid(unit, times * real), times)
+    real, third = (Foci(*map(less, mine, other)) for mine, other in ((a.real, b.real), (a.third, b.third)))
+    distortion = less(a.heights.distortion, b.heights.distortion)
+    third_order = less(a.heights.third_order_distortion, b.heights.third_order_distortion)
+    unit, times = a.heights.paraxial, exaggeration(distortion)
+    heights = Heights(unit * (1 + distortion), unit * (1 + third_order), unit)
+    return FieldView(a.field_deg, real, third, heights, a.straight, grid(unit, times * distortion), times)
 
 
 def colours(a: Chromatic, b: Chromatic) -> Chromatic:
@@ -73,13 +72,14 @@ def colours(a: Chromatic, b: Chromatic) -> Chromatic:
     return replace(a, shift_um=a.shift_um - np.array(known))
 
 
-def strips(a: Strip | str, b: Strip | str) -> Strip | str:
-    """Return A's strip, B's at the same shifts and in the same window to be taken from it; a sentence where one has."""
-    sentence = next((side for side in (a, b) if isinstance(side, str)), "")
-    return sentence or replace(a, less=replace(b, shifts_um=a.shifts_um, window=a.window))
+def strips(a: Strip | Message, b: Strip | Message) -> Strip | Message:
+    """Return A's strip, B's at the same shifts and in the same window to be taken from it; a message where one has."""
+    if isinstance(a, Message):
+        return a
+    return b if isinstance(b, Message) else replace(a, less=replace(b, shifts_um=a.shifts_um, window=a.window))
 
 
-def tables(a, b):
+def tables(a: tuple[tuple[Row, ...], ...], b: tuple[tuple[Row, ...], ...]) -> tuple[tuple[Row, ...], ...]:
     """Return columns of (name, A − B, definition)."""
     return tuple(
         tuple((name, minus(mine, other), words) for (name, mine, words), (_, other, _) in zip(*both, strict=True))
@@ -87,22 +87,25 @@ def tables(a, b):
     )
 
 
-def minus(a: str, b: str) -> str:
-    """Return A − B of the numbers in two values as they are written; both where they are no numbers of one unit."""
-    if a == b and not NUMBER.search(a):
-        return "–"
-    if NUMBER.split(a) != NUMBER.split(b) or a.startswith("surface"):
-        return "–" if a == b else f"{a} | {b}"
-    others = iter(NUMBER.findall(b))
-    return NUMBER.sub(lambda found: _less(found[0], next(others)), a).removeprefix("f/")
+def minus(a: Message, b: Message) -> Message:
+    """Return A − B of the amounts in two values; both values where they have no amounts in the same units."""
+    amounts = {name: value for name, value in a.values.items() if isinstance(value, float | Number)}
+    if amounts and a.template == b.template:
+        others = (b.values[name] for name in amounts)
+        less = {name: _less(mine, other) for (name, mine), other in zip(amounts.items(), others, strict=True)}
+        return Message(a.template.removeprefix("f/"), **(a.values | less))
+    return NONE if a == b else Message("{a} | {b}", a=a, b=b)
 
 
-def _less(mine: str, other: str) -> str:
-    places = max(len(number.partition(".")[2]) for number in (mine, other))
-    return signed(float(mine.replace("−", "-")) - float(other.replace("−", "-")), places)
+def _less(mine: object, other: object) -> object:
+    if isinstance(mine, float) and isinstance(other, float):
+        return mine - other
+    places = max(len(str(number).partition(".")[2]) for number in (mine, other))
+    first, second = (float(str(number).replace("−", "-")) for number in (mine, other))
+    return Number(signed(first - second, places))
 
 
-SUBTRACTED: dict[str, Callable] = {
+SUBTRACTED: dict[str, Callable[[Any, Any], Any]] = {
     "profiles": curves,
     "mtf": curves,
     "ray_fan": curves,
@@ -115,11 +118,11 @@ SUBTRACTED: dict[str, Callable] = {
 }
 
 
-def subtracted(key: str, a, b) -> tuple[object, str]:
-    """Return what a panel shows for A − B of two views, and a sentence where that is A alone."""
+def subtracted(key: str, a: object, b: object) -> tuple[object, Message | None]:
+    """Return what a panel shows for A − B of two views, and a message where that is A alone."""
     if key not in SUBTRACTED or isinstance(a, Refused):
-        return a, WHY.get(key, "")
+        return a, WHY.get(key)
     if isinstance(b, Refused):
-        return a, tr(NONE_OF_B, why=tr(spoken(b.sentence)))
-    found = SUBTRACTED[key](a, b)
-    return (a, found) if isinstance(found, str) else (found, "")
+        return a, Message("This is A; B has none: {why}", why=b.message)
+    difference = SUBTRACTED[key](a, b)
+    return (a, difference) if isinstance(difference, Message) else (difference, None)

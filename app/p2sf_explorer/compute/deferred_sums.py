@@ -1,10 +1,11 @@
-"""Sums of waves over real rays: the work, which of it is too slow for a frame, what is done. No Qt in here."""
+"""Sums of waves over real rays: how they are made, which are too slow for a frame, and a cache of those. No Qt here."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.psf.huygens import Filling, all_reach, huygens_psf
 from p2sf.psf.plane_waves import counts_for
 from p2sf.psf.result import Psf
@@ -32,20 +33,20 @@ class SumRequest:
 
 
 class SumCache:
-    """The latest PSFs that were too slow for a frame, by what was asked; ``version`` rises with each.
+    """The latest PSFs that were too slow for a frame, by request; ``version`` rises with each.
 
-    Of a sum that failed the sentence that says why is kept, so that nobody waits for it.
+    Of a sum that failed the reason is kept, so that nobody waits for it.
     """
 
-    def __init__(self):
-        self._found: dict[SumRequest, Psf | str] = {}
+    def __init__(self) -> None:
+        self._found: dict[SumRequest, Psf | Message] = {}
         self.version = 0
 
-    def get(self, sum_request: SumRequest) -> Psf | str | None:
-        """Return the PSF, or why there is none; None where it is not there."""
+    def get(self, sum_request: SumRequest) -> Psf | Message | None:
+        """Return the PSF, or why there is none; None where neither is known."""
         return self._found.get(sum_request)
 
-    def keep(self, sum_request: SumRequest, found: Psf | str) -> None:
+    def keep(self, sum_request: SumRequest, found: Psf | Message) -> None:
         """Keep a PSF or why there is none, and forget the oldest of too many."""
         self._found[sum_request] = found
         self.version += 1
@@ -58,38 +59,38 @@ def sum_request(state: State, setup: ParaxialSetup, method: str, window: tuple[i
     return SumRequest(setup.lens, setup.source, method, window, state.tolerance, state.clip)
 
 
-def by_rays(wanted: SumRequest, quality: str = "settled", cancelled: Callable[[], bool] | None = None) -> Psf:
-    """Return the PSF of a method that traces rays; huygens in one pass, its converged sum is the accuracy worker's.
+def by_rays(request: SumRequest, quality: str = "settled", cancelled: Callable[[], bool] | None = None) -> Psf:
+    """Return the PSF of a method that traces rays. Huygens is summed once; the accuracy worker makes it converge.
 
-    ``cancelled`` is asked between blocks of rays and ends the work with `Cancelled`. Raises P2SFError's kinds.
+    ``cancelled`` is polled between blocks of rays and ends the work with `Cancelled`. Raises P2SFError's kinds.
     """
-    lens, source, window, filling = wanted.lens, wanted.source, wanted.window, Filling(clip=wanted.clip)
-    if wanted.method == "huygens":
+    lens, source, window, filling = request.lens, request.source, request.window, Filling(clip=request.clip)
+    if request.method == "huygens":
         return huygens_psf(lens, source, *window, None, cancelled=cancelled, filling=filling)
-    if wanted.method == "traced":
+    if request.method == "traced":
         return traced_psf(lens, source, *window, quality, filling, cancelled)
     from p2sf.psf.methods import render
 
-    return render(lens, source, wanted.method, *window, quality, wanted.tolerance, wanted.clip)
+    return render(lens, source, request.method, *window, quality, request.tolerance, request.clip)
 
 
-def slow(wanted: SumRequest, found: FittedPencil | None) -> bool:
-    """Return whether a settled sum would hold the window up, by a coarse fit to its rays; None where rays are lost.
+def slow(request: SumRequest, fitted: FittedPencil | None) -> bool:
+    """Return whether a settled sum would block the window. ``fitted``: a coarse fit; None where rays are lost.
 
-    Nobody knows beforehand what rims and lost rays cost: following an outline takes a thousand pencils.
+    The cost of rims and lost rays is not known beforehand: following an outline takes a thousand pencils.
     """
-    most = MOST_NODES[wanted.method]
-    if wanted.method == "fitted":
-        return found is not None and row_nodes(found, wanted.window) > most
-    if wanted.clip or found is None:
+    most = MOST_NODES[request.method]
+    if request.method == "fitted":
+        return fitted is not None and row_nodes(fitted, request.window) > most
+    if request.clip or fitted is None:
         return True
-    if wanted.method == "huygens":
-        radii, directions = counts_for(found.steepness, *wanted.window)
-        return radii * directions / 2 > most or not all_reach(wanted.lens, wanted.source)
-    return row_nodes(found, wanted.window) > most or not in_rows(wanted.lens, wanted.source)
+    if request.method == "huygens":
+        radii, directions = counts_for(fitted.steepness, *request.window)
+        return radii * directions / 2 > most or not all_reach(request.lens, request.source)
+    return row_nodes(fitted, request.window) > most or not in_rows(request.lens, request.source)
 
 
-def row_nodes(found: FittedPencil, window: tuple[int, float], quality: str = "settled") -> float:
-    """Return how many nodes in rows carry the phase of a fit over a window, mirror half not counted."""
-    rows, columns = row_counts(found, *window, quality)
+def row_nodes(fitted: FittedPencil, window: tuple[int, float], quality: str = "settled") -> float:
+    """Return how many nodes in rows sample the phase of a fit over a window, the mirror half not counted."""
+    rows, columns = row_counts(fitted, *window, quality)
     return rows * columns / 2

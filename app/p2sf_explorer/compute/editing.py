@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from math import inf, isfinite
+from typing import Any
 
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.glass.media import AIR, Medium, model_glass, parse_medium
@@ -22,9 +23,9 @@ def edited_state(state: State, lens: Lens) -> State:
 
     Raises P2SFError where the lens has no picture at the state's source, so that a bad edit never becomes a state.
     """
-    made = replace(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
-    paraxial_setup(made)
-    return made
+    edited = replace(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
+    paraxial_setup(edited)
+    return edited
 
 
 def _as_filed(state: State, lens: Lens) -> bool:
@@ -43,8 +44,7 @@ def with_value(lens: Lens, number: int, column: str, text: str) -> Lens:
     try:
         after = replace(before, **{column: READERS[column](text)})
     except P2SFError as error:
-        where = f"surface {number}"
-        raise type(error)(str(error) if where in str(error) else f"{where}: {error}") from None
+        raise type(error)("surface {number}: {error}", number=number, error=error) from None
     changed = replace(lens, surfaces=(*lens.surfaces[: number - 1], after, *lens.surfaces[number:]))
     return _opened_to(changed, number, after) if column == "semi_diameter" else changed
 
@@ -78,7 +78,7 @@ def read_aspheric(text: str) -> tuple[float, ...]:
     return tuple(read_number(word, "aspheric coefficient") for word in text.replace(";", " ").split())
 
 
-READERS: dict[str, Callable[[str], object]] = {
+READERS: dict[str, Callable[[str], Any]] = {
     "radius": lambda text: read_length(text, "radius"),
     "thickness": lambda text: read_number(text, "thickness", MM_PER_UNIT),
     "medium": read_medium,
@@ -91,7 +91,11 @@ READERS: dict[str, Callable[[str], object]] = {
 def check_surface(lens: Lens, number: int) -> None:
     """Raise GeometryError for a surface that a lens lacks: a table keeps the last lens that had a picture."""
     if not 1 <= number <= len(lens.surfaces):
-        raise GeometryError(f"there is no surface {number} in a lens of {len(lens.surfaces)}; choose its row again")
+        raise GeometryError(
+            "there is no surface {number} in a lens of {count}; choose its row again",
+            number=number,
+            count=len(lens.surfaces),
+        )
 
 
 def with_stop(lens: Lens, number: int) -> Lens:
@@ -105,7 +109,7 @@ def with_stop(lens: Lens, number: int) -> Lens:
     speed = float(f_number(lens, lens.reference_wavelength_um, find_stop(lens)))
     rim = stop_rim(with_f_number(moved, speed)) if isfinite(speed) else lens.surfaces[number - 1].semi_diameter
     if not isfinite(rim):
-        raise GeometryError(f"surface {number} has no rim to be the stop; give it a semi-diameter first")
+        raise GeometryError("surface {number} has no rim to be the stop; give it a semi-diameter first", number=number)
     return replace(moved, aperture=Aperture("stop_semi_diameter", rim))
 
 
@@ -128,7 +132,9 @@ def deleted(lens: Lens, number: int) -> Lens:
     if len(lens.surfaces) == 1:
         raise GeometryError("a lens needs at least one surface; insert another before deleting this one")
     if stop == number:
-        raise GeometryError(f"surface {number} is the stop; put the stop on another surface before deleting it")
+        raise GeometryError(
+            "surface {number} is the stop; put the stop on another surface before deleting it", number=number
+        )
     if before:
         joined = before[-1].thickness + lens.surfaces[number - 1].thickness
         before = (*before[:-1], replace(before[-1], thickness=joined))

@@ -7,6 +7,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.metrics import airy_radius_um
 from p2sf.psf.result import Psf
@@ -25,7 +26,7 @@ RAY_SAMPLES = {"preview": 40, "settled": 64}  # across the pupil where every sam
 
 @dataclass(frozen=True)
 class Live:
-    """One answer: setting, drawing, pupil, PSF, sentences, and what the open panels asked for in ``views``.
+    """One answer: setup, drawing, pupil, PSF, messages, and what the open panels show, in ``views``.
 
     ``method`` is the method chosen, by a person or by ``auto``; ``milliseconds`` names what each part took; ``quality``
     is "preview" while a slider moves, else "settled"; ``pending`` is the sum of waves that the PSF stands in for. With
@@ -39,9 +40,9 @@ class Live:
     psf: Psf
     quality: str
     airy_radius_um: float
-    dominant: str
-    warnings: tuple[str, ...]
-    why: str
+    dominant: Message
+    warnings: tuple[Message, ...]
+    why: Message
     method: str
     milliseconds: Mapping[str, float]
     views: Mapping[str, object] = field(default_factory=dict)
@@ -52,9 +53,9 @@ class Live:
 
 @dataclass(frozen=True)
 class Refused:
-    """What stands in ``Live.views`` for a view that has nothing to show: its own ``sentence`` on why."""
+    """What stands in ``Live.views`` for a view that has nothing to show, with the ``message`` that says why."""
 
-    sentence: str
+    message: Message
 
 
 ResultFunction = Callable[["Live"], object]
@@ -72,28 +73,28 @@ def live(
     """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest.
 
     ``kept_method`` names the method that ``auto`` keeps while a slider moves; the PSF's window is ``at_least_um`` wide.
-    With ``cache``, a sum of waves too slow for a frame is taken from there or left owing; without, waited for.
+    With ``cache``, a sum of waves too slow for a frame is taken from there or left pending; without, waited for.
     """
     begun = perf_counter()
     setup = paraxial_setup(state)
-    drawn = layout(setup)
+    drawing = layout(setup)
     placed = perf_counter()
-    made = rendered(state, setup, quality, kept_method, at_least_um, cache)
-    psf, finished = made.psf, perf_counter()
-    lost = sum(not ray.passed for ray in drawn.rays)
+    picture = rendered(state, setup, quality, kept_method, at_least_um, cache)
+    psf, finished = picture.psf, perf_counter()
+    lost = sum(not ray.passed for ray in drawing.rays)
     answer = Live(
         state=state,
         setup=setup,
-        layout=drawn,
-        pupil=made.pupil or pupil(setup, made.exact, quality),
+        layout=drawing,
+        pupil=picture.pupil or pupil(setup, picture.exact, quality),
         psf=psf,
         quality=quality,
         airy_radius_um=float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na)),
         dominant=dominant(setup.coefficients),
-        warnings=warnings(setup, made.exact, lost, psf.method == "geometric"),
-        why=made.why,
-        method=made.method,
-        pending=made.pending,
+        warnings=warnings(setup, picture.exact, lost, psf.method == "geometric"),
+        why=picture.why,
+        method=picture.method,
+        pending=picture.pending,
         milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (finished - placed)},
     )
     return with_views(answer, views or {}, begun)
@@ -111,7 +112,7 @@ def attempted(view: ResultFunction, answer: Live) -> object:
     try:
         return view(answer)
     except P2SFError as error:
-        return Refused(str(error))
+        return Refused(error.message)
 
 
 def pupil(setup: ParaxialSetup, exact: bool, quality: str) -> PupilMap:

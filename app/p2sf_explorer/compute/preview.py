@@ -8,6 +8,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
+from p2sf.messages import Message
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.plane_waves import Origin, psf_from_intensity
 from p2sf.psf.result import Psf
@@ -63,38 +64,38 @@ def landing_um(rays: Pencil) -> float:
     return UM_PER_MM * float(np.nanmax(reach)) if np.isfinite(reach).any() else 0.0
 
 
-def preview_psf(made: Preview, pixels: int, pixel_um: float, found: FittedPencil | None = None) -> Psf:
-    """Return the PSF of the fit, ``found`` if it is at hand, float32; of exact rays where it misses more than `FAR`."""
-    found, setup = found or best_fit(made), made.setup
-    if found.error_waves > FAR:
+def preview_psf(traced: Preview, pixels: int, pixel_um: float, fitted: FittedPencil | None = None) -> Psf:
+    """Return the PSF of the fit, float32, ``fitted`` where given; of exact rays where it misses more than `FAR`."""
+    fitted, setup = fitted or best_fit(traced), traced.setup
+    if fitted.error_waves > FAR:
         from p2sf.psf.methods import render
 
         return render(setup.lens, setup.source, "traced", pixels, pixel_um, "preview")
-    return psf_of_fit(found, setup.source.wavelength_um, (pixels, pixel_um), "preview", made.begun)
+    return psf_of_fit(fitted, setup.source.wavelength_um, (pixels, pixel_um), "preview", traced.begun)
 
 
-def best_fit(made: Preview) -> FittedPencil:
+def best_fit(traced: Preview) -> FittedPencil:
     """Return the fit of fewest numbers that misses little; more rays are traced only where the first do not do."""
-    data, count = ray_data(made.rays), level_rays(LEVEL)[0].size
+    data, count = ray_data(traced.rays), level_rays(LEVEL)[0].size
     own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
-    found = fit_rays(own, LEVEL, count)
-    if found.error_waves > CLOSE:
-        found = fit_rays(own, LEVELS[1], count, found.steepness)
-    if found.error_waves <= NEAR:
-        return found
+    fitted = fit_rays(own, LEVEL, count)
+    if fitted.error_waves > CLOSE:
+        fitted = fit_rays(own, LEVELS[1], count, fitted.steepness)
+    if fitted.error_waves <= NEAR:
+        return fitted
     try:
-        return fit(made.setup.lens, made.setup.source, residual_waves=NEAR)
+        return fit(traced.setup.lens, traced.setup.source, residual_waves=NEAR)
     except GeometryError:  # one of the rays more is lost
-        return found
+        return fitted
 
 
-def clipped_psf(made: Preview, pixels: int, pixel_um: float) -> Psf | None:
+def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
     """Return the PSF of the fit to all rays, summed over the nodes whose own rays pass the rims; None without rows.
 
     A yes or no at each node makes a ragged edge, good for a picture that moves. Raises GeometryError where none passes.
     """
-    found, setup = best_fit(made), made.setup
-    nodes = rows_for(found, pixels, pixel_um, "preview", every=True)
+    fitted, setup = best_fit(traced), traced.setup
+    nodes = rows_for(fitted, pixels, pixel_um, "preview", every=True)
     if nodes is None:
         return None
     rays = pencil(setup.lens, setup.source, nodes.xi.ravel(), nodes.eta.ravel(), clip=True)
@@ -102,17 +103,17 @@ def clipped_psf(made: Preview, pixels: int, pixel_um: float) -> Psf | None:
     if not weight.any():
         raise GeometryError(CLIPPED)
     clear = replace(nodes, weight=weight / weight.sum())
-    intensity = clear.intensity(*found.at_points(nodes.xi, nodes.eta), pixels, pixel_um, np.float32)
-    words = f"{nodes.words}, those that the rims let pass"
-    label = Origin("fitted", found.numbers, found.rays + nodes.xi.size, words, made.begun)
+    intensity = clear.intensity(*fitted.at_points(nodes.xi, nodes.eta), pixels, pixel_um, np.float32)
+    sampling = Message("{nodes}, those that the rims let pass", nodes=nodes.words)
+    label = Origin("fitted", fitted.numbers, fitted.rays + nodes.xi.size, sampling, traced.begun)
     return psf_from_intensity(intensity, pixel_um, setup.source.wavelength_um, None, label)
 
 
-def preview_pupil(made: Preview) -> PupilMap:
+def preview_pupil(traced: Preview) -> PupilMap:
     """Return the displayed wavefront over the pupil: a polynomial through that of the level's rays."""
-    setup, project = made.setup, _projection()
+    setup, project = traced.setup, _projection()
     back = setup.lens.sensor_mm - setup.pupils.exit_from_last
-    waves = opd_on_sphere(made.rays, back / made.rays.chief_kz)
+    waves = opd_on_sphere(traced.rays, back / traced.rays.chief_kz)
     shown = np.full(project.inside.shape, np.nan)
     shown[project.inside] = project.matrix @ waves
     return pupil_map(shown, project.inside, "exact rays")

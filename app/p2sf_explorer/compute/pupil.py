@@ -6,6 +6,8 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.messages import Message
+from p2sf.paraxial.seidel import Coefficients
 from p2sf_explorer.state.terms import WORDS
 
 
@@ -37,7 +39,7 @@ def pupil_map(waves: np.ndarray, inside: np.ndarray, kind: str) -> PupilMap:
     return PupilMap(shown, float(kept.std()), float(kept.max() - kept.min()), kind)
 
 
-def variance_parts(coefficients) -> dict[str, float]:
+def variance_parts(coefficients: Coefficients) -> dict[str, float]:
     """Return how the variance of W over the disc (waves²) splits into orthogonal shapes; tilt is left out.
 
     Spherical beyond its best focus W40²/180, coma beyond its tilt W31²/72, astigmatism about its medial focus W22²/24,
@@ -55,18 +57,20 @@ def variance_parts(coefficients) -> dict[str, float]:
     }
 
 
-def strongest(coefficients) -> str:
+def strongest(coefficients: Coefficients) -> str:
     """Return the term that makes most of the variance of W."""
     parts = variance_parts(coefficients)
     return max(parts, key=parts.__getitem__)
 
 
-def dominant(coefficients) -> str:
-    """Return the sentence that names what blurs most: a share of the wavefront's variance."""
+def dominant(coefficients: Coefficients) -> Message:
+    """Return what blurs most: a term and its share of the wavefront's variance."""
     parts = variance_parts(coefficients)
     total = sum(parts.values())
     if total < 1 / 14**2 / 10:
-        return f"Diffraction-limited: RMS {np.sqrt(total):.3f} λ"
+        return Message("Diffraction-limited: RMS {rms:.3f} λ", rms=np.sqrt(total))
     name = strongest(coefficients)
-    share = parts[name] / total
-    return f"{'Mostly' if share > 0.5 else 'Most of all'} {WORDS[name]}: {100 * share:.0f} % of the wavefront variance"
+    percent, term = 100 * parts[name] / total, Message(WORDS[name])
+    if percent > 50:
+        return Message("Mostly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
+    return Message("Most of all {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)

@@ -11,6 +11,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
+from p2sf.messages import Message
 from p2sf.psf.result import Psf
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.ranges import focused_distance
@@ -20,6 +21,9 @@ GRIDS = {"preview": (64, 180), "settled": (128, 360)}  # radii, directions of th
 TOO_FAR = 2.0  # times the distance a lens is focused at
 MOST_LIGHT, AROUND = 0.9, 1.25  # an even disc has nine tenths of its light within 1/1.18 of its half width
 TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated to the above
+
+Landing = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Two coordinates of each ray of the half disc, and its weight, (radii, directions)."""
 
 
 def geometric_psf(
@@ -34,19 +38,26 @@ def geometric_psf(
     values = density(x, y, weight, pixels, pixel_um)
     energy = float(values.sum())
     if not energy:
-        raise GeometryError(f"no ray reaches the sensor; {way_back(setup, clip)}")
+        raise GeometryError("no ray reaches the sensor; {remedy}", remedy=remedy(setup, clip))
     strehl = float(values.max()) / unaberrated(setup, pixel_um)
-    words = "density of {} × {} rays; diffraction is too fine to see here".format(*GRIDS[quality])
+    radii, directions = GRIDS[quality]
+    sampling = Message(
+        "density of {radii} × {directions} rays; diffraction is too fine to see here",
+        radii=radii,
+        directions=directions,
+    )
     seconds, wavelength = perf_counter() - begun, setup.source.wavelength_um
     rays = TRACED[quality][0] * TRACED[quality][1] if exact else 2
-    return Psf(values / energy, pixel_um, wavelength, "geometric", strehl, energy, 0, rays, words, seconds)
+    return Psf(values / energy, pixel_um, wavelength, "geometric", strehl, energy, 0, rays, sampling, seconds)
 
 
-def way_back(setup: ParaxialSetup, clip: bool) -> str:
+def remedy(setup: ParaxialSetup, clip: bool) -> Message:
     """Return what lets light through again: for a source far beyond what a lens is made for, coming nearer."""
     if setup.source.depth_mm > TOO_FAR * focused_distance(setup.lens):
-        return "this lens is for near objects, so choose a nearer depth"
-    return "choose a smaller field, stop down, or leave clipping off" if clip else "choose a smaller field or stop down"
+        return Message("this lens is for near objects, so choose a nearer depth")
+    if clip:
+        return Message("choose a smaller field, stop down, or leave clipping off")
+    return Message("choose a smaller field or stop down")
 
 
 def main_reach_um(setup: ParaxialSetup, exact: bool, clip: bool = False) -> float:
@@ -63,7 +74,7 @@ def main_reach_um(setup: ParaxialSetup, exact: bool, clip: bool = False) -> floa
     return AROUND * float(out[order][np.searchsorted(light, MOST_LIGHT * light[-1])])
 
 
-def seidel_landing(setup: ParaxialSetup, quality: str = "settled"):
+def seidel_landing(setup: ParaxialSetup, quality: str = "settled") -> Landing:
     """Return where the rays of W land, µm from the chief ray, and their weights: −∇W·λ/(n′u′) (Welford 1986, §7.2)."""
     c = setup.coefficients
     xi, eta, weight = polar(*GRIDS[quality])
@@ -74,7 +85,7 @@ def seidel_landing(setup: ParaxialSetup, quality: str = "settled"):
     return scale * along_xi, scale * along_eta, weight
 
 
-def exact_landing(setup: ParaxialSetup, quality: str = "settled", clip: bool = False):
+def exact_landing(setup: ParaxialSetup, quality: str = "settled", clip: bool = False) -> Landing:
     """Return where exact rays land, µm from the chief ray, and their weights, interpolated between traced ones.
 
     A cell of the pupil with a lost ray at a corner is lost: its place is infinite.
@@ -85,7 +96,7 @@ def exact_landing(setup: ParaxialSetup, quality: str = "settled", clip: bool = F
     return *(finely(values, GRIDS[quality]) for values in places), polar(*GRIDS[quality])[2]
 
 
-def polar(radii: int, directions: int):
+def polar(radii: int, directions: int) -> Landing:
     """Return ξ, η and weights of cells even in ρ and θ of the half disc ξ > 0, (radii, directions); their sum is ½.
 
     Rings of equal area would begin so far out that an evenly lit blur has a dark hole in its middle.
@@ -118,7 +129,7 @@ def _between(coarse: int, fine: int) -> np.ndarray:
     return matrix
 
 
-def density(x, y, weight, pixels: int, pixel_um: float) -> np.ndarray:
+def density(x: np.ndarray, y: np.ndarray, weight: np.ndarray, pixels: int, pixel_um: float) -> np.ndarray:
     """Return the share of the light that falls on each pixel, mirror half included; (pixels, pixels).
 
     Each ray is shared by the four pixels about its place, in proportion to how near it is to each, so that rays which

@@ -1,6 +1,6 @@
-"""How good the picture is: the Huygens reference at the same point, in one window for every method. No Qt in here."""
+"""How accurate the picture is: the Huygens reference at the same point, one window for every method. No Qt in here."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from statistics import median
 from threading import Event
@@ -16,7 +16,7 @@ from p2sf_explorer.state.what_if import NO_REFERENCE
 
 REFERENCE_TOLERANCE = 1e-3  # relative L2: R² is then known to 1e-6 or better
 REPEATS = 3  # of each method, for a median time
-RUNGS = ("gaussian", "seidel", "fitted", "traced", "huygens")
+METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
 
 
 @dataclass(frozen=True)
@@ -33,10 +33,10 @@ class MethodResult:
 
 @dataclass(frozen=True)
 class Accuracy:
-    """The answer measured, its ``picture`` beside the ``reference``, its R², and the ladder when it was asked for.
+    """The answer measured: its ``picture`` beside the ``reference``, its R², and ``results`` of every method if wanted.
 
-    All of them stand in the window that the rays of the point ask for, so that a method has one R² at a point, whatever
-    is on screen.
+    All of them use the window that the rays of the point ask for, so that a method has one R² at a point, whatever is
+    on screen.
     """
 
     live: Live
@@ -46,13 +46,13 @@ class Accuracy:
     results: tuple[MethodResult, ...] = ()
 
 
-def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[float], None]) -> Accuracy:
-    """Return the accuracy of an answer; ``ladder`` renders every method too. Raises P2SFError, Cancelled among them."""
+def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable[[float], None]) -> Accuracy:
+    """Return the accuracy of an answer, or of ``every_method`` beside it. Raises P2SFError, Cancelled among them."""
     if live.setup.altered:
         raise SamplingError(NO_REFERENCE)
     if live.psf.method == "geometric":
-        raise SamplingError(f"the blur is too large for a reference here; {remedy(live.setup)}")
-    share = 0.5 if ladder else 1.0
+        raise SamplingError("the blur is too large for a reference here; {remedy}", remedy=remedy(live.setup))
+    share = 0.5 if every_method else 1.0
     reference = huygens_psf(
         live.setup.lens,
         live.setup.source,
@@ -64,9 +64,10 @@ def measure(live: Live, ladder: bool, cancelled: Event, progress: Callable[[floa
         Filling(clip=live.state.clip),
     )
     shown = in_window(live, reference)
-    found = r_squared(shown.values, reference.values)
-    results = tuple(climb(live, reference, cancelled, lambda part: progress(0.5 + part / 2))) if ladder else ()
-    return Accuracy(live, shown, reference, found, results)
+    results: tuple[MethodResult, ...] = ()
+    if every_method:
+        results = tuple(method_results(live, reference, cancelled, lambda part: progress(0.5 + part / 2)))
+    return Accuracy(live, shown, reference, r_squared(shown.values, reference.values), results)
 
 
 def in_window(live: Live, reference: Psf) -> Psf:
@@ -74,24 +75,26 @@ def in_window(live: Live, reference: Psf) -> Psf:
     psf = live.psf
     if (psf.values.shape, psf.pixel_um) == (reference.values.shape, reference.pixel_um):
         return psf
-    return one(live, psf.method, reference)
+    return psf_by(psf.method, live, reference)
 
 
-def climb(live: Live, reference: Psf, cancelled: Event, progress: Callable[[float], None]):
+def method_results(
+    live: Live, reference: Psf, cancelled: Event, progress: Callable[[float], None]
+) -> Iterator[MethodResult]:
     """Yield every method's error and time at this point, until cancelled."""
-    for number, method in enumerate(RUNGS):
+    for number, method in enumerate(METHODS):
         if cancelled.is_set():
             return
-        psfs = [one(live, method, reference) for _ in range(REPEATS if method in ("seidel", "fitted") else 1)]
+        psfs = [psf_by(method, live, reference) for _ in range(REPEATS if method in ("seidel", "fitted") else 1)]
         psf, milliseconds = psfs[-1], 1e3 * median(p.seconds for p in psfs)
         error = relative_l2(psf.values, reference.values)
         if method == "huygens":
             error = reference.tolerance or error
         yield MethodResult(method, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays)
-        progress((number + 1) / len(RUNGS))
+        progress((number + 1) / len(METHODS))
 
 
-def one(live: Live, method: str, reference: Psf) -> Psf:
+def psf_by(method: str, live: Live, reference: Psf) -> Psf:
     """Return this point's PSF by one method, in the reference's window."""
     if method == "huygens":
         return reference
@@ -102,5 +105,5 @@ def one(live: Live, method: str, reference: Psf) -> Psf:
     from p2sf.psf.methods import render
 
     pixels, pitch = reference.values.shape[-1], reference.pixel_um
-    made, state = live.setup, live.state
-    return render(made.lens, made.source, method, pixels, pitch, tolerance=state.tolerance, clip=state.clip)
+    setup, state = live.setup, live.state
+    return render(setup.lens, setup.source, method, pixels, pitch, tolerance=state.tolerance, clip=state.clip)

@@ -11,6 +11,7 @@ from p2sf_explorer.charts.plots import HeatMap, plot_widget, restyle_plot
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.reference import Accuracy, MethodResult
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.psf import PSF_MAP
 from p2sf_explorer.state.scales import nice, significant, written_r_squared
@@ -74,7 +75,7 @@ class AccuracyPanel:
 
     def show_failure(self, sentence: str) -> None:
         """Say why there is no reference."""
-        self.message.set_text(sentence, "warning")
+        self.message.set_text(said(sentence), "warning")
 
     def show_accuracy(self, accuracy: Accuracy, stale: bool) -> None:
         """Paint reference, difference and ladder."""

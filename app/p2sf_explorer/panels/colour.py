@@ -5,6 +5,7 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QPainter
 
 from p2sf.conventions import NM_PER_UM
+from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
@@ -90,7 +91,7 @@ class ColourPanel:
         self.airy.set_data(live.airy_radius_um * np.cos(turn), live.airy_radius_um * np.sin(turn))
         changed, self._scale = scale != self._scale, scale
         asked = live.views["colour"]
-        if isinstance(asked, str):
+        if isinstance(asked, Message):
             self.asking.refuse(asked)
             return
         if self.found is None:

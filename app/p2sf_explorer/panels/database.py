@@ -8,7 +8,7 @@ from p2sf.database.parts import KINDS
 from p2sf_explorer.charts.plots import ColourBar, as_indices
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.i18n.messages import spoken
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.database import LOSSY, NODES, DatabaseRequest, DatabaseResult, answer
 from p2sf_explorer.state.scales import nice
@@ -87,7 +87,7 @@ class DatabasePanel:
             self.widget.set_readout(f"at {1000 * key.wavelength_um:.1f} nm")
 
     def _on_failure(self, key: DatabaseRequest, sentence: str) -> None:
-        self.note.setText(tr(spoken(sentence)))
+        self.note.setText(said(sentence))
 
     def _paint(self) -> None:
         if not self._answer:
@@ -103,7 +103,7 @@ class DatabasePanel:
         losses = " · ".join(f"{r} {found.largest[r][term]:.2g} λ" for r in ("exact", *LOSSY))
         depths, fields, colours = NODES
         text = f"largest error in {name(term)}: {losses}, on {depths} depths × {fields} fields × {colours} wavelengths"
-        self.note.setText(tr(" · ".join(part for part in (text, found.why_no_atlas) if part)))
+        self.note.setText(tr(text) + (f" · {said(found.why_no_atlas)}" if found.why_no_atlas else ""))
         self.note.setToolTip(self.note.text())
 
     def _paint_map(self, found: DatabaseResult, term: str) -> None:

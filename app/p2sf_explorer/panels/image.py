@@ -12,7 +12,7 @@ from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.files.snapshot import side_car, write_state
-from p2sf_explorer.i18n.messages import spoken
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.image import (
     ImageRequest,
@@ -184,7 +184,7 @@ class ImagePanel:
     def _on_failure(self, key: ImageRequest, sentence: str) -> None:
         if key != self._asked:
             return
-        self._ordered, self._unplanned, self._refusal = None, key, spoken(sentence)
+        self._ordered, self._unplanned, self._refusal = None, key, said(sentence)
         if not self._stale():  # the coarse picture is there, and stays
             self._say(self._refusal)
         self._show_readout()
@@ -199,9 +199,10 @@ class ImagePanel:
         self.split_view.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
         sensor = found.plan.scene.sensor
         wide = f"{sensor.columns} × {sensor.rows} pixels of {sensor.pixel_um:.3g} µm"
-        many = f"{found.headline} · {found.seconds:.2g} s"
-        self._say("\n".join(filter(None, (found.cut, found.no_plan, many, wide))))
-        self.words.tell(found.words)
+        many = f"{said(found.headline)} · {found.seconds:.2g} s"
+        reasons = (said(reason) for reason in (found.cut, found.no_plan) if reason)
+        self._say("\n".join((*reasons, many, wide)))
+        self.words.tell(found.notes)
         rows, columns = found.after.shape[:2]
         self._look(self._place[0] * (rows - 1), self._place[1] * (columns - 1))
 

@@ -6,9 +6,11 @@ from pathlib import Path
 from PySide6.QtWidgets import QPushButton, QTextBrowser
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.files.opening import Refusal, with_substitutes
+from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.import_report import REFUSED, Report, refused
 from p2sf_explorer.store.store import Store
@@ -48,7 +50,13 @@ class ImportReportPanel:
         """Show why a file was not opened; the lens on show stays."""
         self._refusal = refusal
         self._refused_beside = self._store.state.lens, self._store.state.lens_text
-        self._write(refused(Path(refusal.path).name, refusal.path, refusal.sentence))
+        self._write(
+            refused(
+                Path(refusal.path).name,
+                refusal.path,
+                Message(refusal.sentence.removeprefix(refusal.path).lstrip(",: ")),
+            )
+        )
         self.accept.setVisible(bool(refusal.substituted))
 
     def restyle(self, theme: Tokens) -> None:
@@ -73,11 +81,11 @@ class ImportReportPanel:
 
 def page(report: Report, theme: Tokens) -> str:
     """Return a report as a page."""
-    parts = [f"<p><b>{escape(report.heading)}</b><br><span style='color:{theme.muted}'>{escape(report.source)}</span>"]
+    source = escape(report.source.text(WINDOW))
+    parts = [f"<p><b>{escape(report.heading)}</b><br><span style='color:{theme.muted}'>{source}</span>"]
     for title, sentences in report.groups:
         colour = theme.warning if title == REFUSED else theme.text
-        items = "".join(f"<li>{escape(tr(sentence))}</li>" for sentence in sentences)
-        said = tr(title)
-        parts.append(f"<p style='color:{colour}; margin-bottom:2px'><b>{escape(said[0].upper() + said[1:])}</b>")
+        items = "".join(f"<li>{escape(sentence.text(WINDOW))}</li>" for sentence in sentences)
+        parts.append(f"<p style='color:{colour}; margin-bottom:2px'><b>{escape(said(title))}</b>")
         parts.append(f"<ul style='margin-top:0; -qt-list-indent:0; margin-left:14px'>{items}</ul>")
     return "".join(parts)

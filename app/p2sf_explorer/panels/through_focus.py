@@ -4,6 +4,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
+from p2sf.messages import Message
 from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.charts.plots import BRIGHTNESS
 from p2sf_explorer.charts.theme import Tokens
@@ -110,7 +111,7 @@ class ThroughFocusPanel:
             self._scale = scale
             self.asking.again()
         self.chart.show_sensor(live.state.sensor_shift_um)
-        if isinstance(asked, str):
+        if isinstance(asked, Message):
             half = ranges(prescription(live.state)).shift_um
             self.chart.set_range((-half, half), (0.0, 1.0))
             self.chart.show_tiles((), 1.0)

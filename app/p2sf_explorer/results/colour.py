@@ -8,8 +8,10 @@ from p2sf.colour.colorimetry import displayable, linear_rgb, matching, srgb_from
 from p2sf.colour.spectrum import relative_power, spectrum_of
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, faint_rgb, suitable_pitch_um
 from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -50,14 +52,14 @@ class Colours:
     hues: np.ndarray
 
 
-def question(live) -> ColourQuestion | str:
-    """Return what to show for the present point, or why there is nothing, in a sentence."""
+def question(live: Live) -> ColourQuestion | Message:
+    """Return what to show for the present point, or why there is nothing."""
     s, pixels = live.setup, PIXELS[live.quality]
     spectrum = spectrum_of(live.state.spectrum)
     try:
         pitch = suitable_pitch_um(s.lens, s.source, spectrum, pixels, s.stop)
     except P2SFError as error:  # a line outside the glasses' data: the rest of the window has its answer
-        return str(error)
+        return error.message
     window = pixels, nice(pixels * pitch, WINDOWS) / pixels
     return ColourQuestion(optics(live.state), spectrum.name, window, COUNT[live.quality], by_coefficients(live))
 

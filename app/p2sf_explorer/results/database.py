@@ -3,7 +3,8 @@
 All of it takes some 50 ms, so `question` alone runs on the live path, and a worker runs `answer`.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
@@ -14,9 +15,11 @@ from p2sf.database.parts import KINDS
 from p2sf.database.render import Sampling, rendered
 from p2sf.errors import Cancelled, P2SFError, SamplingError
 from p2sf.lens.lens import Lens
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription, ranges
 
 NODES = (20, 21, 31)  # depths, fields, wavelengths: what the command line builds when not told otherwise
@@ -58,7 +61,7 @@ class DatabaseResult:
     """Maps over (field, 1/depth) by coefficient, and errors by interpolant and coefficient, in waves.
 
     ``near``: the map's columns as 1/depth in 1/mm, ``fields_deg`` its rows; errors are NaN where a rule has none.
-    ``largest`` are the databases' own figures. ``atlas`` is None with ``why_no_atlas`` in a sentence.
+    ``largest`` are the databases' own figures. Where ``atlas`` is None, ``why_no_atlas`` is the reason.
     """
 
     question: DatabaseRequest
@@ -69,10 +72,10 @@ class DatabaseResult:
     errors: dict[str, dict[str, np.ndarray]]
     largest: dict[str, dict[str, float]]
     atlas: Atlas | None
-    why_no_atlas: str = ""
+    why_no_atlas: Message | None = None
 
 
-def question(live) -> DatabaseRequest:
+def question(live: Live) -> DatabaseRequest:
     """Return what the database panel must know of the present state."""
     setup, limits = live.setup, ranges(prescription(live.state))
     pupil = -float(setup.pupils.entrance_from_first)
@@ -90,7 +93,7 @@ def question(live) -> DatabaseRequest:
     )
 
 
-def answer(asked: DatabaseRequest, stopped=lambda: False) -> DatabaseResult:
+def answer(asked: DatabaseRequest, stopped: Callable[[], bool] = lambda: False) -> DatabaseResult:
     """Return maps, errors and atlas; raises P2SFError where the lens has no database, Cancelled when stopped."""
     fields = np.linspace(0.0, asked.field_deg, MAP[0])
     space = nodes(asked)
@@ -106,11 +109,11 @@ def answer(asked: DatabaseRequest, stopped=lambda: False) -> DatabaseResult:
         found = mapped(lossy, near, fields, asked.wavelength_um)
         errors[rule] = {kind: np.abs(found[kind] - maps[kind]) for kind in KINDS}
         largest[rule] = lossy.errors
+    known = DatabaseResult(asked, near, fields, space, maps, errors, largest, None)
     try:
-        made, why = atlas(exact, asked), ""
+        return replace(known, atlas=atlas(exact, asked))
     except P2SFError as error:
-        made, why = None, str(error)
-    return DatabaseResult(asked, near, fields, space, maps, errors, largest, made, why)
+        return replace(known, why_no_atlas=error.message)
 
 
 def nodes(asked: DatabaseRequest) -> Space:

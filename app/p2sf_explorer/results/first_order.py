@@ -1,14 +1,22 @@
-"""Everything the first order says about the lens as it is set, in three columns of (name, value, definition)."""
+"""First-order data of the lens as it is set, in three columns of (name, value, definition)."""
 
-from math import isfinite, isinf
+from math import inf, isfinite, isinf
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from p2sf.messages import Message, Number
 from p2sf.paraxial.first_order import magnification
-from p2sf.paraxial.pupils import f_number
-from p2sf_explorer.state.scales import signed, significant, written_distance
+from p2sf.paraxial.pupils import Stop, f_number
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.setup import ParaxialSetup
+from p2sf_explorer.state.scales import MM_PER_UNIT, significant
 
-OF_A = ("A", "", "The figures below and the sentence above are those of A, which the controls move.")
+Row = tuple[str, Message, str]
+"""A name, a value with its unit, a definition."""
+
+INFINITE, NONE = Message("∞"), Message("–")
+OF_A: Row = ("A", Message(""), "The figures below and the sentence above are those of A, which the controls move.")
 
 IMAGE_TIP = "Paraxial image of this depth, from the last vertex; from the principal points 1/s′ = 1/f′ − 1/s."
 SENSOR_TIP = "Where the sensor stands, from the last vertex: in the image of the focus distance, shifted by Δz."
@@ -19,8 +27,8 @@ ENTRANCE_TIP = "The stop seen from the object: its diameter D = f′/N for a far
 EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the last vertex."
 
 
-def rows(live) -> tuple[tuple[str, str, str], ...]:
-    """Return (name, value with unit, definition) of what a person asks first."""
+def rows(live: Live) -> tuple[Row, ...]:
+    """Return what a person asks first."""
     s = live.setup
     c, p = s.coefficients, s.pupils
     na = float(c.na)
@@ -28,11 +36,11 @@ def rows(live) -> tuple[tuple[str, str, str], ...]:
         ("Focal length f′", length(s.focal_length_mm), "Effective focal length f′ = −1/C of the system matrix."),
         (
             "Working f-number",
-            f"f/{significant(0.5 / na, 3)}" if na else "∞",
+            aperture(0.5 / na if na else inf),
             "Working f-number 1/(2 NA) at this depth.",
         ),
-        ("Numerical aperture", f"{na:.4f}", "NA = n′|u′|, image-space slope of the marginal ray."),
-        ("Airy radius", f"{significant(live.airy_radius_um, 3)} µm", "First dark ring of a perfect lens, 0.61 λ/NA."),
+        ("Numerical aperture", Message("{value:.4f}", value=na), "NA = n′|u′|, image-space slope of the marginal ray."),
+        ("Airy radius", airy_radius(live), "First dark ring of a perfect lens, 0.61 λ/NA."),
         ("Paraxial image", length(float(c.image_distance)), IMAGE_TIP),
         ("Sensor", length(s.lens.sensor_mm), SENSOR_TIP),
         (
@@ -41,41 +49,66 @@ def rows(live) -> tuple[tuple[str, str, str], ...]:
             ENTRANCE_TIP,
         ),
         ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), EXIT_TIP),
-        ("Stop", f"surface {int(s.stop.surface)} ({s.stop.chosen_by})", STOP_TIP),
+        ("Stop", stop(s.stop), STOP_TIP),
         (
             "Strehl ratio",
-            significant(float(live.psf.strehl), 2),
+            Message("{value}", value=Number(significant(float(live.psf.strehl), 2))),
             "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.",
         ),
     )
 
 
-def length(mm: float) -> str:
+def length(mm: float) -> Message:
     """Return a length in mm with its sign."""
-    return "∞" if isinf(mm) else f"{signed(mm, 3)} mm"
+    return INFINITE if isinf(mm) else Message("{value:z.3f} mm", value=mm)
 
 
-def pupil(place, diameter) -> str:
+def distance(mm: float) -> Message:
+    """Return a distance: metres from 1 m on, else millimetres."""
+    if isinf(mm):
+        return INFINITE
+    if abs(mm) >= MM_PER_UNIT["m"]:
+        return Message("{value} m", value=Number(significant(mm / MM_PER_UNIT["m"], 4)))
+    return Message("{value} mm", value=Number(significant(mm, 4)))
+
+
+def aperture(f_number: float) -> Message:
+    """Return an f-number."""
+    return Message("f/{value}", value=Number(significant(f_number, 3))) if isfinite(f_number) else INFINITE
+
+
+def airy_radius(live: Live) -> Message:
+    """Return the radius of the Airy disc."""
+    return Message("{value} µm", value=Number(significant(live.airy_radius_um, 3)))
+
+
+def pupil(place: ArrayLike, diameter: ArrayLike) -> Message:
     """Return a pupil's diameter and place."""
     if isinf(float(place)):
-        return "at infinity"
-    return f"⌀ {significant(float(diameter), 4)} at {signed(float(place), 2)} mm"
+        return Message("at infinity")
+    diameter_mm = Number(significant(float(diameter), 4))
+    return Message("⌀ {diameter} at {place:z.2f} mm", diameter=diameter_mm, place=float(place))
 
 
-def described_depth(mm: float) -> str:
+def stop(found: Stop) -> Message:
+    """Return the surface of a stop, and who chose it."""
+    number = int(found.surface)
+    if found.chosen_by == "auto":
+        return Message("surface {number} (auto)", number=number)
+    return Message("surface {number} (file)", number=number)
+
+
+def described_depth(mm: float) -> Message:
     """Return a depth in words."""
-    return "object at infinity" if isinf(mm) else f"object at {written_distance(mm)}"
+    return Message("object at infinity") if isinf(mm) else Message("object at {distance}", distance=distance(mm))
 
 
-Row = tuple[str, str, str]
-
-
-def first_order(live) -> tuple[tuple[Row, ...], ...]:
+def first_order(live: Live) -> tuple[tuple[Row, ...], ...]:
     """Return the columns: the lens by itself, its pupils and rays, this source."""
     return lens_rows(live), pupil_rows(live), source_rows(live)
 
 
-def lens_rows(live) -> tuple[Row, ...]:
+def lens_rows(live: Live) -> tuple[Row, ...]:
     """Return focal, principal and nodal points, Petzval radius and track of the lens."""
     s, p = live.setup, live.setup.cardinal
     return (
@@ -115,56 +148,64 @@ def lens_rows(live) -> tuple[Row, ...]:
     )
 
 
-def pupil_rows(live) -> tuple[Row, ...]:
+def pupil_rows(live: Live) -> tuple[Row, ...]:
     """Return stop, pupils, apertures and the invariant."""
     s = live.setup
     p, na = s.pupils, float(s.own.na)
     number = float(f_number(s.lens, s.source.wavelength_um, s.stop))
     invariant = float(s.rays.invariant) * s.source.field_slope
     return (
-        ("Stop", f"surface {int(s.stop.surface)} ({s.stop.chosen_by})", STOP_TIP),
+        ("Stop", stop(s.stop), STOP_TIP),
         ("Stop radius", length(float(s.stop.semi_diameter)), "Half the free diameter of the stop."),
         ("Entrance pupil", pupil(p.entrance_from_first, p.entrance_diameter), ENTRANCE_TIP),
         ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), EXIT_TIP),
-        ("f-number", f"f/{significant(number, 3)}" if isfinite(number) else "∞", "f′ over the entrance pupil."),
-        ("Working f-number", f"f/{significant(0.5 / na, 3)}" if na else "∞", "1/(2 NA) at this depth."),
-        ("Numerical aperture", f"{na:.4f}", "NA = n′|u′| of the marginal ray."),
-        ("Lagrange invariant", f"{signed(invariant, 4)} mm", "H = n(ūy − uȳ), the same at every surface."),
-        ("Airy radius", f"{significant(live.airy_radius_um, 3)} µm", "First dark ring of a perfect lens, 0.61 λ/NA."),
+        ("f-number", aperture(number), "f′ over the entrance pupil."),
+        ("Working f-number", aperture(0.5 / na if na else inf), "1/(2 NA) at this depth."),
+        ("Numerical aperture", Message("{value:.4f}", value=na), "NA = n′|u′| of the marginal ray."),
+        (
+            "Lagrange invariant",
+            Message("{value:z.4f} mm", value=invariant),
+            "H = n(ūy − uȳ), the same at every surface.",
+        ),
+        ("Airy radius", airy_radius(live), "First dark ring of a perfect lens, 0.61 λ/NA."),
     )
 
 
-def source_rows(live) -> tuple[Row, ...]:
+def source_rows(live: Live) -> tuple[Row, ...]:
     """Return what the lens makes of this source."""
     s = live.setup
     c, height = s.own, s.object_height_mm
     gap = s.lens.sensor_mm - float(c.image_distance)
     ratio = float(magnification(s.lens, s.source.depth_mm, s.source.wavelength_um))
     return (
-        ("Wavelength", f"{live.state.wavelength_nm:.1f} nm", "In vacuum."),
-        ("Depth", written_distance(s.source.depth_mm), "Source to first vertex."),
-        ("Field", f"{signed(live.state.field_deg, 2)}°", "Angle of the chief ray at the entrance pupil."),
-        ("Object height", "–" if height is None else length(height), "Of the source; none at infinity."),
-        ("Magnification", f"{signed(ratio, 5)}", "Image over object height; 0 from infinity."),
+        ("Wavelength", Message("{value:.1f} nm", value=live.state.wavelength_nm), "In vacuum."),
+        ("Depth", distance(s.source.depth_mm), "Source to first vertex."),
+        (
+            "Field",
+            Message("{value:z.2f}°", value=live.state.field_deg),
+            "Angle of the chief ray at the entrance pupil.",
+        ),
+        ("Object height", NONE if height is None else length(height), "Of the source; none at infinity."),
+        ("Magnification", Message("{value:z.5f}", value=ratio), "Image over object height; 0 from infinity."),
         ("Paraxial image", length(float(c.image_distance)), "From the last vertex."),
         ("Sensor", length(s.lens.sensor_mm), "From the last vertex."),
         (
             "Sensor − image",
-            "∞" if not isfinite(gap) else f"{signed(1e3 * gap, 1)} µm",
+            Message("{value:z.1f} µm", value=1e3 * gap) if isfinite(gap) else INFINITE,
             "Δz: what Wd = NA²Δz/(2n′λ) has.",
         ),
         ("Image height", length(float(c.image_height)), "Paraxial chief ray on the sensor."),
     )
 
 
-def petzval_radius(setup) -> float:
+def petzval_radius(setup: ParaxialSetup) -> float:
     """Return the Petzval radius in mm, negative when it bends towards the lens (Welford 1986, eq. 8.47)."""
     index = setup.rays.index
     curvature = np.array([surface.curvature for surface in setup.lens.surfaces])
     total = float((curvature * (1 / index[1:] - 1 / index[:-1])).sum()) * float(index[-1])
-    return 1 / total if total else np.inf
+    return 1 / total if total else inf
 
 
-def track(setup) -> float:
+def track(setup: ParaxialSetup) -> float:
     """Return first vertex to sensor, mm."""
     return sum(surface.thickness for surface in setup.lens.surfaces)

@@ -19,6 +19,7 @@ from p2sf.image.preview import preview_plan
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.pixels import samples_across
 from p2sf.pixel_kernels.sensor_points import chief_heights
@@ -28,20 +29,9 @@ from p2sf_explorer.results.photos import NOISE, channels_of, cut_away, scene_val
 SEEN = 0.005  # of a photo's side: less is a pixel or two
 
 
-def count_words(made: Plan) -> tuple[str, str]:
-    """Return how many PSFs make the picture, and the product that it is."""
-    rows, columns = made.counts
-    waves = sum(len(colour.wavelengths_um) for colour in made.colours)
-    twins = made.scene.sensor.centred and rows * columns > 1
-    once = (-(-rows // 2)) * (-(-columns // 2)) if twins else rows * columns
-    text = f"{rows} × {columns} places × {waves} wavelengths"
-    many = f"{once * waves} PSFs"
-    return many, f"{text}, mirror images for nothing" if twins and once < rows * columns else text
-
-
-PLAIN = {  # in the order they are told
+HEADINGS = {  # of a plan's decisions by kind, in the order they are told
     "field": "Places",
-    "colour": "Colour",
+    "colour": "Colour {channel}",
     "method": "Method",
     "terms": "Phase",
     "sampling": "Sampling",
@@ -49,48 +39,93 @@ PLAIN = {  # in the order they are told
     "pupils": "Pupils",
 }
 
-
-def plan_words(made: Plan) -> tuple[tuple[str, str], ...]:
-    """Return every decision of a plan as (what, sentence); rings of the field that agree are told once."""
-    found: dict[tuple[str, str, str], list[float]] = {}
-    for decision in made.decisions:
-        kind, _, which = decision.what.partition(" ")
-        name = f"{PLAIN[kind]} {which}" if kind == "colour" else PLAIN[kind]
-        found.setdefault((name, decision.choice, decision.why), []).append(decision.error)
-    rows = [(name, f"{choice}: {why} (error {max(errors):.1g})") for (name, choice, why), errors in found.items()]
-    order = list(PLAIN.values())
-    rows.sort(key=lambda row: order.index(row[0].split(" ")[0]))
-    verdict = "keeps" if made.meets else "does not keep"
-    saved = made.naive.kernel_seconds / made.cost.kernel_seconds
-    kept = f"{made.predicted_error:.2g} relative, {verdict} {made.scene.relative_tolerance:g}"
-    promise = f"{kept}; the full grid takes {saved:.0f} times as long"
-    return (("Error", promise), *rows)
+Notes = tuple[tuple[Message, Message], ...]
+"""What the picture is made of: each a heading and a sentence."""
 
 
-def frame_words(photo: str, shape: tuple[int, int]) -> tuple[str, str]:
-    """Return what becomes of a photo of other proportions than the sensor's, in short and in a sentence; RequestError.
+def psf_counts(plan: Plan) -> tuple[Message, Message]:
+    """Return how many PSFs make the picture, and the product that it is."""
+    rows, columns = plan.counts
+    waves = sum(len(colour.wavelengths_um) for colour in plan.colours)
+    mirrored = plan.scene.sensor.centred and rows * columns > 1
+    places = (-(-rows // 2)) * (-(-columns // 2)) if mirrored else rows * columns
+    product = {"rows": rows, "columns": columns, "waves": waves}
+    return Message("{count} PSFs", count=places * waves), (
+        Message("{rows} × {columns} places × {waves} wavelengths, mirror images for nothing", **product)
+        if places < rows * columns
+        else Message("{rows} × {columns} places × {waves} wavelengths", **product)
+    )
 
-    Nothing where all of it is taken.
+
+def plan_notes(plan: Plan) -> Notes:
+    """Return the promise of a plan and its decisions; rings of the field that agree are told once."""
+    errors: dict[tuple[str, Message, Message, Message], list[float]] = {}
+    for decision in plan.decisions:
+        heading = Message(HEADINGS[decision.kind], **(decision.what.values if decision.kind == "colour" else {}))
+        errors.setdefault((decision.kind, heading, decision.choice, decision.why), []).append(decision.error)
+    kinds = list(HEADINGS)
+    decisions = sorted(errors.items(), key=lambda item: kinds.index(item[0][0]))
+    notes = (
+        (heading, Message("{choice}: {why} (error {error:.1g})", choice=choice, why=why, error=max(each)))
+        for (_, heading, choice, why), each in decisions
+    )
+    return ((Message("Error"), promise(plan)), *notes)
+
+
+def promise(plan: Plan) -> Message:
+    """Return the error that a plan predicts, whether that is within the tolerance, and what the plan saves."""
+    values = {
+        "error": plan.predicted_error,
+        "tolerance": plan.scene.relative_tolerance,
+        "times": plan.naive.kernel_seconds / plan.cost.kernel_seconds,
+    }
+    if plan.meets:
+        return Message(
+            "{error:.2g} relative, keeps {tolerance:g}; the full grid takes {times:.0f} times as long", **values
+        )
+    return Message(
+        "{error:.2g} relative, does not keep {tolerance:g}; the full grid takes {times:.0f} times as long", **values
+    )
+
+
+def frame_notes(photo: str, shape: tuple[int, int]) -> tuple[Message, Message] | None:
+    """Return what is cut off a photo of other proportions than the sensor's, in short and in a sentence; RequestError.
+
+    None where all of it is taken.
     """
-    for share, side, ends in zip(cut_away(photo, shape), ("height", "width"), ("top and bottom", "sides"), strict=True):
-        if share > SEEN:
-            why = f"The sensor has {shape[1]} × {shape[0]} pixels and the photo other proportions"
-            long = f"{why}, so that it fills the frame and its {ends} are cut off, {100 * share:.0f} % of its {side}."
-            return f"{ends} of the photo cut off", long
-    return "", ""
+    high, wide = cut_away(photo, shape)
+    sensor = {"columns": shape[1], "rows": shape[0]}
+    if high > SEEN:
+        return Message("top and bottom of the photo cut off"), Message(
+            "The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and "
+            "its top and bottom are cut off, {percent:.0f} % of its height.",
+            percent=100 * high,
+            **sensor,
+        )
+    if wide > SEEN:
+        return Message("sides of the photo cut off"), Message(
+            "The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and "
+            "its sides are cut off, {percent:.0f} % of its width.",
+            percent=100 * wide,
+            **sensor,
+        )
+    return None
 
 
 ROWS, COLUMNS = 208, 312
 MOST_SAMPLES = 24  # of λ/2NA across a pixel: a plan of larger pixels takes minutes, and they hide what it is about
-TOO_WIDE, TOO_LARGE = "No plan: these PSFs are too wide", "No plan: these pixels hide the PSF"
-PLANLESS = {
-    TOO_WIDE: "No plan is made for PSFs as wide as these: it would take minutes.",
-    TOO_LARGE: "No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones.",
+TOO_WIDE, TOO_LARGE = Message("No plan: these PSFs are too wide"), Message("No plan: these pixels hide the PSF")
+UNMEASURED = {
+    None: Message("Unmeasured. When the sliders rest a plan follows."),
+    TOO_WIDE: Message("Unmeasured. No plan is made for PSFs as wide as these: it would take minutes."),
+    TOO_LARGE: Message(
+        "Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones."
+    ),
 }
 COUNTS = ((800, (3, 3)), (1200, (2, 2)), (2000, (1, 1)))  # samples along a PSF's side, and at how many places then
 WIDEST = COUNTS[-1][0]
 CORNER = 0.97  # of the way to the outermost chief ray
-TOLERANCE = 0.1  # relative error of a pixel's kernel: less than that no eye sees
+TOLERANCE = 0.1  # relative error of a pixel's kernel: less cannot be seen
 PLANNING = 0.9  # of the time of a planned picture; the rest are its kernels and the blur
 USUAL_STEPS = 60  # a plan has 140 to 220 measurements, nobody knows how many, and the first half take most of the time
 TO_THE_RIM = (1.0, 0.95, 0.9, 0.8, 0.7, 0.5)  # of the lens's widest field, where the outermost chief ray is lost
@@ -114,8 +149,8 @@ class ImageRequest:
 class ImageResult:
     """Pictures in linear light (rows, columns, 3), ``before`` and ``after`` the lens (or the sharpening).
 
-    ``quality`` is "coarse" or "planned"; ``headline`` and ``words``, (what, sentence), say what was computed and why,
-    ``cut`` what of the photo is not taken, ``no_plan`` why a coarse picture stays so.
+    ``quality`` is "coarse" or "planned"; ``headline`` and ``notes`` say what was computed and why, ``cut`` what of the
+    photo is not taken, ``no_plan`` why no plan follows a coarse picture.
     """
 
     question: ImageRequest
@@ -125,10 +160,10 @@ class ImageResult:
     plan: Plan
     lattice: Lattice
     seconds: float
-    headline: str
-    words: tuple[tuple[str, str], ...]
-    cut: str = ""
-    no_plan: str = ""
+    headline: Message
+    notes: Notes
+    cut: Message | None = None
+    no_plan: Message | None = None
 
 
 def question(live) -> ImageRequest:
@@ -142,10 +177,10 @@ def question(live) -> ImageRequest:
 def coarse(asked: ImageRequest, watch: Progress | None = None) -> ImageResult:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
     begun, scene = perf_counter(), scene_of(asked)
-    made = affordable(preview_plan(scene.camera(asked.lens), scene))
-    why_not = no_plan(made)
-    words = ("Coarse", f"Unmeasured. {PLANLESS.get(why_not, 'When the sliders rest a plan follows.')}")
-    return replace(_answer(asked, made, watch or Progress(), begun, (words,)), no_plan=why_not)
+    coarse_plan = affordable(preview_plan(scene.camera(asked.lens), scene))
+    why_not = no_plan(coarse_plan)
+    notes = ((Message("Coarse"), UNMEASURED[why_not]),)
+    return replace(_answer(asked, coarse_plan, watch or Progress(), begun, notes), no_plan=why_not)
 
 
 def planned(asked: ImageRequest, watch: Progress | None = None, known: ImageResult | None = None) -> ImageResult:
@@ -155,9 +190,9 @@ def planned(asked: ImageRequest, watch: Progress | None = None, known: ImageResu
     """
     begun, watch = perf_counter(), watch or Progress()
     if known:
-        return _answer(asked, known.plan, watch, begun, plan_words(known.plan), known.lattice)
-    made = plan(asked.lens, scene_of(asked), planning(watch))
-    return _answer(asked, made, forming(watch), begun, plan_words(made))
+        return _answer(asked, known.plan, watch, begun, plan_notes(known.plan), known.lattice)
+    new_plan = plan(asked.lens, scene_of(asked), planning(watch))
+    return _answer(asked, new_plan, forming(watch), begun, plan_notes(new_plan))
 
 
 def same_optics(one: ImageRequest, two: ImageRequest) -> bool:
@@ -179,66 +214,81 @@ def forming(watch: Progress) -> Progress:
 
 
 def _answer(
-    asked: ImageRequest, made: Plan, watch: Progress, begun: float, said, lattice: Lattice | None = None
+    asked: ImageRequest, plan: Plan, watch: Progress, begun: float, notes: Notes, lattice: Lattice | None = None
 ) -> ImageResult:
     values = scene_values(asked.photo, (ROWS, COLUMNS))
-    lattice = lattice or plan_lattice(made, made.vergences[0], watch)
-    before, after, more = shown(asked.show, made, values, lattice, watch)
-    quality = "planned" if made.decisions else "coarse"
-    many, product = count_words(made)
-    short, cut = frame_words(asked.photo, (ROWS, COLUMNS))
-    words = (*more, *((("Frame", cut),) if cut else ()), ("PSFs", product), *said)
-    return ImageResult(asked, before, after, quality, made, lattice, perf_counter() - begun, many, words, short)
+    lattice = lattice or plan_lattice(plan, plan.vergences[0], watch)
+    before, after, sharpening = shown(asked.show, plan, values, lattice, watch)
+    count, product = psf_counts(plan)
+    cut = frame_notes(asked.photo, (ROWS, COLUMNS))
+    frame = ((Message("Frame"), cut[1]),) if cut else ()
+    return ImageResult(
+        question=asked,
+        before=before,
+        after=after,
+        quality="planned" if plan.decisions else "coarse",
+        plan=plan,
+        lattice=lattice,
+        seconds=perf_counter() - begun,
+        headline=count,
+        notes=(*sharpening, *frame, (Message("PSFs"), product), *notes),
+        cut=cut[0] if cut else None,
+    )
 
 
-def shown(show: str, made: Plan, values, lattice: Lattice, watch: Progress):
-    """Return the two pictures to compare, and sentences about them."""
+def shown(
+    show: str, plan: Plan, values: np.ndarray, lattice: Lattice, watch: Progress
+) -> tuple[np.ndarray, np.ndarray, Notes]:
+    """Return the two pictures to compare, and notes on them."""
     if show == "lens":
-        return values, form_image(made, values, watch=watch, lattice=lattice), ()
-    blurred = form_image(made, values, how=Forming(geometry=False), watch=watch, lattice=lattice)
+        return values, form_image(plan, values, watch=watch, lattice=lattice), ()
+    blurred = form_image(plan, values, how=Forming(geometry=False), watch=watch, lattice=lattice)
     blurred = blurred + np.random.default_rng(0).normal(0, NOISE, blurred.shape).astype(np.float32)
     right = wiener(blurred, lattice, NOISE, watch)
-    wrong = wiener(blurred, with_one_kernel(lattice, axis_kernel(made, lattice)), NOISE, watch)
-    marks = [f"{psnr(picture, values):.1f} dB" for picture in (blurred, right, wrong)]
-    words = (
-        "Sharpening",
-        f"Against the scene the blurred picture has {marks[0]}, sharpened by its own PSFs {marks[1]}, "
-        f"by the PSF of the axis {marks[2]} (Wiener's filter, noise {NOISE:.1%} of white).",
+    wrong = wiener(blurred, with_one_kernel(lattice, axis_kernel(plan, lattice)), NOISE, watch)
+    note = Message(
+        "Against the scene the blurred picture has {blurred:.1f} dB, sharpened by its own PSFs {own:.1f} dB, "
+        "by the PSF of the axis {axis:.1f} dB (Wiener's filter, noise {noise:.1%} of white).",
+        blurred=psnr(blurred, values),
+        own=psnr(right, values),
+        axis=psnr(wrong, values),
+        noise=NOISE,
     )
-    return blurred, right if show == "sharpened" else wrong, (words,)
+    return blurred, right if show == "sharpened" else wrong, ((Message("Sharpening"), note),)
 
 
-def affordable(made: Plan) -> Plan:
+def affordable(plan: Plan) -> Plan:
     """Return a coarse plan with fewer places where a PSF is wide; SamplingError where one alone takes seconds."""
-    rim = made.scene.sensor.corners_mm()[1]
-    kernels = made.kernels(1, made.vergences[0])
+    rim = plan.scene.sensor.corners_mm()[1]
+    kernels = plan.kernels(1, plan.vergences[0])
     size = 2 * kernels.half_width(rim) + 1
     side = size * samples_across(kernels.pupils(rim)[0][0], kernels.pixel_um)
     if side > WIDEST:
         raise SamplingError(
-            f"points blur over {size * kernels.pixel_um / UM_PER_MM:.2g} mm here, too much to wait for; "
-            "stop down, or move the source towards the axis or into focus"
+            "points blur over {size:.2g} mm here, too much to wait for; "
+            "stop down, or move the source towards the axis or into focus",
+            size=size * kernels.pixel_um / UM_PER_MM,
         )
-    return replace(made, counts=next(counts for most, counts in COUNTS if side <= most))
+    return replace(plan, counts=next(counts for most, counts in COUNTS if side <= most))
 
 
 def fine_enough(answer: ImageResult) -> bool:
     """Return whether a plan is worth its time."""
-    return not no_plan(answer.plan)
+    return no_plan(answer.plan) is None
 
 
-def no_plan(made: Plan) -> str:
-    """Return why a plan is not worth its time, one of PLANLESS; nothing where it is."""
-    if made.counts == (1, 1):
+def no_plan(plan: Plan) -> Message | None:
+    """Return why a plan is not worth its time, `TOO_WIDE` or `TOO_LARGE`; None where it is."""
+    if plan.counts == (1, 1):
         return TOO_WIDE
-    kernels = made.kernels(1, made.vergences[0])
+    kernels = plan.kernels(1, plan.vergences[0])
     pupil, _ = kernels.pupils(0.0)[0]
-    return TOO_LARGE if 2 * pupil.radius * kernels.pixel_um > MOST_SAMPLES else ""
+    return TOO_LARGE if 2 * pupil.radius * kernels.pixel_um > MOST_SAMPLES else None
 
 
-def axis_kernel(made: Plan, lattice: Lattice) -> np.ndarray:
+def axis_kernel(plan: Plan, lattice: Lattice) -> np.ndarray:
     """Return the kernels on the axis, one per channel, all of the lattice's largest size."""
-    kernels = [made.kernels(number, made.vergences[0]) for number in range(len(made.colours))]
+    kernels = [plan.kernels(number, plan.vergences[0]) for number in range(len(plan.colours))]
     return np.stack([k.at(0.0, 0.0, lattice.half) for k in kernels])
 
 

@@ -1,15 +1,15 @@
 """How the present lens was read from its file."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from p2sf.errors import P2SFError
 from p2sf.lensfile.library import lenses_folder, shipped_lenses
 from p2sf.lensfile.report import TITLES, ImportReport
+from p2sf.messages import Message
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.files.opening import imported, is_file
-from p2sf_explorer.i18n.tr import tr
 
-REFUSED = "refused"
-AWAY = "{path} is not on this computer; the saved state carries the lens itself"
+REFUSED = Message("refused")
 
 
 @dataclass(frozen=True)
@@ -17,37 +17,54 @@ class Report:
     """A heading, a line on file and format, and groups of (title, sentences) in reading order."""
 
     heading: str
-    source: str
-    groups: tuple[tuple[str, tuple[str, ...]], ...]
+    source: Message
+    groups: tuple[tuple[Message, tuple[Message, ...]], ...]
 
 
-def report(live) -> Report:
+def report(live: Live) -> Report:
     """Return the import report of the state's lens."""
     state = live.state
     path = str(lenses_folder() / f"{state.lens}.toml") if state.lens in shipped_lenses() else state.lens
     heading = live.setup.lens.title or live.setup.lens.name
     if not is_file(path):
-        return Report(heading, tr(AWAY, path=path), ())
+        away = Message("{path} is not on this computer; the saved state carries the lens itself", path=path)
+        return Report(heading, away, ())
     try:
-        found = described(heading, imported(path).report)
+        as_filed = described(heading, imported(path).report)
     except P2SFError as error:
-        found = refused(heading, path, str(error))
+        as_filed = refused(heading, path, error.message)
     if state.lens_text is None:
-        return found
-    return Report(heading, f"{found.source}; {tr('edited since')}", found.groups)
+        return as_filed
+    edited = Message("{source}; {note}", source=as_filed.source, note=Message("edited since"))
+    return replace(as_filed, source=edited)
 
 
 def described(heading: str, read: ImportReport) -> Report:
     """Return a report grouped by what happened to each thing of the file."""
-    groups = [(title, tuple(note.sentence for note in read.of(kind))) for kind, title in TITLES.items()]
-    return Report(heading, f"{read.path} · {read.format} · {read.encoding}", tuple(g for g in groups if g[1]))
+    groups = ((Message(title), tuple(note.sentence for note in read.of(kind))) for kind, title in TITLES.items())
+    source = Message(
+        "{path} · {format} · {encoding}",
+        path=read.path,
+        format=Message(read.format),
+        encoding=Message(read.encoding),
+    )
+    return Report(heading, source, tuple((title, sentences) for title, sentences in groups if sentences))
 
 
-def refused(heading: str, path: str, sentence: str) -> Report:
+def refused(heading: str, path: str, reason: Message) -> Report:
     """Return the report on a file that is refused; with consent to substitutes, what they would be."""
-    groups = ((REFUSED, (sentence.removeprefix(path).lstrip(",: "),)),)
+    groups = ((REFUSED, (without_path(reason),)),)
     try:
         accepted = described(heading, imported(path, True).report)
     except P2SFError:
-        return Report(heading, path, groups)
-    return Report(heading, accepted.source, (*groups, *((f"with consent: {t}", s) for t, s in accepted.groups)))
+        return Report(heading, Message("{path}", path=path), groups)
+    consented = ((Message("with consent: {title}", title=title), notes) for title, notes in accepted.groups)
+    return Report(heading, accepted.source, (*groups, *consented))
+
+
+def without_path(reason: Message) -> Message:
+    """Return the message of a `LensFileError` without its file's path, which stands above; any other as it is."""
+    line, message = reason.values.get("line"), reason.values.get("message")
+    if not isinstance(message, Message):
+        return reason
+    return Message("line {line}: {message}", line=line, message=message) if line else message

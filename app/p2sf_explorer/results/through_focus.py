@@ -5,9 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from p2sf.errors import GeometryError, P2SFError
+from p2sf.messages import Message
 from p2sf.psf.metrics import airy_radius_um
 from p2sf.raytrace.field_curves import real_foci, seidel_foci
 from p2sf_explorer.compute.autofocus import best_shift_um
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -48,15 +50,15 @@ class Focused:
     best: float
 
 
-def strip(live) -> Strip | str:
+def strip(live: Live) -> Strip | Message:
     """Return what to show for the present lens and source; the sensor shift has no part in it, so it stands still.
 
-    A sentence in its place where moving the sensor does not focus: every picture would be the same.
+    Where moving the sensor does not focus, and every picture would be the same, the reason stands in its place.
     """
     try:
         check_focusable(live.state)
     except GeometryError as error:
-        return str(error)
+        return error.message
     state = replace(optics(live.state), sensor_shift_um=0.0)
     setup = paraxial_setup(state)
     low, high, half = reach(setup)

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, Q
 
 from p2sf_explorer.charts.theme import DARK, LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.i18n.messages import spoken
+from p2sf_explorer.i18n.messages import said, spoken
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.shell.lens_cards import shown_title
 from p2sf_explorer.shell.lens_chooser import LensChooser
@@ -164,16 +164,17 @@ class StatusLine(QWidget):
 
     def show_live(self, live: Live, frame_ms: float | None) -> None:
         """Show the sentences and figures of an answer."""
-        text = "   ".join(f"⚠ {sentence}" for sentence in live.warnings)
+        sentences = [said(warning) for warning in live.warnings]
+        text = "   ".join(f"⚠ {sentence}" for sentence in sentences)
         if self.warning.text() != text:
-            short = (tr(sentence).partition("; ")[0].rstrip(".") for sentence in live.warnings)
+            short = (sentence.partition("; ")[0].rstrip(".") for sentence in sentences)
             self.warning.set_text(text, short="   ".join(f"⚠ {words} …" for words in short))
-            self.warning.setToolTip(tr("\n".join(live.warnings)))
+            self.warning.setToolTip("\n".join(sentences))
         self.facts.set_text(facts(live, frame_ms))
 
     def show_none(self, sentence: str) -> None:
         """Keep the sentence on why there is no answer, which outlasts the banner; no figures."""
-        words = tr(spoken(sentence))
+        words = words_of(sentence)
         self.warning.set_text(f"⚠ {words}")
         self.warning.setToolTip(words)
         self.facts.set_text(UNKNOWN)
@@ -217,5 +218,10 @@ class Banner(QFrame):
 
     def say(self, sentence: str) -> None:
         """Show a sentence."""
-        self.text.setText(unbroken(tr(spoken(sentence))))
+        self.text.setText(unbroken(words_of(sentence)))
         self.show()
+
+
+def words_of(sentence) -> str:
+    """Return a refusal in the window's words."""
+    return tr(spoken(sentence)) if isinstance(sentence, str) else said(sentence)

@@ -12,10 +12,12 @@ from PySide6.QtWidgets import (
 )
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
 from p2sf_explorer.compute.setup import Ranges, default_state, prescription, ranges
+from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.first_order import OF_A, rows
 from p2sf_explorer.shell.show import UNKNOWN
@@ -239,8 +241,8 @@ class Controls(QWidget):
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
         apart = live.state.shown != "a"  # B or A − B is on screen, and this column stays A's
-        self.sentence.setText(unbroken(f"A: {tr(live.dominant)}" if apart else tr(live.dominant)))
-        self.detail.setText(unbroken(tr(live.why)))
+        self.sentence.setText(unbroken(f"A: {said(live.dominant)}" if apart else said(live.dominant)))
+        self.detail.setText(unbroken(live.why.text(WINDOW)))
         self.facts.show_rows((OF_A, *rows(live)) if apart else rows(live))
 
     def show_none(self) -> None:
@@ -248,7 +250,7 @@ class Controls(QWidget):
         self.rows["field_deg"].show_note(UNKNOWN)
         self.sentence.clear()
         self.detail.clear()
-        self.facts.show_rows(tuple((name, UNKNOWN, tip) for name, _, tip in self.facts.rows))
+        self.facts.show_rows(tuple((name, Message(UNKNOWN), tip) for name, _, tip in self.facts.rows))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -14,6 +14,7 @@ from p2sf_explorer.charts.theme import LIGHT, tokens
 from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.first_order import described_depth, rows
 from p2sf_explorer.shell.lens_cards import shown_title
@@ -96,12 +97,14 @@ def paint(page: Page, answer: Live, over_field: list[Live]) -> None:
     """Paint the page, top to bottom."""
     state, wide = answer.state, PAGE.width() - 2 * MARGIN
     page.write(QRectF(MARGIN, 12, wide, 9), shown_title(state), 16, bold=True)
-    source = tr("{depth}, field {field}°, {wavelength} nm", depth=tr(described_depth(state.depth_mm)),
+    source = tr("{depth}, field {field}°, {wavelength} nm", depth=described_depth(state.depth_mm).text(WINDOW),
                 field=signed(state.field_deg, 2), wavelength=f"{state.wavelength_nm:.1f}")  # fmt: skip
-    page.write(QRectF(MARGIN, 21, wide, 6), f"{source} · {tr(answer.dominant)}", 9)
+    page.write(QRectF(MARGIN, 21, wide, 6), f"{source} · {said(answer.dominant)}", 9)
     draw_layout(page, answer.layout, QRectF(MARGIN, 30, wide, 62))
     heading(page, 95, tr("First order"))
-    pairs(page, [(tr(name), value) for name, value, _ in rows(answer)], QRectF(MARGIN, 103, 0.46 * wide, 60))
+    pairs(
+        page, [(tr(name), value.text(WINDOW)) for name, value, _ in rows(answer)], QRectF(MARGIN, 103, 0.46 * wide, 60)
+    )
     page.write(QRectF(MARGIN + 0.54 * wide, 95, 0.46 * wide, 6), tr("Coefficients"), 11, bold=True)
     pairs(page, _coefficients(answer), QRectF(MARGIN + 0.54 * wide, 103, 0.46 * wide, 36))
     heading(page, 170, tr("PSF over the field"))
@@ -111,7 +114,7 @@ def paint(page: Page, answer: Live, over_field: list[Live]) -> None:
     scale = tr(SCALE_WORDS[state.psf_scale])
     note = tr("Each PSF over its own peak, {scale}; W11 moves the image and is left out.", scale=scale)
     page.write(QRectF(MARGIN, 236, wide, 5), note, 8)
-    page.write(QRectF(MARGIN, 242, wide, 10), answer.why, 8)
+    page.write(QRectF(MARGIN, 242, wide, 10), answer.why.text(WINDOW), 8)
     page.write(QRectF(MARGIN, 281, wide, 5), "P2SF Explorer", 7, side=1)
 
 

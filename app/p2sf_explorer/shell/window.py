@@ -128,7 +128,7 @@ class MainWindow(QMainWindow):
             self.play.show_state(state)
             self._answers = self._answer(state)
         except P2SFError as error:
-            self._show_none(state, str(error))
+            self._show_none(state, error.message)
             return
         self.live = live = self._answers.seen
         self.banner.hide()

@@ -5,6 +5,8 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QProgressBar, QSizePolicy, QToolButton, QWidget, QWidgetAction
 
+from p2sf.messages import Message
+from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr, unbroken
 
 WORDS_PX = 480
@@ -68,10 +70,13 @@ class Why(QLabel):
         self.button.setMenu(fold)
         self.button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
 
-    def tell(self, words: tuple[tuple[str, str], ...]) -> None:
+    def tell(self, notes: tuple[tuple[Message, Message], ...]) -> None:
         """Show (what, sentence) a line each."""
-        lines = (f"<p><b>{escape(a, quote=False)}</b> {escape(b, quote=False)}</p>" for a, b in words)
-        self.setText(unbroken(tr("".join(lines))))
+        lines = (
+            f"<p><b>{escape(a.text(WINDOW), quote=False)}</b> {escape(b.text(WINDOW), quote=False)}</p>"
+            for a, b in notes
+        )
+        self.setText(unbroken("".join(lines)))
         self.adjustSize()
 
 

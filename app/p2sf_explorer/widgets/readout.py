@@ -4,8 +4,10 @@ from PySide6.QtCore import QEvent, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter
 from PySide6.QtWidgets import QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
 
+from p2sf.messages import Message
 from p2sf_explorer.charts.painting import metrics, width_of, write
 from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
 
 PAD = 7.0
@@ -88,16 +90,16 @@ class FactTable(QWidget):
     def __init__(self, parent=None):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-        self._rows: tuple[tuple[str, str, str], ...] = ()
+        self._rows: tuple[tuple[str, Message, str], ...] = ()
         self._theme = LIGHT
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     @property
-    def rows(self) -> tuple[tuple[str, str, str], ...]:
+    def rows(self) -> tuple[tuple[str, Message, str], ...]:
         """Return the rows shown."""
         return self._rows
 
-    def show_rows(self, rows: tuple[tuple[str, str, str], ...]) -> None:
+    def show_rows(self, rows: tuple[tuple[str, Message, str], ...]) -> None:
         """Show (name, value, definition) rows."""
         if len(rows) != len(self._rows):
             self.setFixedHeight(round(self.ROW * len(rows)))
@@ -135,7 +137,7 @@ class FactTable(QWidget):
             painter.setPen(QColor(self._theme.muted))
             write(painter, line, tr(name), -1, SIZE)
             painter.setPen(QColor(self._theme.text))
-            write(painter, line, value, 1, SIZE)
+            write(painter, line, value.text(WINDOW), 1, SIZE)
 
 
 class Scrolling(QScrollArea):

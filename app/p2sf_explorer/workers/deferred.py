@@ -1,49 +1,49 @@
-"""Sums the waves of settled pictures that are too slow for a frame, in the background, while others stand in."""
+"""Sums the waves of settled pictures in the background where that is too slow for a frame."""
 
 from PySide6.QtCore import QObject
 
+from p2sf.messages import Message
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest, by_rays
-from p2sf_explorer.i18n.messages import spoken
 from p2sf_explorer.state.state import State
 from p2sf_explorer.workers.worker import LatestWins
 
 
 class DeferredWorker(QObject):
-    """Owns the worker and the ``cache`` of its sums; `watch` is told what a picture waits for."""
+    """Owns the worker and the ``cache`` of its sums; `watch` is called with the sum that a picture waits for."""
 
     def __init__(self, window):
         super().__init__(window)
         self._window, self.cache = window, SumCache()
         self._state = window.store.state
-        self._wanted: SumRequest | None = None
+        self._pending: SumRequest | None = None
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_finished)
         self.worker.failed.connect(self._on_failed)
 
     def watch(self, state: State, pending: SumRequest | None) -> None:
-        """Work on what the picture of a state owes, and on nothing else."""
+        """Compute the pending sum of a state's picture, and nothing else."""
         self._state = state
-        if pending == self._wanted:
+        if pending == self._pending:
             return
         self.worker.cancel()
-        self._wanted = pending
+        self._pending = pending
         if pending:
             self.worker.submit(pending, lambda cancelled, _: by_rays(pending, cancelled=cancelled.is_set))
 
-    def _on_finished(self, asked: SumRequest, psf: Psf) -> None:
-        self.cache.keep(asked, psf)
-        if asked == self._wanted:
-            self._wanted = None
+    def _on_finished(self, request: SumRequest, psf: Psf) -> None:
+        self.cache.keep(request, psf)
+        if request == self._pending:
+            self._pending = None
             self._window.refresh(self._state)
 
-    def _on_failed(self, asked: SumRequest, sentence: str) -> None:
+    def _on_failed(self, request: SumRequest, message: Message) -> None:
         """Say why there is no picture, and remember it: the same sum would fail again."""
-        self.cache.keep(asked, spoken(sentence))
-        if asked == self._wanted:
-            self._wanted = None
+        self.cache.keep(request, message)
+        if request == self._pending:
+            self._pending = None
             self._window.refresh(self._state)
-            self._window.refuse(sentence)
+            self._window.refuse(message)
 
     def stop(self) -> None:
         """End the worker's thread."""

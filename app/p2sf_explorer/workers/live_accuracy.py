@@ -2,16 +2,16 @@
 
 from PySide6.QtCore import QObject
 
+from p2sf.messages import Message
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.reference import Accuracy, measure
-from p2sf_explorer.i18n.messages import spoken
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import NO_REFERENCE
 from p2sf_explorer.workers.worker import LatestWins
 
 
 class LiveAccuracy(QObject):
-    """Owns the worker; ``watch`` is told every answer, results go to the panels that show accuracy."""
+    """Owns the worker; ``watch`` is called with every answer, results go to the panels that show accuracy."""
 
     def __init__(self, window, enabled: bool = True):
         super().__init__(window)
@@ -34,17 +34,17 @@ class LiveAccuracy(QObject):
         if live.setup.altered:
             self._refuse_altered(live)
             return
-        ladder = asked_for(live.state)
-        if self._last and fits(self._last, live, ladder):
+        every_method = asked_for(live.state)
+        if self._last and fits(self._last, live, every_method):
             self._tell(self._last)
             return
-        self.worker.submit(live, lambda cancelled, progress: measure(live, ladder, cancelled, progress))
+        self.worker.submit(live, lambda cancelled, progress: measure(live, every_method, cancelled, progress))
 
     def _refuse_altered(self, live: Live) -> None:
         """Show no figure: what was measured is the lens, and this picture is not the lens's."""
         self.worker.cancel()
         self._window.panels["psf"].show_badge(live, None, False)
-        self._each("show_failure", NO_REFERENCE)
+        self._each("show_failure", Message(NO_REFERENCE))
 
     def _on_finished(self, key: Live, accuracy: Accuracy) -> None:
         self._last = accuracy
@@ -58,13 +58,13 @@ class LiveAccuracy(QObject):
         self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
         self._each("show_accuracy", accuracy, stale)
 
-    def _on_failed(self, key: Live, sentence: str) -> None:
-        self._each("show_failure", spoken(sentence))
+    def _on_failed(self, key: Live, message: Message) -> None:
+        self._each("show_failure", message)
 
     def _on_progress(self, key: Live, part: float) -> None:
         self._each("show_progress", part)
 
-    def _each(self, method: str, *arguments) -> None:
+    def _each(self, method: str, *arguments: object) -> None:
         panel = self._window.panels.get("accuracy")
         if panel and self._window.live and asked_for(self._window.live.state):
             getattr(panel, method)(*arguments)
@@ -79,15 +79,15 @@ def asked_for(state: State) -> bool:
     return "accuracy" in (state.tab, *state.windows)
 
 
-def fits(known: Accuracy, live: Live, ladder: bool) -> bool:
+def fits(known: Accuracy, live: Live, every_method: bool) -> bool:
     """Return whether a known figure answers for this picture: it may differ in looks but neither in light nor window.
 
     Two fits of one method differ in their ``numbers``, which the tolerance decides.
     """
-    return picture(known.live) == picture(live) and bool(known.results or not ladder)
+    return picture(known.live) == picture(live) and bool(known.results or not every_method)
 
 
 def picture(live: Live) -> tuple:
     """Return everything that R² of a settled picture depends on."""
-    made, psf = live.setup, live.psf
-    return made.lens, made.source, psf.method, psf.numbers, live.state.clip, psf.values.shape, psf.pixel_um
+    setup, psf = live.setup, live.psf
+    return setup.lens, setup.source, psf.method, psf.numbers, live.state.clip, psf.values.shape, psf.pixel_um

@@ -6,6 +6,7 @@ from threading import Event
 from PySide6.QtCore import QObject, QThread, Signal, Slot
 
 from p2sf.errors import Cancelled, P2SFError
+from p2sf.messages import Message
 
 Job = Callable[[Event, Callable[[float], None]], object]
 """What a worker runs: given a cancel flag to look at and a progress function (0 to 1), it returns a result."""
@@ -13,18 +14,18 @@ Job = Callable[[Event, Callable[[float], None]], object]
 
 class _Runner(QObject):
     finished = Signal(object, object)
-    failed = Signal(object, str)
-    given_up = Signal()
+    failed = Signal(object, Message)
+    gave_up = Signal()
     progressed = Signal(object, float)
 
     @Slot(object, object, object)
-    def run(self, key, job: Job, cancelled: Event) -> None:
+    def run(self, key: object, job: Job, cancelled: Event) -> None:
         try:
             result = job(cancelled, lambda part: self.progressed.emit(key, part))
         except Cancelled:
-            self.given_up.emit()
+            self.gave_up.emit()
         except P2SFError as error:
-            self.failed.emit(key, str(error))
+            self.failed.emit(key, error.message)
         else:
             self.finished.emit(key, result)
 
@@ -32,13 +33,13 @@ class _Runner(QObject):
 class LatestWins(QObject):
     """One background thread. ``submit`` replaces the job that waits, never the one that runs.
 
-    ``finished(key, result)`` comes for every job that ends, stale or not: during a drag old answers are
-    better than none, and the receiver compares ``key`` with what it shows. ``failed(key, sentence)`` likewise. A job
-    that ends with `Cancelled` is no failure, and nothing is said of it: its key may have been asked for again.
+    ``finished(key, result)`` is emitted for every job that ends, stale or not: during a drag old answers are
+    better than none, and the receiver compares ``key`` with what it shows. ``failed(key, message)`` likewise. A job
+    that ends with `Cancelled` is no failure and emits nothing: its key may have been submitted again.
     """
 
     finished = Signal(object, object)
-    failed = Signal(object, str)
+    failed = Signal(object, Message)
     progressed = Signal(object, float)
     _start = Signal(object, object, object)
 
@@ -50,7 +51,7 @@ class LatestWins(QObject):
         self._start.connect(self._runner.run)
         self._runner.finished.connect(self._on_finished)
         self._runner.failed.connect(self._on_failed)
-        self._runner.given_up.connect(self._on_given_up)
+        self._runner.gave_up.connect(self._on_gave_up)
         self._runner.progressed.connect(self.progressed)
         self._waiting: tuple[object, Job] | None = None
         self._cancelled: Event | None = None
@@ -61,7 +62,7 @@ class LatestWins(QObject):
         """Return whether a job is running."""
         return self._cancelled is not None
 
-    def submit(self, key, job: Job) -> None:
+    def submit(self, key: object, job: Job) -> None:
         """Run the job now if nothing runs, else next; a job that waited is dropped, and one after the end too."""
         if self._stopped:
             return
@@ -92,18 +93,18 @@ class LatestWins(QObject):
         self._start.emit(key, job, self._cancelled)
 
     @Slot(object, object)
-    def _on_finished(self, key, result) -> None:
+    def _on_finished(self, key: object, result: object) -> None:
         self._cancelled = None
         self.finished.emit(key, result)
         self._next()
 
-    @Slot(object, str)
-    def _on_failed(self, key, sentence: str) -> None:
+    @Slot(object, Message)
+    def _on_failed(self, key: object, message: Message) -> None:
         self._cancelled = None
-        self.failed.emit(key, sentence)
+        self.failed.emit(key, message)
         self._next()
 
     @Slot()
-    def _on_given_up(self) -> None:
+    def _on_gave_up(self) -> None:
         self._cancelled = None
         self._next()

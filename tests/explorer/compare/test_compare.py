@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from pytest import approx
 
 from p2sf.lensfile.library import lenses_folder
+from p2sf.messages import Message
 from p2sf_explorer.compare.comparison import answers, resampled
 from p2sf_explorer.compare.contrasts import contrasts
 from p2sf_explorer.compute import live as compute
@@ -106,7 +107,7 @@ def test_two_methods_are_put_on_one_grid():
     found = answers(state, "settled", {}).seen.difference
     # On axis-like 5° at f/4 the fourth-order wavefront and the exact one agree to a wave over most of the pupil.
     assert np.isfinite(found.pupil.waves).mean() > 0.6
-    assert ("Method", "seidel", "traced") in contrasts(state)
+    assert ("Method", Message("seidel"), Message("traced")) in contrasts(state)
 
 
 def test_resampling_keeps_a_plane():

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.messages import Message
 from p2sf.paraxial.wavefront import wavefront
 from p2sf_explorer.compute.pupil import disc, dominant, strongest, variance_parts
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -58,4 +59,6 @@ def test_what_pulls_against_the_blur_has_no_share_of_it():
 )
 def test_the_advice_fits_what_is_said_to_blur_most(state, words, advice):
     made = paraxial_setup(state)
-    assert dominant(made.coefficients).startswith(f"Mostly {words}: ") and remedy(made) == advice
+    blur = dominant(made.coefficients)
+    assert blur.template.startswith("Mostly {term}: ") and blur.values["term"] == Message(words)
+    assert remedy(made) == advice

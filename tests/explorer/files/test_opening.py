@@ -13,6 +13,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QFileDialog
 
 from p2sf.lensfile.library import lenses_folder
+from p2sf.messages import Style
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.files import recent
 from p2sf_explorer.files.opening import imported
@@ -59,12 +60,12 @@ def test_every_kind_of_file_dropped_shows_its_lens_and_report(window, name):
 
 
 def test_a_report_is_in_german_where_the_window_is():
-    german = Translation("de")
+    german = Style(translate=Translation("de").said)
     for path in (*(FILES / name for name in FOREIGN), lenses_folder() / "tessar.toml"):
         for title, sentences in described("", imported(str(path)).report).groups:
             for english in (title, *sentences):
-                assert german.said(english) != english, english
-                assert not {"the", "of", "is", "are", "as", "on"} & set(german.said(english).split()), english
+                assert english.text(german) != str(english), english
+                assert not {"the", "of", "is", "are", "as", "on"} & set(english.text(german).split()), english
 
 
 def test_a_zipped_lens_from_the_open_dialog_by_its_key(window, qtbot, tmp_path, zemax, monkeypatch):

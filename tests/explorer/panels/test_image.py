@@ -12,6 +12,7 @@ from p2sf.image.lattice import Lattice
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.lens.lens import lens_range_um
 from p2sf.lensfile.library import find_lens
+from p2sf.messages import Message
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.results import image
@@ -19,6 +20,9 @@ from p2sf_explorer.results.image import (
     COLUMNS,
     ROWS,
     TOLERANCE,
+    TOO_LARGE,
+    TOO_WIDE,
+    UNMEASURED,
     coarse,
     fine_enough,
     local_psf,
@@ -61,11 +65,13 @@ def test_the_coarse_picture_resembles_the_planned_one(found):
 def test_the_words_count_the_psfs_and_explain_every_kind_of_decision(found):
     rows, columns = found.plan.counts
     waves = sum(len(colour.wavelengths_um) for colour in found.plan.colours)
-    assert found.headline.startswith(f"{rows * columns * waves} PSFs")  # off the axis there are no mirror images
-    assert dict(found.words)["PSFs"] == f"{rows} × {columns} places × {waves} wavelengths"
-    names = {what.split(" ")[0] for what, _ in found.words}
+    notes = {str(heading): note for heading, note in found.notes}
+    assert found.headline.values == {"count": rows * columns * waves}  # off the axis there are no mirror images
+    assert str(notes["PSFs"]) == f"{rows} × {columns} places × {waves} wavelengths"
+    names = {heading.split(" ")[0] for heading in notes}
     assert names == {"Error", "PSFs", "Places", "Colour", "Method", "Phase", "Sampling", "Depths", "Pupils"}
-    assert "keeps 0.1" in dict(found.words)["Error"]
+    assert "keeps 0.1" in str(notes["Error"])
+    assert {f"Colour {channel.name}" for channel in found.plan.scene.channels} < set(notes)
 
 
 def test_the_whole_field_uses_mirror_images_and_reaches_the_widest_chief_ray():
@@ -76,27 +82,23 @@ def test_the_whole_field_uses_mirror_images_and_reaches_the_widest_chief_ray():
     widest = np.tan(np.deg2rad(max(find_lens("singlet_f6").fields_deg)))
     focal = compute.live(State(lens="singlet_f6", method="seidel")).setup.focal_length_mm
     assert farthest == pytest.approx(focal * widest, rel=0.05)  # 3 % kept back, and some distortion
-    assert "12 PSFs" in coarse(whole).headline  # 2 × 2 of 3 × 3 in three colours
+    assert coarse(whole).headline.values == {"count": 12}  # 2 × 2 of 3 × 3 in three colours
 
 
 def test_large_pixels_get_no_plan_and_small_ones_do():
     whole, part = coarse(asked(photo_pixel_um=None)), coarse(asked())
     assert not fine_enough(whole) and fine_enough(part)
-    assert whole.no_plan == "No plan: these pixels hide the PSF" and not part.no_plan
-    assert "pixels as large as these" in dict(whole.words)["Coarse"] and "a plan follows" in dict(part.words)["Coarse"]
-    assert no_plan(replace(part.plan, counts=(1, 1))) == "No plan: these PSFs are too wide"
+    assert whole.no_plan == TOO_LARGE and not part.no_plan
+    for answer, reason in ((whole, TOO_LARGE), (part, None)):
+        assert (Message("Coarse"), UNMEASURED[reason]) in answer.notes
+    assert no_plan(replace(part.plan, counts=(1, 1))) == TOO_WIDE
 
 
 def test_sharpening_by_the_right_psfs_helps_and_by_the_axis_psf_does_not():
     quick = coarse(asked(photo="siemens_star", photo_show="sharpened", field_deg=14.0))
-    sentence = dict(quick.words)["Sharpening"]
-    blurred, right, wrong = (float(word) for word in sentence.replace(",", "").split() if is_number(word))
-    assert right > blurred + 3  # issue 8: what knowing the PSF buys, in dB
-    assert wrong < right - 3
-
-
-def is_number(word: str) -> bool:
-    return word.replace(".", "", 1).isdigit()
+    blurred, own, axis = (dict(quick.notes)[Message("Sharpening")].values[name] for name in ("blurred", "own", "axis"))
+    assert own > blurred + 3  # what knowing the PSF buys, in dB
+    assert axis < own - 3
 
 
 def test_the_loupe_interpolates_the_kernels_between_nodes():

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from math import inf
 from threading import Event
 
 import numpy as np
@@ -13,6 +14,7 @@ from PySide6.QtWidgets import QApplication
 from p2sf.errors import Cancelled
 from p2sf.image import Progress
 from p2sf.io.photo_files import write_photo
+from p2sf.messages import Message, Style
 from p2sf.scene.cost import Cost
 from p2sf.scene.plan import Decision
 from p2sf_explorer.files.snapshot import write_picture
@@ -20,12 +22,13 @@ from p2sf_explorer.i18n.language import Translation
 from p2sf_explorer.i18n.tr import unbroken
 from p2sf_explorer.results.image import (
     COLUMNS,
-    PLANLESS,
     PLANNING,
     ROWS,
     TOO_LARGE,
+    TOO_WIDE,
+    UNMEASURED,
     forming,
-    frame_words,
+    frame_notes,
     local_psf,
     pixels,
     planning,
@@ -137,21 +140,23 @@ def orders(window, image_panel, qtbot, monkeypatch):
 
 
 def test_where_no_plan_can_be_made_the_coarse_picture_stays_and_the_words_say_why(window, image_panel, orders):
-    image_panel._on_failure(image_panel._asked, "points 500 mm away blur over 2.4 mm; stop down")
+    image_panel._on_failure(image_panel._asked, Message("points 500 mm away blur over 2.4 mm; stop down"))
     assert image_panel.headline.text().startswith("Points 500\u00a0mm away")
     assert image_panel.widget.readout.text() == "coarse" and not image_panel.overlay.text
     image_panel._refine()
     assert not orders  # a second try would end the same
-    image_panel._on_failure(image_panel._asked, "points inf mm away blur over 6 mm; stop down")
-    assert image_panel.headline.text().startswith("Points ∞ away")
+    reason = Message("points {depth:g} mm away blur over 6 mm; stop down", depth=inf)
+    image_panel._on_failure(image_panel._asked, reason)
+    assert image_panel.headline.text().startswith("Points ∞\u00a0mm away")
 
 
 def test_a_picture_without_a_plan_says_why_under_the_controls(window, image_panel, orders):
     image_panel._on_answer(image_panel._asked, replace(image_panel._answer, no_plan=TOO_LARGE))
     assert image_panel.headline.text().startswith("No plan: these pixels hide")
-    said = Translation("de").said
-    for short, sentence in PLANLESS.items():
-        assert said(short).startswith("Kein Plan") and said(f"Unmeasured. {sentence}").startswith("Ungemessen. Für so")
+    german = Style(translate=Translation("de").said)
+    for reason in (TOO_WIDE, TOO_LARGE):
+        assert reason.text(german).startswith("Kein Plan")
+        assert UNMEASURED[reason].text(german).startswith("Ungemessen. Für so")
 
 
 def test_a_plan_says_how_far_it_is_and_is_stopped_and_made_after_all(window, image_panel, orders, qtbot):
@@ -230,9 +235,10 @@ def test_a_photo_of_other_proportions_is_cut_and_the_panel_says_where(window, im
     write_photo(tmp_path / "wide.png", np.full((20, 60, 3), 0.5, np.float32))
     window.store.update(photo=str(tmp_path / "wide.png"))
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
-    assert image_panel._answer.cut == "sides of the photo cut off"
-    assert image_panel.headline.text().startswith(image_panel._answer.cut)
-    assert "50 % of its width" in dict(image_panel._answer.words)["Frame"]  # 60 columns where 20 × 3/2 fit
+    assert image_panel._answer.cut == Message("sides of the photo cut off")
+    assert image_panel.headline.text().startswith("Sides of the photo cut off")
+    frame = dict(image_panel._answer.notes)[Message("Frame")]
+    assert frame.values["percent"] == pytest.approx(50)  # 60 columns where 20 × 3/2 fit
     assert cut_away(str(tmp_path / "wide.png"), (80, 60)) == pytest.approx((0.0, 0.75))
     assert cut_away(str(tmp_path / "wide.png"), (10, 60)) == pytest.approx((0.5, 0.0))
-    assert frame_words("text", (ROWS, COLUMNS)) == ("", "")
+    assert frame_notes("text", (ROWS, COLUMNS)) is None

@@ -10,6 +10,7 @@ from PySide6.QtCore import Qt
 from p2sf.lensfile.library import shipped_lenses
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
+from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.results.depth_of_field import axial_heights, depth_of_field, highest
 from p2sf_explorer.results.field import field_curves
 from p2sf_explorer.results.first_order import first_order
@@ -97,7 +98,7 @@ def test_a_source_on_the_axis_has_no_diagram_and_says_so(window):
 
 def test_the_data_table_knows_the_double_gauss(window):
     opened(window, "first_order", depth_mm=2000.0)
-    rows = {name: value for column in first_order(window.live) for name, value, _ in column}
+    rows = {name: value.text(WINDOW) for column in first_order(window.live) for name, value, _ in column}
     assert rows["Focal length f′"] == "100.004 mm"
     assert rows["Lagrange invariant"] == "2.9385 mm"
     assert float(rows["Magnification"].replace("−", "-")) == pytest.approx(-100.004 / (2000 - 29.321), abs=1e-4)
@@ -193,7 +194,7 @@ def test_every_kind_of_lens_has_an_answer(lens):
 def test_the_petzval_radius_is_what_its_tip_says(window):
     """A thin positive lens in air has −n·f′ (Welford 1986, §8.4), and so a sum of the same sign: c(1/n − 1) < 0."""
     window.store.replace(with_lens(window.store.state, "singlet_f6"))
-    rows = {name: (value, tip) for column in first_order(window.live) for name, value, tip in column}
+    rows = {name: (value.text(WINDOW), tip) for column in first_order(window.live) for name, value, tip in column}
     value, tip = rows["Petzval radius"]
     radius = float(value.split()[0].replace("−", "-"))
     s = window.live.setup

@@ -6,6 +6,7 @@ from math import inf
 import pytest
 
 from p2sf.errors import SamplingError
+from p2sf.messages import Message
 from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compute.live import Refused
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
@@ -32,7 +33,7 @@ def test_no_picture_and_no_figure_of_the_lens_before_is_left(without):
         assert overlay.isVisible() and overlay.text == WHY
         assert overlay.geometry().contains(without.panels[key].widget.rect().center())
         assert not data_of(without.panels[key].widget), "nor copied"
-    assert {value for _, value, _ in without.controls.facts.rows} == {UNKNOWN}
+    assert {str(value) for _, value, _ in without.controls.facts.rows} == {UNKNOWN}
     assert not without.controls.sentence.text() and without.controls.rows["field_deg"].note.text() == UNKNOWN
     assert without.status.facts.text() == UNKNOWN
 
@@ -63,7 +64,7 @@ def test_the_next_answer_lifts_every_veil(without):
     without.store.update(depth_mm=94.412)
     assert not without.banner.isVisible()
     assert not any(without.panels[key].widget.overlay.isVisible() for key in without._visible())
-    assert UNKNOWN not in {value for _, value, _ in without.controls.facts.rows}
+    assert UNKNOWN not in {str(value) for _, value, _ in without.controls.facts.rows}
 
 
 REASON = "the blur is too wide for a table"
@@ -88,7 +89,7 @@ def test_a_tab_that_has_nothing_to_show_veils_itself_alone(one_refusing):
     assert overlay.isVisible() and overlay.text == "The blur is too wide for a table; stop down"
     assert not any(window.panels[key].widget.overlay.isVisible() for key in MAIN)
     assert window.live.state.field_deg == 7.0 and not window.banner.isVisible()
-    assert UNKNOWN not in {value for _, value, _ in window.controls.facts.rows}
+    assert UNKNOWN not in {str(value) for _, value, _ in window.controls.facts.rows}
 
 
 def test_its_veil_goes_with_the_next_answer(one_refusing, monkeypatch):
@@ -101,5 +102,5 @@ def test_a_difference_is_as_it_was_where_a_side_has_nothing(window):
     asked = replace(window.store.state, shown="difference", pinned=State(f_number=8.0, method="seidel"))
     b_refuses = {"mtf": lambda live: refusing(live) if live.state.f_number == 8.0 else contrast(live)}
     seen = answers(asked, "preview", b_refuses).seen
-    assert seen.difference.why["mtf"] == "This is A: B has none. The blur is too wide for a table; stop down"
-    assert answers(asked, "preview", {"mtf": refusing}).seen.views["mtf"] == Refused(f"{REASON}; stop down")
+    assert str(seen.difference.why["mtf"]) == "This is A; B has none: the blur is too wide for a table; stop down"
+    assert answers(asked, "preview", {"mtf": refusing}).seen.views["mtf"] == Refused(Message(f"{REASON}; stop down"))

@@ -57,7 +57,7 @@ def test_the_picture_is_of_the_altered_six_whatever_the_method(changes):
     assert np.array_equal(live.psf.values, expected.values)
     # RMS over a square grid of 96 samples across against the exact integral: the edge's staircase leaves a percent.
     assert live.pupil.rms == pytest.approx(float(rms(live.setup.coefficients, tilt_removed=False)), rel=0.02)
-    assert "coefficients altered by hand" in live.warnings[0]
+    assert "coefficients altered by hand" in str(live.warnings[0])
     with pytest.raises(SamplingError, match="does not apply"):
         measure(live, False, None, None)
 
@@ -74,7 +74,7 @@ def test_the_warning_names_every_tab_that_does_not_follow():
     views = {entry.key: view_of(entry) for entry in REGISTRY if view_of(entry)}
     still = {key for key, view in views.items() if pickle.dumps(view(own)) == pickle.dumps(view(other))}
     assert still - OF_THE_LENS == set(NAMED)
-    assert all(word in other.warnings[0] for word in NAMED.values())
+    assert all(word in str(other.warnings[0]) for word in NAMED.values())
 
 
 def test_the_wavefront_in_space_is_the_altered_one():

@@ -1,4 +1,4 @@
-"""The background measure: R² against the Huygens sum arrives by itself, and its ladder is in order."""
+"""The background measure: R² against the Huygens sum arrives by itself, and every method's is in order."""
 
 from dataclasses import replace
 from threading import Event
@@ -25,7 +25,7 @@ def measured(qapp, qtbot):
     made.close()
 
 
-def test_the_badge_and_the_ladder_arrive_by_themselves(measured, qtbot):
+def test_the_badge_and_every_method_arrive_by_themselves(measured, qtbot):
     badge = measured.panels["psf"].badge
     qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
     known = measured.measuring._last
@@ -86,7 +86,7 @@ def test_a_figure_answers_for_its_own_picture_only(changes, wide):
     assert not fits(known, live(replace(state, **changes), at_least_um=wide), False)
 
 
-def test_names_on_the_ladder_stay_inside_and_take_different_sides(qapp):
+def test_the_names_of_the_methods_stay_inside_and_take_different_sides(qapp):
     """Two dots at one height, the second where the first one's name would reach: the names part company."""
     first, second, last = anchors(
         ["seidel R² 0.8", "gaussian R² 0.9", "huygens"], [(20, 20), (90, 20), (310, 80)], (330, 95)

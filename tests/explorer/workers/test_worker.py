@@ -5,6 +5,7 @@ from threading import Event
 import pytest
 
 from p2sf.errors import Cancelled, GeometryError
+from p2sf.messages import Message
 from p2sf_explorer.workers.worker import LatestWins
 
 
@@ -26,13 +27,13 @@ def test_one_runs_one_waits_and_the_latest_waiting_wins(qtbot, worker):
     assert seen == [("first", True), ("third", "third")]
 
 
-def test_a_refusal_comes_as_its_sentence_and_the_next_job_runs(qtbot, worker):
+def test_a_refusal_comes_as_its_message_and_the_next_job_runs(qtbot, worker):
     def refuse(cancelled, progress):
-        raise GeometryError("no such lens")
+        raise GeometryError("no such {what}", what="lens")
 
     with qtbot.waitSignal(worker.failed) as told:
         worker.submit("key", refuse)
-    assert told.args == ["key", "no such lens"]
+    assert told.args == ["key", Message("no such {what}", what="lens")]
     with qtbot.waitSignal(worker.finished):
         worker.submit("next", lambda cancelled, progress: 1)
 
@@ -52,7 +53,7 @@ def test_work_that_was_given_up_is_no_failure(qtbot, worker):
         gate.wait(5)
         raise Cancelled("stopped")
 
-    worker.failed.connect(lambda key, sentence: told.append(sentence))
+    worker.failed.connect(lambda key, message: told.append(message))
     worker.submit("key", give_up)
     worker.cancel()
     with qtbot.waitSignal(worker.finished):
