@@ -103,8 +103,16 @@ def set_up(lens: Lens, request: Request) -> Setup:
     indices(lens, wavelength)
     placed = with_sensor(_opened(lens, request.f_number), sensor_position(lens, request))
     used, stop = _stopped(placed, request, wavelength)
-    slope = field_slope(used, request, wavelength, stop)
-    return Setup(used, Source(request.depth_mm, slope, wavelength), stop, lens)
+    return with_field(Setup(used, Source(request.depth_mm, 0.0, wavelength), stop, lens), request)
+
+
+def with_field(setup: Setup, request: Request) -> Setup:
+    """Return a setup with its source at the field of a request that is the setup's own but for the field.
+
+    Raises as `set_up` does.
+    """
+    slope = field_slope(setup.lens, request, setup.source.wavelength_um, setup.stop)
+    return replace(setup, source=replace(setup.source, field_slope=slope))
 
 
 def set_up_source(

@@ -6,17 +6,16 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, isfinite
 from pathlib import Path
-from types import MappingProxyType
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
+from p2sf.conventions import NM_PER_UM
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
 from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
-from p2sf.request import Request, Setup, set_up
+from p2sf.request import Request, Setup, set_up, with_field
 from p2sf_explorer.compute.ranges import closest_distance, file_focus, focused_distance, telling_field, wavelength_range
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
@@ -107,56 +106,63 @@ def shipped() -> tuple[str, ...]:
 
 
 def paraxial_setup(state: State) -> ParaxialSetup:
-    """Return everything paraxial about the state; a P2SFError in a sentence where there is no answer."""
-    fixed = _fixed(prescription(state), _request(state))
-    slope = float(slope_from_degrees(state.field_deg))
-    source = replace(fixed["source"], field_slope=slope)
-    depth = source.depth_mm
-    gap = depth + float(fixed["pupils"].entrance_from_first)
-    own = coefficients(fixed["lens"], depth, slope, source.wavelength_um, fixed["stop"])
+    """Return everything paraxial about the state; P2SFError where there is no answer."""
+    axial = _axial(prescription(state), _request(state, None))
+    setup = with_field(axial.setup, _request(state, state.field_deg))
+    source, stop = setup.source, setup.stop
+    own = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
+    gap = source.depth_mm + float(axial.pupils.entrance_from_first)
     return ParaxialSetup(
-        **fixed
-        | {
-            "source": source,
-            "coefficients": altered(own, state),
-            "own": own,
-            "object_height_mm": slope * gap if isfinite(depth) else None,
-        }
-    )
-
-
-@lru_cache(maxsize=16)
-def _fixed(prescription: Lens, request: Request) -> MappingProxyType:
-    """Return the entries of a Setting that do not depend on the field, so that dragging the field computes little."""
-    made = set_up(prescription, request)
-    lens, wavelength, stop = made.lens, made.source.wavelength_um, made.stop
-    cardinal = cardinal_points(lens, wavelength)
-    return MappingProxyType(
-        {
-            "lens": lens,
-            "source": made.source,
-            "stop": stop,
-            "pupils": pupils(lens, wavelength, stop),
-            "cardinal": cardinal,
-            "rays": paraxial_rays(lens, made.source.depth_mm, wavelength, stop),
-            "focal_length_mm": float(cardinal.effective_focal_length),
-        }
+        lens=setup.lens,
+        source=source,
+        stop=stop,
+        pupils=axial.pupils,
+        cardinal=axial.cardinal,
+        rays=axial.rays,
+        coefficients=altered(own, state),
+        own=own,
+        object_height_mm=source.field_slope * gap if isfinite(source.depth_mm) else None,
+        focal_length_mm=float(axial.cardinal.effective_focal_length),
     )
 
 
 def request_setup(state: State) -> Setup:
-    """Return the state as the library's own setup, field included: what a file says about where it comes from."""
-    return set_up(prescription(state), replace(_request(state), field_deg=state.field_deg))
+    """Return the state as the library's own setup, which is also what a file says about where it comes from."""
+    axial = _axial(prescription(state), _request(state, None))
+    return with_field(axial.setup, _request(state, state.field_deg))
 
 
-def _request(state: State) -> Request:
+@dataclass(frozen=True)
+class _Axial:
+    """What does not depend on the field, so that dragging the field computes little."""
+
+    setup: Setup
+    pupils: Pupils
+    cardinal: CardinalPoints
+    rays: ParaxialRays
+
+
+@lru_cache(maxsize=16)
+def _axial(prescription: Lens, request: Request) -> _Axial:
+    setup = set_up(prescription, request)
+    lens, wavelength, stop = setup.lens, setup.source.wavelength_um, setup.stop
+    return _Axial(
+        setup=setup,
+        pupils=pupils(lens, wavelength, stop),
+        cardinal=cardinal_points(lens, wavelength),
+        rays=paraxial_rays(lens, setup.source.depth_mm, wavelength, stop),
+    )
+
+
+def _request(state: State, field_deg: float | None) -> Request:
     return Request(
         depth_mm=state.depth_mm,
+        field_deg=field_deg,
         wavelength_nm=state.wavelength_nm,
         focus_mm=state.focus_mm,
         sensor_shift_um=state.sensor_shift_um,
         f_number=state.f_number,
-        stop=state.stop,
+        stop="auto" if state.stop == "auto" else "file",
     )
 
 
@@ -208,8 +214,3 @@ def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
         sensor_shift_um=0.0,
         f_number=None,
     )
-
-
-def field_degrees(slope: float) -> float:
-    """Return the field angle in degrees of a chief-ray slope."""
-    return float(degrees_from_slope(slope))
