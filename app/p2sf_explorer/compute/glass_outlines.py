@@ -17,6 +17,10 @@ GLASS_INDEX = 1.0001  # less than this is air
 FLANGE = 1.1  # how much wider than its neighbour's edge a cemented element is drawn
 
 
+Profile = tuple[np.ndarray, np.ndarray]
+"""z and y of a line, mm."""
+
+
 @dataclass(frozen=True)
 class Outline:
     """One closed region of glass: z and y in mm, its index, and the surfaces (from 1) before and behind it."""
@@ -32,7 +36,7 @@ class Glass:
     """Outlines of the elements, the last surface's profile, the index behind it, and the extent."""
 
     outlines: tuple[Outline, ...]
-    last: tuple[np.ndarray, np.ndarray]
+    last: Profile
     image_index: float
     half_height: float
     left: float
@@ -107,7 +111,7 @@ def with_edges(lens: Lens, rims: list[float]) -> list[float]:
     elements = [at for at, n in enumerate(index) if n > GLASS_INDEX]
     held = list(rims)
     for at in elements:
-        edge = sharp_edge(*lens.surfaces[at : at + 2], max(held[at : at + 2]))
+        edge = sharp_edge(lens.surfaces[at], lens.surfaces[at + 1], max(held[at : at + 2]))
         held[at : at + 2] = (min(rim, edge) for rim in held[at : at + 2])
     for at in (*elements, *elements[::-1]):
         for low, other in ((at, at + 1), (at + 1, at)):
@@ -133,14 +137,14 @@ def _inside_surface(surface: Surface, rim: float) -> float:
     return rim if closing <= 0 else min(rim, 0.999 / np.sqrt(closing))
 
 
-def profile(surface: Surface, vertex: float, rim: float) -> tuple[np.ndarray, np.ndarray]:
+def profile(surface: Surface, vertex: float, rim: float) -> Profile:
     """Return z and y of a surface's meridional section from −rim to rim."""
     flat = surface.curvature == 0 and not surface.aspheric
     y = np.linspace(-rim, rim, 2 if flat else PROFILE_POINTS)
     return vertex + sag(surface, y), y
 
 
-def sag(surface: Surface, y):
+def sag(surface: Surface, y: np.ndarray) -> np.ndarray:
     """Sag of a conic with even polynomial terms (ISO 10110-12), mm."""
     square = np.square(y)
     c = surface.curvature
@@ -151,7 +155,7 @@ def sag(surface: Surface, y):
     return depth
 
 
-def element_outline(front, back, index: float, surfaces: tuple[int, int]) -> Outline:
+def element_outline(front: Profile, back: Profile, index: float, surfaces: tuple[int, int]) -> Outline:
     """Return the closed outline between two profiles; the narrower one gets a flat rim up to the wider."""
     (z1, y1), (z2, y2) = front, back
     rim = max(y1[-1], y2[-1])

@@ -1,11 +1,13 @@
 """The lens drawn to scale: outlines, rays and marks in mm, z from the first vertex. No Qt in here."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
 
 from p2sf.lens.lens import Lens, indices
+from p2sf.lens.source import Source
 from p2sf.raytrace.pencil import pupil_rays
 from p2sf_explorer.compute.glass_outlines import Glass, Outline, filling, glass_of, still, vertices, widest_exit
 from p2sf_explorer.compute.meridional import path
@@ -126,10 +128,10 @@ RAYS = (("marginal", 0, 1.0), ("marginal", 0, -1.0), ("rim", 1, 1.0), ("rim", 1,
 """The drawn rays: kind, which source (0 the axial point, 1 the field point), and η in the entrance pupil."""
 
 
-def ray_paths(setup: ParaxialSetup, drawn: Drawing):
+def ray_paths(setup: ParaxialSetup, drawn: Drawing) -> Iterator[RayPath]:
     """Yield the exact meridional rays of `RAYS`."""
     source, etas = setup.source, np.array([1.0, -1.0, 0.0])
-    both = replace(source, field_slope=np.array([0.0, source.field_slope]))
+    both = Source(source.depth_mm, np.array([0.0, source.field_slope]), source.wavelength_um)
     rays = pupil_rays(setup.lens, both, np.zeros(3), etas)
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     starts = _start(origins, directions, min(source.depth_mm, REACH * (drawn.right - drawn.left)))
@@ -146,7 +148,7 @@ def _start(origins: np.ndarray, directions: np.ndarray, reach: float) -> np.ndar
     return origins - directions * ((origins[..., 2:] + reach) / directions[..., 2:])
 
 
-def marks(setup: ParaxialSetup):
+def marks(setup: ParaxialSetup) -> Iterator[Mark]:
     """Yield the pupils and the principal and focal points that lie at a finite place."""
     last = vertices(setup.lens)[-2]
     c, p = setup.cardinal, setup.pupils

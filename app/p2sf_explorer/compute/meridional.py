@@ -3,6 +3,7 @@
 The layout draws five rays; arrays of five cost as much as arrays of five hundred, plain numbers a fifth of that.
 """
 
+from collections.abc import Sequence
 from math import copysign, hypot, sqrt
 
 from p2sf.lens.lens import Lens, Surface
@@ -11,33 +12,39 @@ from p2sf.raytrace.surface import sag_and_slope
 NEWTON_STEPS = 20
 CLOSE_MM = 1e-12
 
+Meeting = tuple[float, float, float]
+"""Where a ray meets a surface, local to its vertex: z, y and the slope dz/dy there."""
 
-def path(lens: Lens, index, start, direction) -> tuple[list[float], list[float], bool]:
+
+def path(
+    lens: Lens, index: Sequence[float], start: Sequence[float], direction: Sequence[float]
+) -> tuple[list[float], list[float], bool]:
     """Return z and y of a ray on every surface and on the sensor, and whether it got there.
 
     ``index``: per space; ``start`` and ``direction`` are (z, y) from the first vertex. A ray that misses a surface
     or is totally reflected ends where it last was.
     """
-    z, y, cz, cy = *start, *(part / hypot(*direction) for part in direction)
-    found, vertex = ([], []), 0.0
+    (z, y), length, vertex = start, hypot(*direction), 0.0
+    cz, cy = direction[0] / length, direction[1] / length
+    places: tuple[list[float], list[float]] = ([], [])
     for number, surface in enumerate(lens.surfaces):
         met = meet(surface, z - vertex, y, cz, cy)
         if met is None:
-            return *found, False
+            return *places, False
         z, y = met[0] + vertex, met[1]
-        found[0].append(z)
-        found[1].append(y)
+        places[0].append(z)
+        places[1].append(y)
         turned = refracted(met[2], cz, cy, index[number], index[number + 1])
         if turned is None:
-            return *found, False
+            return *places, False
         cz, cy = turned
         vertex += surface.thickness
-    found[0].append(vertex)
-    found[1].append(y + (vertex - z) * cy / cz)
-    return *found, True
+    places[0].append(vertex)
+    places[1].append(y + (vertex - z) * cy / cz)
+    return *places, True
 
 
-def meet(surface: Surface, z: float, y: float, cz: float, cy: float):
+def meet(surface: Surface, z: float, y: float, cz: float, cy: float) -> Meeting | None:
     """Return (z, y, dz/dy) where a ray meets a surface's front sheet, local to its vertex; None where it misses."""
     y -= z * cy / cz
     c, k = surface.curvature, surface.conic
@@ -54,8 +61,8 @@ def meet(surface: Surface, z: float, y: float, cz: float, cy: float):
     return _on_asphere(surface, z, y, cz, cy)
 
 
-def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float):
-    """Go on from the conic to the asphere by Newton's rule; None where that does not end."""
+def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float) -> Meeting | None:
+    """Return where a ray that met the conic meets the asphere, by Newton's method; None where it does not converge."""
     for _ in range(NEWTON_STEPS):
         if (1 + surface.conic) * (surface.curvature * y) ** 2 >= 1:
             return None
@@ -68,7 +75,7 @@ def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float):
     return None
 
 
-def refracted(slope: float, cz: float, cy: float, before: float, after: float):
+def refracted(slope: float, cz: float, cy: float, before: float, after: float) -> tuple[float, float] | None:
     """Return the direction behind a surface of slope dz/dy, Snell's law as a vector; None where totally reflected."""
     length = hypot(1.0, slope)
     nz, ny = 1 / length, -slope / length

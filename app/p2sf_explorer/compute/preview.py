@@ -103,7 +103,8 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
     if not weight.any():
         raise GeometryError(CLIPPED)
     clear = replace(nodes, weight=weight / weight.sum())
-    intensity = clear.intensity(*fitted.at_points(nodes.xi, nodes.eta), pixels, pixel_um, np.float32)
+    phase, fx = fitted.at_points(nodes.xi, nodes.eta)
+    intensity = clear.intensity(phase, fx, pixels, pixel_um, np.float32)
     sampling = Message("{nodes}, those that the rims let pass", nodes=nodes.words)
     label = Origin("fitted", fitted.numbers, fitted.rays + nodes.xi.size, sampling, traced.begun)
     return psf_from_intensity(intensity, pixel_um, setup.source.wavelength_um, None, label)

@@ -6,6 +6,7 @@ from math import inf, isfinite
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.glass.media import Medium
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.first_order import basis_rays, cardinal_points
 from p2sf.paraxial.seidel import coefficients
@@ -69,7 +70,7 @@ def wavelength_range(lens: Lens) -> tuple[float, float]:
     return (low, high) if low < high else VISIBLE_NM
 
 
-def _table_range(medium) -> tuple[float, float] | None:
+def _table_range(medium: Medium) -> tuple[float, float] | None:
     known = getattr(medium, "wavelengths_um", None)
     return (known[0], known[-1]) if known else None
 

@@ -92,8 +92,8 @@ def exact_landing(setup: ParaxialSetup, quality: str = "settled", clip: bool = F
     """
     xi, eta, _ = polar(*TRACED[quality])
     rays = pencil(setup.lens, setup.source, xi.ravel(), eta.ravel(), clip=clip)
-    places = (UM_PER_MM * values.reshape(xi.shape) for values in (rays.dx, rays.dy))
-    return *(finely(values, GRIDS[quality]) for values in places), polar(*GRIDS[quality])[2]
+    x, y = (finely(UM_PER_MM * values.reshape(xi.shape), GRIDS[quality]) for values in (rays.dx, rays.dy))
+    return x, y, polar(*GRIDS[quality])[2]
 
 
 def polar(radii: int, directions: int) -> Landing:

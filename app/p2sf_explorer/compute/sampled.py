@@ -5,6 +5,7 @@ from dataclasses import replace
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.compute.deferred_sums import by_rays, sum_request
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import too_blurred
 from p2sf_explorer.compute.preview import preview, preview_psf
 from p2sf_explorer.compute.ray_density import geometric_psf
@@ -22,12 +23,12 @@ def optics(state: State) -> State:
     return replace(State(), **{name: getattr(state, name) for name in OPTICS})
 
 
-def by_coefficients(live) -> bool:
+def by_coefficients(live: Live) -> bool:
     """Return whether the six coefficients make the present point's picture, and so what is shown of that point."""
     return live.method == "seidel" or live.setup.altered
 
 
-def everywhere_by_coefficients(live) -> bool:
+def everywhere_by_coefficients(live: Live) -> bool:
     """Return whether the six coefficients make every picture: asked for by name, or altered by hand.
 
     What ``auto`` has chosen holds for the present point alone, and says nothing of other fields and sensor positions.

@@ -6,6 +6,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.raytrace.field_curves import colour_shift
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.ranges import wavelength_range
 from p2sf_explorer.compute.setup import prescription
 
@@ -25,7 +26,7 @@ class Chromatic:
     depth_of_focus_um: float
 
 
-def chromatic(live) -> Chromatic:
+def chromatic(live: Live) -> Chromatic:
     """Return the focal shift of every colour at this depth."""
     setup = live.setup
     nm = np.linspace(*wavelength_range(prescription(live.state)), WAVELENGTHS[live.quality])

@@ -1,5 +1,6 @@
 """The colour PSF of the present point: what is asked, and the answer with the colours of a screen."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,8 +9,11 @@ from p2sf.colour.colorimetry import displayable, linear_rgb, matching, srgb_from
 from p2sf.colour.spectrum import relative_power, spectrum_of
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, faint_rgb, suitable_pitch_um
+from p2sf.psf.result import Psf
 from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
@@ -64,11 +68,11 @@ def question(live: Live) -> ColourQuestion | Message:
     return ColourQuestion(optics(live.state), spectrum.name, window, COUNT[live.quality], by_coefficients(live))
 
 
-def answer(asked: ColourQuestion, stopped, tell) -> Colours:
+def answer(asked: ColourQuestion, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Colours:
     """Return the colour PSF; P2SFError where a wavelength has no PSF."""
     setup, spectrum = paraxial_setup(asked.state), spectrum_of(asked.spectrum)
 
-    def one(lens, source, pixels, pixel_um):
+    def one(lens: Lens, source: Source, pixels: int, pixel_um: float) -> Psf:
         return in_window(at_wavelength(asked.state, NM_PER_UM * source.wavelength_um), (pixels, pixel_um), asked.six)
 
     # A free pupil has no glass: the axis of the lens, where no colour lands beside another, stands for it.

@@ -10,7 +10,7 @@ from math import inf
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
-from p2sf.database import ExactDatabase, Space, build_database, depth_nodes
+from p2sf.database import ExactDatabase, GridDatabase, Space, build_database, depth_nodes
 from p2sf.database.parts import KINDS
 from p2sf.database.render import Sampling, rendered
 from p2sf.errors import Cancelled, P2SFError, SamplingError
@@ -133,7 +133,9 @@ def stop(asked: DatabaseRequest) -> Stop:
     return Stop(surface, np.asarray(asked.stop_rim), surface, "file")
 
 
-def mapped(database, near, fields_deg, wavelength_um: float) -> dict[str, np.ndarray]:
+def mapped(
+    database: ExactDatabase | GridDatabase, near: np.ndarray, fields_deg: np.ndarray, wavelength_um: float
+) -> dict[str, np.ndarray]:
     """Return each coefficient, (fields, depths), in waves; NaN between the last depth a rule reaches and infinity."""
     last = getattr(database, "last_depth_mm", inf)
     known = (near == 0) | (near >= (1 - 1e-12) / last)
@@ -197,7 +199,7 @@ def closest(atlas: Atlas, depth_mm: float, field_deg: float) -> tuple[int, int]:
     return row, column
 
 
-def _places(atlas: Atlas, depth_mm: float, field_deg: float):
+def _places(atlas: Atlas, depth_mm: float, field_deg: float) -> tuple[tuple[np.ndarray, float], ...]:
     """Return (nodes, value) of the fields in degrees and of 1/depth in 1/mm."""
     with np.errstate(divide="ignore"):
         return (atlas.fields_deg, field_deg), (1 / atlas.depths_mm, 1 / depth_mm)

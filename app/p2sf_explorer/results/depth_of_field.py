@@ -10,8 +10,9 @@ from p2sf.errors import P2SFError
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.ranges import closest_distance
-from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.compute.setup import ParaxialSetup, prescription
 from p2sf_explorer.state.scales import nice
 
 ELSEWHERE_MM = 1000.0  # any depth but infinity: two points make the line
@@ -42,7 +43,7 @@ class DepthOfField:
     hyperfocal_mm: float
 
 
-def depth_of_field(live) -> DepthOfField:
+def depth_of_field(live: Live) -> DepthOfField:
     """Return the blur at every depth with the sensor where it stands."""
     s, tolerated = live.setup, live.state.blur_um
     clear = sharp(s, tolerated)
@@ -61,7 +62,7 @@ def depth_of_field(live) -> DepthOfField:
     )
 
 
-def shown(live, closest: float) -> tuple[float, float]:
+def shown(live: Live, closest: float) -> tuple[float, float]:
     """Return the 1/depth to show, 1/mm, up to ``closest``: about what is sharp, wider where there is more to see.
 
     As wide as the paraxial blur stays below three times what is tolerated, or twice the least there is; where the
@@ -86,7 +87,7 @@ def highest(view: DepthOfField) -> float:
     return nice(max(SEEN * view.tolerated_um, 2 * least), (1, 1.5, 2, 3, 4, 6, 8))
 
 
-def within(setup, blur_um: float, closest: float) -> tuple[float, float]:
+def within(setup: ParaxialSetup, blur_um: float, closest: float) -> tuple[float, float]:
     """Return between which 1/depth, 1/mm, the paraxial blur is below this, up to ``closest`` or just beyond its own."""
     clear = sharp(setup, blur_um)
     if clear is None or not clear[0]:
@@ -95,14 +96,14 @@ def within(setup, blur_um: float, closest: float) -> tuple[float, float]:
     return low, high if low < closest else 1.01 * high
 
 
-def least_axial(live, closest: float) -> float:
+def least_axial(live: Live, closest: float) -> float:
     """Return the least paraxial blur from infinity to 1/``closest``, µm; 0 where any depth is sharp."""
     if sharp(live.setup, live.state.blur_um):
         return 0.0
     return 2 * UM_PER_MM * float(np.abs(axial_heights(live.setup, np.array([inf, 1 / closest]))).min())
 
 
-def probed(live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+def probed(live: Live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """Return three 1/depth over a range and the exact rays' blur there, µm."""
     near = np.linspace(*ends, 3)
     return near, real_blur(live, np.divide(1.0, near, out=np.full(3, inf), where=near > 0), PROBE_RINGS)
@@ -118,19 +119,20 @@ def vertex_of(near: np.ndarray, blur: np.ndarray) -> float:
     return float(near[1] + (near[1] - near[0]) * (first - last) / (2 * bend)) if bend > 0 else nan
 
 
-def axial_heights(setup, depths, sensor_mm: float | None = None) -> np.ndarray:
+def axial_heights(setup: ParaxialSetup, depths: np.ndarray, sensor_mm: float | None = None) -> np.ndarray:
     """Return where the marginal ray of each depth meets the sensor, mm; its double is the blur's diameter."""
     sensor_mm = setup.lens.sensor_mm if sensor_mm is None else sensor_mm
     rays = paraxial_rays(setup.lens, np.asarray(depths), setup.source.wavelength_um, setup.stop)
     return rays.y[-1] + rays.nu[-1] / rays.index[-1] * sensor_mm
 
 
-def real_blur(live, depths, rings: int) -> np.ndarray:
+def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
     """Return twice the RMS radius of the exact rays' spot at the present field, µm, per depth."""
     s = live.setup
     source = Source(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
     try:
-        rays = pencil(s.lens, source, *hexapolar(rings), clip=live.state.clip)
+        xi, eta = hexapolar(rings)
+        rays = pencil(s.lens, source, xi, eta, clip=live.state.clip)
     except P2SFError:  # a chief ray is lost at some depth: the paraxial curve says what can be said
         return np.full(len(depths), np.nan)
     lost = rays.passed.sum(-1) < FEWEST
@@ -140,7 +142,7 @@ def real_blur(live, depths, rings: int) -> np.ndarray:
     return np.where(lost, np.nan, 2 * UM_PER_MM * np.sqrt(np.maximum(square, 0.0)))
 
 
-def sharp(setup, tolerated_um: float) -> tuple[float, float] | None:
+def sharp(setup: ParaxialSetup, tolerated_um: float) -> tuple[float, float] | None:
     """Return nearest and farthest depth in mm with a blur within ``tolerated_um``; None if no real depth has one.
 
     In s = 1/(object to entrance pupil) the marginal ray is linear (handbook 7.1): h = h∞ + k·s. The nearest is
@@ -166,14 +168,14 @@ def _depth(s: float, pupil: float) -> float:
     return max(0.0, 1 / s - pupil) if s else inf
 
 
-def linear_roots(setup, pupil: float, half_mm: float, sensor_mm: float | None = None) -> list[float]:
+def linear_roots(setup: ParaxialSetup, pupil: float, half_mm: float, sensor_mm: float | None = None) -> list[float]:
     """Return the two s at which |h| is ``half_mm``; none where the blur is the same at every depth."""
     far, one = axial_heights(setup, np.array([inf, ELSEWHERE_MM]), sensor_mm)
     slope = (one - far) * (ELSEWHERE_MM + pupil)
     return [float((side * half_mm - far) / slope) for side in (-1, 1)] if slope else []
 
 
-def hyperfocal(setup, tolerated_um: float) -> float:
+def hyperfocal(setup: ParaxialSetup, tolerated_um: float) -> float:
     """Return the depth to focus on so that infinity has just the tolerated blur, mm; infinite for an afocal lens.
 
     The sensor then stands blur/(2|u′|) behind the rear focus.

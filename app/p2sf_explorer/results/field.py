@@ -11,6 +11,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.field_curves import Foci, Heights, heights, real_foci, seidel_foci
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.state.scales import nice
 
 FIELDS = {"preview": 13, "settled": 25}
@@ -36,7 +37,7 @@ class FieldView:
     exaggerated: int
 
 
-def field_curves(live) -> FieldView:
+def field_curves(live: Live) -> FieldView:
     """Return the curves of the lens at this depth and wavelength; the same object while only the field moves."""
     s = live.setup
     rim = int(s.stop.surface), float(s.stop.semi_diameter)
@@ -62,7 +63,7 @@ def exaggeration(distortion: np.ndarray) -> int:
     return 1 if most >= SEEN else round(min(1000.0, nice(SEEN / max(most, 1e-9))))
 
 
-def widest_slope(live) -> float:
+def widest_slope(live: Live) -> float:
     """Return the field's edge: that of the lens's file, or the present field where it lies beyond."""
     degrees = (AT_LEAST_DEG, *map(abs, live.setup.lens.fields_deg), abs(live.state.field_deg))
     return float(slope_from_degrees(max(degrees)))

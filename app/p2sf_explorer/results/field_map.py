@@ -1,5 +1,6 @@
 """The PSF over the picture: a grid of places on the sensor, each PSF turned as its field is."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,6 +9,7 @@ from p2sf.conventions import degrees_from_slope
 from p2sf.errors import P2SFError
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -31,7 +33,7 @@ class FieldMap:
     six: bool
 
 
-def field_map(live) -> FieldMap:
+def field_map(live: Live) -> FieldMap:
     """Return what to show; it does not depend on the present field, so it stands still while that is dragged."""
     corner, pixels = widest_slope(live), PIXELS[live.quality]
     s = live.setup
@@ -51,7 +53,7 @@ def places() -> np.ndarray:
     return np.stack(np.meshgrid(x, y), axis=-1)
 
 
-def answer(asked: FieldMap, stopped, tell) -> np.ndarray:
+def answer(asked: FieldMap, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> np.ndarray:
     """Return the pictures, (rows, columns, pixels, pixels), each over its own peak; ``tell`` of every field made.
 
     Fields of one distance from the axis share a PSF, mirrored or turned about the axis (the lens is round).

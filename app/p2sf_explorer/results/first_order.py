@@ -3,7 +3,6 @@
 from math import inf, isfinite, isinf
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from p2sf.messages import Message, Number
 from p2sf.paraxial.first_order import magnification
@@ -52,7 +51,7 @@ def rows(live: Live) -> tuple[Row, ...]:
         ("Stop", stop(s.stop), STOP_TIP),
         (
             "Strehl ratio",
-            Message("{value}", value=Number(significant(float(live.psf.strehl), 2))),
+            Message("{value}", value=Number(significant(float(live.psf.strehl or 0.0), 2))),
             "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.",
         ),
     )
@@ -82,7 +81,7 @@ def airy_radius(live: Live) -> Message:
     return Message("{value} µm", value=Number(significant(live.airy_radius_um, 3)))
 
 
-def pupil(place: ArrayLike, diameter: ArrayLike) -> Message:
+def pupil(place: np.ndarray | float, diameter: np.ndarray | float) -> Message:
     """Return a pupil's diameter and place."""
     if isinf(float(place)):
         return Message("at infinity")

@@ -6,6 +6,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import exp, hypot
+from pathlib import Path
+from threading import Event
 from time import perf_counter
 
 import numpy as np
@@ -24,6 +26,7 @@ from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.pixels import samples_across
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Plan, Scene, Sensor, plan
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.photos import NOISE, channels_of, cut_away, scene_values
 
 SEEN = 0.005  # of a photo's side: less is a pixel or two
@@ -130,8 +133,6 @@ PLANNING = 0.9  # of the time of a planned picture; the rest are its kernels and
 USUAL_STEPS = 60  # a plan has 140 to 220 measurements, nobody knows how many, and the first half take most of the time
 TO_THE_RIM = (1.0, 0.95, 0.9, 0.8, 0.7, 0.5)  # of the lens's widest field, where the outermost chief ray is lost
 
-Result = tuple[np.ndarray, np.ndarray]
-
 
 @dataclass(frozen=True)
 class ImageRequest:
@@ -166,7 +167,7 @@ class ImageResult:
     no_plan: Message | None = None
 
 
-def question(live) -> ImageRequest:
+def question(live: Live) -> ImageRequest:
     """Return what the image panel must know of the present state."""
     state, setup = live.state, live.setup
     whole = state.photo_pixel_um is None
@@ -339,12 +340,14 @@ def pixels(values: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(0xFF000000 | levels[..., 0] << 16 | levels[..., 1] << 8 | levels[..., 2], np.uint32)
 
 
-def work(make: Callable[[ImageRequest, Progress], ImageResult], asked: ImageRequest):
+def work(
+    make: Callable[[ImageRequest, Progress], ImageResult], asked: ImageRequest
+) -> Callable[[Event, Callable[[float], None]], ImageResult]:
     """Return a worker's job for one way of making the picture."""
     return lambda cancelled, progress: make(asked, Progress(progress, cancelled.is_set))
 
 
-def save_picture(answer: ImageResult, path) -> None:
+def save_picture(answer: ImageResult, path: str | Path) -> None:
     """Write the picture at the right of the split as .png or .tif; ExportError."""
     from p2sf.io.photo_files import write_photo
 

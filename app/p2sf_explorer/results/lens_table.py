@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from p2sf.lens.lens import Lens
 from p2sf_explorer.compute.editing import written
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription
 
 COLUMNS = ("radius", "thickness", "medium", "semi_diameter", "conic", "aspheric")
@@ -19,7 +20,7 @@ class Rows:
     edited: bool
 
 
-def rows(live) -> Rows:
+def rows(live: Live) -> Rows:
     """Return what the table shows; the lens before focus and f-number sliders change it."""
     lens = prescription(live.state)
     texts = tuple(tuple(written(surface, column) for column in COLUMNS) for surface in lens.surfaces)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.psf.metrics import diffraction_mtf, mtf
+from p2sf_explorer.compute.live import Live
 
 INTERVALS = 512  # eight between two frequencies that a window of 128 samples tells apart: lobes are no zigzag
 
@@ -19,7 +20,7 @@ class Contrast:
     perfect: np.ndarray
 
 
-def contrast(live) -> Contrast:
+def contrast(live: Live) -> Contrast:
     """Return the MTF of the PSF on screen up to its pitch's Nyquist frequency or the lens's cut-off."""
     c, wavelength = live.setup.coefficients, live.setup.source.wavelength_um
     nyquist, cut_off = 500 / live.psf.pixel_um, 2000 * float(c.na) / wavelength

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.psf.result import Psf
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.profiles import airy_curves
 
 MOST_PIXELS = 201  # across the window; finer pixels are not told apart on screen
@@ -26,7 +27,7 @@ class Beside:
     perfect_share: float
 
 
-def beside(live) -> Beside:
+def beside(live: Live) -> Beside:
     """Return the three pictures of the present point."""
     psf, pixel = live.psf, live.state.pixel_um
     perfect = airy_picture(psf, live.airy_radius_um)

@@ -14,11 +14,16 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import corner_reach
 from p2sf.pupil.quadrature import disc_nodes, nodes_for
 from p2sf.pupil.transform import sum_on_line
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients
 
 POINTS = {"preview": 257, "settled": 513}
 FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # where the two ways to a Bessel function meet: each is exact to 1e-12 there
 MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
+
+
+Nodes = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Complex amplitude and spatial frequencies along x and y, cycles per µm."""
 
 
 @dataclass(frozen=True)
@@ -37,26 +42,26 @@ class ProfileCurves:
     perfect_energy: np.ndarray
 
 
-def profiles(live) -> ProfileCurves:
+def profiles(live: Live) -> ProfileCurves:
     """Return sections finer than the picture's samples: summed at the points themselves once the sliders rest."""
     psf = live.psf
     half = (psf.values.shape[-1] // 2) * psf.pixel_um
     position, airy, perfect = airy_curves(POINTS[live.quality], half, live.airy_radius_um)
     lines = fine_lines(live, position) if live.quality == "settled" else None
     along_x, along_y = lines or between_samples(psf, position)
-    peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl)) or 1.0
+    peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl or 0.0)) or 1.0
     return ProfileCurves(position, along_x / peak, along_y / peak, airy, energy(live, position), perfect)
 
 
 def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the samples through the chief ray in units of the unaberrated peak, straight lines between them."""
     rows, columns = psf.values.shape
-    scale = float(psf.strehl) / (float(psf.values.max()) or 1.0)
+    scale = float(psf.strehl or 0.0) / (float(psf.values.max()) or 1.0)
     row, column = psf.values[rows // 2], psf.values[:, columns // 2]
-    return tuple(scale * np.interp(position, psf.x_um, line) for line in (row, column))
+    return scale * np.interp(position, psf.x_um, row), scale * np.interp(position, psf.x_um, column)
 
 
-def fine_lines(live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
     """Return |field|² along x and along y in units of the unaberrated peak; None where no sum describes the picture.
 
     That is where rays are lost, where the picture is a density of rays, and where a sum would take too long.
@@ -73,11 +78,11 @@ def fine_lines(live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | No
     window = position.size, float(position[1] - position[0])
     across, along_y = sum_on_line(amplitude, kx, *window), sum_on_line(amplitude, ky, *window)
     along_x = (across + across[::-1]) / 2  # the nodes are one half of a pupil that is even in ξ
-    return tuple(line.real**2 + line.imag**2 for line in (along_x, along_y))
+    return along_x.real**2 + along_x.imag**2, along_y.real**2 + along_y.imag**2
 
 
-def seidel_nodes(live):
-    """Return amplitude and spatial frequencies (cycles per µm) of the six coefficients' pupil."""
+def seidel_nodes(live: Live) -> Nodes | None:
+    """Return the nodes of the six coefficients' pupil; None if a sum over them takes too long."""
     c, psf = live.setup.coefficients, live.psf
     slope, twist = (float(x) for x in steepest_polar(c))
     scale = -float(c.reduced_slope) / float(c.wavelength_um)
@@ -88,8 +93,8 @@ def seidel_nodes(live):
     return pupil_amplitude(nodes.weight, wavefront(c, nodes.xi, nodes.eta)), scale * nodes.xi, scale * nodes.eta
 
 
-def fitted_nodes(live):
-    """Return amplitude and spatial frequencies of a fit to exact rays; P2SFError where rays are lost."""
+def fitted_nodes(live: Live) -> Nodes | None:
+    """Return the nodes of a fit to exact rays; None if a sum takes too long, P2SFError where rays are lost."""
     found, psf = fit(live.setup.lens, live.setup.source), live.psf
     counts = counts_for(found.steepness, on_axes(psf), psf.pixel_um)
     if counts[0] * counts[1] > MOST_NODES:
@@ -104,7 +109,7 @@ def on_axes(psf: Psf) -> int:
     return round(psf.values.shape[-1] / np.sqrt(2))
 
 
-def energy(live, position: np.ndarray) -> np.ndarray:
+def energy(live: Live, position: np.ndarray) -> np.ndarray:
     """Return the share of the window's light within |position| of the centroid; from rings of samples while moving."""
     psf, radius = live.psf, np.abs(position)
     if live.quality == "settled":

@@ -6,6 +6,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.paraxial.seidel import seidel_sums
+from p2sf_explorer.compute.live import Live
 
 
 @dataclass(frozen=True)
@@ -16,7 +17,7 @@ class PerSurface:
     stop_surface: int
 
 
-def per_surface(live) -> PerSurface:
+def per_surface(live: Live) -> PerSurface:
     """Return W40, W31, W22, W20 and W11 split over the surfaces (handbook 3.2)."""
     setup = live.setup
     sums = seidel_sums(setup.lens, setup.rays, setup.source.field_slope)

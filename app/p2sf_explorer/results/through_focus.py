@@ -1,5 +1,6 @@
 """The PSF at several sensor positions: which of them, how wide a window, and the pictures."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
-from p2sf_explorer.compute.setup import paraxial_setup
+from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import check_focusable
@@ -67,7 +68,7 @@ def strip(live: Live) -> Strip | Message:
     return Strip(state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), everywhere_by_coefficients(live))
 
 
-def reach(setup) -> tuple[float, float, float]:
+def reach(setup: ParaxialSetup) -> tuple[float, float, float]:
     """Return the shifts to show, µm, around sensor and foci, and half the width of a window that holds the blur, µm."""
     c = setup.coefficients
     na, index = float(c.na), float(c.image_index)
@@ -81,7 +82,7 @@ def reach(setup) -> tuple[float, float, float]:
     return float(low), float(high), blur + ROOM * float(airy_radius_um(setup.source.wavelength_um, na))
 
 
-def answer(asked: Strip, stopped, tell) -> Focused:
+def answer(asked: Strip, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Focused:
     """Return the strip, ``tell`` of every picture as it is made (share done, the strip so far)."""
     found = Focused(np.full((len(asked.shifts_um), asked.window[0], asked.window[0]), np.nan), *foci(asked))
     for number in outwards(len(asked.shifts_um)):
@@ -100,7 +101,7 @@ def light(shift_um: float, asked: Strip) -> np.ndarray:
     except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip says as much
         return np.full((asked.window[0],) * 2, np.nan)
     peak = float(psf.values.max()) or 1.0
-    return psf.values * (float(psf.strehl) / peak)
+    return psf.values * (float(psf.strehl or 0.0) / peak)
 
 
 def outwards(count: int) -> list[int]:

@@ -5,6 +5,8 @@ from math import isfinite
 
 import numpy as np
 
+from p2sf_explorer.compute.live import Live
+
 
 @dataclass(frozen=True)
 class YBar:
@@ -16,7 +18,7 @@ class YBar:
     stop: int
 
 
-def ybar(live) -> YBar:
+def ybar(live: Live) -> YBar:
     """Return the polygon from the object (or, from infinity, the first surface) through every surface to the sensor."""
     setup = live.setup
     rays, slope, depth = setup.rays, setup.source.field_slope, setup.source.depth_mm

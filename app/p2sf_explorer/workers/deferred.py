@@ -1,5 +1,7 @@
 """Sums the waves of settled pictures in the background where that is too slow for a frame."""
 
+from typing import Any
+
 from PySide6.QtCore import QObject
 
 from p2sf.messages import Message
@@ -12,7 +14,7 @@ from p2sf_explorer.workers.worker import LatestWins
 class DeferredWorker(QObject):
     """Owns the worker and the ``cache`` of its sums; `watch` is called with the sum that a picture waits for."""
 
-    def __init__(self, window):
+    def __init__(self, window: Any):
         super().__init__(window)
         self._window, self.cache = window, SumCache()
         self._state = window.store.state

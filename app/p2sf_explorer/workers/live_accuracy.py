@@ -1,5 +1,7 @@
 """Measures every settled picture against the Huygens reference in the background, and tells the panels."""
 
+from typing import Any
+
 from PySide6.QtCore import QObject
 
 from p2sf.messages import Message
@@ -13,7 +15,7 @@ from p2sf_explorer.workers.worker import LatestWins
 class LiveAccuracy(QObject):
     """Owns the worker; ``watch`` is called with every answer, results go to the panels that show accuracy."""
 
-    def __init__(self, window, enabled: bool = True):
+    def __init__(self, window: Any, enabled: bool = True):
         super().__init__(window)
         self._enabled, self._resting = enabled, False
         self._window = window
