@@ -1,8 +1,8 @@
-"""How bright a value of the PSF is shown: linear, square root, logarithmic. No Qt in here."""
+"""Brightness scales of the PSF: linear, square root, logarithmic. No Qt in here."""
 
 import numpy as np
 
-DECADES = 5  # what the logarithmic scale shows below the peak
+DECADES = 5  # shown by the logarithmic scale, below the peak
 
 
 def stretched(values: np.ndarray, scale: str) -> np.ndarray:

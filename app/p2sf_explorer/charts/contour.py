@@ -1,4 +1,4 @@
-"""A wavefront as contours: bands of equal height with lines between them, on finer samples. No Qt in here."""
+"""Contours of a wavefront: bands of equal height with lines between them, on finer samples. No Qt in here."""
 
 from functools import lru_cache
 
@@ -11,7 +11,7 @@ BANDS = 12  # at most, between the highest and the lowest wave
 
 
 def interval(peak_to_valley: float) -> float:
-    """Return the round step between two lines, waves; a hundredth at least."""
+    """Return the round step between two lines, in waves; at least a hundredth."""
     return nice(max(peak_to_valley / BANDS, 0.01)) if peak_to_valley > 0 else 0.01
 
 
@@ -32,7 +32,7 @@ def contours(waves: np.ndarray, step: float) -> np.ndarray:
 
 
 def finer(waves: np.ndarray) -> np.ndarray:
-    """Return the map on finer samples, inside the unit disc and where samples are known nearby."""
+    """Return the map on finer samples, NaN outside the unit disc and where no neighbouring sample is known."""
     matrix = _between(len(waves))
     known = np.isfinite(waves)
     weight = matrix @ known @ matrix.T

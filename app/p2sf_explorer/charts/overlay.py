@@ -1,44 +1,46 @@
-"""What lies over a panel while there is no answer: the picture before shines through faintly, a sentence says so."""
+"""What covers a panel while there is no answer: a sentence, over the earlier picture shining faintly through."""
 
-from PySide6.QtCore import QEvent, QRectF, Qt
-from PySide6.QtGui import QPainter, QPalette
+from PySide6.QtCore import QEvent, QObject, QRectF, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QWidget
 
-from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.i18n.tr import unbroken
 
-COVER = 0.9  # of the light: so little is left of an earlier picture that nobody reads figures off it
+COVER = 0.9  # opacity: so little is left of an earlier picture that nobody reads figures off it
 MARGIN = 12
 
 
 class Overlay(QWidget):
-    """Covers its parent but for the title line; what is beneath still takes the mouse, for it may be the remedy."""
+    """Covers its parent below the title line; what lies beneath still takes the mouse, since it may be the remedy."""
 
     def __init__(self, parent: QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.text = ""
+        self._top = 0
         parent.installEventFilter(self)
         self.hide()
 
     def say(self, sentence: str, top: int) -> None:
-        """Cover the parent from ``top`` pixels on with a sentence, or uncover it for an empty one."""
-        self.text, self._top = unbroken(tr(sentence)), top
+        """Cover the parent from ``top`` pixels down with a sentence, as it is; uncover it for an empty one."""
+        self.text, self._top = unbroken(sentence), top
         self.setVisible(bool(sentence))
         self._cover()
 
-    def eventFilter(self, parent, event) -> bool:
-        """Grow with the parent."""
+    def eventFilter(self, parent: QObject, event: QEvent) -> bool:
+        """Follow the parent's size."""
         if event.type() == QEvent.Type.Resize and self.text:
             self._cover()
         return False
 
     def _cover(self) -> None:
-        self.setGeometry(self.parentWidget().rect().adjusted(1, self._top, -1, -1))
+        if parent := self.parentWidget():
+            self.setGeometry(parent.rect().adjusted(1, self._top, -1, -1))
         self.raise_()
         self.update()
 
-    def paintEvent(self, event) -> None:
-        """Paint the veil and its sentence."""
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the ground and the sentence."""
         painter, ground = QPainter(self), self.palette().color(QPalette.ColorRole.Base)
         ground.setAlphaF(COVER)
         painter.fillRect(self.rect(), ground)

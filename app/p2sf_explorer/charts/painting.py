@@ -1,14 +1,13 @@
-"""Words and lines on a QPainter, prepared once where they can be."""
+"""Text and lines on a QPainter, prepared once where they can be. Text is painted as it comes, already translated."""
 
 import re
+from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
 from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText, QTransform
-
-from p2sf_explorer.i18n.tr import cached_per_language, tr
 
 FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
 SHORT, LONG = 5, 24  # letters
@@ -32,15 +31,15 @@ def metrics(size: int = 11) -> QFontMetricsF:
 @lru_cache(maxsize=256)
 def pen(colour: str, alpha: int = 255, width: float = 1.0) -> QPen:
     """Return a pen of a colour such as #3366cc; one for everybody, so it is not to be changed."""
-    ink = QColor(colour)
-    ink.setAlpha(alpha)
-    return QPen(ink, width)
+    painted = QColor(colour)
+    painted.setAlpha(alpha)
+    return QPen(painted, width)
 
 
-@cached_per_language(1024)
+@lru_cache(maxsize=1024)
 def set_text(words: str, size: int = 11) -> QStaticText:
     """Return words laid out once: most of them stand on every frame, and laying out is two thirds of painting."""
-    text = QStaticText(tr(words))
+    text = QStaticText(words)
     text.setTextFormat(Qt.TextFormat.PlainText)
     text.prepare(QTransform(), small_font(size))
     return text
@@ -48,34 +47,34 @@ def set_text(words: str, size: int = 11) -> QStaticText:
 
 @lru_cache(maxsize=1024)
 def is_passing(words: str) -> bool:
-    """Return whether words are likely others on the next frame: a number, unless as short as an axis's."""
+    """Return whether a text is likely to change with the next frame: it has a number, and is longer than a tick's."""
     return len(words) > SHORT and DIGIT.search(words) is not None
 
 
 def width_of(words: str, size: int = 11) -> float:
-    """Return how wide words are, in pixels."""
-    return number_width(tr(words), size) if is_passing(words) else set_text(words, size).size().width()
+    """Return the width of a text in pixels."""
+    return number_width(words, size) if is_passing(words) else set_text(words, size).size().width()
 
 
 @lru_cache(maxsize=1024)
-def number_width(said: str, size: int) -> float:
-    """Return how wide a text with a number is, which is another on the next frame: letter by letter while it is short.
+def number_width(words: str, size: int) -> float:
+    """Return the width of a text that changes with every frame: the sum of its letters, each measured once.
 
     From `LONG` on Qt measures faster.
     """
-    if len(said) > LONG:
-        return metrics(size).horizontalAdvance(said)
-    return sum([letter_width(letter, size) for letter in said])
+    if len(words) > LONG:
+        return metrics(size).horizontalAdvance(words)
+    return sum([letter_width(letter, size) for letter in words])
 
 
 @lru_cache(maxsize=512)
 def letter_width(letter: str, size: int) -> float:
-    """Return how wide one letter is, in pixels."""
+    """Return the width of one letter in pixels."""
     return metrics(size).horizontalAdvance(letter)
 
 
 def fitting(words: str, room: float, size: int = 11) -> str:
-    """Return a text as far as it fits: without what stands in brackets, else cut off."""
+    """Return a text as far as it fits: whole, without its part in brackets, or elided."""
     for text in (words, words.partition(" (")[0]):
         if width_of(text, size) <= room:
             return text
@@ -83,24 +82,24 @@ def fitting(words: str, room: float, size: int = 11) -> str:
 
 
 def write(painter: QPainter, room: QRectF, words: str, side: int = 0, size: int = 11) -> None:
-    """Paint words in the middle of a room's height, at its left (side −1), middle (0) or right end (1).
+    """Paint a text half-way up a rectangle, at its left (side −1), middle (0) or right end (1).
 
-    A number is another on the next frame: laying it out to be kept costs twice what painting it does.
+    A number changes with the next frame: to lay it out and keep it takes twice as long as to paint it.
     """
     left = room.left() + (side + 1) / 2 * (room.width() - width_of(words, size)) if side >= 0 else room.left()
     painter.setFont(small_font(size))
     if is_passing(words):
         measures = metrics(size)
         base = room.center().y() - measures.height() / 2 + measures.ascent()
-        painter.drawText(QPointF(left, base), tr(words))
+        painter.drawText(QPointF(left, base), words)
     else:
         text = set_text(words, size)
         painter.drawStaticText(QPointF(left, room.center().y() - text.size().height() / 2), text)
 
 
-def polylines(x: np.ndarray, y: np.ndarray):
-    """Yield the unbroken parts of a line in pixels."""
-    if all(np.abs(part).max(initial=0.0) <= FARTHEST_PX for part in (x, y)):  # which no NaN is
+def polylines(x: np.ndarray, y: np.ndarray) -> Iterator[QPolygonF]:
+    """Yield the parts of a line in pixels between its NaN."""
+    if all(np.abs(part).max(initial=0.0) <= FARTHEST_PX for part in (x, y)):  # false where there is a NaN
         yield polygon(x, y)
         return
     x, y = np.clip(x, -FARTHEST_PX, FARTHEST_PX), np.clip(y, -FARTHEST_PX, FARTHEST_PX)
@@ -112,8 +111,8 @@ def polylines(x: np.ndarray, y: np.ndarray):
 
 
 def polygon(x: np.ndarray, y: np.ndarray) -> QPolygonF:
-    """Return points as Qt wants them, copied as one block: point by point takes ten times as long."""
-    made = create_qpolygonf(len(x))
-    points = ndarray_from_qpolygonf(made)
+    """Return points as a QPolygonF, copied in one block: point by point takes ten times as long."""
+    copied: QPolygonF = create_qpolygonf(len(x))
+    points = ndarray_from_qpolygonf(copied)
     points[:, 0], points[:, 1] = x, y
-    return made
+    return copied

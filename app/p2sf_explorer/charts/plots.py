@@ -1,12 +1,13 @@
-"""The plots' common look: axes, heat maps, colour bars."""
+"""Plots in the look of the window: axes, heat maps, colour bars."""
 
+from collections.abc import Sequence
 from functools import lru_cache
 from math import ceil, floor
 
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
+from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from p2sf_explorer.charts.chart import Chart
@@ -14,32 +15,32 @@ from p2sf_explorer.charts.painting import small_font, width_of
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import tr
 
-BRIGHTNESS = "brightness"  # the name of whichever colours the theme has for it
-NARROW_PX = 245  # below it, as beside a lesson, a heat map is nothing but its picture
-EMPTY = 255  # the one index of a colour table that is kept for "no value"
+BRIGHTNESS = "brightness"  # stands for the colour map that the theme has for brightness
+NARROW_PX = 245  # below this width, as beside a lesson, a heat map has no colour bar and no name at the left
+EMPTY = 255  # the index of a colour table that is kept for "no value"
 
 
 class PlotAxis(pg.AxisItem):
     """An axis that writes a true minus sign."""
 
-    def tickStrings(self, values, scale, spacing):
+    def tickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
         """Return the ticks' labels."""
         return [text.replace("-", "−") for text in super().tickStrings(values, scale, spacing)]
 
-    def tickValues(self, minVal, maxVal, size):
-        """Return the ticks' places; a logarithmic axis has whole decades only."""
+    def tickValues(self, minVal: float, maxVal: float, size: float) -> list[tuple[float, list[float]]]:
+        """Return the ticks' places; a logarithmic axis has only whole decades."""
         if not self.logMode:
             return super().tickValues(minVal, maxVal, size)
         step = max(1, ceil((maxVal - minVal) / 5))
         return [(float(step), [float(k) for k in range(ceil(minVal), floor(maxVal) + 1, step)])]
 
-    def logTickStrings(self, values, scale, spacing):
+    def logTickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
         """Return decades as numbers near one, as powers of ten elsewhere."""
         return [f"{10.0**v:g}" if -2 <= v <= 3 else f"1e{v:.0f}".replace("-", "−") for v in values]
 
 
 def plot_widget(bottom: str = "", left: str = "", aspect: bool = False) -> pg.PlotWidget:
-    """Return a still plot: labelled axes, no menus, no panning."""
+    """Return a plot with labelled axes, without menus and panning."""
     plot = pg.PlotWidget(axisItems={side: PlotAxis(side) for side in ("bottom", "left")})
     item = plot.getPlotItem()
     item.setMenuEnabled(False)
@@ -52,7 +53,7 @@ def plot_widget(bottom: str = "", left: str = "", aspect: bool = False) -> pg.Pl
     item.layout.setContentsMargins(0, 4, 8, 0)
     plot.setFrameShape(pg.QtWidgets.QFrame.Shape.NoFrame)
     plot.setMinimumSize(120, 90)
-    plot.viewport().setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)  # spare the repaint of what lies behind
+    plot.viewport().setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)  # spares the repaint of what lies behind
     if aspect:
         item.setAspectLocked(True)
     for side, text in (("bottom", bottom), ("left", left)):
@@ -78,7 +79,7 @@ def restyle_plot(plot: pg.PlotWidget, theme: Tokens) -> None:
 
 @lru_cache(maxsize=8)
 def lookup(name: str) -> np.ndarray:
-    """Return a colour table (256,) of 0xffRRGGBB; its last entry is for samples without a value."""
+    """Return a colour table (256,) of 0xffRRGGBB whose last entry is for samples without a value."""
     red, green, blue = pg.colormap.get(name).getLookupTable(nPts=255)[:, :3].astype(np.uint32).T
     table = np.full(256, 0xFFFFFFFF, dtype=np.uint32)
     table[:EMPTY] = 0xFF000000 | red << 16 | green << 8 | blue
@@ -86,12 +87,12 @@ def lookup(name: str) -> np.ndarray:
 
 
 def named(name: str, theme: Tokens) -> str:
-    """Return the colour map a name stands for: `BRIGHTNESS` for the one the theme has chosen."""
+    """Return the colour map that a name stands for: the theme's own for `BRIGHTNESS`."""
     return theme.brightness if name == BRIGHTNESS else name
 
 
 def as_indices(values: np.ndarray, low: float, high: float) -> np.ndarray:
-    """Return values as indices 0 to 254 of a colour table, EMPTY where there is no value."""
+    """Return values as indices 0 to 254 of a colour table, EMPTY where one is NaN."""
     scaled = (values - low) * (254.0 / (high - low) if high > low else 0.0)
     np.clip(scaled, 0, 254, out=scaled)
     scaled[np.isnan(scaled)] = EMPTY
@@ -99,11 +100,11 @@ def as_indices(values: np.ndarray, low: float, high: float) -> np.ndarray:
 
 
 class ColourBar(QWidget):
-    """A vertical colour bar with a few labelled values and a unit on top; it widens for long labels and stays so."""
+    """A vertical colour bar with a few labelled values and a unit on top; it widens for long labels and stays wide."""
 
-    WIDTH, TICK = 62, 22  # px: at least, and from its left edge to a label
+    WIDTH, TICK = 62, 22  # px: the least, and from the left edge to a label
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
@@ -112,18 +113,18 @@ class ColourBar(QWidget):
         self._wide = self.WIDTH
 
     def sizeHint(self) -> QSize:
-        """Return a width that holds bar and labels."""
+        """Return a width with room for bar and labels."""
         return QSize(self._wide, 120)
 
     def show_scale(self, name: str, unit: str, labels: tuple[tuple[float, str], ...]) -> None:
-        """Show a colour map with labels at parts (0 bottom to 1 top) of the bar."""
+        """Show a colour map with labels at parts (0 bottom to 1 top) of the bar; ``unit`` is translated here."""
         if (name, unit, labels) != (self._name, self._unit, self._labels):
             self._name, self._unit, self._labels = name, unit, labels
             self._widen()
             self.update()
 
     def _widen(self) -> None:
-        """Take the room the labels need; never give it back, or the map beside would breathe as they change."""
+        """Take the room the labels need and keep it, or the map beside would change its size with every label."""
         need = ceil(self.TICK + max((width_of(text) for _, text in self._labels), default=0)) + 2
         if need > self._wide:
             self._wide = need
@@ -134,7 +135,7 @@ class ColourBar(QWidget):
         self._theme = theme
         self.update()
 
-    def paintEvent(self, event) -> None:
+    def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the bar."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(self._theme.card))
@@ -158,41 +159,45 @@ class ColourBar(QWidget):
 class HeatMap(QWidget):
     """An image in physical coordinates with its colour bar; curves go on ``chart``."""
 
-    def __init__(self, bottom: str, left: str, parent=None):
+    def __init__(self, bottom: str, left: str, parent: QWidget | None = None):
         super().__init__(parent)
         self.chart, self.bar = Chart(bottom, left, aspect=True), ColourBar(self)
-        self.indices, self.values = np.zeros((1, 1), np.uint8), None
-        self.quantity = ""
-        self._name, self._rect, self._mapped = "CET-L4", None, None
+        self.indices = np.zeros((1, 1), np.uint8)
+        self.values: np.ndarray | None = None
+        self.quantity, self._name = "", "CET-L4"
+        self._rect: tuple[float, float, float, float] | None = None
+        self._mapped: tuple[str, Tokens] | None = None
         self._table = lookup(self._name)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
-        row.addWidget(self.chart, 1)
-        row.addWidget(self.bar)
+        self.row = QHBoxLayout(self)
+        self.row.setContentsMargins(0, 0, 0, 0)
+        self.row.setSpacing(0)
+        self.row.addWidget(self.chart, 1)
+        self.row.addWidget(self.bar)
 
-    def resizeEvent(self, event) -> None:
-        """Leave the picture the room of the colour bar and of the left axis's name where there is little."""
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Hide the colour bar and the left axis's name where there is little room, so that the picture has it."""
         super().resizeEvent(event)
         wide = event.size().width() >= NARROW_PX
         if wide != self.chart.left_name:
             self.chart.left_name = wide
             self.bar.setVisible(wide)
-            self.chart.forget_ground()
+            self.chart.forget_background()
 
-    def show_values(self, values: np.ndarray, levels: tuple[float, float], rect: tuple[float, float, float, float]):
+    def show_values(
+        self, values: np.ndarray, levels: tuple[float, float], rect: tuple[float, float, float, float]
+    ) -> None:
         """Show rows +y of ``values`` over (x, y, width, height)."""
         self.indices, self._rect = as_indices(values, *levels), rect
         self.means(values, "")
         self.chart.show_pixels(self._table[self.indices], rect)
 
     def means(self, values: np.ndarray, quantity: str) -> None:
-        """Say what is copied for what is shown: ``values`` not stretched for the eye, their quantity and unit."""
+        """Set what is copied: ``values`` before they were stretched, and their quantity with its unit, in English."""
         self.values, self.quantity = values, quantity
 
     @property
     def rect_shown(self) -> tuple[float, float, float, float] | None:
-        """Return where the values lie: x, y, width, height."""
+        """Return the rectangle of the values: x, y, width, height."""
         return self._rect
 
     def set_extent(self, half: float) -> None:

@@ -7,15 +7,15 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPalette
 
-# Colours of brightness, told apart with every kind of colour blindness (tests/explorer/charts/test_theme.py).
+# Colour maps of brightness, readable with every kind of colour blindness (tests/explorer/charts/test_theme.py).
 BRIGHTNESS = {"standard": "inferno", "viridis": "viridis", "cividis": "cividis", "grey": "CET-L1"}
-DONE = "#66"  # how opaque the done part of a bar is, AARRGGBB: per cent are read on either part
-SPACE = 8  # every gap of the window is this, or half or twice this, in pixels
+DONE = "#66"  # opacity of a progress bar's done part, AARRGGBB: its text must be readable on either part
+SPACE = 8  # pixels; every gap of the window is this, or half or twice this
 
 
 @dataclass(frozen=True)
 class Tokens:
-    """The colours of one theme; the data colours are Okabe and Ito's (2008), told apart by colour-blind eyes."""
+    """The colours of one theme; the data colours are Okabe and Ito's (2008), which colour-blind people tell apart."""
 
     dark: bool
     window: str
@@ -87,7 +87,7 @@ DARK = Tokens(
 
 
 def tokens(choice: str, colours: str = "standard") -> Tokens:
-    """Return the tokens of "light", "dark" or "system", with the heat maps' colours by their State name."""
+    """Return the tokens of "light", "dark" or "system", with a colour map of `BRIGHTNESS` for the heat maps."""
     return _with_colours(_theme(choice), colours)
 
 
@@ -103,12 +103,12 @@ def _theme(choice: str) -> Tokens:
 
 
 def system_scheme() -> Qt.ColorScheme:
-    """Return whether the system is light or dark just now."""
+    """Return whether the system is light or dark at present."""
     return QGuiApplication.styleHints().colorScheme()
 
 
 def configure_plots() -> None:
-    """Set what every plot has in common; call once before the first plot is made."""
+    """Set the options of all plots; call this once, before the first plot."""
     pg.setConfigOptions(imageAxisOrder="row-major", antialias=True, background=None)
 
 
@@ -130,20 +130,20 @@ def palette(theme: Tokens) -> QPalette:
         roles.PlaceholderText: theme.muted,
         roles.Mid: theme.line,
     }
-    made = QPalette()
+    found = QPalette()
     for role, colour in colours.items():
-        made.setColor(role, QColor(colour))
+        found.setColor(role, QColor(colour))
     for role in (roles.WindowText, roles.Text, roles.ButtonText):
-        made.setColor(QPalette.ColorGroup.Disabled, role, QColor(theme.muted))
-    return made
+        found.setColor(QPalette.ColorGroup.Disabled, role, QColor(theme.muted))
+    return found
 
 
 def stylesheet(theme: Tokens) -> str:
     """Return the style sheet of the window."""
-    return _grounds(theme) + _inputs(theme) + _lists(theme)
+    return _frames(theme) + _inputs(theme) + _lists(theme)
 
 
-def _grounds(t: Tokens) -> str:
+def _frames(t: Tokens) -> str:
     """Return the look of cards, labels and the banner."""
     return f"""
     QWidget {{ color: {t.text}; font-size: 13px; }}
@@ -175,7 +175,7 @@ def _grounds(t: Tokens) -> str:
 
 
 def _inputs(t: Tokens) -> str:
-    """Return the look of what is clicked, chosen and typed into."""
+    """Return the look of buttons, choosers and text fields."""
     return f"""
     QLineEdit, QComboBox, QPushButton, QToolButton {{
         background: {t.raised}; border: 1px solid {t.line}; border-radius: 5px; padding: 3px 8px; min-height: 20px; }}
@@ -207,7 +207,7 @@ def _inputs(t: Tokens) -> str:
 
 
 def _lists(t: Tokens) -> str:
-    """Return the look of menus, tabs and tips."""
+    """Return the look of menus, tabs and tooltips."""
     return f"""
     QMenu {{ background: {t.card}; border: 1px solid {t.line}; padding: 4px; }}
     QMenu::item {{ padding: 4px 20px 4px 12px; border-radius: 4px; }}

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -45,10 +46,10 @@ class Live:
     why: Message
     method: str
     milliseconds: Mapping[str, float]
-    views: Mapping[str, object] = field(default_factory=dict)
+    views: Mapping[str, Any] = field(default_factory=dict)
     side: str = ""
     pending: SumRequest | None = None
-    difference: object = None
+    difference: Any = None
 
 
 @dataclass(frozen=True)

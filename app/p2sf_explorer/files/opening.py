@@ -8,6 +8,7 @@ from pathlib import Path
 from p2sf.errors import LensFileError, P2SFError
 from p2sf.lensfile.importing import Import, import_lens
 from p2sf.lensfile.toml import lens_to_toml
+from p2sf.messages import Message
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.files.embedded_state import foreign, state_inside
 from p2sf_explorer.state.state import SCHEMA, State, read_state
@@ -28,7 +29,7 @@ class Refusal:
     """A file that is not opened: why, and how it reads with substitute glasses, None where that does not help."""
 
     path: str
-    sentence: str
+    message: Message
     substituted: Import | None
 
 
@@ -79,12 +80,12 @@ def stamp(path: str) -> tuple[int, int]:
     return found.st_mtime_ns, found.st_size
 
 
-def refusal(path: str, sentence: str) -> Refusal:
+def refusal(path: str, error: P2SFError) -> Refusal:
     """Return why a file is refused, and what consent to substitute glasses would give."""
     try:
-        return Refusal(path, sentence, imported(os.path.abspath(path), True))
+        return Refusal(path, error.message, imported(os.path.abspath(path), True))
     except P2SFError:
-        return Refusal(path, sentence, None)
+        return Refusal(path, error.message, None)
 
 
 def with_substitutes(state: State, path: str) -> State:

@@ -1,7 +1,7 @@
-"""Pupils, principal and focal points and the image point on the layout, with names that do not collide.
+"""Pupils, principal and focal points and the image point on the layout, with names that do not overlap.
 
-The names of the pupils stand on one row above the glass, those of the points on one row under it, each tied to its
-mark by a fine line; a name that finds no room of its own is left out.
+The names of the pupils are on a row above the glass, those of the points on a row below it, each with a thin line to
+its mark; a name without room of its own is left out.
 """
 
 from dataclasses import dataclass
@@ -13,16 +13,17 @@ from PySide6.QtGui import QColor, QPainter
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import pen, set_text, write
 from p2sf_explorer.compute.layout import Layout, Mark
+from p2sf_explorer.i18n.tr import cached_per_language, tr
 
 LINE_PX = 13.0
 GAP_PX = 4.0
-ROW_PX = LINE_PX + GAP_PX  # what a row of names takes above or under the glass
-SHIFTS = (0.0, 0.5, -0.5, 1.0, -1.0)  # of a name's width, aside from its mark
+ROW_PX = LINE_PX + GAP_PX  # height of a row of names
+SHIFTS = (0.0, 0.5, -0.5, 1.0, -1.0)  # sideways from the mark, in widths of the name
 
 
 @dataclass(frozen=True)
 class Placed:
-    """Where a mark and its name go, in pixels; no room and no leader where the name is left out."""
+    """The place of a mark and of its name, in pixels; ``room`` and ``leader`` are None where the name is left out."""
 
     bar: QLineF
     name: str
@@ -31,15 +32,15 @@ class Placed:
 
 
 def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
-    """Paint ticks for points, bars for pupils, a disc for the image, and a name for each that has room."""
+    """Paint ticks for points, bars for pupils, a disc for the image, and the names that have room."""
     placed = places(layout.marks, MarkFrame.of(chart, layout))
     painter.setPen(pen(chart.theme.mark))
     painter.drawLines([mark.bar for mark in placed])
-    named = [mark for mark in placed if mark.room]
     painter.setPen(pen(chart.theme.mark, 90))
-    painter.drawLines([mark.leader for mark in named])
-    for mark in named:
-        paint_name(painter, chart, mark.room, mark.name)
+    painter.drawLines([mark.leader for mark in placed if mark.leader])
+    for mark in placed:
+        if mark.room:
+            paint_name(painter, chart, mark.room, mark.name)
     if layout.image:
         painter.setPen(pen(chart.theme.card))
         painter.setBrush(QColor(chart.theme.chief))
@@ -48,7 +49,7 @@ def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
 
 @dataclass(frozen=True)
 class MarkFrame:
-    """What places depend on, in pixels: the axis, pixels per mm, the picture's size, the glass's rim, the sensor."""
+    """What the places depend on, in pixels: axis, pixels per mm, size of the picture, rim of the glass, sensor."""
 
     left: float
     axis: float
@@ -67,24 +68,25 @@ class MarkFrame:
         return cls(left, axis, right - left, chart.width(), chart.height(), axis - rim, sensor)
 
 
-@lru_cache(maxsize=4)
+@cached_per_language(4)
 def places(marks: tuple[Mark, ...], frame: MarkFrame) -> tuple[Placed, ...]:
-    """Return where marks and names go; most sliders leave them where they are."""
+    """Return the places of marks and names; most sliders do not move them."""
     x, half = frame.sensor
-    taken, found = [QRectF(x - 1, frame.axis - half, 2, 2 * half)], []
+    placed: list[Placed] = []
+    taken = [QRectF(x - 1, frame.axis - half, 2, 2 * half)]
     for mark in sorted(marks, key=lambda mark: (mark.radius > 0, mark.z)):
-        x, reach = frame.left + mark.z * frame.scale, max(mark.radius * frame.scale, 4.0)
+        x, height = frame.left + mark.z * frame.scale, max(mark.radius * frame.scale, 4.0)
         if not -50 < x < frame.width + 50:
             continue
-        bar = QLineF(x, frame.axis - reach, x, frame.axis + reach)
-        room = free_room(mark.name, x, row_of(mark, frame), taken, frame.width)
-        found.append(Placed(bar, mark.name, room, room and leader(bar, room)))
+        bar, name = QLineF(x, frame.axis - height, x, frame.axis + height), tr(mark.name)
+        room = free_room(name, x, row_of(mark, frame), taken, frame.width)
+        placed.append(Placed(bar, name, room, leader(bar, room) if room else None))
         taken += [room] if room else []
-    return tuple(found)
+    return tuple(placed)
 
 
 def paint_name(painter: QPainter, chart: Chart, room: QRectF, name: str) -> None:
-    """Paint a name on a ground of its own, which keeps rays from striking it through."""
+    """Paint a name on a ground of its own, which rays behind do not cross."""
     ground = QColor(chart.theme.card)
     ground.setAlpha(225)
     painter.fillRect(room, ground)
@@ -93,7 +95,7 @@ def paint_name(painter: QPainter, chart: Chart, room: QRectF, name: str) -> None
 
 
 def row_of(mark: Mark, frame: MarkFrame) -> float:
-    """Return the top of a name's row in pixels: of pupils above glass and stop, of points under them."""
+    """Return the top of a name's row in pixels: above glass and stop for pupils, below for points."""
     if mark.radius:
         return max(0.0, frame.axis - frame.rim - LINE_PX - GAP_PX / 2)
     return min(frame.height - LINE_PX, frame.axis + frame.rim + GAP_PX / 2)
@@ -109,7 +111,7 @@ def leader(bar: QLineF, room: QRectF) -> QLineF:
 
 
 def free_room(name: str, x: float, top: float, taken: list[QRectF], width: float) -> QRectF | None:
-    """Return a name's rectangle near x on its row, aside if need be; None where it would touch another or the edge."""
+    """Return a name's rectangle near x on its row; None where it would touch another or the edge everywhere."""
     wide = name_width(name)
     for shift in SHIFTS:
         aside = shift * (wide + GAP_PX)
@@ -122,5 +124,5 @@ def free_room(name: str, x: float, top: float, taken: list[QRectF], width: float
 
 @lru_cache(maxsize=32)
 def name_width(name: str) -> float:
-    """Return how wide a name is, with air, in pixels."""
+    """Return the width of a name with a margin, in pixels."""
     return set_text(name).size().width() + GAP_PX

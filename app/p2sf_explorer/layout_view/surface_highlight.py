@@ -1,4 +1,4 @@
-"""The surface under the pointer, lit in the layout and named to whoever else shows surfaces."""
+"""The surface under the pointer, highlighted in the layout and told to the other panels."""
 
 import numpy as np
 from PySide6.QtCore import QPointF
@@ -13,32 +13,32 @@ from p2sf_explorer.store.store import Store
 NEAR_PX = 5.0
 
 
-class SurfaceLight:
-    """Finds the surface near a point of a drawing, tells the store, and paints the one that anybody points at."""
+class SurfaceHighlight:
+    """Finds the surface near a point of a drawing, tells the store, and paints the surface that any panel points at."""
 
     def __init__(self, store: Store, chart: Chart):
         self._store, self._chart = store, chart
-        self.lit = 0
-        store.pointed.connect(self._light)
+        self.surface = 0
+        store.pointed.connect(self._show)
 
     def point(self, lens: Lens, point: QPointF) -> None:
-        """Tell of the surface (from 1) near a point, 0 for none."""
+        """Tell the store which surface (from 1) is near a point, 0 for none."""
         self._store.point_at(nearest(lens, self._chart, point))
 
     def leave(self) -> None:
-        """Tell that the pointer has gone."""
+        """Tell the store that the pointer has gone."""
         self._store.point_at(0)
 
-    def _light(self, surface: int) -> None:
-        self.lit = surface
+    def _show(self, surface: int) -> None:
+        self.surface = surface
         self._chart.update()
 
     def paint(self, painter: QPainter, lens: Lens) -> None:
-        """Paint the lit surface as a thick line."""
-        if not 1 <= self.lit <= len(lens.surfaces):
+        """Paint the surface as a thick line."""
+        if not 1 <= self.surface <= len(lens.surfaces):
             return
         painter.setPen(QPen(QColor(self._chart.theme.accent), 4))
-        for part in polylines(*self._chart.to_pixels(*section(lens, self.lit))):
+        for part in polylines(*self._chart.to_pixels(*section(lens, self.surface))):
             painter.drawPolyline(part)
 
 

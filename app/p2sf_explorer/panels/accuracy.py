@@ -1,10 +1,12 @@
-"""How good the picture is: the Huygens reference, the difference, and the ladder's time against error."""
+"""How good the picture is: the Huygens reference, the difference, and every method's time against its error."""
 
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
+from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.charts.painting import set_text, small_font
 from p2sf_explorer.charts.plots import HeatMap, plot_widget, restyle_plot
@@ -26,13 +28,12 @@ EMPTY = (
     "difference, and what every method costs in time and error appear here."
 )
 SMALLEST_ERROR = 1e-9
-LADDER_SHARE = 6 / 14  # of the card's width
+METHODS_SHARE = 6 / 14  # of the card's width
+ANCHORED = 0.06  # of a label's width, between it and its dot
 
 
 class AccuracyPanel:
-    """Reference and difference maps at the left, the ladder at the right; filled by the background worker."""
-
-    wants_ladder = True
+    """Reference and difference maps at the left, the methods at the right; filled by the background worker."""
 
     def __init__(self, store: Store):
         self.widget = Card("Accuracy", TIP)
@@ -40,12 +41,12 @@ class AccuracyPanel:
         self.difference = HeatMap("picture − reference, µm", "y, µm", self.widget)
         self.reference.set_map(PSF_MAP)
         self.difference.set_map(DIFFERENCE_MAP)
-        self.ladder = plot_widget("time of one PSF, ms", "relative L2 error")
-        self.ladder.getPlotItem().setLogMode(True, True)
-        self.ladder.getPlotItem().getViewBox().setDefaultPadding(0.15)
+        self.methods = plot_widget("time of one PSF, ms", "relative L2 error")
+        self.methods.getPlotItem().setLogMode(True, True)
+        self.methods.getPlotItem().getViewBox().setDefaultPadding(0.15)
         self.points = pg.ScatterPlotItem(size=9)
-        self.ladder.addItem(self.points)
-        self.names: list[pg.TextItem] = []
+        self.methods.addItem(self.points)
+        self.labels: list[pg.TextItem] = []
         self.message = Readout(self.widget, pill=True, colour="text")
         self.body = QWidget(self.widget)
         self.body.setVisible(False)
@@ -55,30 +56,35 @@ class AccuracyPanel:
         self.empty.setWordWrap(True)
         row = QHBoxLayout(self.body)
         row.setContentsMargins(0, 0, 0, 0)
-        for part, share in ((self.reference, 4), (self.difference, 4), (self.ladder, 6)):
+        for part, share in ((self.reference, 4), (self.difference, 4), (self.methods, 6)):
             row.addWidget(part, share)
         self.widget.set_body(self.body)
         self.widget.set_body(self.empty)
         self.widget.add_footer(self.message)
-        self.message.set_text("the reference is summed when the sliders rest", "muted")
-        self._theme = LIGHT
+        self.message.set_text(tr("the reference is summed when the sliders rest"), "muted")
+        self._theme, self._figure = LIGHT, ""
 
     def show(self, live: Live) -> None:
         """Mark what is shown as belonging to an earlier picture until the worker answers."""
-        text = self.message.text().removesuffix(" · earlier picture")
-        if " vs " in text:
-            self.message.set_text(f"{text} · earlier picture", "muted")
+        if self._figure:
+            self._show_figure(stale=True)
 
     def show_progress(self, part: float) -> None:
-        """Tell how far the reference is."""
-        self.message.set_text(f"summing the reference: {100 * part:.0f} %", "muted")
+        """Show how far the sum of the reference is."""
+        self._figure = ""
+        self.message.set_text(tr("summing the reference: {part} %", part=f"{100 * part:.0f}"), "muted")
 
-    def show_failure(self, sentence: str) -> None:
+    def show_failure(self, why: Message | P2SFError) -> None:
         """Say why there is no reference."""
-        self.message.set_text(said(sentence), "warning")
+        self._figure = ""
+        self.message.set_text(said(why), "warning")
+
+    def _show_figure(self, stale: bool) -> None:
+        text = f"{self._figure} · {tr('earlier picture')}" if stale else self._figure
+        self.message.set_text(text, "muted" if stale else "text")
 
     def show_accuracy(self, accuracy: Accuracy, stale: bool) -> None:
-        """Paint reference, difference and ladder."""
+        """Paint reference, difference and methods."""
         self.body.setVisible(True)
         self.empty.setVisible(False)
         psf, reference = accuracy.picture, accuracy.reference
@@ -99,14 +105,16 @@ class AccuracyPanel:
             chart.set_extent(count * step / 2)
         self._show_methods(accuracy.results, psf.method)
         r2 = written_r_squared(accuracy.r_squared)
-        text = f"{psf.method} vs Huygens: R² {r2} in {significant(count * step, 3)} µm"
-        text += f" · reference from {reference.rays} rays, {reference.seconds:.2f} s"
-        self.message.set_text(text + (" · earlier picture" if stale else ""), "muted" if stale else "text")
+        wide, seconds = significant(count * step, 3), f"{reference.seconds:.2f}"
+        first = tr("{method} vs Huygens: R² {r} in {wide} µm", method=psf.method, r=r2, wide=wide)
+        second = tr("reference from {count} rays, {seconds} s", count=reference.rays, seconds=seconds)
+        self._figure = f"{first} · {second}"
+        self._show_figure(stale)
 
     def _show_methods(self, results: tuple[MethodResult, ...], shown: str) -> None:
-        for name in self.names:
-            self.ladder.removeItem(name)
-        self.names = []
+        for label in self.labels:
+            self.methods.removeItem(label)
+        self.labels = []
         brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in results]
         places = [(np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in results]
         self.points.setData([x for x, _ in places], [y for _, y in places], brush=brushes, pen=None)  # in decades
@@ -114,26 +122,26 @@ class AccuracyPanel:
             return
         x, y = zip(*places, strict=True)
         left, right = min(x) - 0.3, max(x) + 0.3
-        self.ladder.setRange(xRange=(left, right), yRange=(min(y) - 0.5, max(y) + 0.5), padding=0)
+        self.methods.setRange(xRange=(left, right), yRange=(min(y) - 0.5, max(y) + 0.5), padding=0)
         box = QRectF(left, min(y) - 0.5, right - left, max(y) - min(y) + 1)
-        size = self.widget.width() * LADDER_SHARE - 70, max(60.0, self.widget.height() - 100.0)  # of its area, pixels
+        size = self.widget.width() * METHODS_SHARE - 70, max(60.0, self.widget.height() - 100.0)  # of its area, pixels
         dots = [((a - box.x()) / box.width() * size[0], (box.bottom() - b) / box.height() * size[1]) for a, b in places]
         words = [method_words(method) for method in results]
         for text, place, anchor in zip(words, places, anchors(words, dots, size), strict=True):
             label = pg.TextItem(text, self._theme.muted, anchor=anchor)
             label.setFont(small_font())
             label.setPos(*place)
-            self.ladder.addItem(label, ignoreBounds=True)
-            self.names.append(label)
+            self.methods.addItem(label, ignoreBounds=True)
+            self.labels.append(label)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme = theme
         for part in (self.reference, self.difference, self.message):
             part.restyle(theme)
-        restyle_plot(self.ladder, theme)
-        for name in self.names:
-            name.setColor(theme.muted)
+        restyle_plot(self.methods, theme)
+        for label in self.labels:
+            label.setColor(theme.muted)
 
 
 def method_words(method: MethodResult) -> str:
@@ -142,18 +150,18 @@ def method_words(method: MethodResult) -> str:
 
 
 def anchors(words: list[str], dots: list[tuple[float, float]], size: tuple[float, float]) -> list[tuple[float, float]]:
-    """Return where each text hangs on its dot (pixels, y down): at a side, level, under or over, clear of others."""
-    taken, found = [QRectF(x - 5, y - 5, 10, 10) for x, y in dots], []
+    """Return the anchor of each label on its dot (pixels, y down): at a side, level, under or over, clear of others."""
+    taken, chosen = [QRectF(x - 5, y - 5, 10, 10) for x, y in dots], []
     for text, (x, y) in zip(words, dots, strict=True):
         wide, tall = set_text(text).size().width() + 10, set_text(text).size().height()
-        rooms = {(over, down): QRectF(x + 5 - over * (wide + 5), y - down * tall, wide, tall) for over, down in SIDES}
-        inside = [at for at, room in rooms.items() if QRectF(0, -4, size[0], size[1] + 8).contains(room)]
-        free = [at for at in inside if not any(rooms[at].intersects(other) for other in taken)]
-        chosen = (free or inside or list(SIDES))[0]
-        taken.append(rooms[chosen])
-        found.append((chosen[0] + (0.06 if chosen[0] else -0.06), chosen[1]))
-    return found
+        rects = {(over, down): QRectF(x + 5 - over * (wide + 5), y - down * tall, wide, tall) for over, down in SIDES}
+        inside = [at for at, rect in rects.items() if QRectF(0, -4, size[0], size[1] + 8).contains(rect)]
+        free = [at for at in inside if not any(rects[at].intersects(other) for other in taken)]
+        over, down = (free or inside or list(SIDES))[0]
+        taken.append(rects[over, down])
+        chosen.append((over + (ANCHORED if over else -ANCHORED), down))
+    return chosen
 
 
-LEVELS = (0.5, 0.0, 1.0, -0.6, 1.6)  # level, under, over, and clear of a neighbour that hangs level
+LEVELS = (0.5, 0.0, 1.0, -0.6, 1.6)  # level, under, over, and clear of a neighbour that is level
 SIDES = tuple((over, down) for down in LEVELS for over in (0.0, 1.0))  # right or left

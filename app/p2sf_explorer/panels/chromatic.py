@@ -1,7 +1,6 @@
-"""Longitudinal colour: where each wavelength comes to focus on the axis."""
+"""Longitudinal colour: the focus of each wavelength on the axis."""
 
-from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import C_NM, D_NM, F_NM
 from p2sf_explorer.i18n.tr import tr
@@ -24,13 +23,13 @@ class ChromaticPanel:
 
     def __init__(self, store: Store):
         self.widget = Card("Chromatic shift", TIP)
-        self.chart: Chart = NotedChart("wavelength, nm", "focus, µm")
+        self.chart = NotedChart("wavelength, nm", "focus, µm")
         self.band = [self.chart.add_curve("line") for _ in range(2)]
         self.curves = {name: self.chart.add_curve(token, 1 if token == "text" else 2) for name, token in LOOKS.items()}
         for name, curve in self.curves.items():
             curve.name = tr(name)
         self.widget.set_body(self.chart)
-        self._theme: Tokens | None = None
+        self._theme = LIGHT
 
     def show(self, live: Live) -> None:
         """Paint the curves."""
@@ -50,10 +49,9 @@ class ChromaticPanel:
     def _say(self, view: Chromatic) -> None:
         paraxial = view.shift_um[0]
         spread = signed(float(paraxial.max() - paraxial.min()), 1)
-        looks = legend(LOOKS, self._theme)
-        self.widget.set_readout(
-            f"{looks} &nbsp; {spread} µm over the spectrum · ±{view.depth_of_focus_um:.3g} µm depth of focus"
-        )
+        shift = tr("{shift} µm over the spectrum", shift=spread)
+        depth = tr("±{half} µm depth of focus", half=f"{view.depth_of_focus_um:.3g}")
+        self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {shift} · {depth}")
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

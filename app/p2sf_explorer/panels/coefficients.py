@@ -1,14 +1,17 @@
-"""The six coefficients as numbers and bars, in waves, and what they would do if they were others."""
+"""The six coefficients as numbers and bars, in waves, with sliders that change them."""
+
+from functools import partial
 
 from PySide6.QtWidgets import QMenu, QSizePolicy, QToolButton
 
 from p2sf.errors import P2SFError
+from p2sf.paraxial.wavefront import Coefficients
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import read_number
 from p2sf_explorer.state.terms import TERMS
-from p2sf_explorer.state.what_if import PRESETS, SHORT_NOTE, UNTOUCHED, of_preset, toggled, with_added
+from p2sf_explorer.state.what_if import PRESETS, SHORT_NOTE, UNTOUCHED, Preset, of_preset, toggled, with_added
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.coefficient_mixer import NAMES, Mixer
@@ -16,7 +19,7 @@ from p2sf_explorer.widgets.coefficient_mixer import NAMES, Mixer
 TIP = "Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves."
 FREE_TIP = "Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients."
 PRESETS_TIP = "Textbook wavefronts, in a free pupil"
-LEAST = 250, 186  # pixels: names, numbers and buttons, some forty for the bars, and three buttons below
+SMALLEST = 250, 186  # pixels: names, numbers and buttons, some forty for the bars, and three buttons below
 RESET_TIP = "Back to the lens's own coefficients: nothing added, muted or solo"
 
 
@@ -27,7 +30,7 @@ class CoefficientsPanel:
         self._store, self._theme, self._note = store, LIGHT, ""
         self.widget = Card("Coefficients", TIP)
         self.bars = Mixer(self.widget)
-        self.widget.setMinimumSize(*LEAST)
+        self.widget.setMinimumSize(*SMALLEST)
         self.widget.set_body(self.bars)
         self.free = self._button("Free pupil", FREE_TIP)
         self.free.setCheckable(True)
@@ -49,11 +52,11 @@ class CoefficientsPanel:
         bars.toggled.connect(lambda kind, term: store.update(**{kind: toggled(getattr(store.state, kind), term)}))
 
     def _type(self, term: str, text: str) -> None:
-        """Bring a coefficient to a typed number of waves: what is added makes up the rest."""
+        """Set a coefficient to a typed number of waves, by adding the rest."""
         try:
             waves = read_number(text, NAMES[term], {"": 1.0, "λ": 1.0})
         except P2SFError as error:
-            self._store.refused.emit(str(error))
+            self._store.refused.emit(error)
             return
         added = round(waves - self.bars.own[term], 6)
         self._store.update(added_waves=with_added(self._store.state, term, added))
@@ -64,21 +67,25 @@ class CoefficientsPanel:
         button.setText(tr(text))
         button.setToolTip(tr(tip))
         button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        button.setStyleSheet("padding: 1px 2px")  # three of them share the card's width, narrow beside a lesson
+        button.setStyleSheet("padding: 1px 2px")  # three of them fit into a card that is narrow beside a lesson
         return button
 
     def _preset_menu(self) -> QMenu:
         menu = QMenu(self.widget)
         menu.setToolTipsVisible(True)
         for preset in PRESETS:
-            action = menu.addAction(tr(preset.title), lambda preset=preset: self._store.update(**of_preset(preset)))
+            action = menu.addAction(tr(preset.title))
+            action.triggered.connect(partial(self._apply, preset))
             action.setToolTip(tr(preset.shows))
         return menu
+
+    def _apply(self, preset: Preset, _checked: bool = False) -> None:
+        self._store.update(**of_preset(preset))
 
     def show(self, live: Live) -> None:
         """Paint the coefficients."""
         state, altered = live.state, live.setup.altered
-        values, own = (as_numbers(found) for found in (live.setup.coefficients, live.setup.own))
+        values, own = as_numbers(live.setup.coefficients), as_numbers(live.setup.own)
         own = dict.fromkeys(TERMS, 0.0) if state.free_pupil else own
         if live.difference:
             values = own = dict(live.difference.coefficients)
@@ -104,6 +111,6 @@ class CoefficientsPanel:
             self.widget.set_readout(self._coloured())
 
 
-def as_numbers(coefficients) -> dict[str, float]:
-    """Return the six coefficients by name, waves."""
+def as_numbers(coefficients: Coefficients) -> dict[str, float]:
+    """Return the six coefficients by name, in waves."""
     return {name: float(getattr(coefficients, name)) for name in TERMS}

@@ -1,4 +1,4 @@
-"""The colour PSF: a point of a chosen spectrum as the eye would see its image on a screen."""
+"""The colour PSF: the image of a point of a chosen spectrum, in the colours of a screen."""
 
 import numpy as np
 from PySide6.QtCore import QRectF
@@ -26,37 +26,38 @@ SPECTRUM_TIP = "The point's spectrum; or type planck:4300 (kelvin) or lines:486,
 
 
 class SpectrumChart(Chart):
-    """Bars of luminance in their colours; a curve of lateral colour is drawn over them on the same wavelengths."""
+    """Bars of luminance in their colours, and a curve of lateral colour over the same wavelengths."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("wavelength, nm", "chief ray, µm")
         self.shift = self.add_curve("text", 2)
-        self.found: Colours | None = None
+        self.colours: Colours | None = None
 
-    def show_found(self, found: Colours) -> None:
-        """Show an answer."""
-        self.found = found
-        nm, shift = NM_PER_UM * found.psf.wavelengths_um, found.psf.shift_um
+    def show_colours(self, colours: Colours) -> None:
+        """Show the spectrum of an answer."""
+        self.colours = colours
+        nm, shift = NM_PER_UM * colours.psf.wavelengths_um, colours.psf.shift_um
         order = np.argsort(nm)
         self.shift.set_data(nm[order], shift[order])
-        reach = max(1.0, float(np.abs(shift).max()))
-        low, high = min(400.0, float(found.wavelength_nm.min())), max(700.0, float(found.wavelength_nm.max()))
-        self.set_range((low, high), (-1.15 * reach, 1.15 * reach))
+        largest = max(1.0, float(np.abs(shift).max()))
+        low, high = min(400.0, float(colours.wavelength_nm.min())), max(700.0, float(colours.wavelength_nm.max()))
+        self.set_range((low, high), (-1.15 * largest, 1.15 * largest))
         self.update()
 
     def paint_over(self, painter: QPainter) -> None:
-        """Paint the bars along the foot."""
-        if not self.found:
+        """Paint the bars along the bottom."""
+        if not self.colours:
             return
-        top = float(self.found.luminance.max())
+        shown = self.colours
+        top = float(shown.luminance.max())
         wide = self.area.width() / 58
-        for nm, light, hue in zip(self.found.wavelength_nm, self.found.luminance, self.found.hues, strict=True):
+        for nm, light, hue in zip(shown.wavelength_nm, shown.luminance, shown.hues, strict=True):
             x, tall = float(self.to_pixels(nm, 0.0)[0]), 0.4 * self.area.height() * light / top
             box = QRectF(x - wide / 2, self.area.bottom() - tall, wide, tall)
             painter.fillRect(box, QColor.fromRgbF(*map(float, hue)))
 
 
-EMPTY_NM = (400.0, 700.0)  # what the spectrum's axis shows before there is one
+EMPTY_NM = (400.0, 700.0)  # the range of the axis before there is a spectrum
 
 
 class ColourPanel:
@@ -90,7 +91,7 @@ class ColourPanel:
         turn = np.linspace(0, 2 * np.pi, 73)
         self.airy.set_data(live.airy_radius_um * np.cos(turn), live.airy_radius_um * np.sin(turn))
         changed, self._scale = scale != self._scale, scale
-        asked = live.views["colour"]
+        asked: ColourQuestion | Message = live.views["colour"]
         if isinstance(asked, Message):
             self.asking.refuse(asked)
             return
@@ -108,12 +109,11 @@ class ColourPanel:
         self.picture.show_pixels(pixels(found.psf, self._scale), (start, start, count * step, count * step))
         half = count * step / 2
         self.picture.set_range((-half, half), (-half, half))
-        self.spectrum.show_found(found)
+        self.spectrum.show_colours(found)
         spread = float(np.ptp(found.psf.shift_um))
-        return (
-            f"{len(found.psf.wavelengths_um)} wavelengths · lateral colour {signed(spread, 2)} µm · "
-            f"{1e3 * found.psf.seconds:.0f} ms"
-        )
+        count_said = tr("{count} wavelengths", count=len(found.psf.wavelengths_um))
+        lateral = tr("lateral colour {shift} µm", shift=signed(spread, 2))
+        return f"{count_said} · {lateral} · {1e3 * found.psf.seconds:.0f} ms"
 
     def _choose(self) -> None:
         if self.choice.currentData():

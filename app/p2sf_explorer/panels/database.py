@@ -1,21 +1,23 @@
-"""The whole depth-and-field space of the lens: a coefficient's map, what interpolation loses, an atlas of PSFs."""
+"""The depth-and-field space of the lens: a coefficient's map, the error of interpolation, an atlas of PSFs."""
 
 import numpy as np
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from p2sf.conventions import degrees_from_slope
+from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.parts import KINDS
+from p2sf.messages import Message
+from p2sf_explorer.charts.chart import Grid
 from p2sf_explorer.charts.plots import ColourBar, as_indices
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.database import LOSSY, NODES, DatabaseRequest, DatabaseResult, answer
+from p2sf_explorer.results.database import LOSSY, NODES, Atlas, DatabaseRequest, DatabaseResult, answer
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.terms import WORDS
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
-from p2sf_explorer.widgets.depth_field_chart import PER_METRE, AtlasView, DepthFieldMap
+from p2sf_explorer.widgets.depth_field_chart import PER_METRE, AtlasView, DepthFieldMap, Ends
 from p2sf_explorer.workers.worker import LatestWins
 
 TIP = (
@@ -25,10 +27,11 @@ TIP = (
 VALUE_MAP, ERROR_MAP = "CET-D1A", "viridis"
 DECADES = 6  # of the error map below its largest value
 RULES = {"table1": "table 1 of the paper", "linear": "linear"}
+ERRORS = {"table1": "error of table 1 of the paper", "linear": "error of linear interpolation"}
 
 
 class DatabasePanel:
-    """Map, error map and atlas; filled by its own worker, the present point follows at once."""
+    """Map, error map and atlas, filled by a worker; the present point follows at once."""
 
     def __init__(self, store: Store):
         self._store = store
@@ -69,13 +72,18 @@ class DatabasePanel:
 
     def show(self, live: Live) -> None:
         """Mark the present point, and ask the worker when more than the point has changed."""
-        asked, state = live.views["database"], live.state
+        asked: DatabaseRequest = live.views["database"]
+        state = live.state
         for chart in (self.map, self.error, self.atlas):
             chart.show_point(state.depth_mm, state.field_deg)
         if asked != self._asked:
             self._asked = asked
             self.worker.submit(asked, lambda cancelled, progress: answer(asked, cancelled.is_set))
-        self.widget.set_readout(f"at {state.wavelength_nm:.1f} nm" + (" · working" if self._stale() else ""))
+        self._show_wavelength(state.wavelength_nm)
+
+    def _show_wavelength(self, wavelength_nm: float) -> None:
+        at = tr("at {wavelength} nm", wavelength=f"{wavelength_nm:.1f}")
+        self.widget.set_readout(f"{at} · {tr('working')}" if self._stale() else at)
 
     def _stale(self) -> bool:
         return self._answer is None or self._answer.question != self._asked
@@ -84,10 +92,10 @@ class DatabasePanel:
         self._answer = found
         self._paint()
         if not self._stale():
-            self.widget.set_readout(f"at {1000 * key.wavelength_um:.1f} nm")
+            self._show_wavelength(NM_PER_UM * key.wavelength_um)
 
-    def _on_failure(self, key: DatabaseRequest, sentence: str) -> None:
-        self.note.setText(said(sentence))
+    def _on_failure(self, key: DatabaseRequest, why: Message) -> None:
+        self.note.setText(said(why))
 
     def _paint(self) -> None:
         if not self._answer:
@@ -96,14 +104,10 @@ class DatabasePanel:
         self._paint_map(found, term)
         self._paint_error(found, term, rule)
         self.atlas.show_atlas(found.atlas)
-        wide = f", {short(found.atlas.psfs.shape[-1] * found.atlas.pixel_um)} µm wide" if found.atlas else ""
-        heads = name(term), f"error of {RULES[rule]}", f"PSFs{wide}, √ of peak = 1"
-        for head, words in zip(self.heads, heads, strict=True):
-            head.setText(tr(words))
-        losses = " · ".join(f"{r} {found.largest[r][term]:.2g} λ" for r in ("exact", *LOSSY))
-        depths, fields, colours = NODES
-        text = f"largest error in {name(term)}: {losses}, on {depths} depths × {fields} fields × {colours} wavelengths"
-        self.note.setText(tr(text) + (f" · {said(found.why_no_atlas)}" if found.why_no_atlas else ""))
+        for head, text in zip(self.heads, (name(term), tr(ERRORS[rule]), atlas_head(found.atlas)), strict=True):
+            head.setText(text)
+        reasons = (said(found.why_no_atlas),) if found.why_no_atlas else ()
+        self.note.setText(" · ".join((*error_words(found, term), *reasons)))
         self.note.setToolTip(self.note.text())
 
     def _paint_map(self, found: DatabaseResult, term: str) -> None:
@@ -123,7 +127,7 @@ class DatabasePanel:
         top = np.log10(nice(max(1e-9, float(np.nanmax(values)))))
         scaled = (np.log10(np.maximum(values, 1e-30)) - top) / DECADES + 1
         self.error.show_map(as_indices(scaled, 0.0, 1.0), ERROR_MAP, *places(found))
-        self.error.grids = (grid_of(found, tr(f"error of {RULES[rule]}") + f", {name(term)}, λ", values),)
+        self.error.grids = (grid_of(found, f"{tr(ERRORS[rule])}, {name(term)}, λ", values),)
         labels = tuple((part, short(10 ** (top + DECADES * (part - 1)))) for part in (0, 0.5, 1))
         self.bars[1].show_scale(ERROR_MAP, "λ", labels)
 
@@ -141,8 +145,8 @@ class DatabasePanel:
 def headed(head: QLabel, parts: tuple[QWidget, ...]) -> QWidget:
     """Return widgets beside one another under a heading."""
     head.setObjectName("muted")
-    made, row = QWidget(), QHBoxLayout()
-    column = QVBoxLayout(made)
+    body, row = QWidget(), QHBoxLayout()
+    column = QVBoxLayout(body)
     for layout in (row, column):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -150,11 +154,11 @@ def headed(head: QLabel, parts: tuple[QWidget, ...]) -> QWidget:
         row.addWidget(part, 0 if k else 1)
     column.addWidget(head)
     column.addLayout(row, 1)
-    return made
+    return body
 
 
 def short(value: float, sign: str = "-") -> str:
-    """Return a number as short as a colour bar wants it."""
+    """Return a number as short as a colour bar needs it."""
     return f"{value:{sign}.3g}".replace("e+0", "e").replace("e-0", "e−").replace("-", "−")
 
 
@@ -163,8 +167,27 @@ def name(term: str) -> str:
     return "Wd" if term == "wd" else f"W{term[1:]}"
 
 
-def grid_of(found: DatabaseResult, head: str, values: np.ndarray):
-    """Return a map as the clipboard takes it: its head, 1/depth in 1/m, fields in degrees, and values."""
+def atlas_head(atlas: Atlas | None) -> str:
+    """Return the heading of the atlas."""
+    if atlas is None:
+        return tr("PSFs, √ of peak = 1")
+    return tr("PSFs, {wide} µm wide, √ of peak = 1", wide=short(atlas.psfs.shape[-1] * atlas.pixel_um))
+
+
+def error_words(found: DatabaseResult, term: str) -> tuple[str, ...]:
+    """Return the largest error of every interpolation in words."""
+    exact, table, linear = (f"{found.largest[rule][term]:.2g}" for rule in ("exact", *LOSSY))
+    depths, fields, waves = NODES
+    last = "linear {error} λ, on {depths} depths × {fields} fields × {waves} wavelengths"
+    return (
+        tr("largest error in {name}: exact {error} λ", name=name(term), error=exact),
+        tr("table1 {error} λ", error=table),
+        tr(last, error=linear, depths=depths, fields=fields, waves=waves),
+    )
+
+
+def grid_of(found: DatabaseResult, head: str, values: np.ndarray) -> Grid:
+    """Return a map as it is copied: its head, 1/depth in 1/m, fields in degrees, and values."""
     return (
         f"{head}: {tr('field, °')} \\ {tr('1/depth, 1/m (0 is ∞)')}",
         PER_METRE * found.near,
@@ -173,8 +196,8 @@ def grid_of(found: DatabaseResult, head: str, values: np.ndarray):
     )
 
 
-def places(found: DatabaseResult):
-    """Return the map's ends and its nodes: 1/depth in 1/m, field in degrees."""
+def places(found: DatabaseResult) -> tuple[Ends, tuple[np.ndarray, np.ndarray]]:
+    """Return the map's ends and its nodes, 1/depth in 1/m and field in degrees."""
     near, fields = PER_METRE * found.near, found.fields_deg
     nodes = PER_METRE / found.nodes.depths_mm, degrees_from_slope(found.nodes.field_slopes)
     return ((float(near[0]), float(near[-1])), (float(fields[0]), float(fields[-1]))), nodes

@@ -1,11 +1,11 @@
-"""Depth of field: the blur at every depth, and what is sharp for a stated blur."""
+"""Depth of field: the blur at every depth, and the depths that are sharp for a tolerated blur."""
 
 from math import inf
 
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QPainter
 
-from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.depth_of_field import DepthOfField, highest
@@ -27,12 +27,12 @@ TICKS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 class DepthChart(NotedChart):
     """Blur over 1/depth, written as depths; the sharp depths shaded."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("depth, even in 1/depth", "blur, µm")
         self.sharp: tuple[float, float] | None = None
 
     def paint_over(self, painter: QPainter) -> None:
-        """Paint the shade, then lines and words."""
+        """Paint the shade, then lines and text."""
         if self.sharp:
             left, right = (float(self.to_pixels(near, 0.0)[0]) for near in self.sharp)
             colour = QColor(self.theme.positive)
@@ -56,7 +56,7 @@ class DepthOfFieldPanel:
             curve.name = tr(name)
         self.chart.columns = "1/depth, 1/mm", "blur, µm"
         self.widget.set_body(self.chart)
-        self._theme: Tokens | None = None
+        self._theme = LIGHT
 
     def show(self, live: Live) -> None:
         """Paint the curves and what is sharp."""
@@ -67,8 +67,7 @@ class DepthOfFieldPanel:
             curve.set_data(view.near, blur)
         self.tolerated.set_data(edges, (view.tolerated_um,) * 2)
         self._frame(view, edges)
-        ends = (1 / mm if mm else edges[1] for mm in (view.sharp_mm or ())[::-1])
-        self.chart.sharp = tuple(ends) or None
+        self.chart.sharp = sharp_range(view, edges[1])
         self.chart.show_notes((), ((1 / live.state.depth_mm, "chief"),))
         self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {sentence(view)}")
 
@@ -79,12 +78,20 @@ class DepthOfFieldPanel:
         ticks = tuple(zip(places, told_apart([1 / near if near else inf for near in places]), strict=True))
         if ticks != self.chart.bottom_ticks:
             self.chart.bottom_ticks = ticks
-            self.chart.forget_ground()
+            self.chart.forget_background()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme = theme
         self.chart.restyle(theme)
+
+
+def sharp_range(view: DepthOfField, highest_near: float) -> tuple[float, float] | None:
+    """Return the ends of what is sharp in 1/depth, 1/mm; None where nothing is."""
+    if not view.sharp_mm:
+        return None
+    near, far = (1 / mm if mm else highest_near for mm in view.sharp_mm)
+    return far, near
 
 
 def sentence(view: DepthOfField) -> str:

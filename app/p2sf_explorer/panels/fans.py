@@ -3,6 +3,7 @@
 import numpy as np
 
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.results.rays import Fan
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
@@ -21,7 +22,7 @@ class FanPanel(CurvesPanel):
 
     def show(self, live: Live) -> None:
         """Paint the fan; lost rays leave gaps."""
-        fan = live.views[self._key]
+        fan: Fan = live.views[self._key]
         lines = (np.asarray(fan.sagittal), np.asarray(fan.tangential))
         self.show_curves(fan.pupil, dict(zip(LOOKS, lines, strict=True)))
         both = np.abs(np.concatenate(lines))

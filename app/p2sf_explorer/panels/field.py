@@ -66,7 +66,7 @@ class FieldPanel:
             self._drawn = view
             self._show_grid(view, bool(live.difference))
 
-    def _show_focus(self, view: FieldView, at, top: float) -> None:
+    def _show_focus(self, view: FieldView, at: np.ndarray, top: float) -> None:
         shown = {"S": view.real.sagittal, "T": view.real.tangential}
         for name, values in (*shown.items(), ("third S", view.third.sagittal), ("third T", view.third.tangential)):
             self.curves[name].set_data(values, at)
@@ -74,7 +74,7 @@ class FieldPanel:
         self.zeros[0].set_data((0, 0), (0, top))
         self.focus.update()
 
-    def _show_distortion(self, view: FieldView, at, top: float) -> None:
+    def _show_distortion(self, view: FieldView, at: np.ndarray, top: float) -> None:
         real, third = (100 * part for part in (view.heights.distortion, view.heights.third_order_distortion))
         self.curves["real"].set_data(real, at)
         self.curves["third"].set_data(third, at)
@@ -86,8 +86,8 @@ class FieldPanel:
         for curve, points in ((self.straight, view.straight), (self.bent, view.bent)):
             curve.set_data(*points.T)
         self.grid.set_range((-0.8, 0.8), (-1.3, 0.8))
-        words = "as it is" if view.exaggerated == 1 else f"drawn {view.exaggerated} times"
-        lines = tr(edge(view, difference)), tr(words)  # under one another: a narrow window has no room for both
+        scale = tr("as it is") if view.exaggerated == 1 else tr("drawn {times} times", times=view.exaggerated)
+        lines = edge(view, difference), scale  # one below the other: a narrow window has no room for both
         self.grid.show_notes([(0.0, y, line, "muted", 0) for y, line in zip((-0.92, -1.2), lines, strict=True)])
 
     def restyle(self, theme: Tokens) -> None:
@@ -101,5 +101,7 @@ def edge(view: FieldView, difference: bool = False) -> str:
     """Return the distortion at the edge of the field in words, or by how much it differs."""
     known = np.flatnonzero(np.isfinite(view.heights.distortion))[-1]
     share = 100 * float(view.heights.distortion[known])
-    kind = "A − B" if difference else "barrel" if share < 0 else "pincushion"
-    return f"{kind} {signed(share, 2)} % at {view.field_deg[known]:.3g}°"
+    values = {"part": f"{signed(share, 2)} %", "field": f"{view.field_deg[known]:.3g}°"}
+    if difference:
+        return tr("A − B {part} at {field}", **values)
+    return tr("barrel {part} at {field}", **values) if share < 0 else tr("pincushion {part} at {field}", **values)

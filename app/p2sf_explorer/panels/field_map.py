@@ -2,7 +2,7 @@
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 
 from p2sf.conventions import degrees_from_slope
 from p2sf_explorer.charts.brightness import stretched
@@ -22,7 +22,7 @@ TIP = (
     "present one."
 )
 
-SAME_DEG = 1e-3  # pictures whose fields differ by less stand equally far from the axis
+SAME_DEG = 1e-3  # fields that differ by less are equally far from the axis
 
 
 class MapChart(TilesChart):
@@ -32,61 +32,61 @@ class MapChart(TilesChart):
         super().__init__(framed=False)
         self._store = store
         self.fields_deg = np.zeros(0)
-        self.cursor = Cursor()
+        self.choice = Cursor()
         self._taken, self._field = 0, 0.0
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Field map"))
 
-    def mousePressEvent(self, event) -> None:
+    def mousePressEvent(self, event: QMouseEvent) -> None:
         """Go to the field of the picture under the pointer."""
         number = self.tile_at(event.position())
         if event.button() == Qt.MouseButton.LeftButton and number is not None:
             self._take(number)
 
-    def keyPressEvent(self, event) -> None:
-        """Choose a picture with the arrow keys, from that of the present field on, and go to its field with Enter."""
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Choose a picture with the arrow keys, starting at the present field, and go to its field with Enter."""
         points = np.array([(room.center().x(), room.center().y()) for room in map(self.room, self.tiles)])
-        taken = self.cursor.taken(event.key(), len(points))
+        taken = self.choice.taken(event.key(), len(points))
         if taken is not None:
             self._take(taken)
-        elif self.cursor.moved(event.key(), points, self.present() if self.tiles else 0):
+        elif self.choice.moved(event.key(), points, self.present() if self.tiles else 0):
             self.update()
         else:
             super().keyPressEvent(event)
 
     def show_field(self, field_deg: float) -> None:
-        """Mark the picture of the present field; the keys choose from there on."""
+        """Mark the picture of the present field, from which the keys choose."""
         if abs(field_deg) != self._field:
             self._field = abs(field_deg)
-            self.cursor.forget()
+            self.choice.forget()
             self.update()
 
     def present(self) -> int:
-        """Return the picture of the present field; of those as far from the axis the one last taken, else the first."""
+        """Return the picture of the present field: of those equally far out the last taken, else the first."""
         apart = np.abs(self.fields_deg - self._field)
         least = apart.min() + SAME_DEG
         return self._taken if self._taken < len(apart) and apart[self._taken] < least else int(apart.argmin())
 
     def _take(self, number: int) -> None:
         self._taken = number
-        self.cursor.forget()
+        self.choice.forget()
         self.update()
         self._store.update(field_deg=round(float(self.fields_deg[number]), 4))
 
     def paint_over(self, painter: QPainter) -> None:
-        """Paint the pictures, and frames about the present one and the one that the keys have chosen."""
+        """Paint the pictures, with frames around the present one and the one chosen by keys."""
         super().paint_over(painter)
         if self.tiles:
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(QColor(self.theme.accent), 2))
             painter.drawRect(self.room(self.tiles[self.present()]))
-        number = self.cursor.number
+        number = self.choice.number
         if self.hasFocus() and number is not None and number < len(self.tiles):
             paint_cursor(painter, self.room(self.tiles[number]))
 
 
 class FieldMapPanel:
-    """A grid that fills in the background, from the axis outwards."""
+    """A grid of PSFs that a worker fills from the axis outwards."""
 
     def __init__(self, store: Store):
         self.widget = Card("Field map", TIP)
@@ -97,7 +97,7 @@ class FieldMapPanel:
         self._scale = "sqrt"
 
     def show(self, live: Live) -> None:
-        """Ask for the map where more than the field has changed; mark the present field."""
+        """Mark the present field, and ask for the map when more than the field has changed."""
         self.chart.show_field(live.state.field_deg)
         changed, self._scale = live.state.psf_scale != self._scale, live.state.psf_scale
         self.asking.ask(live.views["field_map"])
@@ -123,7 +123,8 @@ class FieldMapPanel:
         )
         self.chart.means(zip(heads, (found[place] for place in kept), strict=True), asked.window[1])
         corner, wide = float(degrees_from_slope(asked.corner_slope)), asked.window[0] * asked.window[1]
-        return f"corner {corner:.3g}° · pictures {wide:.3g} µm wide, each over its own peak"
+        first = tr("corner {field}", field=f"{corner:.3g}°")
+        return f"{first} · {tr('pictures {wide} µm wide, each over its own peak', wide=f'{wide:.3g}')}"
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

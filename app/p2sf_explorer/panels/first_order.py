@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.first_order import Row
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.readout import FactTable
@@ -39,7 +40,8 @@ class FirstOrderPanel:
 
     def show(self, live: Live) -> None:
         """Show the figures."""
-        for table, rows in zip(self.tables, live.views["first_order"], strict=True):
+        columns: tuple[tuple[Row, ...], ...] = live.views["first_order"]
+        for table, rows in zip(self.tables, columns, strict=True):
             table.show_rows(rows)
 
     def restyle(self, theme: Tokens) -> None:

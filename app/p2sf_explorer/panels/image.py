@@ -1,5 +1,6 @@
-"""A photo or chart through the present lens: coarse at once, planned when the sliders rest; why, when asked."""
+"""A photo or chart through the present lens: coarse at once, planned when the sliders rest, with the reasons."""
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -8,6 +9,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QLabel
 
 from p2sf.errors import P2SFError
+from p2sf.image import Progress
+from p2sf.messages import Message
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
@@ -27,6 +30,7 @@ from p2sf_explorer.results.image import (
     work,
 )
 from p2sf_explorer.results.photos import CHART_WORDS
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import SideCard, chooser, select
 from p2sf_explorer.widgets.drop import PhotoDrop
@@ -39,17 +43,17 @@ TIP = (
     "distortion and falling light included."
 )
 PIXELS = {"4.0": "4 µm pixels", "8.0": "8 µm pixels", "16.0": "16 µm pixels", "32.0": "32 µm pixels", "": "whole field"}
-SHOWS = {
+SHOWS: dict[str, tuple[str, tuple[str, str]]] = {
     "lens": ("through the lens", ("scene", "image")),
     "sharpened": ("sharpened by its PSFs", ("image", "sharpened")),
     "axis": ("by the axis's PSF", ("image", "sharpened wrongly")),
 }
 PHOTOS = "Pictures (*.png *.tif *.tiff)"
-WORKING, NONE = "earlier picture, working", "no picture"
+EARLIER, WORKING, NONE = "earlier picture, working", "working", "no picture"
 
 
 class ImagePanel:
-    """The picture with its split, details and loupe; controls beside it, and the plan in words behind "Why…"."""
+    """The picture with its split, details and PSF; beside it controls, and the plan in words behind "Why…"."""
 
     def __init__(self, store: Store):
         self._store = store
@@ -65,17 +69,17 @@ class ImagePanel:
         self._connect()
         self._asked: ImageRequest | None = None
         self._answer: ImageResult | None = None
-        self._planned: ImageResult | None = None  # the last one by a plan
-        self._ordered: ImageRequest | None = None  # what a plan is being made for,
-        self._stopped: ImageRequest | None = None  # what it was cancelled for,
-        self._unplanned: ImageRequest | None = None  # and what none could be made for, so that none is tried again
+        self._planned: ImageResult | None = None  # the last that was made by a plan
+        self._ordered: ImageRequest | None = None  # for which a plan is being made,
+        self._stopped: ImageRequest | None = None  # for which one was cancelled,
+        self._unplanned: ImageRequest | None = None  # and for which none can be made, so that none is tried again
         self._refusal = ""
         self._settled, self._place = True, (0.5, 0.5)
         self.quick, self.fine = LatestWins(self.widget), LatestWins(self.widget)
         for worker in (self.quick, self.fine):
             worker.finished.connect(self._on_answer)
             worker.failed.connect(self._on_failure)
-        self.fine.progressed.connect(lambda key, share: key == self._ordered and self.plan_line.tell(share))
+        self.fine.progressed.connect(self._on_progress)
 
     def _lay_out(self) -> None:
         for line in ((self.photo, self.open), (self.pixel,), (self.show_box,), (self.words.button, self.save)):
@@ -103,7 +107,8 @@ class ImagePanel:
 
     def show(self, live: Live) -> None:
         """Follow the state; ask the worker for a picture when anything it depends on has changed."""
-        asked, state = live.views["image"], live.state
+        asked: ImageRequest = live.views["image"]
+        state = live.state
         self._settled = live.quality == "settled"
         self._show_choices(state)
         self.split_view.show_split(state.photo_split)
@@ -115,34 +120,40 @@ class ImagePanel:
             self._refine()
         self._show_readout()
 
-    def _show_choices(self, state) -> None:
+    def _show_choices(self, state: State) -> None:
         if self.photo.findData(state.photo) < 0:
             self.photo.addItem(Path(state.photo).name, state.photo)
-        size = "" if state.photo_pixel_um is None else str(float(state.photo_pixel_um))
+        pitch = state.photo_pixel_um
+        size = "" if pitch is None else str(float(pitch))
         if self.pixel.findData(size) < 0:
-            self.pixel.addItem(f"{state.photo_pixel_um:g} µm pixels", size)
+            self.pixel.addItem(tr("{pitch} µm pixels", pitch=f"{pitch:g}"), size)
         for box, value in ((self.photo, state.photo), (self.pixel, size), (self.show_box, state.photo_show)):
             select(box, value)
 
-    def _quickest(self, asked: ImageRequest):
-        """Return what makes a picture at once: the plan there is, where only the photo or what is shown is another."""
+    def _quickest(self, asked: ImageRequest) -> Callable[[ImageRequest, Progress], ImageResult]:
+        """Return what makes a picture at once: the known plan, where only the photo or what is shown has changed."""
         known = self._planned
         return partial(planned, known=known) if known and same_optics(known.question, asked) else coarse
 
+    def _present(self) -> ImageResult | None:
+        """Return the picture on screen where it is the present question's."""
+        return self._answer if self._answer and self._answer.question == self._asked else None
+
     def _stale(self) -> bool:
-        return self._answer is None or self._answer.question != self._asked
+        return self._present() is None
 
     def _refine(self) -> None:
         """Have the planned picture made, once, where the coarse one is there and a plan is affordable."""
-        if self._stale() or self._asked in (self._ordered, self._stopped, self._unplanned):
+        asked, answer = self._asked, self._present()
+        if asked is None or answer is None or asked in (self._ordered, self._stopped, self._unplanned):
             return
-        if self._answer.quality == "coarse" and fine_enough(self._answer):
-            self._ordered = self._asked
+        if answer.quality == "coarse" and fine_enough(answer):
+            self._ordered = asked
             self.plan_line.begin()
-            self.fine.submit(self._asked, work(planned, self._asked))
+            self.fine.submit(asked, work(planned, asked))
 
     def _turn(self) -> None:
-        """Stop the plan on its way; where one was stopped, have it made after all."""
+        """Stop the plan that is being made, or make the one that was stopped."""
         if self._ordered:
             self._stopped = self._asked
             self._call_off()
@@ -156,53 +167,59 @@ class ImagePanel:
         self.fine.cancel()
 
     def _show_readout(self) -> None:
-        doing, stopped = self._ordered is not None, self._stopped == self._asked
-        self.widget.set_readout(self._quality())
-        for button in (self.words.button, self.save):  # in a drag the earlier picture keeps them, and the keys on them
-            button.setEnabled(self._quality() not in ("working", NONE))
-        self.overlay.say(self._refusal if self._stale() and self._unplanned == self._asked else "", 0)
-        self.plan_line.show_stage(doing, stopped)
-        self.headline.setHidden(doing or stopped or bool(self.overlay.text))
+        planning, stopped, quality = self._ordered is not None, self._stopped == self._asked, self._quality()
+        self.widget.set_readout(tr(quality))
+        for button in (self.words.button, self.save):  # enabled in a drag too, so that they keep the focus
+            button.setEnabled(quality not in (WORKING, NONE))
+        self.overlay.say(self._refusal if quality == NONE else "", 0)
+        self.plan_line.show_plan(planning, stopped)
+        self.headline.setHidden(planning or stopped or bool(self.overlay.text))
 
     def _quality(self) -> str:
-        if not self._stale():
-            return self._answer.quality
-        return NONE if self._unplanned == self._asked else WORKING if self._answer else "working"
+        """Return what the picture on screen is, in English."""
+        if answer := self._present():
+            return answer.quality
+        return NONE if self._unplanned == self._asked else EARLIER if self._answer else WORKING
 
     def _on_answer(self, key: ImageRequest, found: ImageResult) -> None:
         if found.quality == "planned":
             self._planned = found if found.plan.decisions else None
             self._ordered = None if key == self._ordered else self._ordered
-            self._stopped = None if key == self._stopped else self._stopped  # it came all the same
-        if key == self._asked or self._stale():  # a plan of before, late to stop, must not cover the present picture
+            self._stopped = None if key == self._stopped else self._stopped  # it was made all the same
+        if key == self._asked or self._stale():  # an earlier plan, late to stop, must not cover the present picture
             self._answer = found
-            self._paint()
+            self._paint(found)
         if self._settled:
             self._refine()
         self._show_readout()
 
-    def _on_failure(self, key: ImageRequest, sentence: str) -> None:
+    def _on_failure(self, key: ImageRequest, why: Message) -> None:
         if key != self._asked:
             return
-        self._ordered, self._unplanned, self._refusal = None, key, said(sentence)
+        self._ordered, self._unplanned, self._refusal = None, key, said(why)
         if not self._stale():  # the coarse picture is there, and stays
             self._say(self._refusal)
         self._show_readout()
 
-    def _say(self, words: str) -> None:
-        """Show a few words under the controls; the whole of them as a tooltip, should they not fit."""
-        self.headline.setText(unbroken(tr(words)))
-        self.headline.setToolTip(tr(words))
+    def _on_progress(self, key: ImageRequest, share: float) -> None:
+        if key == self._ordered:
+            self.plan_line.show_progress(share)
 
-    def _paint(self) -> None:
-        found = self._answer
-        self.split_view.show_pictures(pixels(found.before), pixels(found.after), SHOWS[found.question.show][1])
+    def _say(self, text: str) -> None:
+        """Show a text under the controls; its tooltip has the whole of it where it does not fit."""
+        self.headline.setText(unbroken(text))
+        self.headline.setToolTip(text)
+
+    def _paint(self, found: ImageResult) -> None:
+        before, after = SHOWS[found.question.show][1]
+        self.split_view.show_pictures(pixels(found.before), pixels(found.after), (tr(before), tr(after)))
         sensor = found.plan.scene.sensor
-        wide = f"{sensor.columns} × {sensor.rows} pixels of {sensor.pixel_um:.3g} µm"
-        many = f"{said(found.headline)} · {found.seconds:.2g} s"
-        reasons = (said(reason) for reason in (found.cut, found.no_plan) if reason)
-        self._say("\n".join((*reasons, many, wide)))
-        self.words.tell(found.notes)
+        pitch = f"{sensor.pixel_um:.3g}"
+        size = tr("{columns} × {rows} pixels of {pitch} µm", columns=sensor.columns, rows=sensor.rows, pitch=pitch)
+        count = f"{said(found.headline)} · {found.seconds:.2g} s"
+        reasons = (said(why) for why in (found.cut, found.no_plan) if why)
+        self._say("\n".join((*reasons, count, size)))
+        self.words.show_notes(found.notes)
         rows, columns = found.after.shape[:2]
         self._look(self._place[0] * (rows - 1), self._place[1] * (columns - 1))
 
@@ -211,34 +228,36 @@ class ImagePanel:
         if self._answer:
             rows, columns = self._answer.after.shape[:2]
             self._place = row / (rows - 1), column / (columns - 1)
-            self.split_view.show_loupe(pixels(np.sqrt(local_psf(self._answer, row, column))), (row, column))
+            self.split_view.show_psf(pixels(np.sqrt(local_psf(self._answer, row, column))), (row, column))
 
     def _choose_pixel(self) -> None:
         size = self.pixel.currentData()
         self._store.update(photo_pixel_um=float(size) if size else None)
 
     def _ask_photo(self) -> None:
-        path, _ = QFileDialog.getOpenFileName(self.widget, "Choose a photo", "", PHOTOS)
+        path, _ = QFileDialog.getOpenFileName(self.widget, tr("Choose a photo"), "", tr(PHOTOS))
         if path:
             self._store.update(photo=path)
 
     def _ask_save(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(self.widget, "Save the picture", "image.png", PHOTOS)
+        path, _ = QFileDialog.getSaveFileName(self.widget, tr("Save the picture"), "image.png", tr(PHOTOS))
         if path:
             self.save_as(path if Path(path).suffix else f"{path}.png")
 
     def save_as(self, path: str) -> None:
-        """Save the picture and beside it the state; a refusal is one sentence."""
-        if self._stale():  # the picture on screen is none of the state that would lie beside it
-            self._store.refused.emit("there is no picture yet; save it when it is on screen")
+        """Save the picture and beside it the state, or say why not."""
+        answer = self._present()
+        if answer is None:  # the picture on screen belongs to another state than the one that would be saved
+            self._store.refused.emit(Message("there is no picture yet; save it when it is on screen"))
             return
         try:
-            save_picture(self._answer, path)
+            save_picture(answer, path)
             write_state(self._store.state, side_car(path), exported=Path(path).name)
         except P2SFError as error:
-            self._store.refused.emit(str(error))
+            self._store.refused.emit(error)
         else:
-            self._store.said.emit(f"Saved {Path(path).name}, and its state as {side_car(path).name}")
+            names = {"name": Path(path).name, "beside": side_car(path).name}
+            self._store.said.emit(Message("Saved {name}, and its state as {beside}", **names))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -1,4 +1,4 @@
-"""The import report: what was read from the lens file, what was substituted, ignored, refused."""
+"""The import report: what was read from the lens file, substituted, ignored or refused."""
 
 from html import escape
 from pathlib import Path
@@ -6,7 +6,6 @@ from pathlib import Path
 from PySide6.QtWidgets import QPushButton, QTextBrowser
 
 from p2sf.errors import P2SFError
-from p2sf.messages import Message
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.files.opening import Refusal, with_substitutes
@@ -39,7 +38,7 @@ class ImportReportPanel:
         self._refused_beside: tuple[str, str | None] | None = None
 
     def show(self, live: Live) -> None:
-        """Show the report of the present lens, unless a file was refused while this lens stayed."""
+        """Show the report of the present lens, unless a file was refused while this lens was open."""
         if self._refusal and self._refused_beside != (live.state.lens, live.state.lens_text):
             self._refusal = None
         if not self._refusal:
@@ -47,16 +46,10 @@ class ImportReportPanel:
         self.accept.setVisible(bool(self._refusal and self._refusal.substituted))
 
     def show_refusal(self, refusal: Refusal) -> None:
-        """Show why a file was not opened; the lens on show stays."""
+        """Show why a file was not opened; the present lens stays."""
         self._refusal = refusal
         self._refused_beside = self._store.state.lens, self._store.state.lens_text
-        self._write(
-            refused(
-                Path(refusal.path).name,
-                refusal.path,
-                Message(refusal.sentence.removeprefix(refusal.path).lstrip(",: ")),
-            )
-        )
+        self._write(refused(Path(refusal.path).name, refusal.path, refusal.message))
         self.accept.setVisible(bool(refusal.substituted))
 
     def restyle(self, theme: Tokens) -> None:
@@ -73,19 +66,21 @@ class ImportReportPanel:
             self.text.setHtml(unbroken(page(report, self._theme)))
 
     def _accept(self) -> None:
+        if self._refusal is None:
+            return
         try:
             self._store.replace(with_substitutes(self._store.state, self._refusal.path))
         except P2SFError as error:
-            self._store.refused.emit(str(error))
+            self._store.refused.emit(error)
 
 
 def page(report: Report, theme: Tokens) -> str:
     """Return a report as a page."""
     source = escape(report.source.text(WINDOW))
     parts = [f"<p><b>{escape(report.heading)}</b><br><span style='color:{theme.muted}'>{source}</span>"]
-    for title, sentences in report.groups:
+    for title, messages in report.groups:
         colour = theme.warning if title == REFUSED else theme.text
-        items = "".join(f"<li>{escape(sentence.text(WINDOW))}</li>" for sentence in sentences)
+        items = "".join(f"<li>{escape(message.text(WINDOW))}</li>" for message in messages)
         parts.append(f"<p style='color:{colour}; margin-bottom:2px'><b>{escape(said(title))}</b>")
         parts.append(f"<ul style='margin-top:0; -qt-list-indent:0; margin-left:14px'>{items}</ul>")
     return "".join(parts)

@@ -1,22 +1,27 @@
-"""The lens as a table to edit: a value typed, the picture follows."""
+"""The lens as a table to edit; the picture follows every value typed."""
+
+from collections.abc import Callable
 
 from PySide6.QtCore import QModelIndex, Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QPushButton, QTableView
 
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import Lens
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.editing import check_surface, deleted, edited_state, inserted, with_stop, with_value
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.files.saving import ask_save_lens
 from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.lens_table import Rows
+from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.surface_table import KEYS, STOP, SurfaceModel
 
 TIP = "Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back."
-ROW = 22
+ROW = 22  # pixels
 WIDTHS = {"radius": 108, "thickness": 108, "medium": 170, "semi_diameter": 140, "conic": 80, "stop": 52}
 TOOLS = (
     (
@@ -31,14 +36,14 @@ TOOLS = (
 
 
 class LensTablePanel:
-    """Surfaces as rows, typed into in place; every edit is one step of undo."""
+    """Surfaces as rows to type into; every edit is one step of undo."""
 
     def __init__(self, store: Store):
         self._store = store
         self.widget = Card("Lens", TIP)
         self.model, self.view = SurfaceModel(self.widget), QTableView(self.widget)
         self.view.setModel(self.model)
-        self.buttons = {method: self._button(*words, method) for *words, method in TOOLS}
+        self.buttons = {method: self._button(text, tip, method) for text, tip, method in TOOLS}
         self._prepare()
         self.widget.set_body(self.view)
         self.model.typed.connect(self._typed)
@@ -78,11 +83,12 @@ class LensTablePanel:
 
     def show(self, live: Live) -> None:
         """Follow the lens."""
-        rows = live.views["lens"]
+        rows: Rows = live.views["lens"]
         self.model.show_rows(rows)
         self.buttons["_revert"].setEnabled(rows.edited)
         count = len(rows.texts)
-        self.widget.set_readout(f"{count} surface{'s' * (count > 1)}{' · edited' if rows.edited else ''}")
+        surfaces = tr("{count} surfaces", count=count) if count > 1 else tr("1 surface")
+        self.widget.set_readout(f"{surfaces} · {tr('edited')}" if rows.edited else surfaces)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -109,24 +115,24 @@ class LensTablePanel:
     def _delete(self) -> None:
         self._edit_row(deleted, 0)
 
-    def _edit_row(self, edit, step: int) -> None:
-        """Insert or delete at the present row, and stay beside it."""
+    def _edit_row(self, edit: Callable[..., Lens], step: int) -> None:
+        """Insert or delete at the present row, and select the row after it or in its place."""
         index = self.view.currentIndex()
         row, column = (index.row(), index.column()) if index.isValid() else (self.model.rowCount() - 1, 0)
         if self._edit(edit, row + 1):
             self.view.setCurrentIndex(self.model.index(min(row + step, self.model.rowCount() - 1), column))
 
-    def _edit(self, edit, number: int, *arguments) -> bool:
-        """Try an edit of a surface; one that gives no lens, or a lens with no picture, is refused in a sentence."""
+    def _edit(self, edit: Callable[..., Lens], number: int, *arguments: object) -> bool:
+        """Try an edit of a surface; refuse one that gives no lens, or a lens without a picture."""
         state = self._store.state
-        if self._store.refused_for_b():
+        if isinstance(self._store, PanelStore) and self._store.refused_for_b():
             return False
         try:
             lens = prescription(state)
             check_surface(lens, number)
             self._store.replace(edited_state(state, edit(lens, number, *arguments)))
         except P2SFError as error:
-            self._store.refused.emit(str(error))
+            self._store.refused.emit(error)
             return False
         return True
 

@@ -2,6 +2,8 @@
 
 from p2sf.conventions import UM_PER_MM
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.mtf import Contrast
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
@@ -22,7 +24,7 @@ class MtfPanel(CurvesPanel):
 
     def show(self, live: Live) -> None:
         """Paint the contrasts."""
-        view = live.views["mtf"]
+        view: Contrast = live.views["mtf"]
         curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
         self.show_curves(view.frequency_per_mm, curves)
         low, high = signed_range(live, curves, (0.0, 1.04))
@@ -30,12 +32,13 @@ class MtfPanel(CurvesPanel):
         self._mark(live.state.pixel_um, low + 0.91 * (high - low))
 
     def _mark(self, pixel_um: float, height: float) -> None:
-        """Mark the sensor's Nyquist frequency, its name at a height of the contrast."""
+        """Mark the sensor's Nyquist frequency, with its name at this contrast."""
         self.pixel.show_value(pixel_um)
         nyquist = nyquist_per_mm(pixel_um)
-        self.chart.show_notes(((nyquist, height, f" Nyquist {nyquist:.3g}", "text", -1),), ((nyquist, "text"),))
+        text = " " + tr("Nyquist {f}", f=f"{nyquist:.3g}")
+        self.chart.show_notes(((nyquist, height, text, "text", -1),), ((nyquist, "text"),))
 
 
 def nyquist_per_mm(pixel_um: float) -> float:
-    """Return the highest frequency that pixels of this pitch can tell, 1/(2 pitch), cycles per mm."""
+    """Return the highest frequency that pixels of this pitch resolve, 1/(2 pitch), in cycles per mm."""
     return UM_PER_MM / (2 * pixel_um)

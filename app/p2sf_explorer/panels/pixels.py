@@ -1,4 +1,4 @@
-"""The real PSF, a perfect lens's, and what the sensor's pixels see, side by side."""
+"""The real PSF, that of a perfect lens, and the light on the sensor's pixels, side by side."""
 
 import numpy as np
 
@@ -23,7 +23,7 @@ PIXEL_TIP = "Pixel pitch of the sensor."
 
 
 class BesidePanel:
-    """Three maps on one scale of lengths."""
+    """Three maps on the same scale of lengths."""
 
     def __init__(self, store: Store):
         self.maps = tuple(HeatMap(words, "y, µm") for words in NAMES)
@@ -48,15 +48,16 @@ class BesidePanel:
             heat.set_extent(half)
         self.maps[2].means(view.pixels, MEANINGS[2])
         for heat in self.maps[:2]:
-            heat.bar.show_scale(BRIGHTNESS, tr("peak"), ((0.0, "0"), (1.0, "1")))
-        self.maps[2].bar.show_scale(BRIGHTNESS, tr("of light"), ((0.0, "0"), (1.0, f"{100 * top:.3g} %")))
+            heat.bar.show_scale(BRIGHTNESS, "peak", ((0.0, "0"), (1.0, "1")))
+        self.maps[2].bar.show_scale(BRIGHTNESS, "of light", ((0.0, "0"), (1.0, f"{100 * top:.3g} %")))
         self._say(live, view)
 
     def _say(self, live: Live, view: Beside) -> None:
         middle = 100 * float(view.pixels[view.pixels.shape[0] // 2, view.pixels.shape[1] // 2])
-        words = "Strehl {strehl} · the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %"
+        shares = "the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %"
         real, perfect = f"{middle:.3g}", f"{100 * view.perfect_share:.3g}"
-        self.widget.set_readout(tr(words, strehl=significant(float(live.psf.strehl), 2), real=real, perfect=perfect))
+        strehl = tr("Strehl {strehl}", strehl=significant(float(np.asarray(live.psf.strehl)), 2))
+        self.widget.set_readout(f"{strehl} · {tr(shares, real=real, perfect=perfect)}")
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

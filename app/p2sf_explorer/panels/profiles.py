@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.results.profiles import ProfileCurves
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
@@ -17,7 +18,7 @@ LOOKS = {"Airy": ("muted", 1), "along x": ("marginal", 2), "along y": ("chief", 
 
 
 class ProfilesPanel(CurvesPanel):
-    """Two sections and the Airy pattern; beside them how the energy grows with the radius."""
+    """Two sections and the Airy pattern; beside them the energy within a radius."""
 
     def __init__(self, store: Store):
         super().__init__("PSF profiles", TIP, ("distance from the chief ray, µm", "share of the peak"), LOOKS)
@@ -33,7 +34,7 @@ class ProfilesPanel(CurvesPanel):
 
     def show(self, live: Live) -> None:
         """Paint the sections and the energy."""
-        view = live.views["profiles"]
+        view: ProfileCurves = live.views["profiles"]
         curves = {"Airy": view.airy, "along x": view.along_x, "along y": view.along_y}
         self.show_curves(view.position_um, curves)
         half = -float(view.position_um[0])

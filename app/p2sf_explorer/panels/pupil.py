@@ -1,4 +1,4 @@
-"""The wavefront over the pupil: W in waves as a picture, contours or a surface, or the phase it leaves."""
+"""The wavefront over the pupil: W in waves as a map, contours or a surface, or its phase modulo one wave."""
 
 import numpy as np
 
@@ -7,6 +7,7 @@ from p2sf_explorer.charts.plots import HeatMap
 from p2sf_explorer.charts.surface_plot import SurfaceView
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.camera import Camera
 from p2sf_explorer.state.scales import nice, significant
 from p2sf_explorer.store.store import Store
@@ -15,7 +16,7 @@ from p2sf_explorer.widgets.readout import Readout
 
 WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-CBC1"
 MODES = (("waves", "W, waves"), ("contour", "contours"), ("surface", "surface"), ("wrapped", "wrapped"))
-SIGNED = ("waves", "contour", "surface")  # where a difference can be shown too
+SIGNED = ("waves", "contour", "surface")  # which can show a difference
 TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
 
 
@@ -35,7 +36,7 @@ class PupilPanel:
         self.surface.turned.connect(lambda turn, tilt: store.update(relief_turn_deg=turn, relief_tilt_deg=tilt))
         self.surface.taken.connect(store.begin)
         self.surface.released.connect(store.end)
-        self.map.layout().insertWidget(0, self.surface, 1)
+        self.map.row.insertWidget(0, self.surface, 1)
         self.numbers = Readout(self.widget, pill=True, colour="text")
         self.widget.set_body(self.map)
         self.widget.add_footer(self.numbers)
@@ -50,8 +51,9 @@ class PupilPanel:
         self.map.chart.setVisible(mode != "surface")
         self._use_map(WRAPPED_MAP if mode == "wrapped" else WAVES_MAP)
         if mode == "wrapped":
-            self._paint(np.mod(pupil.waves, 1.0), (0.0, 1.0), ((0.0, "0"), (0.5, "½"), (1.0, "1")))
-            self.map.means(self.map.values, "W modulo 1, waves")
+            phase = np.mod(pupil.waves, 1.0)
+            self._paint(phase, (0.0, 1.0), ((0.0, "0"), (0.5, "½"), (1.0, "1")))
+            self.map.means(phase, "W modulo 1, waves")
         else:
             limit = self._limit(pupil.waves)
             labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
@@ -60,10 +62,11 @@ class PupilPanel:
             self._paint(shown, (-limit, limit), labels)
             self.map.means(pupil.waves, "W, waves")
             if mode == "surface":
-                eye = Camera(live.state.relief_turn_deg, live.state.relief_tilt_deg)
-                self.surface.show_waves(pupil.waves, limit, live.quality, eye)
-        numbers = f"RMS {significant(pupil.rms, 3)} λ · PV {significant(pupil.peak_to_valley, 3)} λ"
-        lines = f"line every {step:g} λ" if mode == "contour" else pupil.kind
+                camera = Camera(live.state.relief_turn_deg, live.state.relief_tilt_deg)
+                self.surface.show_waves(pupil.waves, limit, live.quality, camera)
+        rms, peak_to_valley = (significant(value, 3) for value in (pupil.rms, pupil.peak_to_valley))
+        numbers = tr("RMS {r} λ · PV {p} λ", r=rms, p=peak_to_valley)
+        lines = tr("line every {step} λ", step=f"{step:g}") if mode == "contour" else tr(pupil.kind)
         self.numbers.set_text(f"{numbers} · {lines}", short=numbers)
 
     def restyle(self, theme: Tokens) -> None:
@@ -82,6 +85,6 @@ class PupilPanel:
             self._map = name
             self.map.set_map(name)
 
-    def _paint(self, values: np.ndarray, levels: tuple[float, float], labels) -> None:
+    def _paint(self, values: np.ndarray, levels: tuple[float, float], labels: tuple[tuple[float, str], ...]) -> None:
         self.map.show_values(values, levels, (-1.0, -1.0, 2.0, 2.0))
         self.map.bar.show_scale(self._map, "λ", labels)

@@ -1,36 +1,42 @@
-"""The set-up in space: glass with a quarter cut away, rays, the wavefront exaggerated, the PSF as relief."""
+"""The set-up in space: glass with a quarter cut away, rays, the exaggerated wavefront, the PSF as a surface."""
 
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QProcess, QTimer
 from PySide6.QtWidgets import QFileDialog, QPushButton
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.scene3d import opengl_probe as probe
+from p2sf_explorer.scene3d.scene import Scene3D
 from p2sf_explorer.scene3d.widget import SceneView
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.readout import Readout
 
+if TYPE_CHECKING:
+    from p2sf_explorer.scene3d.renderer import Renderer
+
 TIP = "3D: elements of revolution to their clear rims; the wavefront is W·λ ahead of the sphere about the image point."
 FILES = "Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)"
 PREPARING = "Preparing the 3D view: loading it takes some seconds, once."
-WORDS = "W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm"
+FACTORS = "W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm"
 SCALES = {"linear": "brightness", "sqrt": "root of brightness", "log": "logarithm of brightness"}
 
 
 class SolidPanel:
-    """Asks first, in a process of its own, whether OpenGL works; loads the renderer only then."""
+    """Asks first, in a process of its own, whether OpenGL works, and loads the renderer only if it does."""
 
     def __init__(self, store: Store):
         self.widget, self._store = Card("3D", TIP), store
         self.view = SceneView(store, self.widget)
-        self.words = Readout(self.widget, pill=True, colour="text")
+        self.factors = Readout(self.widget, pill=True, colour="text")
         self.save_button = QPushButton(tr("Save…"), self.widget)
         self.save_button.setObjectName("small")
         self.save_button.setToolTip(tr("Save the view as a picture, or the scene as glTF or OBJ"))
@@ -38,53 +44,56 @@ class SolidPanel:
         self.save_button.setEnabled(False)
         self.widget.add_tool(self.save_button)
         self.widget.set_body(self.view)
-        self.widget.add_footer(self.words)
+        self.widget.add_footer(self.factors)
         self.process: QProcess | None = None
-        self.stage = None
+        self.renderer: Renderer | None = None
 
     @property
     def busy(self) -> bool:
         """Return whether the view is still being prepared."""
-        return self.stage is None and self.process is not None and not self.view.message_is_final
+        return self.renderer is None and self.process is not None and not self.view.message_is_final
 
     def show(self, live: Live) -> None:
         """Show an answer, as soon as there is a renderer."""
         self.view.show_live(live)
-        view = live.views["solid"]
-        words = tr(
-            WORDS,
+        view: Scene3D = live.views["solid"]
+        factors = tr(
+            FACTORS,
             front=f"{view.front.factor:g}",
             psf=f"{view.psf_surface.factor:g}",
             scale=tr(SCALES[live.state.psf_scale]),
             wavelength=significant(live.state.wavelength_nm, 4),
         )
-        self.words.set_text(words)
+        self.factors.set_text(factors)
         if self.process is None:
             self._probe()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.view.restyle(theme)
-        self.words.restyle(theme)
+        self.factors.restyle(theme)
 
     def save(self, path: str) -> bool:
-        """Write the view (.png) or the scene (.gltf, .obj); a refusal goes to the banner."""
+        """Write the view (.png) or the scene (.gltf, .obj) and return True, or say why not."""
         try:
-            self.view.save_picture(path) if Path(path).suffix.lower() == ".png" else self.stage.save(path)
+            if Path(path).suffix.lower() == ".png":
+                self.view.save_picture(path)
+            elif self.renderer:
+                self.renderer.save(path)
         except P2SFError as error:
-            self._store.refused.emit(str(error))
+            self._store.refused.emit(error)
             return False
-        self._store.said.emit(tr("Saved {name}", name=Path(path).name))
+        self._store.said.emit(Message("Saved {name}", name=Path(path).name))
         return True
 
     def stop(self) -> None:
-        """Give the graphics memory back with the window."""
+        """Free the graphics memory with the window."""
         if self.process:
             self.process.kill()
             self.process.waitForFinished()
-        if self.stage:
+        if self.renderer:
             self.view.set_renderer(None)
-            self.stage.close()
+            self.renderer.close()
 
     def _probe(self) -> None:
         self.view.say(tr(PREPARING))
@@ -107,8 +116,8 @@ class SolidPanel:
         except ImportError:
             self.view.say(tr(probe.NOT_INSTALLED), final=True)
             return
-        self.stage = Renderer(self.view.pixels())
-        self.view.set_renderer(self.stage)
+        self.renderer = Renderer(self.view.pixels())
+        self.view.set_renderer(self.renderer)
         self.save_button.setEnabled(True)
 
     def _ask_save(self) -> None:

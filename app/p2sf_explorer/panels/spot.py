@@ -2,26 +2,28 @@
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QPainter, QPen, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from p2sf.raytrace.pencil import Spot
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.state.scales import nice, signed, significant
+from p2sf_explorer.results.spot import figures, landed
+from p2sf_explorer.state.scales import nice
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.readout import FactTable
 
 TIP = "Spot diagram: where exact rays, evenly spread over the entrance pupil, meet the sensor; no diffraction."
-SIDE = 60  # pixels that axis and label take beside the square
+AXIS_PX = 60  # pixels of the axis and its label beside the square
 
 
 class SpotChart(Chart):
-    """Points over a square; it takes no more of the width than that."""
+    """Points over a square, about as wide as high."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("x, µm from the chief ray", "y, µm", aspect=True)
         self.airy = self.add_curve("chief", 2)
         self.points = np.zeros((0, 2))
@@ -31,13 +33,13 @@ class SpotChart(Chart):
         self.points = points
         self.update()
 
-    def rows_of_data(self) -> list[list]:
+    def rows_of_data(self) -> list[list[str]]:
         """Return the points as rows: x and y in µm."""
         return [[*self.labels], *([f"{x:.9g}", f"{y:.9g}"] for x, y in self.points)] if len(self.points) else []
 
-    def resizeEvent(self, event) -> None:
-        """Keep the room about square."""
-        self.setMaximumWidth(max(200, event.size().height() + SIDE))
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the chart about square."""
+        self.setMaximumWidth(max(200, event.size().height() + AXIS_PX))
         super().resizeEvent(event)
 
     def paint_over(self, painter: QPainter) -> None:
@@ -49,7 +51,7 @@ class SpotChart(Chart):
 
 
 class SpotPanel:
-    """Points with the Airy circle for scale, and their figures beside them."""
+    """Points with the Airy circle for scale, and figures beside them."""
 
     def __init__(self, store: Store):
         self.widget = Card("Spot diagram", TIP)
@@ -68,34 +70,17 @@ class SpotPanel:
 
     def show(self, live: Live) -> None:
         """Paint the points."""
-        spot = live.views["spot"]
-        points = np.stack([spot.x_um, spot.y_um], axis=-1)
-        kept = points[np.isfinite(points).all(axis=-1)]
-        self.chart.show_points(kept)
+        spot: Spot = live.views["spot"]
+        points = landed(spot)
+        self.chart.show_points(points)
         turn = np.linspace(0, 2 * np.pi, 73)
         self.chart.airy.set_data(live.airy_radius_um * np.cos(turn), live.airy_radius_um * np.sin(turn))
-        reach = max(float(np.abs(kept).max()), 2 * live.airy_radius_um)
-        half = nice(1.1 * reach, (1, 1.5, 2, 3, 4, 5, 6, 8))
+        farthest = max(float(np.abs(points).max()), 2 * live.airy_radius_um)
+        half = nice(1.1 * farthest, (1, 1.5, 2, 3, 4, 5, 6, 8))
         self.chart.set_range((-half, half), (-half, half))
-        self.facts.show_rows(figures(spot, kept, len(points), live.airy_radius_um))
+        self.facts.show_rows(figures(spot, live.airy_radius_um))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.chart.restyle(theme)
         self.facts.restyle(theme)
-
-
-def figures(spot, kept: np.ndarray, traced: int, airy_um: float) -> tuple[tuple[str, str, str], ...]:
-    """Return name, value and definition of the spot's figures."""
-    centre = kept.mean(axis=0)
-    across, up = (significant(float(value), 3) for value in (kept - centre).std(axis=0))
-    farthest = significant(float(np.hypot(*(kept - centre).T).max()), 3)
-    return (
-        ("RMS radius", f"{significant(float(spot.rms_um), 3)} µm", "Root mean square distance from the centroid."),
-        ("RMS in x", f"{across} µm", "Root mean square of x about the centroid."),
-        ("RMS in y", f"{up} µm", "Root mean square of y about the centroid."),
-        ("Farthest ray", f"{farthest} µm", "Largest distance of a ray from the centroid."),
-        ("Centroid y", f"{signed(float(spot.centroid_y_um), 2)} µm", "Of the centroid, from the chief ray."),
-        ("Airy radius, the circle", f"{significant(airy_um, 3)} µm", "First dark ring of a perfect lens, 0.61 λ/NA."),
-        ("Rays", f"{len(kept)} / {traced}", "That arrive, of those traced."),
-    )

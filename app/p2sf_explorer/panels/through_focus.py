@@ -1,8 +1,8 @@
-"""Through focus: PSFs at several sensor positions, and the sensor to take hold of."""
+"""Through focus: PSFs at several sensor positions, and the sensor, which can be dragged."""
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 
 from p2sf.messages import Message
 from p2sf_explorer.charts.brightness import stretched
@@ -25,10 +25,11 @@ TIP = (
 )
 STRIP_TIP = "Drag the line or click, or use the left and right arrow keys: the sensor follows."
 NEAR_PX = 9.0
+SIDES: dict[int, int] = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
 
 
 class StripChart(TilesChart):
-    """The strip, and the sensor's line with a handle at its foot."""
+    """The strip, and the sensor's line with a handle at its lower end."""
 
     def __init__(self, store: Store):
         super().__init__("sensor shift, µm", "")
@@ -42,7 +43,7 @@ class StripChart(TilesChart):
         self.setToolTip(tr(STRIP_TIP))
 
     def show_sensor(self, shift_um: float) -> None:
-        """Show where the sensor stands."""
+        """Show the position of the sensor."""
         self.sensor_um = shift_um
         self.update()
 
@@ -60,33 +61,34 @@ class StripChart(TilesChart):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawEllipse(QPointF(x, bottom - 6), 8, 8)
 
-    def mousePressEvent(self, event) -> None:
+    def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take hold of the sensor, or bring it under the pointer."""
         if event.button() == Qt.MouseButton.LeftButton and self.area.contains(event.position()):
             self._held = True
             self._store.begin()
             self._follow(event.position())
 
-    def mouseMoveEvent(self, event) -> None:
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Let the sensor follow while held."""
         if self._held:
             self._follow(event.position())
         over = abs(event.position().x() - float(self.to_pixels(self.sensor_um, 0.0)[0])) < NEAR_PX
         self.setCursor(Qt.CursorShape.SizeHorCursor if over or self._held else Qt.CursorShape.ArrowCursor)
 
-    def mouseReleaseEvent(self, event) -> None:
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Let go."""
         if self._held:
             self._held = False
             self._store.end()
 
-    def keyPressEvent(self, event) -> None:
+    def keyPressEvent(self, event: QKeyEvent) -> None:
         """Move the sensor by a fiftieth of the strip with the arrow keys."""
-        side = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
+        side = SIDES.get(event.key())
         if side is None:
-            return super().keyPressEvent(event)
+            super().keyPressEvent(event)
+            return
         (low, high), _ = self.ranges()
-        return self._store.update(sensor_shift_um=round(self.sensor_um + side * (high - low) / 50, 3))
+        self._store.update(sensor_shift_um=round(self.sensor_um + side * (high - low) / 50, 3))
 
     def _follow(self, point: QPointF) -> None:
         (low, high), _ = self.ranges()
@@ -94,7 +96,7 @@ class StripChart(TilesChart):
 
 
 class ThroughFocusPanel:
-    """A strip that fills in the background while the sensor's line follows at once."""
+    """A strip that a worker fills, while the sensor's line follows at once."""
 
     def __init__(self, store: Store):
         self.widget = Card("Through focus", TIP)
@@ -105,8 +107,9 @@ class ThroughFocusPanel:
         self._scale = "sqrt"
 
     def show(self, live: Live) -> None:
-        """Show the sensor, and ask for the strip where more than the sensor has moved."""
-        asked, scale = live.views["through_focus"], live.state.psf_scale
+        """Show the sensor, and ask for the strip when more than the sensor has changed."""
+        asked: Strip | Message = live.views["through_focus"]
+        scale = live.state.psf_scale
         if scale != self._scale:
             self._scale = scale
             self.asking.again()
@@ -132,14 +135,13 @@ class ThroughFocusPanel:
         self.chart.show_tiles((tile(values, float(at), 0.46, low) for values, at in shown), step)
         heads = (tr("sensor shift {shift} µm: share of the perfect peak", shift=signed(float(at), 1)) for at in shifts)
         self.chart.means(zip(heads, found.light, strict=True), asked.window[1])
-        foci = (("S", found.sagittal, "marginal"), ("T", found.tangential, "positive"), ("best", found.best, "text"))
-        notes = [(x, 0.93, f"▾ {name}", token, 0) for name, x, token in foci if np.isfinite(x)]
-        self.chart.show_notes(notes)
+        names = (("S", "marginal"), ("T", "positive"), (tr("best"), "text"))
+        foci = zip(names, (found.sagittal, found.tangential, found.best), strict=True)
+        self.chart.show_notes((x, 0.93, f"▾ {name}", token, 0) for (name, token), x in foci if np.isfinite(x))
         wide = asked.window[0] * asked.window[1]
-        return (
-            f"S {signed(found.sagittal, 1)} · T {signed(found.tangential, 1)} · best {signed(found.best, 1)} µm · "
-            f"pictures {wide:.3g} µm wide"
-        )
+        best = tr("best {shift} µm", shift=signed(found.best, 1))
+        pictures = tr("pictures {wide} µm wide", wide=f"{wide:.3g}")
+        return f"S {signed(found.sagittal, 1)} · T {signed(found.tangential, 1)} · {best} · {pictures}"
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -15,11 +15,11 @@ TIP = (
     "y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses "
     "ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image."
 )
-FAR = 3.0  # times the widest of the other heights
+FAR = 3.0  # times the largest of the other heights
 
 
 class YBarPanel:
-    """A polygon through the surfaces, each with its number; the stop marked."""
+    """A polygon through the surfaces, each with its number, and a mark at the stop."""
 
     def __init__(self, store: Store):
         self.widget = Card("y–ȳ diagram", TIP)
@@ -41,17 +41,18 @@ class YBarPanel:
         self.axes[1].set_data((0, 0), (low, high))
         self._mark(view, (right - left) / 90, (high - low) / 30)
         invariant = float(live.setup.rays.invariant) * live.setup.source.field_slope
-        words = "the source is on the axis: no chief ray, so the diagram is a line" if field_free(view) else ""
-        self.widget.set_readout(words or f"Lagrange invariant H = {signed(invariant, 4)} mm · stop ▪")
+        if field_free(view):
+            self.widget.set_readout(tr("the source is on the axis: no chief ray, so the diagram is a line"))
+            return
+        self.widget.set_readout(f"{tr('Lagrange invariant H = {h} mm', h=signed(invariant, 4))} · {tr('stop ▪')}")
 
     def _mark(self, view: YBar, wide: float, tall: float) -> None:
         notes, last = [], -np.inf
         for k, (x, y, name) in enumerate(zip(view.chief_y, view.y, view.names, strict=True)):
-            under = abs(x - last) < 2 * wide  # a neighbour's name stands above: this one goes below
+            under = abs(x - last) < 2 * wide  # where the neighbour's name is above
             last = -np.inf if under else x
-            notes.append(
-                (x, y - 2.4 * tall if under else y + 2.4 * tall, f"▪{name}" if k == view.stop else name, "muted", 0)
-            )
+            text = f"▪{tr(name)}" if k == view.stop else tr(name)
+            notes.append((x, y - 2.4 * tall if under else y + 2.4 * tall, text, "muted", 0))
         crosses = [
             np.array([[x - wide / 4, x + wide / 4, np.nan], [y, y, np.nan]])
             for x, y in zip(view.chief_y, view.y, strict=True)
@@ -65,12 +66,12 @@ class YBarPanel:
 
 
 def span(values: np.ndarray) -> tuple[float, float]:
-    """Return a range with air around the values, zero inside it, ends on round numbers."""
+    """Return a range with round ends and a margin around the values, zero within it."""
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
     step = nice(max(high - low, 1e-6) / 8)
-    return step * np.floor(low / step - 0.3), step * np.ceil(high / step + 0.7)
+    return float(step * np.floor(low / step - 0.3)), float(step * np.ceil(high / step + 0.7))
 
 
 def far_off(view: YBar) -> bool:
-    """Return whether the object lies so far out that showing it would hide the lens: the line to it is cut then."""
-    return abs(view.chief_y[0]) > FAR * np.abs(view.chief_y[1:]).max()
+    """Return whether the object is so far away that the lens would be small beside it; the line to it is then cut."""
+    return bool(abs(view.chief_y[0]) > FAR * np.abs(view.chief_y[1:]).max())

@@ -1,4 +1,4 @@
-"""Solids as triangles: elements of revolution with a quarter cut away, stop, sensor. No Qt and no pyvista in here."""
+"""Triangle meshes: elements of revolution with a quarter cut away, stop, sensor. No Qt and no pyvista in here."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -8,14 +8,14 @@ import numpy as np
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, clear_rims, sag, vertices
 
-CUT = (np.pi, 2.5 * np.pi)  # the sweep that is left, from −x over −y and +x to +y: a quarter is cut away
+CUT = (np.pi, 2.5 * np.pi)  # the sweep that remains, from −x over −y and +x to +y: a quarter is cut away
 STEPS = 48  # of the sweep
-RINGS = 12  # of a sheet, from axis to rim
+RINGS = 12  # of a surface, from axis to rim
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles: ``points`` (point, 3) in mm, x, y, z; ``faces`` (face, 3) point numbers, counter-clockwise outside."""
+    """Triangles: ``points`` (point, 3) x, y, z in mm; ``faces`` (face, 3) point numbers, counter-clockwise outside."""
 
     points: np.ndarray
     faces: np.ndarray
@@ -31,7 +31,7 @@ class Element:
 
 @lru_cache(maxsize=16)
 def elements(lens: Lens) -> tuple[Element, ...]:
-    """Return the glass of a `glass.still` lens, real sag to the clear rims, a quarter cut away."""
+    """Return the glass of a lens of `glass_outlines.still`: real sag to the clear rims, a quarter cut away."""
     z, rims = vertices(lens), clear_rims(lens)
     index = indices(lens, lens.reference_wavelength_um)
     pairs = zip(lens.surfaces[:-1], lens.surfaces[1:], strict=True)
@@ -56,7 +56,7 @@ Side = tuple[Surface | None, float, float]
 
 
 def element(front: Side, back: Side) -> Mesh:
-    """Return the solid between two sides; the narrower one goes on flat to the rim of the wider."""
+    """Return the solid between two sides; the narrower one is continued flat to the rim of the wider."""
     wide = max(front[2], back[2])
     radii = np.union1d(np.linspace(0, wide, RINGS), [min(front[2], back[2])])
     z = np.stack([_heights(front, radii), _heights(back, radii)])
@@ -70,8 +70,10 @@ def _heights(side: Side, radii: np.ndarray) -> np.ndarray:
     return np.full(radii.size, vertex) if surface is None else vertex + sag(surface, np.minimum(radii, rim))
 
 
-def revolved(radii: np.ndarray, front: np.ndarray, back: np.ndarray, sweep=CUT, steps: int = STEPS) -> Mesh:
-    """Return the solid swept by the strip between two profiles z(r); ``radii`` (r,) rise from 0 or any inner rim."""
+def revolved(
+    radii: np.ndarray, front: np.ndarray, back: np.ndarray, sweep: tuple[float, float] = CUT, steps: int = STEPS
+) -> Mesh:
+    """Return the solid swept by the strip between two profiles z(r); ``radii`` (r,) rise from 0 or an inner rim."""
     count, turns = radii.size, steps + 1
     front_ids = np.arange(count * turns).reshape(turns, count)
     back_ids = front_ids + count * turns
@@ -89,7 +91,7 @@ def revolved(radii: np.ndarray, front: np.ndarray, back: np.ndarray, sweep=CUT, 
 
 
 def _sheet(radii: np.ndarray, z: np.ndarray, sweep: tuple[float, float], steps: int) -> np.ndarray:
-    """Return the points of a surface of revolution, turn by turn; turning goes from +x over +y."""
+    """Return the points of a surface of revolution, profile by profile, turning from +x to +y."""
     turn = np.linspace(*sweep, steps + 1)[:, None]
     return np.stack(np.broadcast_arrays(radii * np.cos(turn), radii * np.sin(turn), z), -1).reshape(-1, 3)
 
@@ -126,7 +128,7 @@ def grid_faces(rows: int, columns: int) -> np.ndarray:
 
 
 def volume(mesh: Mesh) -> float:
-    """Return the volume a closed mesh holds, mm³: Σ a·(b × c)/6 over its triangles, by Gauss's theorem."""
+    """Return the volume of a closed mesh, mm³: Σ a·(b × c)/6 over its triangles, by Gauss's theorem."""
     a, b, c = np.moveaxis(mesh.points[mesh.faces], 1, 0)
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 

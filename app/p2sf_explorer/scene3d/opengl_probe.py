@@ -1,4 +1,4 @@
-"""Whether OpenGL works here, asked in a process of its own: where it is missing, the renderer ends its process.
+"""Find out whether OpenGL works, in a process of its own: where it is missing, the renderer ends its process.
 
 ``python -m p2sf_explorer.scene3d.opengl_probe`` renders eight pixels and returns 0, or something else. No Qt in here.
 """
@@ -16,7 +16,7 @@ WORKS, NO_LIBRARY, NO_CONTEXT = 0, 3, 4
 
 
 def main() -> int:
-    """Render a small picture off screen; return 0, or why not."""
+    """Render a small picture off screen; return 0 or the code of what is missing."""
     try:
         import vtkmodules.vtkRenderingOpenGL2 as gl
         from vtkmodules.vtkRenderingCore import vtkRenderWindow
@@ -35,7 +35,7 @@ def main() -> int:
 
 
 def sentence(code: int) -> str:
-    """Return what the probe's exit code means, nothing where all is well."""
+    """Return what the probe's exit code means, in English; nothing where OpenGL works."""
     return {WORKS: "", NO_LIBRARY: NOT_INSTALLED}.get(code, MISSING)
 
 

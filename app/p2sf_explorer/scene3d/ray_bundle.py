@@ -1,4 +1,4 @@
-"""What light does in space: rays, the wavefront on its way, the PSF as relief. No Qt and no pyvista in here."""
+"""Light in space: rays, the wavefront behind the lens, the PSF as a surface. No Qt and no pyvista in here."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,18 +15,18 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.scene3d.meshes import Mesh, grid_faces
 from p2sf_explorer.state.scales import nice
 
-RINGS = 2  # of rays in the bundle: 19 of them
+RINGS = 2  # of rays in the bundle, 19 in all
 FRONT = (10, 48)  # rings and directions of the wavefront
-RELIEF = 64  # samples of the relief, across
-BEFORE = 0.45  # of the drawing's length: where rays from afar begin
-SWING, RIM = 0.3, 0.96  # the exaggerated wavefront's depth over its radius; how much of the way it may take
-LEAST = 0.05  # and what it takes at least, of the picture's half height
-SPREAD, HEIGHT = 0.9, 0.6  # the relief's width over half the sensor, its height over its width
+SAMPLES = 64  # across the PSF surface
+BEFORE = 0.45  # of the drawing's length, before the lens: where rays from a far object begin
+DEPTH, RIM = 0.3, 0.96  # of the wavefront's radius: its exaggerated depth; of the way to the last surface: its radius
+SHORTEST = 0.05  # least radius, of the drawing's half height
+SPREAD, HEIGHT = 0.9, 0.6  # width of the PSF surface over half the sensor, its height over its width
 
 
 @dataclass(frozen=True)
 class Front:
-    """The wavefront's surface, W in waves at its points, and how often W is exaggerated along the rays."""
+    """The wavefront's surface, W in waves at its points, and the factor by which W is exaggerated along the rays."""
 
     mesh: Mesh
     waves: np.ndarray
@@ -35,7 +35,7 @@ class Front:
 
 @dataclass(frozen=True)
 class PsfSurface:
-    """The PSF as a surface on the sensor, brightness 0 to 1 at its points, and how often its width is magnified."""
+    """The PSF as a surface on the sensor, brightness 0 to 1 at its points, and the magnification of its width."""
 
     mesh: Mesh
     values: np.ndarray
@@ -49,9 +49,9 @@ def ray_bundle(setup: ParaxialSetup, drawn: Drawing) -> np.ndarray:
     """
     xi, eta = hexapolar(RINGS)
     rays = pupil_rays(setup.lens, setup.source, xi, eta)
-    reach = min(setup.source.depth_mm, BEFORE * (drawn.right - drawn.left) - drawn.left)
+    before = min(setup.source.depth_mm, BEFORE * (drawn.right - drawn.left) - drawn.left)
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
-    starts = origins - directions * ((origins[..., 2:] + reach) / directions[..., 2:])
+    starts = origins - directions * ((origins[..., 2:] + before) / directions[..., 2:])
     points = trace(setup.lens, starts, directions, setup.source.wavelength_um).points
     for number in range(1, len(points)):
         points[number] = np.where(np.isnan(points[number]), points[number - 1], points[number])
@@ -61,8 +61,8 @@ def ray_bundle(setup: ParaxialSetup, drawn: Drawing) -> np.ndarray:
 def front(setup: ParaxialSetup, drawn: Drawing, last_z: float) -> Front:
     """Return the wavefront behind the lens: the sphere about the image point, W·λ·factor ahead of it along the rays.
 
-    A positive W is a shorter path, so the light is ahead. ``last_z``: where the last surface ends, mm; the wavefront
-    is drawn as it leaves the exit pupil, or the lens where the pupil lies inside. What is altered by hand has no rays:
+    A positive W is a shorter path, so the light is ahead. ``last_z``: the end of the last surface, mm; the wavefront is
+    drawn at the exit pupil, or behind the lens where the pupil lies inside. Coefficients altered by hand have no rays:
     W is then that of the six coefficients. Raises GeometryError.
     """
     rays = pencil(setup.lens, setup.source, *_polar())
@@ -70,9 +70,9 @@ def front(setup: ParaxialSetup, drawn: Drawing, last_z: float) -> Front:
     waves = np.asarray(wavefront(setup.coefficients, *_polar())) if exact is None else np.nan_to_num(exact)
     kx, ky, kz = (np.where(rays.passed, k, chief) for k, chief in _cosines(rays))
     radius = _drawn_radius(setup, drawn, last_z, float(rays.chief_kz[0]))
-    swing = SWING * radius * float(np.hypot(kx, ky - rays.chief_ky).max())
+    deepest = DEPTH * radius * float(np.hypot(kx, ky - rays.chief_ky).max())
     wave_mm = setup.source.wavelength_um / UM_PER_MM
-    factor = _round_down(swing / max(float(np.ptp(waves)) * wave_mm, 1e-9)) if swing else 1.0  # else no ray has passed
+    factor = _round_down(deepest / max(float(np.ptp(waves)) * wave_mm, 1e-9)) if deepest else 1.0  # 0: no ray passes
     along = (radius - factor * wave_mm * waves)[:, None]
     image = np.array([0.0, float(rays.chief_y[0]), drawn.sensor_z])
     return Front(Mesh(image - along * np.stack([kx, ky, kz], -1), grid_faces(*FRONT_GRID)), waves, factor)
@@ -87,7 +87,8 @@ def _polar() -> tuple[np.ndarray, np.ndarray]:
     return (radius * np.sin(turn)).ravel(), (radius * np.cos(turn)).ravel()
 
 
-def _cosines(rays: Pencil):
+def _cosines(rays: Pencil) -> tuple[tuple[np.ndarray, float], ...]:
+    """Return the direction cosines in the image of the rays and of the chief ray."""
     return (rays.kx, 0.0), (rays.ky, rays.chief_ky[0]), (rays.kz, rays.chief_kz[0])
 
 
@@ -96,13 +97,13 @@ def _exit_radius(setup: ParaxialSetup, rays: Pencil) -> float:
 
 
 def _drawn_radius(setup: ParaxialSetup, drawn: Drawing, last_z: float, chief_kz: float) -> float:
-    """Return how far from the image the wavefront is drawn, mm: at the exit pupil, or just behind the lens.
+    """Return the radius with which the wavefront is drawn, mm: to the exit pupil, or to just behind the lens.
 
-    The sensor may touch the last glass or stand within: then just before the image.
+    Where the sensor touches the last glass or lies in it, to just before the image.
     """
-    room = max(RIM * (drawn.sensor_z - last_z), LEAST * drawn.half_height) / chief_kz
+    longest = max(RIM * (drawn.sensor_z - last_z), SHORTEST * drawn.half_height) / chief_kz
     pupil = (setup.lens.sensor_mm - float(setup.pupils.exit_from_last)) / chief_kz
-    return min(room, pupil) if isfinite(pupil) and pupil > 0 else room
+    return min(longest, pupil) if isfinite(pupil) and pupil > 0 else longest
 
 
 def psf_surface(psf: Psf, brightness: np.ndarray, drawn: Drawing, sensor_half: float, image_y: float) -> PsfSurface:
@@ -115,21 +116,23 @@ def psf_surface(psf: Psf, brightness: np.ndarray, drawn: Drawing, sensor_half: f
     factor = _round_down(SPREAD * sensor_half / width)
     weight = _resampling(count)
     values = np.clip(weight @ brightness @ weight.T, 0.0, 1.0)
-    axis = (np.arange(RELIEF) - RELIEF // 2) * (width * factor / RELIEF)
+    axis = (np.arange(SAMPLES) - SAMPLES // 2) * (width * factor / SAMPLES)
     x, y = np.meshgrid(axis, axis + image_y)
     z = drawn.sensor_z - HEIGHT * width * factor * values - 2e-3 * sensor_half
-    return PsfSurface(Mesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(RELIEF, RELIEF)), values.ravel(), factor)
+    return PsfSurface(
+        Mesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(SAMPLES, SAMPLES)), values.ravel(), factor
+    )
 
 
 @lru_cache(maxsize=16)
 def _resampling(count: int) -> np.ndarray:
-    """Return the linear map (RELIEF, count) that keeps sample N/2 in its place: means where there are many samples."""
-    wide = max(1.0, count / RELIEF)
-    at = (np.arange(RELIEF) - RELIEF // 2) * (count / RELIEF) + count // 2
+    """Return the linear map (SAMPLES, count) that keeps sample N/2 in its place, and averages where there are more."""
+    wide = max(1.0, count / SAMPLES)
+    at = (np.arange(SAMPLES) - SAMPLES // 2) * (count / SAMPLES) + count // 2
     weight = np.maximum(0.0, 1 - np.abs(at[:, None] - np.arange(count)) / wide)
     return weight / weight.sum(axis=1, keepdims=True)
 
 
 def _round_down(value: float) -> float:
-    """Return the largest 1, 2 or 5 times a power of ten that is not above a value."""
+    """Return the largest of 1, 2 or 5 times a power of ten that does not exceed a value."""
     return 1 / nice(1 / value)

@@ -1,4 +1,4 @@
-"""The whole set-up in space: glass, stop, sensor, rays, wavefront, PSF. No Qt, no pyvista in here."""
+"""The set-up in space: glass, stop, sensor, rays, wavefront, PSF. No Qt and no pyvista in here."""
 
 from dataclasses import dataclass
 
@@ -6,11 +6,12 @@ import numpy as np
 
 from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.compute.glass_outlines import still
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import visible_colour
 from p2sf_explorer.scene3d.meshes import Element, Mesh, elements, filling, plate, ring
 from p2sf_explorer.scene3d.ray_bundle import Front, PsfSurface, front, psf_surface, ray_bundle
 
-THIN = 0.012  # of the lens's half height: how thick stop and sensor are drawn
+THICKNESS = 0.012  # of stop and sensor, of the lens's half height
 
 
 @dataclass(frozen=True)
@@ -26,11 +27,11 @@ class Scene3D:
     psf_surface: PsfSurface
 
 
-def scene(live) -> Scene3D:
+def scene(live: Live) -> Scene3D:
     """Return the scene of an answer. Raises GeometryError where the chief ray does not reach the sensor."""
     setup, drawn = live.setup, live.layout.drawing
     standing = still(setup.lens)
-    wedge, thick = 0.18 * drawn.half_height + 0.25 * drawn.stop_rim, THIN * drawn.half_height
+    wedge, thick = 0.18 * drawn.half_height + 0.25 * drawn.stop_rim, THICKNESS * drawn.half_height
     rays = ray_bundle(setup, drawn)
     half = live.layout.sensor_half
     return Scene3D(
@@ -44,7 +45,7 @@ def scene(live) -> Scene3D:
     )
 
 
-def brightness(live) -> np.ndarray:
+def brightness(live: Live) -> np.ndarray:
     """Return the PSF's samples on the scale the window shows, 0 to 1."""
     peak = float(live.psf.values.max()) or 1.0
     return stretched(live.psf.values / peak, live.state.psf_scale)

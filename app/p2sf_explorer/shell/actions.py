@@ -92,7 +92,7 @@ class Actions(QObject):
         try:
             self.store.replace(opened(self.store.state, path))
         except P2SFError as error:
-            self._explain(refusal(path, str(error)))
+            self._explain(refusal(path, error))
             return False
         remember(path)
         self._list_recent()
@@ -102,7 +102,7 @@ class Actions(QObject):
         """Show in the report why a file is not opened, and in the banner."""
         self.window.open_panel(REPORT_TAB)
         self.window.panels[REPORT_TAB].show_refusal(refused)
-        self.window.refuse(refused.sentence)
+        self.window.refuse(refused.message)
 
     def _list_recent(self) -> None:
         self.window.top.show_recent(recent_files())

@@ -181,7 +181,7 @@ class StatusLine(QWidget):
 
     def say(self, text: str) -> None:
         """Show a passing message until the next answer."""
-        self.warning.set_text(text)
+        self.warning.set_text(words_of(text))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

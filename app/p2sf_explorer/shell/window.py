@@ -13,6 +13,7 @@ from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.controller import LessonController
 from p2sf_explorer.panels import REGISTRY, Panel, build, view_of
 from p2sf_explorer.playback.play_bar import PlayBar
@@ -151,7 +152,7 @@ class MainWindow(QMainWindow):
         self.controls.show_none()
         self.status.show_none(sentence)
         for panel in self.panels.values():
-            panel.widget.show_overlay(WHY)
+            panel.widget.show_overlay(tr(WHY))
         if lens := drawn(state):
             self.panels["layout"].show(lens)
             self.panels["layout"].widget.show_overlay("")

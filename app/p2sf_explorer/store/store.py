@@ -22,8 +22,8 @@ class Store(QObject):
     """
 
     changed = Signal(object)
-    refused = Signal(str)
-    said = Signal(str)
+    refused = Signal(object)
+    said = Signal(object)
     stepped = Signal()
     pointed = Signal(int)
 

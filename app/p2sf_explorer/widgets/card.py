@@ -1,7 +1,16 @@
-"""The frame every panel sits in: a title, tools, a readout, and the picture."""
+"""The frame of every panel: a title, tools, a readout, and the picture."""
 
-from PySide6.QtCore import QPointF, Qt, Signal
-from PySide6.QtGui import QPainter, QPalette, QPen, QPolygonF
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPointF, Qt, Signal
+from PySide6.QtGui import (
+    QContextMenuEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QPen,
+    QPolygonF,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import (
     QComboBox,
     QFrame,
@@ -9,6 +18,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QSizePolicy,
     QStyledItemDelegate,
+    QStyleOptionViewItem,
     QVBoxLayout,
     QWidget,
 )
@@ -17,18 +27,18 @@ from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.widgets.copying import copy_menu
 
-LIST_AIR = 24  # beside the longest line of an open list
+LIST_AIR = 24  # pixels beside the longest line of an open list
 
 
 class Card(QFrame):
     """A titled frame; ``readout`` is a line of numbers at the right of the title.
 
-    ``apart_asked``: the panel is wanted in a window of its own, or back.
+    ``apart_asked``: the panel is to have a window of its own, or to come back from it.
     """
 
     apart_asked = Signal()
 
-    def __init__(self, title: str, tip: str = "", parent=None):
+    def __init__(self, title: str, tip: str = "", parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("card")
         self.setMinimumSize(180, 120)
@@ -47,7 +57,7 @@ class Card(QFrame):
         self.head.setSpacing(8)
         self.head.addWidget(self.title)
         self.head.addWidget(self.readout, 1)
-        self.under = QHBoxLayout()  # the tools' line where they do not fit beside the title
+        self.under = QHBoxLayout()  # for the tools where they do not fit beside the title
         self.tools: list[QWidget] = []
         self.column = QVBoxLayout(self)
         self.column.setContentsMargins(10, 7, 10, 8)
@@ -57,8 +67,8 @@ class Card(QFrame):
         self.column.addWidget(self.note)
         self.overlay = Overlay(self)
 
-    def resizeEvent(self, event) -> None:
-        """Put the tools on a line of their own where they do not fit beside the title, and back where they do."""
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Move the tools to a line of their own where they do not fit beside the title, and back where they do."""
         super().resizeEvent(event)
         parts = [self.title, *(tool for tool in self.tools if not tool.isHidden())]
         needed = sum(part.sizeHint().width() + self.head.spacing() for part in parts)
@@ -70,15 +80,15 @@ class Card(QFrame):
                 before.removeWidget(tool)
                 after.addWidget(tool)
 
-    def contextMenuEvent(self, event) -> None:
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         """Offer the panel's picture, its data, and a window of its own."""
         menu = copy_menu(self)
         menu.addSeparator()
         menu.addAction(tr("In its own window, or back") + "\tCtrl+D", self.apart_asked.emit)
         menu.popup(event.globalPos())
 
-    def mouseDoubleClickEvent(self, event) -> None:
-        """Ask for a window of its own, or back, on the title line."""
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Ask for a window of its own, or to come back, on a double-click on the title line."""
         if event.position().y() < self.head.geometry().bottom():
             self.apart_asked.emit()
 
@@ -96,17 +106,17 @@ class Card(QFrame):
         self.head.addWidget(widget)
 
     def show_side(self, side: str, why: str = "") -> None:
-        """Say behind the title which side of a comparison this is, and under it why a difference is not shown."""
+        """Name the side of a comparison behind the title; say below, as it is, why no difference is shown."""
         words = " · ".join(filter(None, (self._title, tr(side))))
-        note = unbroken(tr(why))
+        note = unbroken(why)
         if (self.title.text(), self.note.text()) != (words, note):
             self.title.setText(words)
             self.note.setText(note)
             self.note.setVisible(bool(why))
 
     def show_overlay(self, sentence: str) -> None:
-        """Cover everything but the title with a sentence on why there is nothing to show; uncover it for ""."""
-        if unbroken(tr(sentence)) != self.overlay.text:
+        """Cover everything but the title with a sentence, as it is, on why nothing is shown; uncover it for ""."""
+        if unbroken(sentence) != self.overlay.text:
             self.readout.setVisible(not sentence)
             self.overlay.say(sentence, self.head.geometry().bottom() + 1)
 
@@ -115,15 +125,14 @@ class Card(QFrame):
         self.column.addWidget(widget, 1)
 
     def set_readout(self, text: str) -> None:
-        """Show a line of numbers; the whole of it as a tooltip, should it not fit."""
-        text = tr(text)
+        """Show a line of numbers, as it is; its tooltip has the whole of it where it does not fit."""
         if self.readout.text() != text:
             self.readout.setText(text)
             self.readout.setToolTip(text)
 
 
 def paint_chevron(widget: QWidget) -> None:
-    """Paint the small arrow of a box that opens at its right end."""
+    """Paint the arrow at the right end of a box that opens."""
     painter = QPainter(widget)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(widget.palette().color(QPalette.ColorRole.PlaceholderText), 1.6))
@@ -132,16 +141,16 @@ def paint_chevron(widget: QWidget) -> None:
 
 
 class Chooser(QComboBox):
-    """A combo box with a plain chevron: a style sheet takes the native arrow away."""
+    """A combo box with a chevron, since a style sheet takes the native arrow away."""
 
-    def paintEvent(self, event) -> None:
+    def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the box, then the chevron."""
         super().paintEvent(event)
         paint_chevron(self)
 
 
-def chooser(choices: tuple[tuple[str, str], ...], tip: str, parent=None) -> QComboBox:
-    """Return a small combo box of (value, words)."""
+def chooser(choices: tuple[tuple[str, str], ...], tip: str, parent: QWidget | None = None) -> QComboBox:
+    """Return a small combo box of (value, label); labels and tip are English, translated here."""
     box = Chooser(parent)
     box.setObjectName("small")
     box.setToolTip(tr(tip))
@@ -152,16 +161,16 @@ def chooser(choices: tuple[tuple[str, str], ...], tip: str, parent=None) -> QCom
 
 
 class Describing(QStyledItemDelegate):
-    """Writes in the open list what a choice means; the closed box shows its name alone."""
+    """Shows what a choice means in the open list; the closed box shows only its name."""
 
-    def initStyleOption(self, option, index) -> None:
+    def initStyleOption(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> None:
         """Put the meaning in place of the name."""
         super().initStyleOption(option, index)
         option.text = index.data(Qt.ItemDataRole.ToolTipRole) or option.text
 
 
-def described(choices: dict[str, str], tip: str, parent=None) -> QComboBox:
-    """Return a combo box of names that its open list explains."""
+def described(choices: dict[str, str], tip: str, parent: QWidget | None = None) -> QComboBox:
+    """Return a combo box of names, with their explanations in the open list."""
     box = chooser(tuple((name, name) for name in choices), tip, parent)
     box.setItemDelegate(Describing(box))
     for k, words in enumerate(choices.values()):
@@ -171,7 +180,7 @@ def described(choices: dict[str, str], tip: str, parent=None) -> QComboBox:
 
 
 def select(box: QComboBox, value: str) -> None:
-    """Show a value without telling anybody."""
+    """Show a value without a signal."""
     if box.currentData() != value:
         box.blockSignals(True)
         box.setCurrentIndex(box.findData(value))
@@ -184,7 +193,7 @@ SIDE_PX = 196
 class SideCard(Card):
     """A card with title, readout and controls in a column of ``SIDE_PX`` pixels, and the picture beside it."""
 
-    def __init__(self, title: str, tip: str = "", parent=None):
+    def __init__(self, title: str, tip: str = "", parent: QWidget | None = None):
         super().__init__(title, tip, parent)
         self.side, self.whole = QVBoxLayout(), QHBoxLayout()
         self.side.addStrut(SIDE_PX)
@@ -197,24 +206,24 @@ class SideCard(Card):
         self.column.addLayout(self.whole, 1)
 
     def add_line(self, *widgets: QWidget) -> None:
-        """Put small controls that share a line under those before; they are as wide as the column lets them be."""
+        """Add a line of small controls under the others, as wide as the column."""
         line = QHBoxLayout()
         line.setSpacing(4)
         for widget in widgets:
             choice = isinstance(widget, QComboBox)
-            widget.setSizePolicy(_WIDE if choice else _OWN, QSizePolicy.Policy.Fixed)
+            widget.setSizePolicy(_IGNORED if choice else _EXPANDING, QSizePolicy.Policy.Fixed)
             line.addWidget(widget, 1 if choice else 0)
         self.side.addLayout(line)
 
     def add_rest(self, widget: QWidget) -> None:
-        """Let a widget have what is left of the column's height."""
-        widget.setSizePolicy(_WIDE, QSizePolicy.Policy.Ignored)
+        """Give a widget the rest of the column's height."""
+        widget.setSizePolicy(_IGNORED, QSizePolicy.Policy.Ignored)
         self.side.addWidget(widget, 1)
-        self.side.addStretch()  # where the widget is hidden
+        self.side.addStretch()  # for when the widget is hidden
 
     def set_body(self, widget: QWidget) -> None:
         """Put the picture beside the column."""
         self.whole.addWidget(widget, 1)
 
 
-_WIDE, _OWN = QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding
+_IGNORED, _EXPANDING = QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding

@@ -1,4 +1,6 @@
-"""A card of several charts side by side, and the legend they share."""
+"""A card of several charts side by side, charts with notes, and legends."""
+
+from collections.abc import Iterable
 
 import numpy as np
 from PySide6.QtCore import QRectF
@@ -14,7 +16,7 @@ from p2sf_explorer.widgets.card import Card
 
 
 class ChartsCard(Card):
-    """A card with charts in a row; ``shares`` are their parts of the width."""
+    """A card with charts in a row that share its width in the ratio of ``shares``."""
 
     def __init__(self, title: str, tip: str, charts: tuple[QWidget, ...], shares: tuple[int, ...]):
         super().__init__(title, tip)
@@ -28,26 +30,30 @@ class ChartsCard(Card):
 
 
 def legend(looks: dict[str, str], theme: Tokens) -> str:
-    """Return names in the colours of their tokens."""
+    """Return names, translated, in the colours of their tokens."""
     marks = (f'<span style="color:{getattr(theme, token)}">━</span> {tr(name)}' for name, token in looks.items())
     return " &nbsp; ".join(marks)
 
 
+Note = tuple[float, float, str, str, int]
+"""Place x, y, text as it is, token, and side: −1 left, 0 middle, 1 right end."""
+
+
 class NotedChart(Chart):
-    """A chart with words at places in its data, in the colours of tokens, and upright lines across it."""
+    """A chart with text at places in its data, in the colours of tokens, and vertical lines across it."""
 
     def __init__(self, bottom: str = "", left: str = "", aspect: bool = False, framed: bool = True):
         super().__init__(bottom, left, aspect, framed)
-        self.notes: tuple[tuple[float, float, str, str, int], ...] = ()
+        self.notes: tuple[Note, ...] = ()
         self.uprights: tuple[tuple[float, str], ...] = ()
 
-    def show_notes(self, notes=(), uprights=()) -> None:
-        """Show (x, y, words, token, side −1 left, 0 middle, 1 right end) and (x, token); ask for a repaint."""
+    def show_notes(self, notes: Iterable[Note] = (), uprights: Iterable[tuple[float, str]] = ()) -> None:
+        """Show notes and vertical lines at (x, token); ask for a repaint."""
         self.notes, self.uprights = tuple(notes), tuple(uprights)
         self.update()
 
     def paint_over(self, painter: QPainter) -> None:
-        """Paint lines and words above the curves."""
+        """Paint lines and text above the curves."""
         for x, token in self.uprights:
             at = float(self.to_pixels(x, 0.0)[0])
             painter.fillRect(QRectF(at - 0.5, self.area.top(), 1, self.area.height()), self._colour(token))
@@ -61,9 +67,9 @@ class NotedChart(Chart):
 
 
 def around(*parts: np.ndarray, least: float) -> tuple[float, float]:
-    """Return a range with round ends and air around all numbers in arrays, zero in it unless it is far away.
+    """Return a range with round ends and a margin around all finite numbers, including zero unless it is far away.
 
-    ``least`` is the smallest span; what is no number is left out.
+    ``least`` is the smallest span.
     """
     both = np.concatenate([np.ravel(part) for part in parts])
     both = both[np.isfinite(both)]
@@ -72,4 +78,4 @@ def around(*parts: np.ndarray, least: float) -> tuple[float, float]:
     if low - 2 * wide < 0 < high + 2 * wide:
         low, high = min(low, 0.0), max(high, 0.0)
     step = nice(max(high - low, least) / 8)
-    return step * (np.floor(low / step) - 1), step * (np.ceil(high / step) + 1)
+    return float(step * (np.floor(low / step) - 1)), float(step * (np.ceil(high / step) + 1))

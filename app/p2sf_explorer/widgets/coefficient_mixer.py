@@ -1,11 +1,12 @@
-"""The six coefficients as a mixing desk: bar, number, mute, solo, and a slider that adds waves."""
+"""The six coefficients as a mixer: bar, number, mute, solo, and a slider that adds waves."""
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPen, QPixmap
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QLineEdit, QToolTip, QWidget
 
+from p2sf_explorer.charts.chart import blank_pixmap
 from p2sf_explorer.charts.painting import set_text, write
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import tr
@@ -29,18 +30,18 @@ LETTERS = (("muted", "M", "warning"), ("solo", "S", "accent"))
 
 @dataclass(frozen=True)
 class Places:
-    """The desk's geometry for a size in pixels; rows in the order of `p2sf_explorer.state.terms.TERMS`."""
+    """The mixer's geometry for a size in pixels; rows in the order of `p2sf_explorer.state.terms.TERMS`."""
 
     width: float
     height: float
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Return where the bars and sliders begin and end."""
+        """Return the left and right end of bars and sliders."""
         return LEFT, self.width - NUMBER - 2 * BUTTON - 2 * GAP
 
     def row(self, number: int) -> QRectF:
-        """Return a row's room."""
+        """Return the rectangle of a row."""
         tall = (self.height - SCALE_HEIGHT) / len(TERMS)
         return QRectF(0, number * tall, self.width, tall)
 
@@ -49,25 +50,25 @@ class Places:
         return min(len(TERMS) - 1, max(0, int(y * len(TERMS) / max(1.0, self.height - SCALE_HEIGHT))))
 
     def button(self, number: int, kind: str) -> QRectF:
-        """Return the room of a row's "muted" or "solo" button."""
+        """Return the rectangle of a row's "muted" or "solo" button."""
         place = [name for name, *_ in LETTERS].index(kind)
         left = self.width - (2 - place) * BUTTON - (1 - place) * GAP / 2
         return QRectF(left, self.row(number).center().y() - BUTTON / 2, BUTTON - 1, BUTTON)
 
     def number(self, number: int) -> QRectF:
-        """Return the room of a row's number."""
+        """Return the rectangle of a row's number."""
         row = self.row(number)
         return QRectF(self.ends[1] + GAP / 2, row.top(), NUMBER - GAP / 2, row.height())
 
     def bar(self, number: int, part: float) -> QRectF:
-        """Return a bar from the middle to a part (−1 to 1) of its half."""
+        """Return the bar from the middle to a part (−1 to 1) of its half length."""
         row, (left, right) = self.row(number), self.ends
         middle, end = (left + right) / 2, (left + right) / 2 + part * (right - left) / 2
         thick = min(16.0, 0.42 * row.height())
         return QRectF(min(middle, end), row.top() + 0.36 * row.height() - thick / 2, abs(end - middle), thick)
 
     def handle(self, number: int, part: float) -> QPointF:
-        """Return where a row's slider stands for a part (−1 to 1) of its half."""
+        """Return the place of a row's handle for a part (−1 to 1) of its half travel."""
         row, (left, right) = self.row(number), self.ends
         return QPointF((left + right) / 2 + part * (right - left) / 2, row.top() + 0.80 * row.height())
 
@@ -78,7 +79,7 @@ class Places:
 
 
 def clamped(value: float, limit: float) -> float:
-    """Return a value as a part of the limit, not beyond it."""
+    """Return a value as a part of the limit, from −1 to 1."""
     return max(-1.0, min(1.0, value / limit))
 
 
@@ -96,7 +97,7 @@ def paint_scale(painter: QPainter, places: Places, theme: Tokens, limit: float) 
 
 
 def paint_names(painter: QPainter, places: Places, theme: Tokens, number: int) -> None:
-    """Paint a row's symbol, and what it is called."""
+    """Paint a row's symbol and its name."""
     row, name = places.row(number), TERMS[number]
     two = row.height() >= 25
     painter.setPen(QColor(theme.text))
@@ -110,7 +111,7 @@ def paint_names(painter: QPainter, places: Places, theme: Tokens, number: int) -
 
 
 def paint_slider(painter: QPainter, places: Places, theme: Tokens, number: int, part: float, focused: bool) -> None:
-    """Paint a row's slider: a groove, what is added, the handle."""
+    """Paint a row's slider: groove, added waves, handle."""
     handle, zero = places.handle(number, part), places.handle(number, 0.0)
     left, right = places.ends
     painter.setPen(QPen(QColor(theme.line), 2))
@@ -138,7 +139,7 @@ def paint_button(painter: QPainter, room: QRectF, theme: Tokens, letter: str, co
 
 
 def paint_value(painter: QPainter, places: Places, theme: Tokens, number: int, part: float, words: str) -> None:
-    """Paint a row's bar and number; W11 pale, since it only moves the image."""
+    """Paint a row's bar and number; that of W11 pale, since it only moves the image."""
     colour = QColor(theme.positive if part >= 0 else theme.negative)
     colour.setAlpha(110 if TERMS[number] == "w11" else 255)
     painter.fillRect(places.bar(number, part), colour)
@@ -147,7 +148,7 @@ def paint_value(painter: QPainter, places: Places, theme: Tokens, number: int, p
 
 
 def paint_overflow(painter: QPainter, bar: QRectF, theme: Tokens, right: bool) -> None:
-    """Cut the bar's end with two slanted strokes: it goes on beyond the scale."""
+    """Cut the bar's end with two slanted strokes, which say that it goes on beyond the scale."""
     painter.setPen(QPen(QColor(theme.card), 2))
     for shift in (6.0, 11.0):
         x = bar.right() - shift if right else bar.left() + shift
@@ -155,24 +156,29 @@ def paint_overflow(painter: QPainter, bar: QRectF, theme: Tokens, right: bool) -
 
 
 def waves(value: float) -> str:
-    """Return a coefficient as the desk writes it, no longer than its column."""
+    """Return a coefficient as text, no longer than its column."""
     size = abs(value)
     return f"{signed(value, 2 if size < 10 else 1 if size < 100 else 0)} λ"
 
 
-STEPS = {Qt.Key.Key_Left: -0.02, Qt.Key.Key_Right: 0.02, Qt.Key.Key_PageDown: -0.2, Qt.Key.Key_PageUp: 0.2}
+STEPS: dict[int, float] = {
+    Qt.Key.Key_Left: -0.02,
+    Qt.Key.Key_Right: 0.02,
+    Qt.Key.Key_PageDown: -0.2,
+    Qt.Key.Key_PageUp: 0.2,
+}
 BACK = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)
 BUTTON_TIPS = {"muted": "Mute: this term counts as zero (M)", "solo": "Solo: only this term counts (S)"}
-HOLDS = 0.02  # of the travel: so near to zero a slider stays there
+HOLDS = 0.02  # of the travel: nearer to zero the slider snaps to it
 ROW_TIP = (
     "The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; "
     "click the number, or press Return, to type it."
 )
-SMALLEST_LIMIT = 0.5  # waves of a full bar: below, a lens is as good as perfect
+SMALLEST_LIMIT = 0.5  # waves of a full bar, at least: a lens with less is as good as perfect
 
 
 class NumberEdit(QLineEdit):
-    """A number typed over the desk; it goes with Return, Escape or the focus."""
+    """A field to type a number over the mixer; Return, Escape and losing the focus hide it."""
 
     def __init__(self, parent: QWidget):
         super().__init__(parent)
@@ -181,19 +187,20 @@ class NumberEdit(QLineEdit):
         self.editingFinished.connect(self.hide)
         self.hide()
 
-    def keyPressEvent(self, event) -> None:
-        """Keep every key from the desk behind; Escape goes back to it."""
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Keep every key from the mixer behind; Escape gives it the focus."""
         super().keyPressEvent(event)
         event.accept()
-        if event.key() == Qt.Key.Key_Escape:
-            self.parentWidget().setFocus()
+        mixer = self.parentWidget()
+        if event.key() == Qt.Key.Key_Escape and mixer:
+            mixer.setFocus()
 
 
 class Mixer(QWidget):
     """Six painted rows. ``limit`` is the value of a full bar and of a slider's end: a round number of waves.
 
-    The rows take the keyboard as one widget: ↑ ↓ choose one, ← → and Page keys add waves, M mutes, S solos, Delete
-    goes back to the lens's own value, Space sweeps, Return takes a number.
+    The rows share the keyboard focus: ↑ ↓ choose one, ← → and Page keys add waves, M mutes, S solos, Delete takes the
+    added waves away, Space sweeps, Return opens a field for a number.
     """
 
     pressed, released = Signal(), Signal()
@@ -202,13 +209,14 @@ class Mixer(QWidget):
     toggled = Signal(str, str)
     swept = Signal(str)
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.values: dict[str, float] = dict.fromkeys(TERMS, 0.0)
         self.own, self.waves = dict(self.values), dict(self.values)
         self.on: dict[str, tuple[str, ...]] = {"muted": (), "solo": ()}
         self.limit, self.row = 1.0, 0
-        self._theme, self._ground, self._dragged = LIGHT, None, False
+        self._theme, self._dragged = LIGHT, False
+        self._background: QPixmap | None = None
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("What-if: waves added to the six coefficients"))
@@ -222,16 +230,18 @@ class Mixer(QWidget):
 
     @property
     def places(self) -> Places:
-        """Return where everything lies now."""
+        """Return the geometry of the present size."""
         return Places(self.width(), self.height())
 
     def rows_of_data(self) -> list[list[str]]:
-        """Return the coefficients as they count, the lens's own and what is added, waves, for the clipboard."""
+        """Return the coefficients as they count, the lens's own, and the added waves, in waves, for the clipboard."""
         kept = zip(self.values, self.values.values(), self.own.values(), self.waves.values(), strict=True)
         return [["", "λ", tr("the lens's own"), tr("Added waves")], *([name, *map(str, row)] for name, *row in kept)]
 
-    def show_values(self, values: dict[str, float], own: dict[str, float], added: dict[str, float], **on) -> None:
-        """Show coefficients as they count, the lens's own, and what is added to each, waves; ``on``: muted, solo."""
+    def show_values(
+        self, values: dict[str, float], own: dict[str, float], added: dict[str, float], **on: tuple[str, ...]
+    ) -> None:
+        """Show coefficients as they count, the lens's own, and the waves added to each; ``on``: muted, solo."""
         before = self.limit, self.waves, self.on
         moved = [n for n, k in enumerate(TERMS) if (values[k], own[k]) != (self.values[k], self.own[k])]
         self.values, self.own, self.waves, self.on = values, own, added, on
@@ -239,27 +249,27 @@ class Mixer(QWidget):
             everything = [abs(v) for kind in (values, own, added) for name, v in kind.items() if name != "w11"]
             self.limit = nice(max(SMALLEST_LIMIT, abs(added["w11"]), *everything))
         if before != (self.limit, self.waves, self.on):
-            self._ground = None
+            self._background = None
             self.update()
         for number in moved:
             self.update(self.places.row(number).toAlignedRect())
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        self._theme, self._ground = theme, None
+        self._theme, self._background = theme, None
         self.update()
 
     def choose(self, row: int) -> None:
-        """Give a row the keyboard."""
-        self.row, self._ground = min(len(TERMS) - 1, max(0, row)), None
+        """Give a row the keyboard focus."""
+        self.row, self._background = min(len(TERMS) - 1, max(0, row)), None
         self.update()
 
-    def paintEvent(self, event) -> None:
-        """Paint what stands still, then bars and numbers."""
-        if self._ground is None or self._ground.size() != self.size() * self.devicePixelRatioF():
-            self._ground = self._painted_ground()
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the background, then bars and numbers."""
+        if self._background is None or self._background.size() != self.size() * self.devicePixelRatioF():
+            self._background = self._painted_background()
         painter, places = QPainter(self), self.places
-        painter.drawPixmap(0, 0, self._ground)
+        painter.drawPixmap(0, 0, self._background)
         for number, name in enumerate(TERMS):
             if not event.region().intersects(places.row(number).toAlignedRect()):
                 continue
@@ -272,12 +282,10 @@ class Mixer(QWidget):
                 painter.setBrush(Qt.BrushStyle.NoBrush)
                 painter.drawRect(places.bar(number, clamped(self.own[name], self.limit)))
 
-    def _painted_ground(self) -> QPixmap:
-        ratio, theme, places = self.devicePixelRatioF(), self._theme, self.places
-        ground = QPixmap(self.size() * ratio)
-        ground.setDevicePixelRatio(ratio)
-        ground.fill(QColor(theme.card))
-        painter = QPainter(ground)
+    def _painted_background(self) -> QPixmap:
+        theme, places = self._theme, self.places
+        background = blank_pixmap(self, theme.card)
+        painter = QPainter(background)
         paint_scale(painter, places, theme, self.limit)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         for number, name in enumerate(TERMS):
@@ -288,9 +296,9 @@ class Mixer(QWidget):
                 on = name in self.on.get(kind, ())
                 paint_button(painter, places.button(number, kind), theme, letter, colour, on)
         painter.end()
-        return ground
+        return background
 
-    def mousePressEvent(self, event) -> None:
+    def mousePressEvent(self, event: QMouseEvent) -> None:
         """Press a button, or take hold of a slider."""
         if event.button() != Qt.MouseButton.LeftButton:
             return
@@ -307,33 +315,33 @@ class Mixer(QWidget):
             self.pressed.emit()
             self._follow(point)
 
-    def mouseMoveEvent(self, event) -> None:
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Follow the pointer while held."""
         if self._dragged:
             self._follow(event.position())
 
-    def mouseReleaseEvent(self, event) -> None:
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Let go."""
         if self._dragged:
             self._dragged = False
             self.released.emit()
 
-    def mouseDoubleClickEvent(self, event) -> None:
-        """Go back to the lens's own value; a quick second click on a button is a click."""
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Take the added waves away; a quick second click on a button is a click."""
         if event.position().x() > self.places.ends[1] + 8:
             self.mousePressEvent(event)
             return
         self.added.emit(TERMS[self.places.row_at(event.position().y())], 0.0)
 
-    def _follow(self, point) -> None:
+    def _follow(self, point: QPointF) -> None:
         part = self.places.part_at(point.x())
         waves = 0.0 if abs(part) < HOLDS else round(part * self.limit, 4)
         self.added.emit(TERMS[self.row], waves)
 
     def _ask(self) -> None:
-        """Let a number be typed over the row's own."""
-        room = self.places.number(self.row).toRect()
-        self.edit.setGeometry(room.left(), room.center().y() - 13, room.width(), 26)
+        """Open the field over the row's number."""
+        rect = self.places.number(self.row).toRect()
+        self.edit.setGeometry(rect.left(), rect.center().y() - 13, rect.width(), 26)
         self.edit.setText(waves(self.values[TERMS[self.row]]).removesuffix(" λ"))
         self.edit.show()
         self.edit.setFocus()
@@ -344,8 +352,8 @@ class Mixer(QWidget):
         self.setFocus()
         self.typed.emit(TERMS[self.row], text)
 
-    def keyPressEvent(self, event) -> None:
-        """Choose a row, add waves, mute, solo, go back, sweep."""
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Choose a row, add waves or take them away, mute, solo, sweep, type."""
         key, name = event.key(), TERMS[self.row]
         if key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
             self.choose(self.row + (1 if key == Qt.Key.Key_Down else -1))
@@ -362,24 +370,24 @@ class Mixer(QWidget):
         else:
             super().keyPressEvent(event)
 
-    def focusInEvent(self, event) -> None:
-        """Show which row has the keyboard."""
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show which row has the keyboard focus."""
         self.choose(self.row)
 
     focusOutEvent = focusInEvent
 
-    def event(self, event) -> bool:
+    def event(self, event: QEvent) -> bool:
         """Define the part under the pointer."""
-        if event.type() == QEvent.Type.ToolTip:
+        if isinstance(event, QHelpEvent):
             QToolTip.showText(event.globalPos(), self._tip(event.pos()), self)
             return True
         return super().event(event)
 
-    def _tip(self, point) -> str:
+    def _tip(self, point: QPoint) -> str:
         row = self.places.row_at(point.y())
         name = TERMS[row]
         for kind, *_ in LETTERS:
-            if self.places.button(row, kind).contains(point):
+            if self.places.button(row, kind).contains(QPointF(point)):
                 return tr(BUTTON_TIPS[kind])
         moves = " " + tr("It only moves the image.") if name == "w11" else ""
         numbers = {"own": waves(self.own[name]), "added": waves(self.waves[name])}

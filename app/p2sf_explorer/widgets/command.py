@@ -1,4 +1,4 @@
-"""What a person can do, by name: shortcuts, the command palette and the list of keys are made from this. No Qt."""
+"""Commands by name, from which shortcuts, the command palette and the list of keys are made. No Qt in here."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Command:
-    """One thing to do: its English name, its keys (Qt's spelling, the first is shown), what runs, and its group."""
+    """A command: its English name, what it runs, its keys (Qt's spelling, the first is shown), and its group."""
 
     title: str
     run: Callable[[], object]

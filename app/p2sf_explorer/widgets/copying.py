@@ -2,6 +2,7 @@
 
 import csv
 import io
+from typing import Any, Protocol, cast
 
 import numpy as np
 import pyqtgraph as pg
@@ -15,12 +16,19 @@ from p2sf_explorer.charts.plots import HeatMap
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.readout import FactTable
 
-QUICKLY = 85  # Qt's word for the fastest compression of a PNG there is: a tenth more bytes, two thirds of the time
-Rows = list[list]
+QUICKLY = 85  # Qt's quality for the fastest compression of a PNG: a tenth more bytes in two thirds of the time
+Rows = list[list[str]]
+
+
+class HasRows(Protocol):
+    """A widget that knows its own rows to copy."""
+
+    def rows_of_data(self) -> Rows:
+        """Return the rows, heads first."""
 
 
 def copy_menu(card: QWidget) -> QMenu:
-    """Return the menu of a panel: copy its picture, copy its data where it has any."""
+    """Return the menu of a panel: copy its picture, and its data where it has any."""
     menu = QMenu(card)
     menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     menu.addAction(tr("Copy picture"), lambda: copy_picture(card))
@@ -29,14 +37,16 @@ def copy_menu(card: QWidget) -> QMenu:
     return menu
 
 
-def card_in_hand(window: QWidget) -> QWidget | None:
+def card_in_hand(window: Any) -> QWidget:
     """Return the panel that has the focus, else the one under the pointer, else the one in the open tab."""
-    for widget in (QApplication.focusWidget(), QApplication.widgetAt(window.cursor().pos())):
+    for found in (QApplication.focusWidget(), QApplication.widgetAt(window.cursor().pos())):
+        widget: QWidget | None = found
         while widget is not None and widget.objectName() != "card":
             widget = widget.parentWidget()
         if widget is not None:
             return widget
-    return window.panels[window.tabs.current()].widget
+    card: QWidget = window.panels[window.tabs.current()].widget
+    return card
 
 
 def png_of(widget: QWidget) -> bytes:
@@ -44,7 +54,7 @@ def png_of(widget: QWidget) -> bytes:
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
     widget.grab().save(buffer, "PNG", QUICKLY)
-    return bytes(buffer.data())
+    return bytes(buffer.data().data())
 
 
 def copy_picture(widget: QWidget) -> None:
@@ -64,9 +74,9 @@ def copy_data(widget: QWidget) -> bool:
 
 
 def data_of(widget: QWidget) -> str:
-    """Return what a panel shows as CSV (RFC 4180), one table behind the other.
+    """Return what a panel shows as CSV (RFC 4180), one table after the other.
 
-    Nothing where there are no numbers, and where a veil covers those of an earlier set-up.
+    Nothing where there are no numbers, and where an overlay covers those of an earlier set-up.
     """
     overlay = widget.findChild(Overlay, options=Qt.FindChildOption.FindDirectChildrenOnly)
     if overlay and overlay.text:
@@ -82,27 +92,27 @@ def data_of(widget: QWidget) -> str:
 
 
 def table(widget: QWidget) -> Rows:
-    """Return the rows of one widget, its heads first; a widget of another kind gives its own by ``rows_of_data``."""
+    """Return the rows of one widget, heads first; widgets with a ``rows_of_data`` give their own."""
     if hasattr(widget, "rows_of_data"):
-        return widget.rows_of_data()
-    if getattr(widget, "grids", ()):
-        return [row for number, one in enumerate(widget.grids) for row in ([[]] if number else []) + grid(*one)]
+        return cast("HasRows", widget).rows_of_data()
+    if isinstance(widget, Chart) and widget.grids:
+        return [row for number, one in enumerate(widget.grids) for row in _apart(number) + grid(*one)]
     if isinstance(widget, HeatMap):
         return _of_heat_map(widget)
     if isinstance(widget, Chart) and not isinstance(widget.parentWidget(), HeatMap):
         return _of_chart(widget)
     if isinstance(widget, FactTable):
-        return [[name, value] for name, value, _ in widget.rows]
+        return [[name, value] for (name, _, _), value in zip(widget.rows, widget.values, strict=True)]
     if isinstance(widget, pg.PlotWidget):
         return _of_plot(widget)
     return _of_view(widget) if isinstance(widget, QTableView) else []
 
 
 def _of_plot(plot: pg.PlotWidget) -> Rows:
-    """Return bars, points and lines of a plot as columns x and y, one kind of item behind the other."""
+    """Return bars, points and lines of a plot as columns x and y, one item after the other."""
     item = plot.getPlotItem()
     head = [item.getAxis(side).labelText for side in ("bottom", "left")]
-    rows = []
+    rows: Rows = []
     for part in item.items:
         if isinstance(part, pg.BarGraphItem):
             rows += [[_number(x), _number(y)] for x, y in zip(part.opts["x"], part.opts["height"], strict=True)]
@@ -113,8 +123,8 @@ def _of_plot(plot: pg.PlotWidget) -> Rows:
 
 
 def _of_heat_map(heat: HeatMap) -> Rows:
-    """Return a grid of what the map means: x along the first row, y down the first column, rows +y."""
-    if heat.values is None:
+    """Return the values behind the map: x along the first row, y down the first column, rows +y."""
+    if heat.values is None or heat.rect_shown is None:
         return []
     rows, columns = heat.values.shape
     left, bottom, width, height = heat.rect_shown
@@ -125,13 +135,18 @@ def _of_heat_map(heat: HeatMap) -> Rows:
     return grid(f"{quantity}{left_label} \\ {bottom_label}", x, y, heat.values)
 
 
-def grid(head: str, x, y, values) -> Rows:
+def _apart(number: int) -> Rows:
+    """Return an empty row before every table but the first."""
+    return [[]] if number else []
+
+
+def grid(head: str, x: np.ndarray, y: np.ndarray, values: np.ndarray) -> Rows:
     """Return (y, x) values with their places: x along the first row behind the head, y down the first column."""
     return [[head, *map(_number, x)], *([_number(at), *map(_number, row)] for at, row in zip(y, values, strict=True))]
 
 
 def _of_chart(chart: Chart) -> Rows:
-    """Return every curve that has points as two columns, its name in the head; where some have names, those alone."""
+    """Return every curve that has points as two columns, its name in the head; only named ones if there are any."""
     shown = [curve for curve in chart.curves if curve.x.size and curve.token != "line"]
     shown = [curve for curve in shown if curve.name] or shown
     bottom, left = map(tr, chart.columns) if chart.columns else chart.labels
@@ -153,5 +168,5 @@ def _of_view(view: QTableView) -> Rows:
     return [heads, *cells]
 
 
-def _number(value) -> str:
+def _number(value: float) -> str:
     return "" if np.isnan(value) else f"{float(value):.9g}"

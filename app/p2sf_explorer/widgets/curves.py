@@ -1,15 +1,15 @@
-"""What the panels of curves have in common: a plot, coloured curves, a legend, still axes."""
+"""The base of the panels of curves: a chart, coloured curves, a legend, axes that stay."""
 
 import numpy as np
 
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.card import Card
-from p2sf_explorer.widgets.chart_card import NotedChart
+from p2sf_explorer.widgets.chart_card import NotedChart, legend
 
 
 class CurvesPanel:
-    """A card with named curves; ``curves`` maps a name to (colour token, line width)."""
+    """A card with named curves; ``curves`` maps an English name to (colour token, line width)."""
 
     def __init__(self, title: str, tip: str, axes: tuple[str, str], curves: dict[str, tuple[str, int]]):
         self.widget = Card(title, tip)
@@ -28,7 +28,7 @@ class CurvesPanel:
         self.chart.update()
 
     def set_range(self, x: tuple[float, float], y: tuple[float, float]) -> None:
-        """Show these ranges; nothing is laid out again while they stay."""
+        """Show these ranges, with a line at zero."""
         self.chart.set_range(x, y)
         self.zero.set_data(x, (0.0, 0.0))
 
@@ -39,5 +39,4 @@ class CurvesPanel:
 
     def legend(self, theme: Tokens) -> str:
         """Return the curves' names in their colours."""
-        marks = ((getattr(theme, token), tr(name)) for name, (token, _) in self._looks.items())
-        return " &nbsp; ".join(f'<span style="color:{colour}">━</span> {name}' for colour, name in marks)
+        return legend({name: token for name, (token, _) in self._looks.items()}, theme)

@@ -1,5 +1,6 @@
-"""What the image panel says of its plan: how far it is, with a button that stops it, and why it is as it is."""
+"""The image panel's plan: its progress, with a button that stops it, and the reasons for its decisions."""
 
+from collections.abc import Callable
 from html import escape
 
 from PySide6.QtCore import Qt, Signal
@@ -17,11 +18,11 @@ TURNS = (
 
 
 class PlanLine(QWidget):
-    """A bar in per cent with its button; ``turned`` says that the button was pressed."""
+    """A bar in per cent with its button; ``turned`` is emitted when the button is pressed."""
 
     turned = Signal()
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.bar, self.turn = QProgressBar(self), small_button("Cancel", "", lambda: self.turned.emit())
         self.bar.setFormat(f"{tr('planning')} %p\u00a0%")
@@ -30,30 +31,32 @@ class PlanLine(QWidget):
         line.setSpacing(4)
         line.addWidget(self.bar, 1)
         line.addWidget(self.turn)
-        self.turn.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)  # alone it has all of the line
+        self.turn.setSizePolicy(
+            QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed
+        )  # without the bar it has the whole line
         self.hide()
 
     def begin(self) -> None:
         """Put the bar back to its start."""
         self.bar.setValue(0)
 
-    def tell(self, share: float) -> None:
-        """Show a share of the work, 0 to 1; a bar never goes back."""
+    def show_progress(self, share: float) -> None:
+        """Show a share of the work, 0 to 1; the bar never goes back."""
         self.bar.setValue(max(self.bar.value(), int(100 * share)))
 
-    def show_stage(self, doing: bool, stopped: bool) -> None:
-        """Show the bar while a plan is made, the button also where one was stopped, nothing where there is none."""
+    def show_plan(self, running: bool, stopped: bool) -> None:
+        """Show the bar while a plan is made, the button also where one was stopped, else nothing."""
         words, tip = TURNS[stopped]
         self.turn.setText(tr(words))
         self.turn.setToolTip(tr(tip))
-        self.bar.setVisible(doing)
-        self.setVisible(doing or stopped)
+        self.bar.setVisible(running)
+        self.setVisible(running or stopped)
 
 
 class Why(QLabel):
-    """The decisions in words, behind a ``button``."""
+    """The plan's decisions in words, in a menu of its ``button``."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__()
         self.button = small_button(
             "Why…", "Why the picture is computed in this way: the plan's decisions, each with its error"
@@ -64,29 +67,26 @@ class Why(QLabel):
         self.setWordWrap(True)
         self.setFixedWidth(WORDS_PX)
         self.setMargin(10)
-        fold, shown = QMenu(self.button), QWidgetAction(self.button)
-        shown.setDefaultWidget(self)
-        fold.addAction(shown)
-        self.button.setMenu(fold)
+        menu, action = QMenu(self.button), QWidgetAction(self.button)
+        action.setDefaultWidget(self)
+        menu.addAction(action)
+        self.button.setMenu(menu)
         self.button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
 
-    def tell(self, notes: tuple[tuple[Message, Message], ...]) -> None:
-        """Show (what, sentence) a line each."""
-        lines = (
-            f"<p><b>{escape(a.text(WINDOW), quote=False)}</b> {escape(b.text(WINDOW), quote=False)}</p>"
-            for a, b in notes
-        )
-        self.setText(unbroken("".join(lines)))
+    def show_notes(self, notes: tuple[tuple[Message, Message], ...]) -> None:
+        """Show each heading and its sentence on a line."""
+        texts = ((escape(part.text(WINDOW), quote=False) for part in note) for note in notes)
+        self.setText(unbroken("".join(f"<p><b>{heading}</b> {sentence}</p>" for heading, sentence in texts)))
         self.adjustSize()
 
 
-def small_button(text: str, tip: str, action=None) -> QToolButton:
-    """Return a small button; without an action it opens a menu."""
-    made = QToolButton()
-    made.setObjectName("small")
-    made.setText(tr(text))
-    made.setToolTip(tr(tip))
-    made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+def small_button(text: str, tip: str, action: Callable[[], object] | None = None) -> QToolButton:
+    """Return a small button; one without an action is for a menu."""
+    button = QToolButton()
+    button.setObjectName("small")
+    button.setText(tr(text))
+    button.setToolTip(tr(tip))
+    button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     if action:
-        made.clicked.connect(action)
-    return made
+        button.clicked.connect(action)
+    return button

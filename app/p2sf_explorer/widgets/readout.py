@@ -1,7 +1,7 @@
-"""Numbers that change every frame, painted directly: a QLabel would lay out the window anew for each."""
+"""Numbers that change with every frame, painted directly: a QLabel would lay out the window again for each."""
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter
+from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
 
 from p2sf.messages import Message
@@ -12,7 +12,7 @@ from p2sf_explorer.i18n.tr import tr
 
 PAD = 7.0
 SIZE = 12
-BAR_AIR = 6
+BAR_AIR = 6  # pixels between a table and its scroll bar
 
 
 class Readout(QWidget):
@@ -20,7 +20,13 @@ class Readout(QWidget):
 
     ground = "card"
 
-    def __init__(self, parent=None, pill: bool = False, colour: str = "muted", align=Qt.AlignmentFlag.AlignLeft):
+    def __init__(
+        self,
+        parent: QWidget | None = None,
+        pill: bool = False,
+        colour: str = "muted",
+        align: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignLeft,
+    ):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self._pill, self._colour, self._align = pill, colour, align
@@ -32,8 +38,8 @@ class Readout(QWidget):
         return self._text
 
     def set_text(self, text: str, colour: str | None = None, short: str = "") -> None:
-        """Show a text, in the colour of another token if one is named; ``short`` stands in where it does not fit."""
-        text, self._short = tr(text), tr(short)
+        """Show a text as it is, in another token's colour if one is named; ``short`` where there is little room."""
+        self._short = short
         if (text, colour or self._colour) != (self._text, self._colour):
             self._text, self._colour = text, colour or self._colour
             self.setAccessibleName(text)
@@ -52,9 +58,9 @@ class Readout(QWidget):
         self._theme = theme
         self.update()
 
-    def event(self, event) -> bool:
+    def event(self, event: QEvent) -> bool:
         """Show the whole text as a tooltip where it is cut off and no other tooltip is set."""
-        if event.type() == QEvent.Type.ToolTip and not self.toolTip() and self._cut() != self._text:
+        if isinstance(event, QHelpEvent) and not self.toolTip() and self._cut() != self._text:
             QToolTip.showText(event.globalPos(), self._text, self)
             return True
         return super().event(event)
@@ -66,7 +72,7 @@ class Readout(QWidget):
                 return text
         return metrics(SIZE).elidedText(self._short or self._text, Qt.TextElideMode.ElideRight, room)
 
-    def paintEvent(self, event) -> None:
+    def paintEvent(self, event: QPaintEvent) -> None:
         """Paint ground and text."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(getattr(self._theme, self.ground)))
@@ -82,31 +88,47 @@ class Readout(QWidget):
         write(painter, room, text, 1 if self._align == Qt.AlignmentFlag.AlignRight else -1, SIZE)
 
 
+FactRow = tuple[str, Message, str]
+"""Name, value and definition of a quantity."""
+
+
 class FactTable(QWidget):
-    """Names at the left, values at the right; hovering a row defines it."""
+    """Names at the left, values at the right; the tooltip of a row defines it.
+
+    Names, values and definitions are English, and translated here.
+    """
 
     ROW = 17.0
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-        self._rows: tuple[tuple[str, Message, str], ...] = ()
+        self._rows: tuple[FactRow, ...] = ()
+        self._values: list[str] = []
         self._theme = LIGHT
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     @property
-    def rows(self) -> tuple[tuple[str, Message, str], ...]:
+    def rows(self) -> tuple[FactRow, ...]:
         """Return the rows shown."""
         return self._rows
 
-    def show_rows(self, rows: tuple[tuple[str, Message, str], ...]) -> None:
+    @property
+    def values(self) -> tuple[str, ...]:
+        """Return the rows' values in words."""
+        return tuple(self._values)
+
+    def show_rows(self, rows: tuple[FactRow, ...]) -> None:
         """Show (name, value, definition) rows."""
         if len(rows) != len(self._rows):
             self.setFixedHeight(round(self.ROW * len(rows)))
+            self._values = [value.text(WINDOW) for _, value, _ in rows]
             self.update()
-        for k, (row, before) in enumerate(zip(rows, self._rows, strict=False)):
-            if row != before:
-                self.update(self._room(k).toAlignedRect())
+        else:
+            for k, (row, before) in enumerate(zip(rows, self._rows, strict=True)):
+                if row != before:
+                    self._values[k] = row[1].text(WINDOW)
+                    self.update(self._room(k).toAlignedRect())
         self._rows = rows
 
     def _room(self, number: int) -> QRectF:
@@ -117,42 +139,45 @@ class FactTable(QWidget):
         self._theme = theme
         self.update()
 
-    def event(self, event) -> bool:
+    def event(self, event: QEvent) -> bool:
         """Define the row under the pointer."""
-        if event.type() == QEvent.Type.ToolTip:
+        if isinstance(event, QHelpEvent):
             row = int(event.pos().y() // self.ROW)
             if row < len(self._rows):
                 QToolTip.showText(event.globalPos(), tr(self._rows[row][2]), self)
             return True
         return super().event(event)
 
-    def paintEvent(self, event) -> None:
+    def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the rows that have changed."""
         painter, changed = QPainter(self), event.region()
         painter.fillRect(event.rect(), QColor(self._theme.card))
-        for k, (name, value, _) in enumerate(self._rows):
+        for k, ((name, _, _), value) in enumerate(zip(self._rows, self._values, strict=True)):
             line = self._room(k)
             if not changed.intersects(line.toRect()):
                 continue
             painter.setPen(QColor(self._theme.muted))
             write(painter, line, tr(name), -1, SIZE)
             painter.setPen(QColor(self._theme.text))
-            write(painter, line, value.text(WINDOW), 1, SIZE)
+            write(painter, line, value, 1, SIZE)
 
 
 class Scrolling(QScrollArea):
-    """An area that keeps what it holds clear of its scroll bar, where there is one."""
+    """A scroll area that keeps its contents clear of the scroll bar."""
 
-    def resizeEvent(self, event) -> None:
-        """Leave air beside the bar, and none where there is no bar."""
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave a margin beside the bar, and none where there is no bar."""
         super().resizeEvent(event)
-        self.widget().layout().setContentsMargins(0, 0, BAR_AIR if self.verticalScrollBar().isVisible() else 0, 0)
+        body = self.widget()
+        if body and (layout := body.layout()):
+            layout.setContentsMargins(0, 0, BAR_AIR if self.verticalScrollBar().isVisible() else 0, 0)
 
 
 def scrolled(table: FactTable) -> QScrollArea:
-    """Return a table at the foot of an area that scrolls where the room is short, so that no row is cut in two."""
-    body, area = QWidget(), Scrolling()
+    """Return a table at the foot of an area that scrolls where there is little room, so that no row is cut in two."""
+    body = QWidget()
     column = QVBoxLayout(body)
+    area = Scrolling()
     column.setContentsMargins(0, 0, 0, 0)
     column.addStretch(1)
     column.addWidget(table)

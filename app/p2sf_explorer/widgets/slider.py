@@ -1,27 +1,40 @@
-"""A slider painted by hand: travel 0 to 1, ticks, and for wavelengths the spectrum itself."""
+"""A slider painted directly: travel 0 to 1, ticks, and a gradient in the groove, such as the spectrum."""
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen, QPixmap
-from PySide6.QtWidgets import QAbstractSlider, QSizePolicy
+from PySide6.QtGui import (
+    QColor,
+    QFocusEvent,
+    QKeyEvent,
+    QLinearGradient,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+)
+from PySide6.QtWidgets import QAbstractSlider, QSizePolicy, QWidget
 
+from p2sf_explorer.charts.chart import blank_pixmap
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 
 STEPS = 1000
 HANDLE = 7.0
 MARGIN = 9.0
-MIDDLE = 11.0  # of groove and handle, from the top
+MIDDLE = 11.0  # pixels from the top to the middle of groove and handle
 KEYS = Qt.Key
-MOVES = (KEYS.Key_Left, KEYS.Key_Right, KEYS.Key_Up, KEYS.Key_Down, KEYS.Key_PageUp, KEYS.Key_PageDown)
-MOVES += (KEYS.Key_Home, KEYS.Key_End)
+MOVES = (
+    *(KEYS.Key_Left, KEYS.Key_Right, KEYS.Key_Up, KEYS.Key_Down),
+    *(KEYS.Key_PageUp, KEYS.Key_PageDown, KEYS.Key_Home, KEYS.Key_End),
+)
 
 
 class Slider(QAbstractSlider):
-    """A horizontal slider over 0 to STEPS by arrow and Page keys; double-click asks for reset, Space for a sweep."""
+    """A horizontal slider over 0 to STEPS; a double-click asks for reset, Space for a sweep."""
 
     reset = Signal()
     swept = Signal()
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setRange(0, STEPS)
@@ -30,51 +43,53 @@ class Slider(QAbstractSlider):
         self.setOrientation(Qt.Orientation.Horizontal)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self._theme, self._ticks, self._spectrum = LIGHT, (), ()
-        self._ground: QPixmap | None = None
+        self._theme = LIGHT
+        self._ticks: tuple[tuple[float, str], ...] = ()
+        self._spectrum: tuple[tuple[float, str], ...] = ()
+        self._background: QPixmap | None = None
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme = theme
-        self._forget_ground()
+        self._forget_background()
 
     def set_ticks(self, ticks: tuple[tuple[float, str], ...]) -> None:
         """Mark travels (0 to 1) with a short label under the groove."""
         self._ticks = ticks
         self.updateGeometry()
-        self._forget_ground()
+        self._forget_background()
 
     def set_spectrum(self, colours: tuple[tuple[float, str], ...]) -> None:
         """Paint the groove as a gradient of (travel, colour)."""
         self._spectrum = colours
-        self._forget_ground()
+        self._forget_background()
 
     def sizeHint(self) -> QSize:
-        """Return a height that has room for the tick labels when there are any."""
+        """Return a height with room for the tick labels, if there are any."""
         return QSize(160, 32 if self._ticks else 22)
 
     def minimumSizeHint(self) -> QSize:
         """Return the smallest useful size."""
         return QSize(80, self.sizeHint().height())
 
-    def mousePressEvent(self, event) -> None:
+    def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take hold of the handle, or bring it under the pointer."""
         if event.button() == Qt.MouseButton.LeftButton:
             self.setSliderDown(True)
             self._follow(event.position())
 
-    def mouseMoveEvent(self, event) -> None:
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Follow the pointer while held."""
         if self.isSliderDown():
             self._follow(event.position())
 
-    def mouseReleaseEvent(self, event) -> None:
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Let go."""
         if event.button() == Qt.MouseButton.LeftButton:
             self.setSliderDown(False)
 
-    def keyPressEvent(self, event) -> None:
-        """Ask for a sweep on Space; a key that moves takes hold, so that holding it down is one step of undo."""
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Ask for a sweep on Space; a key that moves the handle holds it: kept down, it is one step of undo."""
         if event.key() == Qt.Key.Key_Space:
             self.swept.emit()
             return
@@ -82,24 +97,24 @@ class Slider(QAbstractSlider):
             self.setSliderDown(True)
         super().keyPressEvent(event)
 
-    def keyReleaseEvent(self, event) -> None:
-        """Let go when the key is up, which a key that repeats itself is not."""
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Let go when the key is up, and not while it repeats."""
         if event.key() in MOVES and not event.isAutoRepeat():
             self.setSliderDown(False)
         super().keyReleaseEvent(event)
 
-    def focusOutEvent(self, event) -> None:
-        """Let go: the key's release goes to another."""
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Let go, since the release of a key will go to another widget."""
         self.setSliderDown(False)
         super().focusOutEvent(event)
 
-    def mouseDoubleClickEvent(self, event) -> None:
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Ask for the reset."""
         self.setSliderDown(False)
         self.reset.emit()
 
     def handle_x(self) -> float:
-        """Return where the handle stands, in pixels."""
+        """Return the handle's place in pixels."""
         return self._x(self.value() / STEPS)
 
     def _x(self, travel: float) -> float:
@@ -109,16 +124,16 @@ class Slider(QAbstractSlider):
         travel = (point.x() - MARGIN) / max(1.0, self.width() - 2 * MARGIN)
         self.setValue(round(STEPS * travel))
 
-    def _forget_ground(self) -> None:
-        self._ground = None
+    def _forget_background(self) -> None:
+        self._background = None
         self.update()
 
-    def paintEvent(self, event) -> None:
-        """Paint groove and ticks, which stand still, then how far the handle has come and the handle."""
-        if self._ground is None or self._ground.size() != self.size() * self.devicePixelRatioF():
-            self._ground = self._painted_ground()
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the background of groove and ticks, then the handle and the groove up to it."""
+        if self._background is None or self._background.size() != self.size() * self.devicePixelRatioF():
+            self._background = self._painted_background()
         painter = QPainter(self)
-        painter.drawPixmap(0, 0, self._ground)
+        painter.drawPixmap(0, 0, self._background)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if not self._spectrum:
             painter.setPen(Qt.PenStyle.NoPen)
@@ -126,18 +141,15 @@ class Slider(QAbstractSlider):
             painter.drawRoundedRect(QRectF(MARGIN, MIDDLE - 2, self.handle_x() - MARGIN, 4), 2, 2)
         self._paint_handle(painter, MIDDLE)
 
-    def _painted_ground(self) -> QPixmap:
-        ratio = self.devicePixelRatioF()
-        ground = QPixmap(self.size() * ratio)
-        ground.setDevicePixelRatio(ratio)
-        ground.fill(QColor(self._theme.card))
-        painter = QPainter(ground)
+    def _painted_background(self) -> QPixmap:
+        background = blank_pixmap(self, self._theme.card)
+        painter = QPainter(background)
         painter.setFont(self.font())
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_groove(painter, MIDDLE)
         self._paint_ticks(painter, MIDDLE)
         painter.end()
-        return ground
+        return background
 
     def _paint_groove(self, painter: QPainter, middle: float) -> None:
         half = 5.0 if self._spectrum else 2.0

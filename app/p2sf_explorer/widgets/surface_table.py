@@ -1,6 +1,6 @@
-"""The surfaces of a lens as a Qt table model: it shows texts and passes on what was typed."""
+"""The surfaces of a lens as a Qt table model, which shows their entries and passes on what is typed."""
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 
 from p2sf_explorer.compute.editing import written
 from p2sf_explorer.i18n.tr import tr
@@ -22,14 +22,16 @@ HEADS = {
 KEYS = (*COLUMNS[:STOP], "stop", *COLUMNS[STOP:])
 NUMBERS = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 WORDS = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+HEAD_PARTS: dict[int, int] = {Qt.ItemDataRole.DisplayRole: 0, Qt.ItemDataRole.ToolTipRole: 1}
+Index = QModelIndex | QPersistentModelIndex
 
 
 class SurfaceModel(QAbstractTableModel):
-    """Shows `Rows`; ``typed(surface, column, text)`` tells of an edit, the model itself changes nothing."""
+    """Shows `Rows`; emits ``typed(surface, column, text)`` for an edit and changes nothing itself."""
 
     typed = Signal(int, str, str)
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self._rows: Rows | None = None
 
@@ -42,35 +44,39 @@ class SurfaceModel(QAbstractTableModel):
             self.endResetModel()
             return
         self._rows = rows
-        for row in range(len(rows.texts)):  # a view paints a cell slowly, and an edit changes one
+        for row in range(len(rows.texts)):  # a view is slow at painting cells, and an edit changes one
             for column, (old, new) in enumerate(zip(entries(before, row), entries(rows, row), strict=True)):
                 if old != new:
                     self.dataChanged.emit(self.index(row, column), self.index(row, column))
 
-    def rowCount(self, parent=None) -> int:
+    def rowCount(self, parent: Index | None = None) -> int:
         """Return the number of surfaces."""
         return len(self._rows.texts) if self._rows and not (parent and parent.isValid()) else 0
 
-    def columnCount(self, parent=None) -> int:
+    def columnCount(self, parent: Index | None = None) -> int:
         """Return the number of columns."""
         return 0 if parent and parent.isValid() else len(KEYS)
 
-    def headerData(self, section, orientation, role=Qt.ItemDataRole.DisplayRole):
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> str | Qt.AlignmentFlag | None:
         """Return headings with units, their definitions, and surface numbers."""
         if orientation == Qt.Orientation.Vertical:
             return str(section + 1) if role == Qt.ItemDataRole.DisplayRole else None
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return self._alignment(section)
-        part = {Qt.ItemDataRole.DisplayRole: 0, Qt.ItemDataRole.ToolTipRole: 1}.get(role)
+        part = HEAD_PARTS.get(role)
         return None if part is None else tr(HEADS[KEYS[section]][part])
 
-    def flags(self, index: QModelIndex):
-        """Return that every entry but the stop is typed into."""
+    def flags(self, index: Index) -> Qt.ItemFlag:
+        """Return that every entry but the stop can be edited."""
         plain = super().flags(index)
         return plain if index.column() == STOP else plain | Qt.ItemFlag.ItemIsEditable
 
-    def data(self, index: QModelIndex, role=Qt.ItemDataRole.DisplayRole):
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> str | Qt.AlignmentFlag | None:
         """Return an entry's text, with every digit where it is edited."""
+        if self._rows is None:
+            return None
         row, key = index.row(), KEYS[index.column()]
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return self._alignment(index.column())
@@ -78,23 +84,23 @@ class SurfaceModel(QAbstractTableModel):
             return entries(self._rows, row)[index.column()]
         if role == Qt.ItemDataRole.EditRole and key != "stop":
             return written(self._rows.lens.surfaces[row], key, full=True)
-        return HEADS[key][1] if role == Qt.ItemDataRole.ToolTipRole else None
+        return tr(HEADS[key][1]) if role == Qt.ItemDataRole.ToolTipRole else None
 
-    def setData(self, index: QModelIndex, value, role=Qt.ItemDataRole.EditRole) -> bool:
-        """Tell what was typed, unless it is what stood there."""
+    def setData(self, index: Index, value: str, role: int = Qt.ItemDataRole.EditRole) -> bool:
+        """Emit what was typed, unless it is what was there."""
         if value.strip() == self.data(index, Qt.ItemDataRole.EditRole):
             return False
         self.typed.emit(index.row() + 1, KEYS[index.column()], value)
         return True
 
     @staticmethod
-    def _alignment(column: int):
+    def _alignment(column: int) -> Qt.AlignmentFlag:
         if KEYS[column] == "stop":
             return Qt.AlignmentFlag.AlignCenter
         return WORDS if KEYS[column] in ("medium", "aspheric") else NUMBERS
 
 
 def entries(rows: Rows, row: int) -> tuple[str, ...]:
-    """Return a surface's entries in the order of the columns, the stop as a mark among them."""
+    """Return a surface's entries in the order of the columns, with a mark for the stop."""
     texts = rows.texts[row]
     return (*texts[:STOP], "●" if row + 1 == rows.stop else "○", *texts[STOP:])

@@ -1,4 +1,4 @@
-"""A lens drawn small: its glass, stop and sensor."""
+"""A small drawing of a lens: glass, stop and sensor."""
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
@@ -7,11 +7,11 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.layout import Drawing
 
 
-def paint_lens(painter: QPainter, drawn: Drawing, room: QRectF, theme: Tokens) -> None:
+def paint_lens(painter: QPainter, drawn: Drawing, rect: QRectF, theme: Tokens) -> None:
     """Paint a lens to scale in the middle of a rectangle."""
     tall, length = 2 * max(drawn.half_height, drawn.stop_rim), drawn.right - drawn.left
-    scale = min(room.width() / length, room.height() / tall)
-    zero = QPointF(room.center().x() - scale * (drawn.left + drawn.right) / 2, room.center().y())
+    scale = min(rect.width() / length, rect.height() / tall)
+    zero = QPointF(rect.center().x() - scale * (drawn.left + drawn.right) / 2, rect.center().y())
 
     def at(z: float, y: float) -> QPointF:
         return QPointF(zero.x() + scale * float(z), zero.y() - scale * float(y))
@@ -32,7 +32,7 @@ def paint_lens(painter: QPainter, drawn: Drawing, room: QRectF, theme: Tokens) -
 
 
 def glass(index: float, theme: Tokens) -> QColor:
-    """Return the fill of a glass; denser glass is drawn denser."""
+    """Return the fill of a glass, less transparent for a higher index."""
     fill = QColor(theme.glass)
     fill.setAlphaF(min(0.75, max(0.12, 0.9 * (index - 1.2))))
     return fill

@@ -1,12 +1,14 @@
 """A chart of small pictures at places in its data."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QImage, QPainter
+from PySide6.QtGui import QPainter
 
 from p2sf.conventions import centred_axis
+from p2sf_explorer.charts.chart import image_of
 from p2sf_explorer.charts.plots import BRIGHTNESS, as_indices, lookup, named
 from p2sf_explorer.widgets.chart_card import NotedChart
 
@@ -21,28 +23,28 @@ class Tile:
 
 
 def tile(values: np.ndarray, x: float, y: float, low: float = 0.0) -> Tile | None:
-    """Return brightness ``low`` to 1, rows +y, as a tile; None where there are no numbers."""
+    """Return brightness ``low`` to 1, rows +y, as a tile; None where all is NaN."""
     if np.isnan(values).all():
         return None
     return Tile(as_indices(values.astype(float), low, 1.0)[::-1], x, y)
 
 
 class TilesChart(NotedChart):
-    """Square pictures of ``side`` data units of width or, where that is less, of what the height has room for."""
+    """Square pictures, ``side`` data units wide or, where that is less, as wide as the height has room for."""
 
-    def __init__(self, *arguments, **options):
-        super().__init__(*arguments, **options)
+    def __init__(self, bottom: str = "", left: str = "", framed: bool = True):
+        super().__init__(bottom, left, framed=framed)
         self.tiles: tuple[Tile, ...] = ()
         self.side, self.rows = 1.0, 1
         self.colours = BRIGHTNESS
 
-    def show_tiles(self, tiles, side: float, rows: int = 1) -> None:
+    def show_tiles(self, tiles: Iterable[Tile | None], side: float, rows: int = 1) -> None:
         """Show tiles, None where there is no light; each has ``side`` of the width and 1/``rows`` of the height."""
         self.tiles, self.side, self.rows = tuple(each for each in tiles if each), side, rows
         self.update()
 
-    def means(self, pictures, pixel_um: float) -> None:
-        """Say what the pictures are, for the clipboard: (head, (y, x) values) each, and the width of a pixel, µm."""
+    def means(self, pictures: Iterable[tuple[str, np.ndarray]], pixel_um: float) -> None:
+        """Set what is copied: (head, (y, x) values) of each picture, and the width of a pixel, µm."""
         lit = ((head, values) for head, values in pictures if np.isfinite(values).any())
         axes = ((head, centred_axis(len(values), pixel_um), values) for head, values in lit)
         self.grids = tuple((f"{head}: y, µm \\ x, µm", at, at, values) for head, at, values in axes)
@@ -52,7 +54,7 @@ class TilesChart(NotedChart):
         return float(max(4.0, min(0.94 * self.side / self.per_pixel(), self.area.height() / self.rows - 3)))
 
     def room(self, each: Tile) -> QRectF:
-        """Return where a tile is painted, in pixels."""
+        """Return the rectangle of a tile in pixels."""
         x, y = (float(v) for v in self.to_pixels(each.x, each.y))
         side = self.side_px()
         return QRectF(x - side / 2, y - side / 2, side, side)
@@ -62,12 +64,11 @@ class TilesChart(NotedChart):
         return next((k for k, each in enumerate(self.tiles) if self.room(each).contains(point)), None)
 
     def paint_over(self, painter: QPainter) -> None:
-        """Paint the pictures, then lines and words."""
+        """Paint the pictures, then lines and text."""
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         painter.setPen(Qt.PenStyle.NoPen)
         table = lookup(named(self.colours, self.theme))
         for each in self.tiles:
             pixels = np.ascontiguousarray(table[each.indices])
-            image = QImage(pixels.data, *pixels.shape[::-1], 4 * pixels.shape[1], QImage.Format.Format_RGB32)
-            painter.drawImage(self.room(each), image)
+            painter.drawImage(self.room(each), image_of(pixels))
         super().paint_over(painter)

@@ -1,8 +1,7 @@
 """A number with its unit to type into, and the button that plays its slider."""
 
-from collections.abc import Callable
-
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
 
 from p2sf.errors import P2SFError
@@ -14,7 +13,7 @@ from p2sf_explorer.store.store import Store
 class PlayButton(QToolButton):
     """A small ▶ beside a slider."""
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("flat")
         self.setText("▶")
@@ -28,7 +27,7 @@ class ValueEdit(QLineEdit):
     committed = Signal(str)
     reset = Signal()
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("value")
         self.setFixedWidth(96)
@@ -37,7 +36,7 @@ class ValueEdit(QLineEdit):
         self.editingFinished.connect(self._commit)
 
     def set_text(self, text: str) -> None:
-        """Show a value, unless a person is in the middle of typing another."""
+        """Show a value, unless another is being typed."""
         self.last = text
         if not (self.hasFocus() and self.isModified()) and self.text() != text:
             self.setText(text)
@@ -46,17 +45,17 @@ class ValueEdit(QLineEdit):
         if self.isModified() and self.text() != self.last:
             self.setModified(False)
             self.committed.emit(self.text())
-            self.setText(self.last)  # as written by now, also where the number typed is the one there was
+            self.setText(self.last)  # in the standard form, also where the number has stayed the same
 
-    def keyPressEvent(self, event) -> None:
-        """Let Escape take the typing back."""
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Take back with Escape what was typed."""
         if event.key() == Qt.Key.Key_Escape:
             self.setModified(False)
             self.setText(self.last)
             return
         super().keyPressEvent(event)
 
-    def mouseDoubleClickEvent(self, event) -> None:
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Ask for the reset."""
         self.setModified(False)
         self.reset.emit()
@@ -66,29 +65,28 @@ MICRONS = {"": 1.0, "µm": 1.0, "um": 1.0, "mm": 1e3}
 
 
 class MicronEdit(QWidget):
-    """A length in µm of the state; typing is refused in a sentence where it cannot be."""
+    """A length in µm of the state; what cannot be is refused with a message."""
 
-    def __init__(self, store: Store, key: str, words: str, tip: str, parent=None):
+    def __init__(self, store: Store, key: str, label: str, tip: str, parent: QWidget | None = None):
         super().__init__(parent)
-        self._store, self._key, self._words = store, key, words
+        self._store, self._key, self._label = store, key, label
         self.edit = ValueEdit(self)
         self.edit.setFixedWidth(78)
-        self.edit.setAccessibleName(tr(words))
+        self.edit.setAccessibleName(tr(label))
         self.setToolTip(tr(tip))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(QLabel(tr(words), self))
+        row.addWidget(QLabel(tr(label), self))
         row.addWidget(self.edit)
         self.edit.committed.connect(self._commit)
-        self._write: Callable[[float], str] = lambda value: f"{significant(value, 3)} µm"
 
     def show_value(self, value: float) -> None:
         """Show the state's value."""
-        self.edit.set_text(self._write(value))
+        self.edit.set_text(f"{significant(value, 3)} µm")
 
     def _commit(self, text: str) -> None:
         try:
-            self._store.update(**{self._key: read_number(text, self._words.lower(), MICRONS)})
+            self._store.update(**{self._key: read_number(text, self._label.lower(), MICRONS)})
         except P2SFError as error:
-            self._store.refused.emit(str(error))
+            self._store.refused.emit(error)
         self.show_value(getattr(self._store.state, self._key))

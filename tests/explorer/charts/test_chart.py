@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF
 
-from p2sf_explorer.charts.chart import Chart, bottom_marks
+from p2sf_explorer.charts.chart import Chart, bottom_ticks
 from p2sf_explorer.charts.painting import polylines, set_text
 from p2sf_explorer.charts.plots import EMPTY, as_indices
 from p2sf_explorer.charts.theme import LIGHT
@@ -53,14 +53,14 @@ def test_an_axis_with_little_room_says_its_scale_all_the_same(half, most):
 
 
 @pytest.mark.parametrize("half", [104.0, 4680.0, 832.0])
-def test_marks_below_a_round_picture_are_three_at_least_and_stand_apart(chart, half):
+def test_ticks_below_a_round_picture_are_at_least_three_and_do_not_touch(chart, half):
     chart.set_range((-half, half), (-half, half))
     for width in (100, 120, 160, 200, 260, 400):
         chart.resize(width + 69, 250)
-        chart.forget_ground()  # no resize event reaches a chart that is not on screen
+        chart.forget_background()  # no resize event reaches a chart that is not on screen
         below = [
             (float(chart.to_pixels(value, 0.0)[0]), set_text(text).size().width())
-            for value, text in bottom_marks(chart)
+            for value, text in bottom_ticks(chart)
         ]
         assert len(below) >= 3
         assert all(b - a > (one + other) / 2 for (a, one), (b, other) in pairwise(below))

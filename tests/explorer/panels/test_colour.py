@@ -113,7 +113,7 @@ def test_choosing_and_typing_a_spectrum(window, panel, qtbot):
 
 def test_lines_stand_at_their_wavelengths_on_the_axis_of_the_spectrum(panel):
     assert panel.spectrum.shift.data()[0] == pytest.approx([486, 656])
-    assert panel.spectrum.found.wavelength_nm == pytest.approx([486, 656])
+    assert panel.spectrum.colours.wavelength_nm == pytest.approx([486, 656])
 
 
 def test_a_spectrum_the_glass_does_not_pass_is_said_in_the_panel(window, panel, qtbot):

@@ -1,4 +1,4 @@
-"""The image panel: the picture against the library, coarse then planned, stale marks, split, loupe, sharpening."""
+"""The image panel: the picture against the library, coarse then planned, stale marks, split, local PSF, sharpening."""
 
 from dataclasses import replace
 
@@ -101,7 +101,7 @@ def test_sharpening_by_the_right_psfs_helps_and_by_the_axis_psf_does_not():
     assert axis < own - 3
 
 
-def test_the_loupe_interpolates_the_kernels_between_nodes():
+def test_the_local_psf_interpolates_the_kernels_between_nodes():
     one, two = np.zeros((2, 3, 3, 3), np.float32)
     one[:, 1, 1], two[:, 1, 2] = 1.0, 1.0
     lattice = Lattice(np.array([0.0, 10.0]), np.array([0.0, 20.0]), [[one, two], [one, two]])
@@ -173,12 +173,12 @@ def test_what_is_painted_is_the_scene_left_of_the_split_and_the_image_right_of_i
     before, after = np.full((20, 30), 0xFF204060, np.uint32), np.full((20, 30), 0xFFA08060, np.uint32)
     split_view.show_pictures(before, after, ("", ""))
     painted, area, x = split_view.grab().toImage(), split_view.area(), split_view.split_x()
-    y = int(area.bottom()) - 12  # below the loupe
+    y = int(area.bottom()) - 12  # below the PSF
     assert painted.pixel(int(x) - 30, y) == 0xFF204060 and painted.pixel(int(x) + 30, y) == 0xFFA08060
-    image_panel._paint()
+    image_panel._paint(image_panel._answer)
 
 
-def test_dragging_the_split_is_one_undo_and_hovering_moves_the_loupe(window, image_panel, qtbot):
+def test_dragging_the_split_is_one_undo_and_hovering_moves_the_psf(window, image_panel, qtbot):
     split_view, first = image_panel.split_view, window.store.state
     area = split_view.area()
     places = [QPointF(area.left() + part * area.width(), area.center().y()).toPoint() for part in (0.5, 0.3, 0.25)]

@@ -35,7 +35,7 @@ from p2sf_explorer.results.image import (
 )
 from p2sf_explorer.results.photos import cut_away, scene_values
 from p2sf_explorer.widgets.copying import png_of
-from p2sf_explorer.widgets.split_view import close_up, rooms
+from p2sf_explorer.widgets.split_view import close_up, places
 
 
 def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):
@@ -48,16 +48,16 @@ def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_p
     qtbot.keyClick(split_view, Qt.Key.Key_Right)
     assert split_view.place == pytest.approx((0.0, COLUMNS - 1.0)) and window.store.state.photo_split == split
     wanted = local_psf(image_panel._answer, 0.0, COLUMNS - 1.0)
-    assert np.array_equal(split_view.loupe, pixels(np.sqrt(wanted)))
+    assert np.array_equal(split_view.psf, pixels(np.sqrt(wanted)))
 
 
 def test_a_low_panel_has_details_and_the_psf_beside_the_picture_and_a_narrow_one_the_psf_on_it():
-    low, narrow = rooms(940, 170, ROWS, COLUMNS), rooms(320, 400, ROWS, COLUMNS)
+    low, narrow = places(940, 170, ROWS, COLUMNS), places(320, 400, ROWS, COLUMNS)
     assert low.picture.height() == 170 and len(low.details) == 2
-    assert low.loupe.right() == pytest.approx(940)  # all of the width is used
-    edges = [low.picture, *low.details, low.loupe]
+    assert low.psf.right() == pytest.approx(940)  # all of the width is used
+    edges = [low.picture, *low.details, low.psf]
     assert all(one.right() < two.left() for one, two in pairwise(edges))
-    assert narrow.picture.width() == 320 and not narrow.details and narrow.picture.contains(narrow.loupe)
+    assert narrow.picture.width() == 320 and not narrow.details and narrow.picture.contains(narrow.psf)
     part = close_up((0.0, 300.0), (ROWS, COLUMNS), low.details[0])
     assert part.top() == 0 and part.right() == COLUMNS  # never beyond the rim
     assert part.width() / part.height() == pytest.approx(low.details[0].width() / low.details[0].height())
@@ -69,9 +69,9 @@ def test_the_details_are_the_two_pictures_at_the_place_looked_at(window, image_p
     before, after = np.full((ROWS, COLUMNS), 0xFF204060, np.uint32), np.full((ROWS, COLUMNS), 0xFFA08060, np.uint32)
     split_view.show_pictures(before, after, ("", ""))
     painted = split_view.grab().toImage()
-    for room, colour in zip(split_view.rooms().details, (0xFF204060, 0xFFA08060), strict=True):
+    for room, colour in zip(split_view.places().details, (0xFF204060, 0xFFA08060), strict=True):
         assert painted.pixel(room.center().toPoint()) == colour
-    image_panel._paint()
+    image_panel._paint(image_panel._answer)
 
 
 def drop(widget, path) -> QDropEvent:
@@ -96,7 +96,7 @@ def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_th
     said = []
     window.store.refused.connect(said.append)
     drop(image_panel.widget, tmp_path / "holiday.jpg")
-    assert said == ["holiday.jpg is no PNG or TIFF; save the photo as one of these and drop that"]
+    assert [message.values for message in said] == [{"file": "holiday.jpg"}]
     assert not drop(image_panel.widget, tmp_path / "lens.zmx").isAccepted()
     window.store.update(photo="text")
 
@@ -227,7 +227,7 @@ def test_a_docked_panel_in_a_small_window_gives_the_picture_its_height(window, i
     window.resize(1280, 800)
     QApplication.processEvents()
     assert image_panel.split_view.area().height() > 0.85 * image_panel.widget.height()
-    assert len(image_panel.split_view.rooms().details) == 2
+    assert len(image_panel.split_view.places().details) == 2
     window.resize(1440, 900)
 
 

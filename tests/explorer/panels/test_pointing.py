@@ -61,25 +61,25 @@ def test_pointing_at_a_bar_lights_its_surface_in_the_layout(window, panel, qtbot
     layout = window.panels["layout"].chart
     before = layout.grab().toImage()
     qtbot.mouseMove(panel.chart, panel.chart.room(bar).center().toPoint())
-    assert layout.light.lit == 7 and panel.chart.lit == 7
+    assert layout.highlight.surface == 7 and panel.chart.highlighted == 7
     chart, point = on_surface(window, 7)
     now = chart.grab().toImage()
     assert now.pixelColor(point) != before.pixelColor(point)
     assert now.pixelColor(point).name() == window._theme.accent
     qtbot.mouseMove(panel.chart, QPoint(2, 2))
-    assert layout.light.lit == 0
+    assert layout.highlight.surface == 0
 
 
 @pytest.mark.parametrize("surface", [1, 5, 11])
 def test_pointing_at_a_surface_of_the_layout_marks_its_bar(window, panel, qtbot, surface):
     chart, point = on_surface(window, surface)
     qtbot.mouseMove(chart, point)
-    assert panel.chart.lit == surface
+    assert panel.chart.highlighted == surface
     column = panel.chart.grab().toImage()
     x = float(panel.chart.to_pixels(surface + 0.45, 0.0)[0])
     assert column.pixelColor(int(x), int(panel.chart.area.top()) + 4).name() == window._theme.faint
     qtbot.mouseMove(chart, QPoint(3, 3))
-    assert panel.chart.lit == 0
+    assert panel.chart.highlighted == 0
 
 
 def test_pointing_is_no_step_of_undo(window, panel, qtbot):
@@ -91,7 +91,7 @@ def test_pointing_is_no_step_of_undo(window, panel, qtbot):
 
 def test_dragging_the_source_still_works_beside_the_light(window, panel, qtbot):
     chart = window.panels["layout"].chart
-    place = QPointF(*(float(v) for v in chart.to_pixels(*chart.handle.place(chart)))).toPoint()
+    place = QPointF(*(float(v) for v in chart.to_pixels(*chart.handle.place(chart, chart.live)))).toPoint()
     field = window.store.state.field_deg
     qtbot.mousePress(chart, Qt.MouseButton.LeftButton, pos=place)
     qtbot.mouseMove(chart, place + QPoint(0, 12))

@@ -156,7 +156,7 @@ def test_arrow_keys_choose_a_picture_of_the_map_and_enter_goes_to_its_field(wind
     chart.setFocus()
     for _ in range(9):  # from the middle to the rim, and no farther
         qtbot.keyClick(chart, Qt.Key.Key_Right)
-    assert chart.fields_deg[chart.cursor.number] == pytest.approx(chart.fields_deg[17]), "the end of the middle row"
+    assert chart.fields_deg[chart.choice.number] == pytest.approx(chart.fields_deg[17]), "the end of the middle row"
     assert window.store.state.field_deg == 0.0, "choosing alone moves nothing"
     before = chart.grab().toImage()
     qtbot.keyClick(chart, Qt.Key.Key_Down)

@@ -27,7 +27,7 @@ def scene_at(**changes):
 
 
 @pytest.fixture(scope="module")
-def stage():
+def renderer():
     from p2sf_explorer.scene3d.renderer import Renderer
 
     made = Renderer((320, 240))
@@ -35,59 +35,59 @@ def stage():
     made.close()
 
 
-def shown(stage, eye=SIDE, **changes) -> np.ndarray:
-    stage.follow(scene_at(**changes), LIGHT, MAPS)
-    stage.look(eye)
-    return stage.picture()[..., :3].astype(int)
+def shown(renderer, eye=SIDE, **changes) -> np.ndarray:
+    renderer.follow(scene_at(**changes), LIGHT, MAPS)
+    renderer.look(eye)
+    return renderer.picture()[..., :3].astype(int)
 
 
-def test_from_the_side_light_goes_to_the_right_and_the_sensor_stands_there(stage):
-    picture = shown(stage)
+def test_from_the_side_light_goes_to_the_right_and_the_sensor_stands_there(renderer):
+    picture = shown(renderer)
     dark = (picture.max(axis=2) < 100).sum(axis=0)
     assert 230 < dark.argmax() < 320, "the sensor, seen from its edge, is the tallest dark column at the right"
 
 
-def test_rays_have_the_colour_of_their_light_and_rise_with_the_field(stage):
+def test_rays_have_the_colour_of_their_light_and_rise_with_the_field(renderer):
     heights = []
     for field in (4.0, 14.0):
-        picture = shown(stage, field_deg=field, wavelength_nm=530.0)
+        picture = shown(renderer, field_deg=field, wavelength_nm=530.0)
         green = (picture[..., 1] > picture[..., 0] + 60) & (picture[..., 1] > picture[..., 2] + 60)
         assert green.sum() > 100
         heights.append(np.flatnonzero(green[:, 230:300].any(axis=1)).min())  # the highest green row near the sensor
     assert heights[1] < heights[0] - 10
 
 
-def test_dragging_moves_what_is_there_and_makes_nothing_anew(stage):
-    shown(stage)
-    before = stage.remade
+def test_dragging_moves_what_is_there_and_makes_nothing_anew(renderer):
+    shown(renderer)
+    before = renderer.built
     for field in (11.0, 12.0, 13.0):
-        shown(stage, field_deg=field, wavelength_nm=500.0 + field, sensor_shift_um=10 * field, f_number=4.0)
-    assert stage.remade == before
-    shown(stage, lens="cooke_triplet")
-    assert stage.remade > before
+        shown(renderer, field_deg=field, wavelength_nm=500.0 + field, sensor_shift_um=10 * field, f_number=4.0)
+    assert renderer.built == before
+    shown(renderer, lens="cooke_triplet")
+    assert renderer.built > before
 
 
-def test_the_scene_is_written_and_read_by_others(stage, tmp_path):
-    shown(stage)
-    stage.save(str(tmp_path / "lens.gltf"))
-    stage.save(str(tmp_path / "lens.obj"))
+def test_the_scene_is_written_and_read_by_others(renderer, tmp_path):
+    shown(renderer)
+    renderer.save(str(tmp_path / "lens.gltf"))
+    renderer.save(str(tmp_path / "lens.obj"))
     document = json.loads((tmp_path / "lens.gltf").read_text())
     assert document["asset"]["version"] == "2.0"
     assert len(document["meshes"]) == len(scene_at().glass) + 5  # and stop, sensor, rays, wavefront, relief
     corners = [line for line in (tmp_path / "lens.obj").read_text().splitlines() if line.startswith("v ")]
     assert len(corners) > 10_000
     with pytest.raises(P2SFError, match=r"\.stl.*gltf or \.obj"):
-        stage.save(str(tmp_path / "lens.stl"))
+        renderer.save(str(tmp_path / "lens.stl"))
 
 
 @pytest.mark.parametrize("room", [0, 20_000])
 @pytest.mark.parametrize("ending", ["gltf", "obj"])
-def test_a_scene_on_a_full_disk_is_a_sentence_and_the_old_one_stays(stage, tmp_path, ending, room):
-    shown(stage)
+def test_a_scene_on_a_full_disk_is_a_sentence_and_the_old_one_stays(renderer, tmp_path, ending, room):
+    shown(renderer)
     old = tmp_path / f"lens.{ending}"
     old.write_bytes(b"old")
     with small_disk(room), pytest.raises(P2SFError, match="cannot be written"):
-        stage.save(str(old))
+        renderer.save(str(old))
     assert old.read_bytes() == b"old"
     assert {path.name for path in tmp_path.iterdir()} <= {old.name, "lens.mtl"}  # colours of no shape are no harm
 
@@ -117,13 +117,13 @@ def test_where_opengl_is_missing_a_sentence_says_what_to_do(panel, qtbot, monkey
     assert panel.busy
     qtbot.waitUntil(lambda: panel.view.message_is_final, timeout=20_000)
     assert "libgl1-mesa-dri" in panel.view.accessibleDescription()
-    assert panel.stage is None and not panel.busy and not panel.save_button.isEnabled()
+    assert panel.renderer is None and not panel.busy and not panel.save_button.isEnabled()
 
 
 def test_the_panel_opens_turns_and_keeps_its_eye_in_the_state(panel, qtbot, tmp_path):
     panel.show(answer())
-    qtbot.waitUntil(lambda: panel.stage is not None, timeout=30_000)
-    assert "W × 200" in panel.words.text() and "PSF × 50" in panel.words.text()
+    qtbot.waitUntil(lambda: panel.renderer is not None, timeout=30_000)
+    assert "W × 200" in panel.factors.text() and "PSF × 50" in panel.factors.text()
     qtbot.waitUntil(lambda: panel.view.image is not None)
     first, store = panel.view.image.copy(), panel.view._store
     panel.view.setFocus()

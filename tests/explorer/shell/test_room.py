@@ -120,7 +120,7 @@ def test_the_spot_stands_in_a_square_beside_its_figures(window):
     panel = window.panels["spot"]
     (left, right), (low, high) = panel.chart.ranges()
     assert right - left < 2 * (high - low), "no empty width"
-    rows = {name: value for name, value, _ in panel.facts._rows}
+    rows = {name: str(value) for name, value, _ in panel.facts.rows}
     assert rows["RMS in x"] == rows["RMS in y"], "round on the axis"
     both = np.hypot(*(float(rows[name].split()[0]) for name in ("RMS in x", "RMS in y")))
     assert both == pytest.approx(float(rows["RMS radius"].split()[0]), rel=1e-2)  # three digits each

@@ -18,9 +18,9 @@ def pictures(window) -> dict[str, np.ndarray]:
     """Return what each panel shows at this moment, as the painted items hold it."""
     layout, bars = window.panels["layout"], window.panels["coefficients"].bars
     rays = np.concatenate([np.concatenate(curve.data()) for curve in layout.rays.values()])
-    sensor = np.concatenate(layout.chart.sensor())
+    shown = layout.chart.live.layout
     return {
-        "layout": np.concatenate([rays, sensor]),
+        "layout": np.append(rays, (shown.drawing.sensor_z, shown.sensor_half)),
         "pupil": window.panels["pupil"].map.indices.copy(),
         "psf": window.panels["psf"].map.indices.copy(),
         "coefficients": np.array(list(bars.values.values())),
@@ -138,7 +138,7 @@ def test_autofocus_finds_the_smallest_rms(window, qtbot):
 
 def test_dragging_the_source_turns_the_field(window, qtbot):
     chart = window.panels["layout"].chart
-    z, y = chart.handle.place(chart)
+    z, y = chart.handle.place(chart, chart.live)
 
     def at(part):
         return QPointF(*chart.to_pixels(z, y * (1 - 0.7 * part))).toPoint()
