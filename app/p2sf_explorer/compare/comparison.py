@@ -56,7 +56,7 @@ def answers(
     last: Answers | None = None,
     cache: SumCache | None = None,
 ) -> Answers:
-    """Return the answers for a state. While a slider moves, ``last`` tells which method ``auto`` had chosen for each.
+    """Return the answers for a state. While a slider moves, ``auto`` keeps the methods it had chosen in ``last``.
 
     ``cache`` as for `compute.live`.
 
@@ -83,7 +83,7 @@ def answers(
 
 @dataclass(frozen=True)
 class _Conditions:
-    """What B's answer depends on beside its state; ``version`` is that of ``cache``."""
+    """What B's answer depends on besides its state; ``version`` is that of ``cache``."""
 
     quality: str
     kept: str
@@ -94,12 +94,12 @@ class _Conditions:
 
 @lru_cache(maxsize=4)
 def _b(state: State, conditions: _Conditions, lens: Lens) -> Live:
-    """Return B's answer; it stands still while only A moves. ``lens`` tells of a file that has changed."""
+    """Return B's answer, kept while only A changes. ``lens`` is in the key because its file may change."""
     return compute.live(state, conditions.quality, {}, conditions.kept, conditions.at_least_um, conditions.cache)
 
 
 def kept_method(last: Live | None, state: State) -> str:
-    """Return the method that ``auto`` had chosen in the last answer, if it is still in charge."""
+    """Return the method that ``auto`` had chosen in the last answer, if the state still leaves it to ``auto``."""
     return last.method if last and state.method == "auto" and not last.setup.altered else ""
 
 

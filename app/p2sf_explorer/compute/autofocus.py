@@ -12,7 +12,7 @@ from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import check_focusable, is_altered
 
-STEPS = 3  # the reference sphere turns a little with the sensor, so the projection is repeated
+STEPS = 3  # the reference sphere depends on the sensor, so the projection is repeated
 
 
 def best_shift_um(state: State) -> float:

@@ -21,7 +21,7 @@ MODEL = re.compile(r"nd\s*=?\s*([\d.]+)[,\s]+vd\s*=?\s*([\d.]+)", re.IGNORECASE)
 def edited_state(state: State, lens: Lens) -> State:
     """Return the state with this lens in place of its own, unedited if it is as its file has it.
 
-    Raises P2SFError where the lens has no picture at the state's source, so that a bad edit never becomes a state.
+    Raises P2SFError where the lens has no picture at the state's source, so that no state has a bad lens.
     """
     edited = replace(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
     paraxial_setup(edited)
@@ -89,7 +89,7 @@ READERS: dict[str, Callable[[str], Any]] = {
 
 
 def check_surface(lens: Lens, number: int) -> None:
-    """Raise GeometryError for a surface that a lens lacks: a table keeps the last lens that had a picture."""
+    """Raise GeometryError for a surface that the lens does not have: a table may show an earlier lens."""
     if not 1 <= number <= len(lens.surfaces):
         raise GeometryError(
             "there is no surface {number} in a lens of {count}; choose its row again",
@@ -114,7 +114,7 @@ def with_stop(lens: Lens, number: int) -> Lens:
 
 
 def inserted(lens: Lens, number: int) -> Lens:
-    """Return the lens with a plane in the middle of what follows surface ``number``: the same lens until edited."""
+    """Return the lens with a plane in the middle of the space after surface ``number``: optically the same lens."""
     before = lens.surfaces[number - 1]
     half = before.thickness / 2
     plane = Surface(thickness=half, medium=before.medium)

@@ -1,4 +1,4 @@
-"""The glass of a lens as closed outlines in mm, z from the first vertex: what no slider moves. No Qt in here."""
+"""The glass of a lens as closed outlines in mm, z from the first vertex, which no slider moves. No Qt in here."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -44,7 +44,7 @@ class Glass:
 
 @lru_cache(maxsize=8)
 def still(lens: Lens) -> Lens:
-    """Return the lens without what sliders change: its sensor at 1 mm, its aperture set aside where rims are known."""
+    """Return the lens without what sliders change: its sensor at 1 mm, and at one aperture where rims are known."""
     placed = with_sensor(lens, 1.0)
     if not all(isfinite(surface.semi_diameter) for surface in lens.surfaces):
         return placed
@@ -101,29 +101,29 @@ def clear_rims(lens: Lens) -> tuple[float, ...]:
     rims = [
         s.semi_diameter if isfinite(s.semi_diameter) else 1.05 * n for s, n in zip(lens.surfaces, needed, strict=True)
     ]
-    held = [float(_inside_surface(s, r)) for s, r in zip(lens.surfaces, rims, strict=True)]
-    return tuple(with_edges(lens, held))
+    kept = [float(_inside_surface(s, r)) for s, r in zip(lens.surfaces, rims, strict=True)]
+    return tuple(with_edges(lens, kept))
 
 
 def with_edges(lens: Lens, rims: list[float]) -> list[float]:
     """Return the rims, lower where an element would have no edge left; what is cemented to it is lowered with it."""
     index = indices(lens, lens.reference_wavelength_um)[1:-1]
     elements = [at for at, n in enumerate(index) if n > GLASS_INDEX]
-    held = list(rims)
+    kept = list(rims)
     for at in elements:
-        edge = sharp_edge(lens.surfaces[at], lens.surfaces[at + 1], max(held[at : at + 2]))
-        held[at : at + 2] = (min(rim, edge) for rim in held[at : at + 2])
+        edge = sharp_edge(lens.surfaces[at], lens.surfaces[at + 1], max(kept[at : at + 2]))
+        kept[at : at + 2] = (min(rim, edge) for rim in kept[at : at + 2])
     for at in (*elements, *elements[::-1]):
         for low, other in ((at, at + 1), (at + 1, at)):
-            if held[low] < rims[low]:
-                held[other] = min(held[other], FLANGE * held[low])
-    return held
+            if kept[low] < rims[low]:
+                kept[other] = min(kept[other], FLANGE * kept[low])
+    return kept
 
 
 def sharp_edge(front: Surface, back: Surface, rim: float) -> float:
     """Return the height where an element of stated rims would have no thickness left; the rim if it has some there.
 
-    A file may state rims that no glass could have; drawn as they are, its surfaces would cross.
+    A file may state rims that no glass could have: drawn to them, its surfaces would cross.
     """
     y = np.linspace(0.0, rim, 4 * PROFILE_POINTS)
     reach = [np.minimum(y, _inside_surface(surface, rim)) for surface in (front, back)]
@@ -132,7 +132,7 @@ def sharp_edge(front: Surface, back: Surface, rim: float) -> float:
 
 
 def _inside_surface(surface: Surface, rim: float) -> float:
-    """Return the rim, held inside the height where a closed conic ends: (1 + K)c²r² = 1."""
+    """Return the rim, kept inside the height where a closed conic ends: (1 + K)c²r² = 1."""
     closing = (1 + surface.conic) * surface.curvature**2
     return rim if closing <= 0 else min(rim, 0.999 / np.sqrt(closing))
 

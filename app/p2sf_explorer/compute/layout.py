@@ -15,14 +15,14 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import nice
 
 HEIGHTS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
-REACH = 3.0  # rays from afar begin so many lens lengths before the lens, outside any window
+REACH = 3.0  # rays from infinity begin this many lens lengths before the lens, outside any window
 
 
 @dataclass(frozen=True)
 class Drawing:
-    """The glass, which stays while anything but the lens changes, and stop and sensor, which need not; mm.
+    """The glass, which only another lens changes, and stop and sensor; mm.
 
-    ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in an eye.
+    ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in the eye.
     """
 
     glass: Glass

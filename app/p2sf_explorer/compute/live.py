@@ -29,7 +29,7 @@ RAY_SAMPLES = {"preview": 40, "settled": 64}  # across the pupil where every sam
 class Live:
     """One answer: setup, drawing, pupil, PSF, messages, and what the open panels show, in ``views``.
 
-    ``method`` is the method chosen, by a person or by ``auto``; ``milliseconds`` names what each part took; ``quality``
+    ``method`` is the method chosen, by a person or by ``auto``; ``milliseconds`` of each part of the work; ``quality``
     is "preview" while a slider moves, else "settled"; ``pending`` is the sum of waves that the PSF stands in for. With
     a B pinned, ``side`` names what is on screen and ``difference`` is what A − B shows in place of this answer.
     """
@@ -60,7 +60,7 @@ class Refused:
 
 
 ResultFunction = Callable[["Live"], object]
-"""A function from the answer so far to what one panel shows; it names no Qt."""
+"""A function from the answer so far to what one panel shows, without Qt."""
 
 
 def live(
@@ -102,7 +102,7 @@ def live(
 
 
 def with_views(answer: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
-    """Return the answer with the open panels' views and the time of it all."""
+    """Return the answer with the open panels' views and the total time."""
     results = {name: attempted(view, answer) for name, view in views.items()}
     total = 1e3 * (perf_counter() - begun)
     return replace(answer, views=results, milliseconds={**answer.milliseconds, "all": total})
@@ -120,7 +120,7 @@ def pupil(setup: ParaxialSetup, exact: bool, quality: str) -> PupilMap:
     """Return the wavefront that made the PSF: of the six coefficients for seidel, else of exact rays."""
     xi, eta, inside = disc(PUPIL_SAMPLES[quality])
     if not exact:
-        words = "what-if" if setup.altered else "six coefficients"
-        return pupil_map(np.asarray(wavefront(setup.coefficients, xi, eta)), inside, words)
+        kind = "what-if" if setup.altered else "six coefficients"
+        return pupil_map(np.asarray(wavefront(setup.coefficients, xi, eta)), inside, kind)
     count = RAY_SAMPLES[quality]
     return pupil_map(opd_map(setup.lens, setup.source, count), disc(count)[2], "exact rays")

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from p2sf.psf.methods import Choice
 
 PIXELS = {"preview": 64, "settled": 128}
-WHOLE = 64  # samples over which the six coefficients are asked for a window that shows all of the PSF
+WHOLE = 64  # samples over which the six coefficients give the window that shows all of the PSF
 WINDOWS = (1, 1.5, 2, 3, 4, 5, 6, 8)
 STEEPEST_IN_ALL = 210.0  # waves of slope and of the plane wave to the window's corner: samples carry both together
 STEEPEST = 80.0  # waves of slope: beyond, a sample of the window is some four Airy radii wide
@@ -42,7 +42,7 @@ ALL_LIGHT = 0.995
 NO_REASON = Message("")
 FARTHEST = 160.0  # waves of slope of a ray: beyond, too, a sample is several Airy radii wide
 QUICK_NODES = 60_000  # of a picture that moves: some 20 ms, and on a busy machine a few times that
-ROOM = 5  # Airy radii around what rays say, for what diffraction adds
+ROOM = 5  # Airy radii around the rays, for what diffraction adds
 
 
 @dataclass(frozen=True)
@@ -209,7 +209,7 @@ def ray_window_um(setup: ParaxialSetup, landing: float) -> float:
 
 
 def edge_pencil(setup: ParaxialSetup) -> Pencil:
-    """Return the few rays that tell how far light reaches."""
+    """Return the few rays at the rim that show how far light reaches."""
     return pencil(setup.lens, setup.source, *edge_points())
 
 

@@ -1,4 +1,4 @@
-"""The picture while a slider moves: one trace of some eighty rays gives PSF, window and pupil map. No Qt in here."""
+"""The picture while a slider moves: PSF, window and pupil map from one trace of about eighty rays. No Qt in here."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -22,14 +22,14 @@ from p2sf_explorer.compute.pupil import PupilMap, disc, pupil_map
 from p2sf_explorer.compute.setup import ParaxialSetup
 
 LEVEL = LEVELS[0]  # 26 numbers
-CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS waves a fit may miss: by the least numbers, by all of the same rays, at all
+CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS error in waves up to which 26 numbers do, 64 rays do, a fit does at all
 SAMPLES = 64  # of the pupil map, across
-EDGE = 9  # rays along the rim and as many at 0.7 of it, for how far light reaches on the sensor
+EDGE = 9  # rays along the rim and along 0.7 of it, which show how far light reaches on the sensor
 
 
 @dataclass(frozen=True)
 class Preview:
-    """Rays that all reached the sensor, at the level's points and then along the rim; ``begun`` when they set out."""
+    """Rays that all reached the sensor, at the level's points then at the edge; ``begun`` is a `perf_counter` time."""
 
     rays: Pencil
     setup: ParaxialSetup
@@ -37,7 +37,7 @@ class Preview:
 
 
 def preview(setup: ParaxialSetup, clip: bool = False) -> Preview | None:
-    """Return the traced rays, None where one is lost: a fit knows no edge. Raises as `pencil` does."""
+    """Return the traced rays; None where one is lost, since a fit cannot describe an edge. Raises as `pencil` does."""
     begun = perf_counter()
     rays = pencil(setup.lens, setup.source, *points(), clip=clip)
     return Preview(rays, setup, begun) if rays.passed.all() else None
@@ -45,7 +45,7 @@ def preview(setup: ParaxialSetup, clip: bool = False) -> Preview | None:
 
 @lru_cache(maxsize=1)
 def points() -> tuple[np.ndarray, np.ndarray]:
-    """Return ξ and η: of the level's rays, then of the edge's."""
+    """Return ξ and η of the level's rays, then of those at the edge."""
     xi, eta, _ = level_rays(LEVEL)
     edge = edge_points()
     return np.append(xi, edge[0]), np.append(eta, edge[1])
@@ -75,7 +75,7 @@ def preview_psf(traced: Preview, pixels: int, pixel_um: float, fitted: FittedPen
 
 
 def best_fit(traced: Preview) -> FittedPencil:
-    """Return the fit of fewest numbers that misses little; more rays are traced only where the first do not do."""
+    """Return the smallest fit of small error; more rays are traced only where the first do not suffice."""
     data, count = ray_data(traced.rays), level_rays(LEVEL)[0].size
     own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
     fitted = fit_rays(own, LEVEL, count)
@@ -92,7 +92,7 @@ def best_fit(traced: Preview) -> FittedPencil:
 def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
     """Return the PSF of the fit to all rays, summed over the nodes whose own rays pass the rims; None without rows.
 
-    A yes or no at each node makes a ragged edge, good for a picture that moves. Raises GeometryError where none passes.
+    A yes or no at each node makes a ragged edge, good enough while it moves. Raises GeometryError where none passes.
     """
     fitted, setup = best_fit(traced), traced.setup
     nodes = rows_for(fitted, pixels, pixel_um, "preview", every=True)
@@ -122,7 +122,7 @@ def preview_pupil(traced: Preview) -> PupilMap:
 
 @dataclass(frozen=True)
 class MapProjection:
-    """What turns the rays' waves into a map: (samples inside, rays)."""
+    """The linear map from the rays' waves to the samples of a picture, (samples inside, rays)."""
 
     matrix: np.ndarray
     inside: np.ndarray

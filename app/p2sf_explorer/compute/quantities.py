@@ -48,7 +48,7 @@ def _plain(key: str) -> Callable[[State, Ranges], float]:
 
 
 def _reader(words: str, **units: float) -> Callable[[str], float]:
-    """Return a reader of numbers in the quantity's own unit, bare or behind one of these units."""
+    """Return a reader of numbers in the quantity's own unit or followed by one of these units, with their factors."""
     known = {"": 1.0, **units}
     return lambda text: read_number(text, words, known)
 
@@ -90,7 +90,7 @@ FOCUS = Quantity(
     key="focus_mm",
     title="Focus distance",
     tip="Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. "
-    f"{BEYOND}: nearer to the lens than the image of infinity.",
+    "beyond ∞: nearer to the lens than the image of infinity.",
     scale=lambda ranges: Vergence(ranges.closest_mm),
     write=lambda value: BEYOND if value < 0 else written_distance(value),
     read=read_distance,
@@ -123,7 +123,7 @@ QUANTITIES = (DEPTH, FIELD, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
 def visible_colour(wavelength_nm: float) -> str:
     """Return a display colour for a wavelength as #rrggbb: a picture of the spectrum, not colorimetry.
 
-    Anchors chosen by eye between the spectral hues; the ends fade as the eye's response does.
+    Anchors chosen by eye between the spectral hues; the ends fade like the response of the eye.
     """
     anchors = (
         (380, (40, 0, 70)), (420, (90, 0, 200)), (450, (30, 40, 255)), (490, (0, 190, 230)), (520, (0, 210, 60)),

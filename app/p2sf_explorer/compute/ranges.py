@@ -1,4 +1,4 @@
-"""How near a source may come, where a lens is focused, and which light its glasses are known for. No Qt in here."""
+"""The closest source distance, where a lens is focused, and the wavelengths its glasses have data for. No Qt here."""
 
 from functools import lru_cache
 from math import inf, isfinite
@@ -15,8 +15,8 @@ from p2sf_explorer.state.scales import nice
 
 VISIBLE_NM = (400.0, 700.0)
 SHARES = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
-TELLING_WAVES = 60.0  # of slope: a steeper wavefront is a blur of rays, and says nothing of waves
-AS_GOOD_AS_INFINITE_MM = 1e6  # a file's six digits cannot tell a focus at a kilometre from one at infinity
+TELLING_WAVES = 60.0  # of slope: a steeper wavefront is a blur of rays that shows no diffraction
+AS_GOOD_AS_INFINITE_MM = 1e6  # six digits in a file do not distinguish a focus at a kilometre from infinity
 
 
 def closest_distance(lens: Lens) -> float:
@@ -76,7 +76,7 @@ def _table_range(medium: Medium) -> tuple[float, float] | None:
 
 
 def telling_field(lens: Lens, depth_mm: float) -> float:
-    """Return a field in degrees with something to say: the file's middle one; near by, the share that still has waves.
+    """Return a field in degrees worth showing first: the file's middle one; near by, a share that shows diffraction.
 
     A relay's file may state fields for infinity that at its own depth are objects wider than its glass.
     """

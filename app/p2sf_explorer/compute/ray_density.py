@@ -19,7 +19,7 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 
 GRIDS = {"preview": (64, 180), "settled": (128, 360)}  # radii, directions of the half disc
 TOO_FAR = 2.0  # times the distance a lens is focused at
-MOST_LIGHT, AROUND = 0.9, 1.25  # an even disc has nine tenths of its light within 1/1.18 of its half width
+MOST_LIGHT, AROUND = 0.9, 1.25  # nine tenths of the light of an even disc lie within 1/1.18 of its half width
 TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated to the above
 
 Landing = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -52,7 +52,7 @@ def geometric_psf(
 
 
 def remedy(setup: ParaxialSetup, clip: bool) -> Message:
-    """Return what lets light through again: for a source far beyond what a lens is made for, coming nearer."""
+    """Return what lets light through again; a lens made for near objects needs a nearer source."""
     if setup.source.depth_mm > TOO_FAR * focused_distance(setup.lens):
         return Message("this lens is for near objects, so choose a nearer depth")
     if clip:

@@ -1,4 +1,4 @@
-"""One small PSF of the present setup with something changed, for panels that show many: no reference, no waiting."""
+"""Small PSFs of the present setup with something changed, for panels that show many of them."""
 
 from dataclasses import replace
 
@@ -19,19 +19,19 @@ OPTICS = (
 
 
 def optics(state: State) -> State:
-    """Return a state that differs from another's only where the light does: not in looks, tabs or units."""
+    """Return a state with the optics of this one and everything else at its default."""
     return replace(State(), **{name: getattr(state, name) for name in OPTICS})
 
 
 def by_coefficients(live: Live) -> bool:
-    """Return whether the six coefficients make the present point's picture, and so what is shown of that point."""
+    """Return whether the present point is shown by the six coefficients."""
     return live.method == "seidel" or live.setup.altered
 
 
 def everywhere_by_coefficients(live: Live) -> bool:
-    """Return whether the six coefficients make every picture: asked for by name, or altered by hand.
+    """Return whether the six coefficients make every picture: chosen by name, or altered by hand.
 
-    What ``auto`` has chosen holds for the present point alone, and says nothing of other fields and sensor positions.
+    What ``auto`` chooses holds for the present point only, not for other fields and sensor positions.
     """
     return live.state.method == "seidel" or live.setup.altered
 
@@ -47,5 +47,7 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
         return geometric_psf(setup, not six, window, "preview", state.clip)
     if six or setup.altered:
         return seidel_psf(setup.coefficients, *window, "preview")
-    made = preview(setup, state.clip)
-    return preview_psf(made, *window) if made else by_rays(sum_request(state, setup, "traced", window), "preview")
+    traced = preview(setup, state.clip)
+    if traced:
+        return preview_psf(traced, *window)
+    return by_rays(sum_request(state, setup, "traced", window), "preview")

@@ -1,4 +1,4 @@
-"""The lens as the state sets it, its first-order facts, and the ranges the controls may run over. No Qt in here."""
+"""The lens as the state sets it up, its first-order data, and the ranges of the controls. No Qt in here."""
 
 import os
 import tomllib
@@ -62,7 +62,7 @@ class Ranges:
 def load(name: str) -> Lens:
     """Return the lens of a shipped name or a path; read again when the file has changed."""
     try:
-        changed = os.stat(name).st_mtime_ns  # four times as fast as a Path's, on every frame
+        changed = os.stat(name).st_mtime_ns  # four times as fast as Path.stat, and called on every frame
     except (OSError, ValueError):
         changed = 0
     return _load(name, changed)
@@ -187,7 +187,7 @@ def ranges(lens: Lens) -> Ranges:
 
 
 def default_state(name: str, lens_text: str | None = None) -> State:
-    """Return the state a lens is first shown in: its own focus, a field with something to say, its middle line."""
+    """Return the state a lens is first shown in: its own focus, a field worth showing, its middle wavelength."""
     return _defaults(State(lens=name, lens_text=lens_text), prescription(State(lens=name, lens_text=lens_text)))
 
 

@@ -1,4 +1,4 @@
-"""Along the spectrum: where each colour and each zone of the pupil comes to focus on the axis."""
+"""Focus along the spectrum: where each colour and each zone of the pupil crosses the axis."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The colour PSF of the present point: what is asked, and the answer with the colours of a screen."""
+"""The colour PSF of the present point: the request, and the answer in the colours of a screen."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -37,7 +37,10 @@ CHOICES = (
 
 @dataclass(frozen=True)
 class ColourQuestion:
-    """What is asked: the setup, the spectrum, (pixels, µm per pixel), how many wavelengths, and by what."""
+    """Everything a colour PSF depends on: setup, spectrum, ``window`` (pixels, µm per pixel), ``count`` of wavelengths.
+
+    ``six``: by the six coefficients, else by exact rays.
+    """
 
     state: State
     spectrum: str
@@ -68,23 +71,25 @@ def question(live: Live) -> ColourQuestion | Message:
     return ColourQuestion(optics(live.state), spectrum.name, window, COUNT[live.quality], by_coefficients(live))
 
 
-def answer(asked: ColourQuestion, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Colours:
+def answer(request: ColourQuestion, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Colours:
     """Return the colour PSF; P2SFError where a wavelength has no PSF."""
-    setup, spectrum = paraxial_setup(asked.state), spectrum_of(asked.spectrum)
+    setup, spectrum = paraxial_setup(request.state), spectrum_of(request.spectrum)
 
     def one(lens: Lens, source: Source, pixels: int, pixel_um: float) -> Psf:
-        return in_window(at_wavelength(asked.state, NM_PER_UM * source.wavelength_um), (pixels, pixel_um), asked.six)
+        return in_window(
+            at_wavelength(request.state, NM_PER_UM * source.wavelength_um), (pixels, pixel_um), request.six
+        )
 
     # A free pupil has no glass: the axis of the lens, where no colour lands beside another, stands for it.
-    source = replace(setup.source, field_slope=0.0) if asked.state.free_pupil else setup.source
-    found = colour_psf(setup.lens, source, spectrum, asked.window, one, asked.count)
+    source = replace(setup.source, field_slope=0.0) if request.state.free_pupil else setup.source
+    psf = colour_psf(setup.lens, source, spectrum, request.window, one, request.count)
     waves = np.array(spectrum.numbers) / NM_PER_UM if spectrum.kind == "lines" else FINE_UM
     power = np.ones(waves.size) if spectrum.kind == "lines" else relative_power(spectrum, waves)
-    return Colours(found, NM_PER_UM * waves, power * matching(waves)[:, 1], hues(waves))
+    return Colours(psf, NM_PER_UM * waves, power * matching(waves)[:, 1], hues(waves))
 
 
 def at_wavelength(state: State, wavelength_nm: float) -> State:
-    """Return the setup at another wavelength; what is added by hand is a path, and so more waves of a shorter one."""
+    """Return the setup at another wavelength; a path added by hand is more waves of a shorter wavelength."""
     ratio = state.wavelength_nm / wavelength_nm
     return replace(state, wavelength_nm=wavelength_nm, added_waves=tuple(ratio * waves for waves in state.added_waves))
 

@@ -1,6 +1,6 @@
 """The (depth, field) space of the present lens from its coefficient databases: maps, what interpolants lose, an atlas.
 
-All of it takes some 50 ms, so `question` alone runs on the live path, and a worker runs `answer`.
+It takes some 50 ms, so only `question` runs on the live path, and a worker runs `answer`.
 """
 
 from collections.abc import Callable
@@ -22,13 +22,13 @@ from p2sf.psf.seidel import suitable_pixel_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription, ranges
 
-NODES = (20, 21, 31)  # depths, fields, wavelengths: what the command line builds when not told otherwise
+NODES = (20, 21, 31)  # depths, fields, wavelengths: the defaults of the command line
 LOSSY = ("table1", "linear")
 MAP = (41, 81)  # fields, depths
 ATLAS = (4, 9)
 ATLAS_PIXELS = 40
-BLURRED = 400.0  # waves of phase slope: a second for all cells at that, and a picture of the rays' density anyway
-SHOWN_WHOLE = 0.6  # of the atlas's PSFs; one pitch for the widest would make specks of the rest
+BLURRED = 400.0  # waves of phase slope: all cells together then take a second, and would be drawn as ray density anyway
+SHOWN_WHOLE = 0.6  # of the atlas's PSFs; a pitch that fits the widest would shrink the rest to specks
 ATLAS_DEFOCUS = 8.0  # waves at the first and the last column; Pieroni et al. 2015 trust the method to 10
 SHORT_OF_PUPIL = 0.8  # of the way to an entrance pupil that stands among the depths
 
@@ -76,7 +76,7 @@ class DatabaseResult:
 
 
 def question(live: Live) -> DatabaseRequest:
-    """Return what the database panel must know of the present state."""
+    """Return what the maps of the present state depend on."""
     setup, limits = live.setup, ranges(prescription(live.state))
     pupil = -float(setup.pupils.entrance_from_first)
     far = SHORT_OF_PUPIL * pupil if limits.closest_mm / SHORT_OF_PUPIL < pupil < inf else inf
@@ -93,44 +93,44 @@ def question(live: Live) -> DatabaseRequest:
     )
 
 
-def answer(asked: DatabaseRequest, stopped: Callable[[], bool] = lambda: False) -> DatabaseResult:
+def answer(request: DatabaseRequest, stopped: Callable[[], bool] = lambda: False) -> DatabaseResult:
     """Return maps, errors and atlas; raises P2SFError where the lens has no database, Cancelled when stopped."""
-    fields = np.linspace(0.0, asked.field_deg, MAP[0])
-    space = nodes(asked)
-    near = np.linspace(1 / asked.depths_mm[1], 1 / asked.depths_mm[0], MAP[1])
+    fields = np.linspace(0.0, request.field_deg, MAP[0])
+    space = nodes(request)
+    near = np.linspace(1 / request.depths_mm[1], 1 / request.depths_mm[0], MAP[1])
     near[-1] = 1 / space.depths_mm[0]
-    exact = build_database(asked.lens, space, "exact", stop(asked))
-    maps = mapped(exact, near, fields, asked.wavelength_um)
+    exact = build_database(request.lens, space, "exact", stop(request))
+    maps = mapped(exact, near, fields, request.wavelength_um)
     errors, largest = {}, {"exact": exact.errors}
     for rule in LOSSY:
         if stopped():
             raise Cancelled("the database maps were stopped")
-        lossy = build_database(asked.lens, space, rule, stop(asked))
-        found = mapped(lossy, near, fields, asked.wavelength_um)
+        lossy = build_database(request.lens, space, rule, stop(request))
+        found = mapped(lossy, near, fields, request.wavelength_um)
         errors[rule] = {kind: np.abs(found[kind] - maps[kind]) for kind in KINDS}
         largest[rule] = lossy.errors
-    known = DatabaseResult(asked, near, fields, space, maps, errors, largest, None)
+    known = DatabaseResult(request, near, fields, space, maps, errors, largest, None)
     try:
-        return replace(known, atlas=atlas(exact, asked))
+        return replace(known, atlas=atlas(exact, request))
     except P2SFError as error:
         return replace(known, why_no_atlas=error.message)
 
 
-def nodes(asked: DatabaseRequest) -> Space:
+def nodes(request: DatabaseRequest) -> Space:
     """Return the nodes the databases are built on."""
     depths, fields, wavelengths = NODES
-    low, high = asked.wavelengths_nm
+    low, high = request.wavelengths_nm
     return Space(
-        depth_nodes(*asked.depths_mm, depths),
-        slope_from_degrees(np.linspace(0.0, asked.field_deg, fields)),
+        depth_nodes(*request.depths_mm, depths),
+        slope_from_degrees(np.linspace(0.0, request.field_deg, fields)),
         np.linspace(low, high, wavelengths) / NM_PER_UM if low < high else np.array([low]) / NM_PER_UM,
     )
 
 
-def stop(asked: DatabaseRequest) -> Stop:
+def stop(request: DatabaseRequest) -> Stop:
     """Return the stop in use, one for all depths."""
-    surface = np.asarray(asked.stop_surface)
-    return Stop(surface, np.asarray(asked.stop_rim), surface, "file")
+    surface = np.asarray(request.stop_surface)
+    return Stop(surface, np.asarray(request.stop_rim), surface, "file")
 
 
 def mapped(
@@ -148,35 +148,35 @@ def mapped(
     return maps
 
 
-def atlas(exact: ExactDatabase, asked: DatabaseRequest) -> Atlas:
+def atlas(exact: ExactDatabase, request: DatabaseRequest) -> Atlas:
     """Return PSFs over the lens's own field and the depths sharp within `ATLAS_DEFOCUS`; NaN where all is blur.
 
     Raises P2SFError where none of them can be sampled.
     """
-    near = sharp_range(exact, asked)
+    near = sharp_range(exact, request)
     with np.errstate(divide="ignore"):
-        depths = np.clip(1 / near, *asked.depths_mm)
-    widest = max(abs(angle) for angle in asked.lens.fields_deg)
-    fields = np.linspace(0.0, min(widest, asked.field_deg) or asked.field_deg, ATLAS[0])
+        depths = np.clip(1 / near, *request.depths_mm)
+    widest = max(abs(angle) for angle in request.lens.fields_deg)
+    fields = np.linspace(0.0, min(widest, request.field_deg) or request.field_deg, ATLAS[0])
     slopes = slope_from_degrees(fields)[:, None]
-    found = exact.coefficients(depths, slopes, asked.wavelength_um)
+    found = exact.coefficients(depths, slopes, request.wavelength_um)
     drawn = steepest_slope(found) <= BLURRED
     if not drawn.any():
         raise SamplingError("no PSF of this lens is sharp enough for the atlas; stop down")
     pitch = float(np.quantile(suitable_pixel_um(found, ATLAS_PIXELS)[drawn], SHOWN_WHOLE))
-    points = [np.broadcast_to(axis, drawn.shape)[drawn] for axis in (depths, slopes, asked.wavelength_um)]
+    points = [np.broadcast_to(axis, drawn.shape)[drawn] for axis in (depths, slopes, request.wavelength_um)]
     psfs = np.full((*drawn.shape, ATLAS_PIXELS, ATLAS_PIXELS), np.nan, np.float32)
     psfs[drawn] = rendered(exact, points, Sampling(ATLAS_PIXELS, pitch, "preview"))
     return Atlas(psfs / psfs.max((-2, -1), keepdims=True), depths, fields, pitch)
 
 
-def sharp_range(exact: ExactDatabase, asked: DatabaseRequest) -> np.ndarray:
+def sharp_range(exact: ExactDatabase, request: DatabaseRequest) -> np.ndarray:
     """Return 1/depth, 1/mm, of the atlas's columns, around the depth in focus, where Wd runs nearly straight."""
-    low, high = 1 / asked.depths_mm[1], 1 / asked.depths_mm[0]
+    low, high = 1 / request.depths_mm[1], 1 / request.depths_mm[0]
     near = np.linspace(low, high, 2001)
     with np.errstate(divide="ignore"):
-        depths = np.clip(1 / near, *asked.depths_mm)
-    defocus = exact.coefficients(depths, 0.0, asked.wavelength_um).wd
+        depths = np.clip(1 / near, *request.depths_mm)
+    defocus = exact.coefficients(depths, 0.0, request.wavelength_um).wd
     sharpest = int(np.argmin(np.abs(defocus)))
     slope = np.gradient(defocus, near)[sharpest]
     focus = near[sharpest] - defocus[sharpest] / slope if slope else near[sharpest]

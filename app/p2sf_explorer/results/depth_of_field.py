@@ -1,4 +1,4 @@
-"""How large the blur is at every depth, and between which depths it stays below what is tolerated."""
+"""Blur against depth, and the depths between which it stays within what is tolerated."""
 
 from dataclasses import dataclass
 from math import inf, isfinite, nan
@@ -20,8 +20,8 @@ DEPTHS = {"preview": 17, "settled": 49}
 RINGS = {"preview": 3, "settled": 6}
 PROBE_RINGS = 3
 FEWEST = 3  # rays: fewer are no spot
-FOCUS_UM = 1e-3  # a blur so small is none
-SEEN = 3  # times what is tolerated: what is sharp with as much again on either side
+FOCUS_UM = 1e-3  # a blur this small counts as none
+SEEN = 3  # times what is tolerated: the sharp range, with as much again on either side
 FAR_OFF = 2.0  # widths of the range: a least blur farther off is left out
 AIR = 0.1  # of the range, beyond a least blur
 
@@ -49,7 +49,7 @@ def depth_of_field(live: Live) -> DepthOfField:
     clear = sharp(s, tolerated)
     near = np.linspace(*shown(live, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
     if focus := sharp(s, FOCUS_UM):
-        near = np.sort(np.append(near, 1 / focus[1]))  # so that the V of the blur is drawn to its tip
+        near = np.sort(np.append(near, 1 / focus[1]))  # so that the V of the blur reaches its tip
     depths = np.divide(1.0, near, out=np.full(near.shape, inf), where=near > 0)
     heights = axial_heights(s, depths)
     return DepthOfField(
@@ -133,7 +133,7 @@ def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
     try:
         xi, eta = hexapolar(rings)
         rays = pencil(s.lens, source, xi, eta, clip=live.state.clip)
-    except P2SFError:  # a chief ray is lost at some depth: the paraxial curve says what can be said
+    except P2SFError:  # a chief ray is lost at some depth: only the paraxial curve remains
         return np.full(len(depths), np.nan)
     lost = rays.passed.sum(-1) < FEWEST
     x, y = (np.where(np.isfinite(v), v, 0.0) for v in (rays.dx, rays.dy))

@@ -1,4 +1,4 @@
-"""Over the field: focal surfaces, distortion, and the distortion grid; exact rays beside the third order."""
+"""Focal surfaces, distortion and the distortion grid over the field, by exact rays and by the third order."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -17,7 +17,7 @@ from p2sf_explorer.state.scales import nice
 FIELDS = {"preview": 13, "settled": 25}
 GRID = 9  # lines each way over the square inside the field's circle
 AT_LEAST_DEG = 0.05
-SEEN = 0.04  # a grid whose corner moves by this share shows it
+SEEN = 0.04  # a shift of a grid's corner by this share can be seen
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ def curves_of(lens: Lens, source: Source, rim: tuple[int, float], widest: float,
 
 
 def exaggeration(distortion: np.ndarray) -> int:
-    """Return how many times a distortion is drawn, so that a grid shows it: 1, 2, 5, 10 …, up to a thousand."""
+    """Return how many times a distortion is drawn, so that it can be seen: 1, 2, 5, 10 …, up to a thousand."""
     most = np.abs(distortion[np.isfinite(distortion)]).max(initial=0.0)
     return 1 if most >= SEEN else round(min(1000.0, nice(SEEN / max(most, 1e-9))))
 

@@ -25,7 +25,7 @@ MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
 
 @dataclass(frozen=True)
 class FieldMap:
-    """What is asked: ``state`` of any field, the slope at the corner, and each picture's window."""
+    """Everything the map depends on: ``state`` of any field, the slope at the corner, and each picture's window."""
 
     state: State
     corner_slope: float
@@ -34,7 +34,7 @@ class FieldMap:
 
 
 def field_map(live: Live) -> FieldMap:
-    """Return what to show; it does not depend on the present field, so it stands still while that is dragged."""
+    """Return what to show, which does not depend on the present field and so is not repeated while that is dragged."""
     corner, pixels = widest_slope(live), PIXELS[live.quality]
     s = live.setup
     slopes = np.array([0.0, 0.5, 1.0]) * corner
@@ -53,32 +53,32 @@ def places() -> np.ndarray:
     return np.stack(np.meshgrid(x, y), axis=-1)
 
 
-def answer(asked: FieldMap, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> np.ndarray:
-    """Return the pictures, (rows, columns, pixels, pixels), each over its own peak; ``tell`` of every field made.
+def answer(request: FieldMap, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> np.ndarray:
+    """Return the pictures, (rows, columns, pixels, pixels), each over its own peak; ``tell`` is called after each.
 
     Fields of one distance from the axis share a PSF, mirrored or turned about the axis (the lens is round).
     """
-    found = np.full((*SHAPE, asked.window[0], asked.window[0]), np.nan, np.float32)
+    found = np.full((*SHAPE, request.window[0], request.window[0]), np.nan, np.float32)
     where = places()
     radius = np.round(np.hypot(where[..., 0], where[..., 1]), 9)
     rings = np.unique(radius)
     for number, ring in enumerate(rings, 1):
         if stopped():
             break
-        values = one(asked, float(ring))
+        values = picture_at(request, float(ring))
         for at in zip(*np.nonzero(radius == ring), strict=True):
             found[at] = turned(values, float(np.arctan2(where[at][0], where[at][1])))
         tell(number / len(rings), found)
     return found
 
 
-def one(asked: FieldMap, ring: float) -> np.ndarray:
+def picture_at(request: FieldMap, ring: float) -> np.ndarray:
     """Return the PSF at a share of the corner's field over its peak, +y away from the axis, NaN where there is none."""
-    state = replace(asked.state, field_deg=float(degrees_from_slope(ring * asked.corner_slope)))
+    state = replace(request.state, field_deg=float(degrees_from_slope(ring * request.corner_slope)))
     try:
-        values = in_window(state, asked.window, asked.six).values
-    except P2SFError:  # rays lost at the edge of the field: an empty place says so
-        return np.full((asked.window[0],) * 2, np.nan)
+        values = in_window(state, request.window, request.six).values
+    except P2SFError:  # rays lost at the edge of the field: an empty place
+        return np.full((request.window[0],) * 2, np.nan)
     outward = values if float(paraxial_setup(state).coefficients.image_height) >= 0 else turned(values, np.pi)
     return outward / (float(values.max()) or 1.0)
 

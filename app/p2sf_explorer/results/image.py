@@ -1,6 +1,6 @@
-"""A photo through the present lens: the coarse picture, the planned one, and what knowing the PSF gives back.
+"""A photo through the present lens: a coarse picture, a planned one, and one sharpened by its own PSFs.
 
-`question` alone runs on the live path; a worker runs `coarse` (some 0.2 s) and `planned` (some seconds).
+Only `question` runs on the live path; a worker runs `coarse` (some 0.2 s) and `planned` (some seconds).
 """
 
 from collections.abc import Callable
@@ -32,7 +32,7 @@ from p2sf_explorer.results.photos import NOISE, channels_of, cut_away, scene_val
 SEEN = 0.005  # of a photo's side: less is a pixel or two
 
 
-HEADINGS = {  # of a plan's decisions by kind, in the order they are told
+HEADINGS = {  # of a plan's decisions by kind, in the order in which they are shown
     "field": "Places",
     "colour": "Colour {channel}",
     "method": "Method",
@@ -43,7 +43,7 @@ HEADINGS = {  # of a plan's decisions by kind, in the order they are told
 }
 
 Notes = tuple[tuple[Message, Message], ...]
-"""What the picture is made of: each a heading and a sentence."""
+"""Headings and what is to be said of each."""
 
 
 def psf_counts(plan: Plan) -> tuple[Message, Message]:
@@ -61,7 +61,7 @@ def psf_counts(plan: Plan) -> tuple[Message, Message]:
 
 
 def plan_notes(plan: Plan) -> Notes:
-    """Return the promise of a plan and its decisions; rings of the field that agree are told once."""
+    """Return the promise of a plan and its decisions; zones of the field that agree appear once."""
     errors: dict[tuple[str, Message, Message, Message], list[float]] = {}
     for decision in plan.decisions:
         heading = Message(HEADINGS[decision.kind], **(decision.what.values if decision.kind == "colour" else {}))
@@ -92,7 +92,7 @@ def promise(plan: Plan) -> Message:
 
 
 def frame_notes(photo: str, shape: tuple[int, int]) -> tuple[Message, Message] | None:
-    """Return what is cut off a photo of other proportions than the sensor's, in short and in a sentence; RequestError.
+    """Return what is cut off a photo of other proportions than the sensor's, in short and at length; RequestError.
 
     None where all of it is taken.
     """
@@ -168,63 +168,63 @@ class ImageResult:
 
 
 def question(live: Live) -> ImageRequest:
-    """Return what the image panel must know of the present state."""
+    """Return what the picture of the present state depends on."""
     state, setup = live.state, live.setup
     whole = state.photo_pixel_um is None
     centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
     return ImageRequest(setup.lens, state.depth_mm, state.photo, state.photo_show, state.photo_pixel_um, centre)
 
 
-def coarse(asked: ImageRequest, watch: Progress | None = None) -> ImageResult:
+def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
-    begun, scene = perf_counter(), scene_of(asked)
-    coarse_plan = affordable(preview_plan(scene.camera(asked.lens), scene))
+    begun, scene = perf_counter(), scene_of(request)
+    coarse_plan = affordable(preview_plan(scene.camera(request.lens), scene))
     why_not = no_plan(coarse_plan)
     notes = ((Message("Coarse"), UNMEASURED[why_not]),)
-    return replace(_answer(asked, coarse_plan, watch or Progress(), begun, notes), no_plan=why_not)
+    return replace(_answer(request, coarse_plan, watch or Progress(), begun, notes), no_plan=why_not)
 
 
-def planned(asked: ImageRequest, watch: Progress | None = None, known: ImageResult | None = None) -> ImageResult:
+def planned(request: ImageRequest, watch: Progress | None = None, known: ImageResult | None = None) -> ImageResult:
     """Return the picture by a plan that keeps TOLERANCE; raises P2SFError, Cancelled among them.
 
     ``known``: a planned picture of the same optics, whose plan and kernels are this one's too.
     """
     begun, watch = perf_counter(), watch or Progress()
     if known:
-        return _answer(asked, known.plan, watch, begun, plan_notes(known.plan), known.lattice)
-    new_plan = plan(asked.lens, scene_of(asked), planning(watch))
-    return _answer(asked, new_plan, forming(watch), begun, plan_notes(new_plan))
+        return _answer(request, known.plan, watch, begun, plan_notes(known.plan), known.lattice)
+    new_plan = plan(request.lens, scene_of(request), planning(watch))
+    return _answer(request, new_plan, forming(watch), begun, plan_notes(new_plan))
 
 
 def same_optics(one: ImageRequest, two: ImageRequest) -> bool:
-    """Return whether two pictures differ in what is photographed and shown alone."""
+    """Return whether two pictures differ only in what is photographed and shown."""
     return replace(one, photo=two.photo, show=two.show) == two
 
 
 def planning(watch: Progress) -> Callable[[], None]:
-    """Return what a plan calls before each measurement; its share nears PLANNING ever slower, since no end is known."""
+    """Return what a plan calls before each measurement; the share approaches PLANNING, since the end is not known."""
     tell = watch.progress
     steps = Progress(tell and (lambda _: tell(PLANNING * (1 - exp(-steps.done / USUAL_STEPS)))), watch.cancelled)
     return steps.advance
 
 
 def forming(watch: Progress) -> Progress:
-    """Return what watches the picture being formed by a plan that is made."""
+    """Return the progress of forming a picture by a finished plan."""
     tell = watch.progress
     return Progress(tell and (lambda part: tell(PLANNING + (1 - PLANNING) * part)), watch.cancelled)
 
 
 def _answer(
-    asked: ImageRequest, plan: Plan, watch: Progress, begun: float, notes: Notes, lattice: Lattice | None = None
+    request: ImageRequest, plan: Plan, watch: Progress, begun: float, notes: Notes, lattice: Lattice | None = None
 ) -> ImageResult:
-    values = scene_values(asked.photo, (ROWS, COLUMNS))
+    values = scene_values(request.photo, (ROWS, COLUMNS))
     lattice = lattice or plan_lattice(plan, plan.vergences[0], watch)
-    before, after, sharpening = shown(asked.show, plan, values, lattice, watch)
+    before, after, sharpening = shown(request.show, plan, values, lattice, watch)
     count, product = psf_counts(plan)
-    cut = frame_notes(asked.photo, (ROWS, COLUMNS))
+    cut = frame_notes(request.photo, (ROWS, COLUMNS))
     frame = ((Message("Frame"), cut[1]),) if cut else ()
     return ImageResult(
-        question=asked,
+        question=request,
         before=before,
         after=after,
         quality="planned" if plan.decisions else "coarse",
@@ -293,20 +293,20 @@ def axis_kernel(plan: Plan, lattice: Lattice) -> np.ndarray:
     return np.stack([k.at(0.0, 0.0, lattice.half) for k in kernels])
 
 
-def scene_of(asked: ImageRequest) -> Scene:
+def scene_of(request: ImageRequest) -> Scene:
     """Return the scene: one depth, the lens's colours, and a sensor at the field point or over the whole field.
 
     A sensor that would stand out over the lens's field is moved in.
     """
-    channels = channels_of(asked.lens)
-    reach = CORNER * rim_mm(asked.lens, asked.depth_mm, float(channels[1].wavelengths_um[1]))
+    channels = channels_of(request.lens)
+    reach = CORNER * rim_mm(request.lens, request.depth_mm, float(channels[1].wavelengths_um[1]))
     half_um = hypot(ROWS, COLUMNS) / 2
-    if asked.pixel_um is None:
+    if request.pixel_um is None:
         sensor = Sensor(ROWS, COLUMNS, reach * UM_PER_MM / half_um)
     else:
-        room = max(0.0, reach - half_um * asked.pixel_um / UM_PER_MM)
-        sensor = Sensor(ROWS, COLUMNS, asked.pixel_um, (0.0, float(np.clip(asked.centre_mm, -room, room))))
-    return Scene(sensor, channels, asked.depth_mm, asked.depth_mm, TOLERANCE)
+        room = max(0.0, reach - half_um * request.pixel_um / UM_PER_MM)
+        sensor = Sensor(ROWS, COLUMNS, request.pixel_um, (0.0, float(np.clip(request.centre_mm, -room, room))))
+    return Scene(sensor, channels, request.depth_mm, request.depth_mm, TOLERANCE)
 
 
 def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:
@@ -341,10 +341,10 @@ def pixels(values: np.ndarray) -> np.ndarray:
 
 
 def work(
-    make: Callable[[ImageRequest, Progress], ImageResult], asked: ImageRequest
+    make: Callable[[ImageRequest, Progress], ImageResult], request: ImageRequest
 ) -> Callable[[Event, Callable[[float], None]], ImageResult]:
     """Return a worker's job for one way of making the picture."""
-    return lambda cancelled, progress: make(asked, Progress(progress, cancelled.is_set))
+    return lambda cancelled, progress: make(request, Progress(progress, cancelled.is_set))
 
 
 def save_picture(answer: ImageResult, path: str | Path) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from p2sf.psf.metrics import diffraction_mtf, mtf
 from p2sf_explorer.compute.live import Live
 
-INTERVALS = 512  # eight between two frequencies that a window of 128 samples tells apart: lobes are no zigzag
+INTERVALS = 512  # eight between two frequencies that 128 samples resolve, so that lobes are drawn smoothly
 
 
 @dataclass(frozen=True)

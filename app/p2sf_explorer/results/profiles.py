@@ -18,7 +18,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients
 
 POINTS = {"preview": 257, "settled": 513}
-FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # where the two ways to a Bessel function meet: each is exact to 1e-12 there
+FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # two evaluations of Bessel functions meet at FAR, each exact to 1e-12
 MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
 
 
@@ -43,7 +43,7 @@ class ProfileCurves:
 
 
 def profiles(live: Live) -> ProfileCurves:
-    """Return sections finer than the picture's samples: summed at the points themselves once the sliders rest."""
+    """Return sections finer than the picture's samples; summed at the points themselves once the sliders rest."""
     psf = live.psf
     half = (psf.values.shape[-1] // 2) * psf.pixel_um
     position, airy, perfect = airy_curves(POINTS[live.quality], half, live.airy_radius_um)
@@ -64,13 +64,13 @@ def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndar
 def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
     """Return |field|² along x and along y in units of the unaberrated peak; None where no sum describes the picture.
 
-    That is where rays are lost, where the picture is a density of rays, and where a sum would take too long.
+    That is the case where rays are lost, where the picture is ray density, and where a sum would take too long.
     """
     if live.psf.method == "geometric" or live.state.clip:
         return None
     try:
         nodes = seidel_nodes(live) if by_coefficients(live) else fitted_nodes(live)
-    except P2SFError:  # rays are lost: the picture's own samples are what there is
+    except P2SFError:  # rays are lost: only the picture's own samples remain
         return None
     if nodes is None:
         return None

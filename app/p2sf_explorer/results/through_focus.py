@@ -26,9 +26,9 @@ ROOM = 4.0  # Airy radii around the blur
 
 @dataclass(frozen=True)
 class Strip:
-    """What is asked: ``state`` with the sensor unshifted, the shifts in µm to show, and each picture's window.
+    """Everything the strip depends on: ``state`` with the sensor unshifted, shifts in µm, and each picture's window.
 
-    ``less`` is what is to be taken from it, picture by picture.
+    ``less`` is subtracted from it, picture by picture.
     """
 
     state: State
@@ -40,7 +40,7 @@ class Strip:
 
 @dataclass(frozen=True)
 class Focused:
-    """What is shown: (count, pixels, pixels) light per sample over the unaberrated peak; foci as sensor shifts, µm.
+    """The strip: light per sample over the unaberrated peak, (count, pixels, pixels); foci as sensor shifts, µm.
 
     ``light`` is NaN where there is no PSF. ``best``: of smallest RMS wavefront, NaN where there is none.
     """
@@ -52,7 +52,7 @@ class Focused:
 
 
 def strip(live: Live) -> Strip | Message:
-    """Return what to show for the present lens and source; the sensor shift has no part in it, so it stands still.
+    """Return what to show for the present lens and source. The strip does not depend on the sensor shift.
 
     Where moving the sensor does not focus, and every picture would be the same, the reason stands in its place.
     """
@@ -82,42 +82,42 @@ def reach(setup: ParaxialSetup) -> tuple[float, float, float]:
     return float(low), float(high), blur + ROOM * float(airy_radius_um(setup.source.wavelength_um, na))
 
 
-def answer(asked: Strip, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Focused:
-    """Return the strip, ``tell`` of every picture as it is made (share done, the strip so far)."""
-    found = Focused(np.full((len(asked.shifts_um), asked.window[0], asked.window[0]), np.nan), *foci(asked))
-    for number in outwards(len(asked.shifts_um)):
+def answer(request: Strip, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Focused:
+    """Return the strip; ``tell(share done, strip so far)`` is called after every picture."""
+    found = Focused(np.full((len(request.shifts_um), request.window[0], request.window[0]), np.nan), *foci(request))
+    for number in outwards(len(request.shifts_um)):
         if stopped():
             break
-        shift = asked.shifts_um[number]
-        found.light[number] = light(shift, asked) - (light(shift, asked.less) if asked.less else 0.0)
-        tell((number + 1) / len(asked.shifts_um), found)
+        shift = request.shifts_um[number]
+        found.light[number] = light(shift, request) - (light(shift, request.less) if request.less else 0.0)
+        tell((number + 1) / len(request.shifts_um), found)
     return found
 
 
-def light(shift_um: float, asked: Strip) -> np.ndarray:
+def light(shift_um: float, request: Strip) -> np.ndarray:
     """Return the light per sample of one position, in units of the unaberrated peak; NaN where there is no PSF."""
     try:
-        psf = in_window(replace(asked.state, sensor_shift_um=shift_um), asked.window, asked.six)
-    except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip says as much
-        return np.full((asked.window[0],) * 2, np.nan)
+        psf = in_window(replace(request.state, sensor_shift_um=shift_um), request.window, request.six)
+    except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip
+        return np.full((request.window[0],) * 2, np.nan)
     peak = float(psf.values.max()) or 1.0
     return psf.values * (float(psf.strehl or 0.0) / peak)
 
 
 def outwards(count: int) -> list[int]:
-    """Return the numbers from the middle outwards, so that what matters is there first."""
+    """Return the numbers from the middle outwards, so that what matters most comes first."""
     return sorted(range(count), key=lambda number: abs(number - count // 2))
 
 
-def foci(asked: Strip) -> tuple[float, float, float]:
+def foci(request: Strip) -> tuple[float, float, float]:
     """Return sagittal, tangential and best focus as sensor shifts, µm: of the six coefficients or of exact rays."""
-    setup = paraxial_setup(asked.state)
-    if asked.six:
+    setup = paraxial_setup(request.state)
+    if request.six:
         near = seidel_foci(setup.coefficients)
     else:
         near = real_foci(setup.lens, setup.source, setup.source.field_slope, setup.stop)
     try:
-        best = best_shift_um(replace(asked.state, method="seidel" if asked.six else "fitted"))
+        best = best_shift_um(replace(request.state, method="seidel" if request.six else "fitted"))
     except P2SFError:
         best = np.nan
     return 1e3 * float(near.sagittal), 1e3 * float(near.tangential), best

@@ -1,4 +1,4 @@
-"""Measures every settled picture against the Huygens reference in the background, and tells the panels."""
+"""Measures every settled picture against the Huygens reference in the background, for the panels that show it."""
 
 from typing import Any
 
@@ -26,11 +26,11 @@ class LiveAccuracy(QObject):
         self.worker.progressed.connect(self._on_progress)
 
     def rest(self, resting: bool) -> None:
-        """Measure nothing for a while: the pictures are for a film."""
+        """Measure nothing while ``resting``: the pictures are for a film."""
         self._resting = resting
 
     def watch(self, live: Live) -> None:
-        """Measure a settled answer that stands in for no other; show an earlier figure in grey meanwhile."""
+        """Measure a settled answer unless its own sum is pending; show an earlier figure in grey meanwhile."""
         if not self._enabled or self._resting or live.quality != "settled" or live.pending:
             return
         if live.setup.altered:
@@ -43,7 +43,7 @@ class LiveAccuracy(QObject):
         self.worker.submit(live, lambda cancelled, progress: measure(live, every_method, cancelled, progress))
 
     def _refuse_altered(self, live: Live) -> None:
-        """Show no figure: what was measured is the lens, and this picture is not the lens's."""
+        """Show no figure: the reference is the lens's, and this picture is not."""
         self.worker.cancel()
         self._window.panels["psf"].show_badge(live, None, False)
         self._each("show_failure", Message(NO_REFERENCE))

@@ -127,7 +127,7 @@ def test_the_map_is_the_psf_turned_towards_each_field(window, qtbot):
     top, bottom = found[0, 4], found[2, 4]
     assert bottom[1:, 1:] == pytest.approx(top[1:, 1:][::-1, ::-1], abs=1e-4), "turned by 180°"
     right = found[1, 8]
-    own = field_map.one(asked, float(field_map.places()[1, 8, 0]))
+    own = field_map.picture_at(asked, float(field_map.places()[1, 8, 0]))
     assert right[1:, 1:] == pytest.approx(own.T[1:, 1:], abs=1e-4), "+y points to the right"
     assert (found.max((2, 3)) > 0.5).all()
 
@@ -201,7 +201,7 @@ def test_the_top_of_the_map_is_the_field_that_lands_there():
         one = replace(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
         values = in_window(one, question.window, True).values
         lands[float(paraxial_setup(one).coefficients.image_height) > 0] = values / values.max()
-    shown = field_map.one(question, 1.0)
+    shown = field_map.picture_at(question, 1.0)
     assert shown[1:, 1:] == pytest.approx(lands[True][1:, 1:], abs=1e-4)
     assert np.abs(shown - lands[False]).max() > 0.1, "coma tells the two apart"
 
