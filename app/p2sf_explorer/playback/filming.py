@@ -7,6 +7,7 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
 from p2sf.errors import P2SFError
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.playback.film import FilmFrame, Reel, check_film, write_film
 from p2sf_explorer.playback.sweep import changes, sweep
@@ -33,7 +34,7 @@ class Filming(QObject):
         super().__init__(window)
         self._window, self._worker = window, LatestWins(self)
         self._worker.finished.connect(lambda key, paths: self._end(self._written(paths)))
-        self._worker.failed.connect(lambda key, sentence: self._end(sentence))
+        self._worker.failed.connect(lambda key, message: self._end(said(message)))
         self._timer = QTimer(self)
         self._timer.timeout.connect(self._next)
         self._reel, self._number, self._shown = Reel(), 0, False

@@ -46,7 +46,7 @@ def described(heading: str, read: ImportReport) -> Report:
         "{path} · {format} · {encoding}",
         path=read.path,
         format=Message(read.format),
-        encoding=Message(read.encoding),
+        encoding=read.encoding,
     )
     return Report(heading, source, tuple((title, sentences) for title, sentences in groups if sentences))
 

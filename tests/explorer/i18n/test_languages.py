@@ -15,6 +15,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.i18n import language as languages
 from p2sf_explorer.i18n.language import FOLDER, JOINTS, Translation, current_language, set_language, template, texts
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.messages import spoken as in_the_windows_words
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
@@ -241,8 +242,8 @@ def test_oddities_of_a_lens_are_said_in_german(only_window):
     nothing = "Every medium of this lens has the index 1, so no surface bends light; name its glasses."
     set_language("de")
     try:
-        for sentence in live(with_lens(State(), "relay")).warnings:
-            assert is_german(tr(sentence)) and tr(sentence) != sentence, sentence
+        for warning in live(with_lens(State(), "relay")).warnings:
+            assert is_german(said(warning)) and said(warning) != str(warning), warning
         assert "8 mm enden; abblenden" in tr(stop + "stop the lens down or move the stop.")
         assert "den Brechungsindex 1, also" in tr(nothing)
     finally:

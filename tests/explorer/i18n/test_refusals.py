@@ -2,12 +2,15 @@
 
 import ast
 import re
+from math import inf
 from pathlib import Path
 
 import pytest
 
+from p2sf.messages import Message
 from p2sf_explorer.i18n.language import Translation
 from p2sf_explorer.i18n.messages import spoken
+from p2sf_explorer.i18n.tr import unbroken
 
 ROOT = Path(__file__).parents[3]
 RAISING = re.compile(r"Error$|^(fault|emit|fail|error|_fault|_error)$")
@@ -113,17 +116,18 @@ def test_what_is_no_refusal_is_left_alone():
 def test_panels_that_work_behind_the_slider_refuse_in_the_windows_words(window):
     """As the banner does: ∞ for inf, and a capital in front."""
     rest = "away blur over 6 mm, which takes 7000² samples of 4096² at most; bring the depths nearer to the focus"
-    raw, words = f"points inf mm {rest} or stop down", f"Points ∞ {rest} or stop down"
+    raw = Message(f"points {{depth:g}} mm {rest} or stop down", depth=inf)
+    words = unbroken(f"Points ∞ mm {rest} or stop down")
     window.store.update(tab="field_map")
     asking = window.panels["field_map"].asking
     asking.refuse(raw)
-    assert window.panels["field_map"].widget.readout.text() == words
+    assert unbroken(window.panels["field_map"].widget.readout.text()) == words
     window.store.update(field_deg=1.0)
     asking.worker.failed.emit(asking.asked, raw)
-    assert window.panels["field_map"].widget.readout.text() == words
+    assert unbroken(window.panels["field_map"].widget.readout.text()) == words
     window.store.update(tab="database")
     window.panels["database"].worker.failed.emit(None, raw)
-    assert window.panels["database"].note.text() == words
+    assert unbroken(window.panels["database"].note.text()) == words
     window.store.update(tab="accuracy")
     window.measuring.worker.failed.emit(None, raw)
-    assert words in window.panels["accuracy"].message.text()
+    assert words in unbroken(window.panels["accuracy"].message.text())
