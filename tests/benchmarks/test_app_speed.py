@@ -30,12 +30,12 @@ def window(qapp):
     qapp.setStyle("Fusion")
     configure_plots()
     with threadpool_limits(1):
-        made = MainWindow(State(theme="light", method="seidel"), measured=False)
-        made.resize(1440, 900)
-        made.show()
+        window = MainWindow(State(theme="light", method="seidel"), measured=False)
+        window.resize(1440, 900)
+        window.show()
         qapp.processEvents()
-        yield made
-        made.close()
+        yield window
+        window.close()
 
 
 @pytest.mark.parametrize("method", ["seidel", "auto"])
@@ -93,9 +93,9 @@ start = perf_counter()
 from PySide6.QtWidgets import QApplication
 application = QApplication([])
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.shell.window import Window
+from p2sf_explorer.shell.window import MainWindow
 configure_plots()
-window = Window()
+window = MainWindow()
 window.show()
 application.processEvents()
 window.grab()

@@ -27,12 +27,12 @@ def window(qapp):
     qapp.setStyle("Fusion")
     configure_plots()
     with threadpool_limits(1):
-        made = MainWindow(State(theme="light", tab="lens"), measured=False)
-        made.resize(1440, 900)
-        made.show()
+        window = MainWindow(State(theme="light", tab="lens"), measured=False)
+        window.resize(1440, 900)
+        window.show()
         qapp.processEvents()
-        yield made
-        made.close()
+        yield window
+        window.close()
 
 
 @pytest.mark.parametrize("method", ["seidel", "auto"])

@@ -1,4 +1,4 @@
-"""How fast exact rays and the ladder are: run with `pytest tests/benchmarks/test_rays_speed.py --benchmark-only -s`.
+"""How fast exact rays and every method are: run with `pytest tests/benchmarks/test_rays_speed.py --benchmark-only -s`.
 
 Double Gauss f/3 at 14°, 656.27 nm, the witness's indices, one BLAS thread. Every row prints its R² against the
 converged reference at those very settings; settled settings have rows of their own. Medians of CPU time count,
@@ -54,8 +54,8 @@ def report(benchmark, capsys, limit_ms: float | None, work, score: str = ""):
 
 
 def against(psf, reference) -> str:
-    made = f"{psf.sampling}, {psf.numbers} numbers, {psf.rays} rays"
-    return f"; 1 − R² = {1 - r_squared(psf.values, reference):.1e} ({made})"
+    how = f"{psf.sampling}, {psf.numbers} numbers, {psf.rays} rays"
+    return f"; 1 − R² = {1 - r_squared(psf.values, reference):.1e} ({how})"
 
 
 @pytest.fixture(scope="module")

@@ -41,7 +41,7 @@ def least_difference(name: str, matrix, cyclic: bool) -> float:
 
 @pytest.mark.parametrize("vision", BLIND)
 @pytest.mark.parametrize("name", [*BRIGHTNESS.values(), pupil.WAVES_MAP, pupil.WRAPPED_MAP, WAVES_MAP])
-def test_values_a_fifth_of_the_scale_apart_differ_to_every_eye(name, vision):
+def test_values_a_fifth_of_the_scale_apart_differ_for_everybody(name, vision):
     assert least_difference(name, BLIND[vision], name == pupil.WRAPPED_MAP) > ENOUGH
 
 
@@ -51,7 +51,7 @@ def test_a_map_that_red_green_blind_eyes_cannot_read_would_be_found():
 
 @pytest.mark.parametrize("vision", BLIND)
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
-def test_the_colours_of_curves_differ_to_every_eye_and_from_the_card(theme, vision):
+def test_the_colours_of_curves_differ_for_everybody_and_from_the_card(theme, vision):
     """The energy's is none of those that mean along x and along y beside it."""
     coded = np.array([QColor(c).getRgbF()[:3] for c in (theme.marginal, theme.chief, theme.third, theme.card)])
     linear = np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)

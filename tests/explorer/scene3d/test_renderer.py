@@ -35,9 +35,9 @@ def renderer():
     made.close()
 
 
-def shown(renderer, eye=SIDE, **changes) -> np.ndarray:
+def shown(renderer, camera=SIDE, **changes) -> np.ndarray:
     renderer.follow(scene_at(**changes), LIGHT, MAPS)
-    renderer.look(eye)
+    renderer.look(camera)
     return renderer.picture()[..., :3].astype(int)
 
 
@@ -73,7 +73,7 @@ def test_the_scene_is_written_and_read_by_others(renderer, tmp_path):
     renderer.save(str(tmp_path / "lens.obj"))
     document = json.loads((tmp_path / "lens.gltf").read_text())
     assert document["asset"]["version"] == "2.0"
-    assert len(document["meshes"]) == len(scene_at().glass) + 5  # and stop, sensor, rays, wavefront, relief
+    assert len(document["meshes"]) == len(scene_at().glass) + 5  # and stop, sensor, rays, wavefront, PSF
     corners = [line for line in (tmp_path / "lens.obj").read_text().splitlines() if line.startswith("v ")]
     assert len(corners) > 10_000
     with pytest.raises(P2SFError, match=r"\.stl.*gltf or \.obj"):

@@ -42,7 +42,7 @@ def test_a_heat_map_is_copied_as_a_grid_with_its_places(window):
 
 @pytest.mark.parametrize("scale", ["sqrt", "log"])
 def test_what_is_copied_is_light_and_not_brightness(window, scale):
-    """The root or logarithm that a map is shown by is for the eye; the numbers are the PSF's, in the bar's units."""
+    """A map is shown by root or logarithm; the numbers copied are the PSF's, in the bar's units."""
     window.store.update(psf_scale=scale, psf_units="sum", tab="beside", phase="contour")
     psf, maps = window.live.psf, window.panels["beside"].maps
     rows, grid = grid_of(window.panels["psf"].map)
