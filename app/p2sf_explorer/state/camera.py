@@ -7,7 +7,7 @@ from p2sf_explorer.state.limits import RANGES
 
 @dataclass(frozen=True)
 class Camera:
-    """Turn about the vertical and tilt in degrees, and how near: 1 shows the whole scene."""
+    """Turn about the vertical and tilt in degrees, and the enlargement ``near``: 1 shows the whole scene."""
 
     turn: float = 24.0
     tilt: float = 11.0
@@ -17,13 +17,13 @@ class Camera:
 CAMERA = Camera()
 
 
-def turned(eye: Camera, turn: float, tilt: float) -> Camera:
-    """Return the eye moved around by some degrees; it never tilts over the top."""
+def turned(camera: Camera, turn: float, tilt: float) -> Camera:
+    """Return the camera moved around the scene by some degrees; it never tilts over the top."""
     low, high = RANGES["eye_tilt_deg"][:2]
-    return replace(eye, turn=(eye.turn + turn + 180) % 360 - 180, tilt=min(high, max(low, eye.tilt + tilt)))
+    return replace(camera, turn=(camera.turn + turn + 180) % 360 - 180, tilt=min(high, max(low, camera.tilt + tilt)))
 
 
-def nearer(eye: Camera, factor: float) -> Camera:
-    """Return the eye so many times nearer, within the state's limits."""
+def nearer(camera: Camera, factor: float) -> Camera:
+    """Return the camera moved nearer by a factor, within the limits of the state."""
     low, high = RANGES["eye_near"][:2]
-    return replace(eye, near=min(high, max(low, factor * eye.near)))
+    return replace(camera, near=min(high, max(low, factor * camera.near)))

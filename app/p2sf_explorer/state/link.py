@@ -18,7 +18,10 @@ def is_link(text: str) -> bool:
 
 
 def link(state: State) -> str:
-    """Return the state as text: what differs from the default, as JSON, deflated, in URL-safe base 64 (RFC 4648)."""
+    """Return the state as text: the entries that differ from the default, as deflated JSON in URL-safe base 64.
+
+    The alphabet is that of RFC 4648, section 5, without padding.
+    """
     plain = json.dumps({"version": VERSION, "state": shortened(state)}, separators=(",", ":"))
     return PREFIX + urlsafe_b64encode(zlib.compress(plain.encode(), 9)).decode().rstrip("=")
 
@@ -34,11 +37,15 @@ def state_of_link(text: str) -> State:
     if not isinstance(document, dict) or not isinstance(document.get("state"), dict):
         raise P2SFError("the link holds no state of the explorer; copy it again from the explorer")
     if document.get("version") != VERSION:
-        raise P2SFError(f"the link has version {document.get('version')}; this program reads version {VERSION}")
+        raise P2SFError(
+            "the link has version {found}; this program reads version {version}",
+            found=str(document.get("version")),
+            version=VERSION,
+        )
     return state_from_dict(document["state"])
 
 
-def shortened(state: State) -> dict:
+def shortened(state: State) -> dict[str, object]:
     """Return the entries that differ from the default state, as plain JSON values."""
     usual = state_to_dict(State())
     short = {name: value for name, value in state_to_dict(state).items() if value != usual[name]}
@@ -46,7 +53,7 @@ def shortened(state: State) -> dict:
 
 
 def unpacked(packed: bytes) -> bytes:
-    """Return deflated bytes, no more than `LARGEST`: a short text must not fill the memory. Raises zlib.error."""
+    """Return inflated bytes, at most `LARGEST` of them: a short text must not fill the memory. Raises zlib.error."""
     inflating = zlib.decompressobj()
     plain = inflating.decompress(packed, LARGEST)
     if not inflating.eof:

@@ -1,4 +1,4 @@
-"""How a slider's travel, 0 to 1, maps to a quantity, and how quantities are written and read. No Qt in here."""
+"""How the travel of a slider, 0 to 1, maps to a quantity, and how quantities are written and read. No Qt in here."""
 
 import re
 from collections.abc import Mapping
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import ceil, exp, floor, inf, isfinite, isinf, log, log10
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 
 INFINITE = ("∞", "inf", "infinity")
 MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
@@ -82,14 +83,14 @@ def written_distance(mm: float) -> str:
 
 
 def short_distance(mm: float, digits: int = 3) -> str:
-    """Return a distance for a tick: so many digits at most, no needless zeros."""
+    """Return a distance for a tick, with at most ``digits`` significant digits and no trailing zeros."""
     if isinf(mm):
         return "∞"
     return f"{mm / 1000:.{digits}g} m" if mm >= 1000 else f"{mm:.{digits}g} mm"
 
 
 def told_apart(distances_mm: list[float]) -> list[str]:
-    """Return distances for ticks with as many digits as tell all of them apart, three at least and seven at most."""
+    """Return the texts of distances for ticks, with three to seven digits: as few as tell all of them apart."""
     for digits in range(3, 8):
         words = [short_distance(mm, digits) for mm in distances_mm]
         if len(set(words)) == len(words):
@@ -98,7 +99,7 @@ def told_apart(distances_mm: list[float]) -> list[str]:
 
 
 def significant(value: float, digits: int) -> str:
-    """Return a number with so many digits and no exponent, as tables want it."""
+    """Return a number with a number of significant digits and no exponent, as tables want it."""
     if value == 0 or not isfinite(value):
         return f"{value:g}"
     places = max(0, digits - 1 - floor(log10(abs(value))))
@@ -112,14 +113,14 @@ def signed(value: float, places: int) -> str:
 
 
 def written_r_squared(value: float) -> str:
-    """Return R² with as many digits as keep 1 − R² readable; what rounds to one is said to be above."""
+    """Return R² with enough digits to keep 1 − R² readable; what would round to one is written as "> 0.9999"."""
     if value > 0.9999:
         return "> 0.9999"
     return f"{value:.4f}" if value > 0.99 else f"{value:.3f}".replace("-", "−")
 
 
-def ticks(low: float, high: float, most: float):
-    """Return round places between two values, some ``most`` of them, with their words; never zero alone."""
+def ticks(low: float, high: float, most: float) -> list[tuple[float, str]]:
+    """Return about ``most`` round values between two others, each with its text; never zero alone."""
     step = nice((high - low) / max(2.0, most))
     counts = _multiples(step, low, high)
     if len(counts) < 2:
@@ -143,7 +144,7 @@ def read_distance(text: str) -> float:
     number = plain.rstrip("abcdefghijklmnopqrstuvwxyzµ ")
     unit = plain[len(number) :].strip()
     if unit not in MM_PER_UNIT:
-        raise P2SFError(f'the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞')
+        raise P2SFError('the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞', text=text)
     return read_number(number, "distance") * MM_PER_UNIT[unit]
 
 
@@ -153,17 +154,27 @@ def read_f_number(text: str) -> float:
 
 
 def read_number(text: str, words: str, units: Mapping[str, float] = NO_UNIT) -> float:
-    """Return the number a person typed in the quantity's own unit; true minus and decimal comma allowed.
+    """Return the number that a person typed, in the quantity's own unit; a true minus and a decimal comma may be used.
 
-    ``units`` says what may stand behind the number and what it multiplies by. P2SFError for anything else.
+    ``words`` name the quantity in English; ``units`` are the units that may follow the number, with their factors.
+    Anything else raises P2SFError.
     """
     plain = text.strip().replace("−", "-").replace(",", ".").lower()
     found = NUMBER.fullmatch(plain)
     value, unit = (float(found[1]), found[2]) if found else (inf, "")
     if isinf(value):
-        raise P2SFError(f'the {words} "{text.strip()}" is not a number; write one such as 12.5')
+        raise P2SFError(
+            'the {quantity} "{text}" is not a number; write one such as 12.5',
+            quantity=Message(words),
+            text=text.strip(),
+        )
     if unit not in units:
-        known = ", ".join(name for name in units if name)
-        remedy = f"write {known} or no unit" if known else "write the number alone"
-        raise P2SFError(f'the {words} "{text.strip()}" has the unit "{unit}"; {remedy}')
+        known = tuple(name for name in units if name)
+        raise P2SFError(
+            'the {quantity} "{text}" has the unit "{unit}"; {remedy}',
+            quantity=Message(words),
+            text=text.strip(),
+            unit=unit,
+            remedy=Message("write {units} or no unit", units=known) if known else Message("write the number alone"),
+        )
     return value * units[unit]

@@ -1,35 +1,40 @@
 """Everything the window shows, as one frozen value that goes to JSON and back. No Qt in here."""
 
 import json
+import os
 from dataclasses import dataclass, fields, replace
-from math import inf, isfinite
+from math import inf
 from pathlib import Path
+from typing import Any
 
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.state.limits import CHOICES, KINDS, LINKABLE, MOST_WAVES, OPTIONAL, PLAIN, PLAYABLE, RANGES
 from p2sf_explorer.state.terms import TERMS
 
 SCHEMA = "p2sf-explorer-state"
+THE_STATE = Message("the state")
 VERSION = 1
-TELLABLE, TOLD = 10**300, 60  # a whole number that a float can still hold; letters of what is none
+LARGEST_SHOWN = 10**300  # above, a whole number does not fit a float and is quoted as text
+MOST_LETTERS = 60  # of a value that is quoted
 
 
 @dataclass(frozen=True)
 class State:
-    """The whole setup; ``focus_mm`` and ``f_number`` None mean: as the lens file has it.
+    """The whole setup of the window; ``focus_mm`` and ``f_number`` are None where the lens file's value holds.
 
-    ``lens_text`` is the TOML text of a lens edited in the window, None while it is as ``lens`` names it.
-    ``windows`` names the panels that stand in windows of their own. ``pixel_um`` is a sensor's pixel, ``blur_um`` the
-    blur's diameter still called sharp, ``spectrum`` the colour PSF's light (`p2sf.colour.spectrum`).
-    What if: ``added_waves`` on top of the lens's own six coefficients (`TERMS` in order), or alone in a
-    ``free_pupil``; ``muted`` terms count as zero, and with any ``solo`` all others do. Compare: ``pinned`` is the
-    setup B, ``shown`` which of the two is on screen, ``linked`` what moves both. ``play`` is the slider that is
-    swept, over ``play_range`` (None: all of its travel) in ``play_seconds``.
-    ``photo`` is a chart's name or a file, ``photo_pixel_um`` None shows the lens's whole field. ``lesson`` is the one
-    under way, none for "", and ``lesson_told`` whether its step's answer is shown. ``language`` is a file of
-    ``i18n/languages``, "en", or the system's; ``colours`` the heat maps'; ``eye_`` says where the 3D view is seen from,
-    ``relief_`` where the wavefront's surface is.
+    ``lens_text`` is the TOML text of a lens edited in the window, None while the lens is as ``lens`` names it.
+    ``windows`` names the panels that stand in windows of their own. ``pixel_um`` is the pixel of a sensor, ``blur_um``
+    the diameter of blur that still counts as sharp, ``spectrum`` the light of the colour PSF
+    (`p2sf.colour.spectrum`). What-if: ``added_waves`` are added to the lens's own six coefficients (in the order of
+    `TERMS`), or stand alone in a ``free_pupil``; ``muted`` terms count as zero, and with any ``solo`` all others do.
+    Compare: ``pinned`` is the setup B, ``shown`` the side that is on screen, ``linked`` the entries that change in both.
+    ``play`` is the slider that is swept, over ``play_range`` (None: all of its travel) in ``play_seconds``.
+    ``photo`` is the name of a chart or a file; ``photo_pixel_um`` None shows the whole field of the lens. ``lesson`` is
+    the one under way, "" for none; ``lesson_told`` says whether the answer of its step is shown. ``language`` is a file
+    of ``i18n/languages``, "en", or "system"; ``colours`` are those of the heat maps. ``eye_`` entries place the camera
+    of the 3D view, ``relief_`` entries that of the wavefront's surface.
     """
 
     lens: str = "double_gauss_28"
@@ -78,12 +83,17 @@ class State:
     relief_turn_deg: float = -30.0
     relief_tilt_deg: float = 35.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name, (low, high, words, unit) in RANGES.items():
             _check_number(getattr(self, name), name, (low, high), words, unit)
         for name, allowed in CHOICES.items():
             if getattr(self, name) not in allowed:
-                raise P2SFError(f'{name} is "{getattr(self, name)}"; choose one of {", ".join(allowed)}')
+                raise P2SFError(
+                    '{name} is "{value}"; choose one of {choices}',
+                    name=name,
+                    value=str(getattr(self, name)),
+                    choices=allowed,
+                )
         if not isinstance(self.lens, str) or not self.lens:
             raise P2SFError("the state names no lens; give the name of a shipped lens or a path")
         if not isinstance(self.lens_text, str | None):
@@ -94,7 +104,9 @@ class State:
             raise P2SFError("the state's clip must be true or false, and its tab a panel's name; correct them")
         for name, kind in PLAIN.items():
             if type(getattr(self, name)) is not kind:
-                raise P2SFError(f"{name} is {getattr(self, name)!r}; give {KINDS[kind]}")
+                raise P2SFError(
+                    "{name} is {value}; give {kind}", name=name, value=repr(getattr(self, name)), kind=KINDS[kind]
+                )
         object.__setattr__(self, "windows", _names(self.windows))
         spectrum_of(self.spectrum)
         _check_what_if(self)
@@ -105,18 +117,28 @@ class State:
 def _check_what_if(state: State) -> None:
     waves = state.added_waves
     if not isinstance(waves, tuple) or len(waves) != len(TERMS):
-        raise P2SFError(f"the added waves are {waves!r}; give {len(TERMS)} numbers, for {', '.join(TERMS)}")
+        raise P2SFError(
+            "the added waves are {waves}; give {count} numbers, for {terms}",
+            waves=repr(waves),
+            count=len(TERMS),
+            terms=TERMS,
+        )
     for term, value in zip(TERMS, waves, strict=True):
-        _check_number(value, term, (-MOST_WAVES, MOST_WAVES), f"what is added to {term}", "λ")
+        _check_number(value, term, (-MOST_WAVES, MOST_WAVES), Message("what is added to {term}", term=term), "λ")
     for name in ("muted", "solo"):
         _check_names(getattr(state, name), name, TERMS)
     if not isinstance(state.free_pupil, bool):
-        raise P2SFError(f"free_pupil is {state.free_pupil!r}; give true or false")
+        raise P2SFError("free_pupil is {value}; give true or false", value=repr(state.free_pupil))
 
 
-def _check_names(found, name: str, allowed: tuple[str, ...]) -> None:
+def _check_names(found: object, name: str, allowed: tuple[str, ...]) -> None:
     if not isinstance(found, tuple) or [item for item in allowed if item in found] != list(found):
-        raise P2SFError(f"{name} is {found!r}; list some of {', '.join(allowed)}, each once and in this order")
+        raise P2SFError(
+            "{name} is {value}; list some of {allowed}, each once and in this order",
+            name=name,
+            value=repr(found),
+            allowed=allowed,
+        )
 
 
 def _check_pinned(state: State) -> None:
@@ -124,47 +146,60 @@ def _check_pinned(state: State) -> None:
     if not isinstance(state.pinned, State | None) or (state.pinned and state.pinned.pinned):
         raise P2SFError("what is pinned as B must be one state with nothing pinned in it; pin it again")
     if state.shown != "a" and not state.pinned:
-        raise P2SFError(f'shown is "{state.shown}" and nothing is pinned as B; pin a state first (Ctrl+B)')
+        raise P2SFError('shown is "{side}" and nothing is pinned as B; pin a state first (Ctrl+B)', side=state.shown)
 
 
 def _check_play(state: State) -> None:
     if state.play not in PLAYABLE:
-        raise P2SFError(f'play is "{state.play}"; name a slider: {", ".join(PLAYABLE[1:])}')
+        raise P2SFError('play is "{name}"; name a slider: {sliders}', name=str(state.play), sliders=PLAYABLE[1:])
     if state.play_range is None:
         return
     if not isinstance(state.play_range, tuple) or len(state.play_range) != 2:
-        raise P2SFError(f"the range to play is {state.play_range!r}; give where it begins and where it ends")
-    low, high, words, unit = RANGES.get(state.play, (-MOST_WAVES, MOST_WAVES, "an end of the sweep", "λ"))
+        raise P2SFError(
+            "the range to play is {value}; give where it begins and where it ends", value=repr(state.play_range)
+        )
+    low, high, words, unit = RANGES.get(state.play, (-MOST_WAVES, MOST_WAVES, Message("an end of the sweep"), "λ"))
     for value in state.play_range:
         _check_number(value, "play_range", (low, high), words, unit)
 
 
-def _check_number(value, name: str, limits: tuple[float, float], words: str, unit: str) -> None:
+def _check_number(value: object, name: str, limits: tuple[float, float], words: Message, unit: str) -> None:
     if value is None and name in OPTIONAL:
         return
     low, high = limits
-    number = isinstance(value, int | float) and not isinstance(value, bool) and value == value
-    if not number or not low <= value <= high:
-        shown = f"{value:g}" if number and (isinstance(value, float) or abs(value) < TELLABLE) else repr(value)[:TOLD]
-        gap = "" if unit == "°" else " "
-        raise P2SFError(
-            f"{words} is {shown}{gap}{unit}".rstrip() + f"; give a number from {low:g} to {high:g}{gap}{unit}".rstrip()
-        )
+    if isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high:  # false for NaN
+        return
+    raise P2SFError(
+        "{quantity} is {value}{unit}; give a number from {low:g} to {high:g}{unit}",
+        quantity=words,
+        value=_quoted(value),
+        low=low,
+        high=high,
+        unit=unit if unit in ("", "°") else f" {unit}",
+    )
 
 
-def _names(value) -> tuple[str, ...]:
+def _quoted(value: object) -> object:
+    """Return a value for a message: a number as one, anything else, or NaN, as a short text."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        if isinstance(value, float) or abs(value) < LARGEST_SHOWN:
+            return Message("{value:g}", value=value)
+    return repr(value)[:MOST_LETTERS]
+
+
+def _names(value: object) -> tuple[str, ...]:
     """Return the names of panels as a tuple, which a file's list becomes."""
     if not isinstance(value, list | tuple) or not all(isinstance(name, str) for name in value):
         raise P2SFError("the state's windows must be a list of panels' names; correct it or leave it out")
     return tuple(value)
 
 
-def state_to_dict(state: State) -> dict:
+def state_to_dict(state: State) -> dict[str, object]:
     """Return the state as plain JSON values; infinity is written "inf"."""
     return {field.name: _plain(getattr(state, field.name)) for field in fields(state)}
 
 
-def _plain(value):
+def _plain(value: object) -> object:
     if isinstance(value, State):
         return state_to_dict(value)
     if isinstance(value, tuple):
@@ -172,7 +207,7 @@ def _plain(value):
     return "inf" if value == inf else value
 
 
-def _read(name: str, value):
+def _read(name: str, value: Any) -> Any:
     if isinstance(value, list):
         return tuple(_read("", item) for item in value)
     if name == "pinned" and isinstance(value, dict):
@@ -180,7 +215,7 @@ def _read(name: str, value):
     return inf if value == "inf" else value
 
 
-def state_from_dict(values: dict) -> State:
+def state_from_dict(values: dict[str, Any]) -> State:
     """Return the state of plain JSON values, defaults for what is absent; P2SFError for anything else."""
     pinned = values.get("pinned")
     if isinstance(pinned, dict) and pinned.get("pinned"):
@@ -188,47 +223,56 @@ def state_from_dict(values: dict) -> State:
     known = {field.name for field in fields(State)}
     unknown = sorted(set(values) - known)
     if unknown:
-        raise P2SFError(f'the state has an unknown entry "{unknown[0]}"; known are {", ".join(sorted(known))}')
+        raise P2SFError(
+            'the state has an unknown entry "{entry}"; known are {known}', entry=unknown[0], known=tuple(sorted(known))
+        )
     try:
         return replace(State(), **{name: _read(name, value) for name, value in values.items()})
     except RecursionError:  # lists in lists, as deep as JSON was read just so
         raise P2SFError("the state's lists are nested too deep; save it again from the explorer") from None
 
 
-def state_to_json(state: State, **extra) -> str:
-    """Return a state file's text; ``extra`` (versions, what was exported) is kept beside and not read back."""
+def state_to_json(state: State, **extra: object) -> str:
+    """Return the text of a state file; ``extra`` entries, such as versions, are written and not read back."""
     document = {"schema": SCHEMA, "version": VERSION, **extra, "state": state_to_dict(state)}
     return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def state_from_json(text: str, where: str = "the state") -> State:
-    """Return the state of a state file's text; P2SFError says what is wrong and where."""
+def state_from_json(text: str, where: str | Message = THE_STATE) -> State:
+    """Return the state of a state file's text; P2SFError says what is wrong and ``where``."""
     try:
         document = json.loads(text)
     except json.JSONDecodeError as error:
-        raise P2SFError(f"{where}, line {error.lineno}: not JSON ({error.msg}); correct it or save it again") from None
+        raise P2SFError(
+            "{where}, line {line}: not JSON ({why}); correct it or save it again",
+            where=where,
+            line=error.lineno,
+            why=error.msg,
+        ) from None
     except (ValueError, RecursionError):
-        raise P2SFError(f"{where} is nested too deep or holds too long a number; save it again") from None
+        raise P2SFError("{where} is nested too deep or holds too long a number; save it again", where=where) from None
     if (
         not isinstance(document, dict)
         or document.get("schema") != SCHEMA
         or not isinstance(document.get("state"), dict)
     ):
-        raise P2SFError(f"{where} is not a state of the explorer; give a .json the explorer has written")
+        raise P2SFError("{where} is not a state of the explorer; give a .json the explorer has written", where=where)
     if document.get("version") != VERSION:
-        raise P2SFError(f"{where} has version {document.get('version')}; this program reads version {VERSION}")
+        raise P2SFError(
+            "{where} has version {found}; this program reads version {version}",
+            where=where,
+            found=str(document.get("version")),
+            version=VERSION,
+        )
     return state_from_dict(document["state"])
 
 
-def read_state(path) -> State:
+def read_state(path: str | os.PathLike[str]) -> State:
     """Return the state saved at ``path``; P2SFError when it cannot be read."""
     try:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise P2SFError(f"{path} cannot be read ({type(error).__name__}); give a state file that exists") from None
+        raise P2SFError(
+            "{path} cannot be read ({why}); give a state file that exists", path=str(path), why=type(error).__name__
+        ) from None
     return state_from_json(text, str(path))
-
-
-def is_finite_depth(state: State) -> bool:
-    """Return whether the source stands at a finite distance."""
-    return isfinite(state.depth_mm)

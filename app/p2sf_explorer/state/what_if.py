@@ -1,16 +1,20 @@
-"""What if a coefficient were another: waves added by hand, terms muted or heard alone, a pupil without lens. No Qt."""
+"""What-if changes of the coefficients: waves added by hand, terms muted or soloed, a pupil without a lens. No Qt."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from p2sf.errors import GeometryError
+from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import TERMS
 
 NOTE = "what-if: coefficients altered by hand"
 SHORT_NOTE = "what-if: altered by hand"
-NO_REFERENCE = f"{NOTE}, so the lens's Huygens reference does not apply; reset them to measure again"
-UNTOUCHED = {"added_waves": (0.0,) * len(TERMS), "muted": (), "solo": (), "free_pupil": False}
+NO_REFERENCE = (
+    "what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again"
+)
+UNTOUCHED: dict[str, Any] = {"added_waves": (0.0,) * len(TERMS), "muted": (), "solo": (), "free_pupil": False}
 
 
 @dataclass(frozen=True)
@@ -49,7 +53,7 @@ def is_heard(state: State, term: str) -> bool:
 
 
 def altered(own: Coefficients, state: State) -> Coefficients:
-    """Return the coefficients as the state alters the lens's ``own``: (own + added) where heard, else 0."""
+    """Return the coefficients as the state alters the lens's ``own``: own + added where the term counts, else 0."""
     if not is_altered(state):
         return own
     added = dict(zip(TERMS, state.added_waves, strict=True))
@@ -67,7 +71,7 @@ def toggled(names: tuple[str, ...], term: str) -> tuple[str, ...]:
     return tuple(name for name in TERMS if (name in names) != (name == term))
 
 
-def of_preset(preset: Preset) -> dict:
+def of_preset(preset: Preset) -> dict[str, Any]:
     """Return the entries of the State that show a preset."""
     return UNTOUCHED | {"added_waves": tuple(preset.waves.get(term, 0.0) for term in TERMS), "free_pupil": True}
 
@@ -75,5 +79,7 @@ def of_preset(preset: Preset) -> dict:
 def check_focusable(state: State) -> None:
     """Raise GeometryError where moving the sensor does not change the wavefront: Wd is not the lens's own."""
     if state.free_pupil or not is_heard(state, "wd"):
-        why = "the free pupil has no lens" if state.free_pupil else "Wd is muted"
-        raise GeometryError(f"{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if")
+        raise GeometryError(
+            "{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if",
+            why=Message("the free pupil has no lens") if state.free_pupil else Message("Wd is muted"),
+        )
