@@ -1,4 +1,4 @@
-"""Start the explorer: ``p2sf explore [LENS|STATE.json|SNAPSHOT|LINK]`` or ``python -m app``."""
+"""Start the explorer: ``p2sf explore [LENS|STATE.json|SNAPSHOT|LINK]`` or ``python -m p2sf_explorer``."""
 
 import sys
 
@@ -36,7 +36,7 @@ def main(argv: list[str]) -> int:
 
 
 def run(argv: list[str]) -> int:
-    """Do what `main` does, but say a refusal in one sentence and return 2."""
+    """Run `main`; where it cannot open, print why and return 2."""
     try:
         return main(argv)
     except P2SFError as error:
@@ -54,17 +54,17 @@ def _open(state: State, geometry: dict[str, str]) -> int:
 
     application = QApplication.instance() or QApplication(sys.argv[:1])
     application.setApplicationName("P2SF Explorer")
-    application.setStyle("Fusion")
+    QApplication.setStyle("Fusion")
     configure_plots()
 
     def made(state: State) -> MainWindow:
         window = MainWindow(state)
-        SessionKeeper(window, geometry)
+        SessionKeeper(window, window.store, window.stack, lambda: window.floating.open, geometry)
         window.teaching.offer_once()
         return window
 
-    speaking = LanguageSwitch(state, made, application)
-    speaking.window.show()
+    switch = LanguageSwitch(state, made, application)
+    switch.window.show()
     return application.exec()
 
 

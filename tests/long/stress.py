@@ -44,7 +44,7 @@ FIRST = State(method="seidel", theme="light")
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a soak found: MB and probe milliseconds after warming up and at the end, errors in words."""
+    """What a run found: MB and probe milliseconds after warming up and at the end, errors in words."""
 
     ledger: Ledger
     seconds: float
@@ -153,7 +153,7 @@ def main(minutes: float = 60.0, events: int = 200_000, seed: int = 0) -> int:
     with threadpool_limits(limits=1):
         found = stress(60 * minutes, events, seed, lambda line: print(line, flush=True))
     print(found.words())
-    print(", ".join(f"{name} {count}" for name, count in found.ledger.cache.most_common()))
+    print(", ".join(f"{name} {count}" for name, count in found.ledger.done.most_common()))
     judged = minutes >= JUDGED and (found.growth >= GROWTH or bool(found.ledger.slow))
     return int(bool(found.errors) or judged)
 

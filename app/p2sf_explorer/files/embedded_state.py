@@ -1,18 +1,22 @@
 """The state inside a snapshot: found again by what a file is, not by its name. No Qt in here."""
 
+import os
 import struct
 import zlib
+from collections.abc import Callable
 from pathlib import Path
 
 from p2sf.files.atomic import DAMAGED
 from p2sf.io.psf_files import READERS
+from p2sf.messages import Message
 from p2sf_explorer.state.state import State, state_from_json
 
 KEYWORD = "p2sf-state"  # of the PNG text chunk
 PNG_HEADER = 33  # bytes: signature and the chunk of the size
 HEAD = 200
-DATABASE = "this is a database of PSFs, not a lens or a state; use it with p2sf psf, or open its lens"
-STATELESS = (
+PathLike = str | os.PathLike[str]
+DATABASE = Message("this is a database of PSFs, not a lens or a state; use it with p2sf psf, or open its lens")
+STATELESS = Message(
     "there is no readable state in this picture or PSF; open a snapshot, written by the window with Ctrl+E, or with "
     "the Image panel open drop a photo"
 )
@@ -27,34 +31,34 @@ BEGINNINGS = (
 )
 
 
-def state_inside(path) -> State | None:
+def state_inside(path: PathLike) -> State | None:
     """Return the state that a snapshot holds; None for a file without one. P2SFError for one that cannot be."""
     text = text_inside(path)
-    return None if text is None else state_from_json(text, f"the state inside {Path(path).name}")
+    return None if text is None else state_from_json(text, Message("the state inside {name}", name=Path(path).name))
 
 
-def text_inside(path) -> str | None:
-    """Return the state file's text that a snapshot holds, None where there is none."""
+def text_inside(path: PathLike) -> str | None:
+    """Return the text of the state file that a snapshot holds, None where there is none."""
     kind = kind_of(path)
     if kind is None:
         return None
     try:
         found = PICTURES[kind](path) if kind in PICTURES else READERS[kind](path)[1].get("state")
     except (OSError, ValueError, *DAMAGED):
-        return None  # whoever reads it as something else says what is wrong with it
+        return None  # the reader of lenses says what is wrong with the file
     return found if isinstance(found, str) else None
 
 
-def foreign(path) -> str | None:
+def foreign(path: PathLike) -> Message | None:
     """Return why a file without a state in it is no lens either; None where it may be one, as in a zip."""
     kind = kind_of(path)
     if kind == ".npz":
         start = _beginning(path)
         return DATABASE if b"p2sf_database.npy" in start else STATELESS if b".npy" in start else None
-    return kind and STATELESS
+    return STATELESS if kind else None
 
 
-def _beginning(path) -> bytes:
+def _beginning(path: PathLike) -> bytes:
     try:
         with open(path, "rb") as stream:
             return stream.read(HEAD)
@@ -62,7 +66,7 @@ def _beginning(path) -> bytes:
         return b""
 
 
-def kind_of(path) -> str | None:
+def kind_of(path: PathLike) -> str | None:
     """Return which snapshot a file may be by its first bytes, None for none."""
     head = _beginning(path)
     return next((kind for beginning, kind in BEGINNINGS if head.startswith(beginning)), None)
@@ -78,7 +82,7 @@ def with_state(png: bytes, text: str) -> bytes:
     return png[:PNG_HEADER] + chunk + png[PNG_HEADER:]
 
 
-def _in_png(path) -> str | None:
+def _in_png(path: PathLike) -> str | None:
     from PIL import Image
 
     try:
@@ -89,10 +93,10 @@ def _in_png(path) -> str | None:
         raise ValueError(str(error)) from error
 
 
-def _in_fits(path) -> str | None:
+def _in_fits(path: PathLike) -> str | None:
     from p2sf.io.fits_psf import read_psf_fits
 
     return read_psf_fits(path)[1].get("state")
 
 
-PICTURES = {"png": _in_png, "fits": _in_fits}
+PICTURES: dict[str, Callable[[PathLike], str | None]] = {"png": _in_png, "fits": _in_fits}

@@ -1,29 +1,36 @@
 """Reads the lens again when its file changes on disk."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
 
+from p2sf.messages import Message
 from p2sf_explorer.files.opening import is_file, stamp
+from p2sf_explorer.state.state import State
+from p2sf_explorer.store.store import Store
 
 SETTLE_MS = 150  # an editor writes, renames and touches within some milliseconds; one reading is enough
 
 
-class Watching(QObject):
-    """Watches the file of the present lens, and its folder, where an editor renames a new file into its place."""
+class FileWatcher(QObject):
+    """Watches the file of the present lens, and its folder, where an editor renames a new file into its place.
 
-    def __init__(self, window):
-        super().__init__(window)
-        self._window = window
+    ``read_again()`` shows the changed lens and returns whether it could be read.
+    """
+
+    def __init__(self, store: Store, read_again: Callable[[], bool], parent: QObject) -> None:
+        super().__init__(parent)
+        self._store, self._read_again = store, read_again
         self._path, self._stamp = "", (0, 0)
         self._watcher, self._settle = QFileSystemWatcher(self), QTimer(self, singleShot=True, interval=SETTLE_MS)
         self._watcher.fileChanged.connect(self._settle.start)
         self._watcher.directoryChanged.connect(self._settle.start)
         self._settle.timeout.connect(self._look)
-        window.store.changed.connect(self.follow)
-        self.follow(window.store.state)
+        store.changed.connect(self.follow)
+        self.follow(store.state)
 
-    def follow(self, state) -> None:
+    def follow(self, state: State) -> None:
         """Watch the file of this state's lens and no other."""
         if state.lens == self._path:
             return
@@ -43,10 +50,9 @@ class Watching(QObject):
         if found == self._stamp or not is_file(self._path):
             return
         self._stamp = found
-        store, name = self._window.store, Path(self._path).name
-        if store.state.lens_text is not None:
-            store.said.emit(f"{name} has changed on disk; your edits are kept, Back to file takes the new one")
-            return
-        self._window.refresh(store.state)
-        if not self._window.banner.isVisible():
-            store.said.emit(f"{name} has changed on disk and was read again")
+        name = Path(self._path).name
+        if self._store.state.lens_text is not None:
+            kept = "{name} has changed on disk; your edits are kept, Back to file takes the new one"
+            self._store.said.emit(Message(kept, name=name))
+        elif self._read_again():
+            self._store.said.emit(Message("{name} has changed on disk and was read again", name=name))

@@ -1,4 +1,4 @@
-"""What a file a person gives turns out to be: a state, a snapshot, a lens, or a reason why not. No Qt in here."""
+"""Open any file a person gives: a state, a snapshot, a lens; or say why it is none of these. No Qt in here."""
 
 import os
 from dataclasses import dataclass, replace
@@ -26,7 +26,7 @@ REPORT_TAB = "import"
 
 @dataclass(frozen=True)
 class Refusal:
-    """A file that is not opened: why, and how it reads with substitute glasses, None where that does not help."""
+    """A file that is not opened, and why; ``substituted`` is its lens with substitute glasses, None without one."""
 
     path: str
     message: Message
@@ -34,9 +34,9 @@ class Refusal:
 
 
 def opened(state: State, path: str) -> State:
-    """Return the state after opening a file, told by its content; a foreign lens brings its report to the front.
+    """Return the state after opening a file; its content decides what it is. A foreign lens comes with its report.
 
-    Raises P2SFError with the reason when it can be neither state nor lens.
+    Raises P2SFError where the file is neither a state nor a lens.
     """
     path = os.path.abspath(path)
     if is_state(path):
@@ -57,7 +57,7 @@ def is_state(path: str) -> bool:
         with open(path, "rb") as stream:
             head = stream.read(HEAD)
     except OSError:
-        return False  # the reader of lenses says in its own sentence why it cannot be read
+        return False  # the reader of lenses says why it cannot be read
     return head.lstrip().startswith(b"{") and SCHEMA.encode() in head
 
 
@@ -72,7 +72,7 @@ def _imported(path: str, _stamp: tuple[int, int], accept_substitutes: bool) -> I
 
 
 def stamp(path: str) -> tuple[int, int]:
-    """Return what changes when a file does: its time and size; zeros where there is none."""
+    """Return the modification time (ns) and the size of a file, which change with it; zeros where there is none."""
     try:
         found = os.stat(path)
     except (OSError, ValueError):
@@ -81,7 +81,7 @@ def stamp(path: str) -> tuple[int, int]:
 
 
 def refusal(path: str, error: P2SFError) -> Refusal:
-    """Return why a file is refused, and what consent to substitute glasses would give."""
+    """Return why a file is refused, and its lens with substitute glasses, if these would do."""
     try:
         return Refusal(path, error.message, imported(os.path.abspath(path), True))
     except P2SFError:
@@ -89,13 +89,13 @@ def refusal(path: str, error: P2SFError) -> Refusal:
 
 
 def with_substitutes(state: State, path: str) -> State:
-    """Return the state with a file's lens and its substitute glasses, which is then no longer the file's: edited."""
+    """Return the state with the lens of a file and its substitute glasses; the lens then counts as edited."""
     path = os.path.abspath(path)
     return with_lens(state, path, lens_to_toml(imported(path, True).lens))
 
 
 def is_file(path: str) -> bool:
-    """Return whether there is such a file; a name no file can have is not."""
+    """Return whether there is such a file; False for a name that no file can have."""
     try:
         return Path(path).is_file()
     except (OSError, ValueError):

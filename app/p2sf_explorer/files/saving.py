@@ -1,4 +1,4 @@
-"""Save the lens in hand as a file, by the ending of its name."""
+"""Save the present lens as a file, in the format of its ending."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.lensfile.writing import write_lens
+from p2sf.messages import Message
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.store.store import Store
@@ -15,18 +16,18 @@ KINDS = "P2SF lens (*.toml);;Zemax (*.zmx);;ISET lens (*.json)"
 
 
 def save_lens(store: Store, path: str) -> bool:
-    """Write the lens, told or refused in a sentence; return whether it went well.
+    """Write the present lens, say so or say why not, and return whether it was written.
 
-    A .toml holds the lens exactly, so the state then names that file; the other formats cannot promise it.
+    A .toml file holds the lens exactly, so the state then names that file; the other formats may not.
     """
     try:
         write_lens(prescription(store.state), path)
     except P2SFError as error:
-        store.refused.emit(str(error))
+        store.refused.emit(error)
         return False
     if Path(path).suffix.lower() == ".toml":
         store.replace(replace(store.state, lens=str(Path(path).resolve()), lens_text=None))
-    store.said.emit(tr("Saved {name}", name=Path(path).name))
+    store.said.emit(Message("Saved {name}", name=Path(path).name))
     return True
 
 

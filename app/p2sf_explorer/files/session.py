@@ -1,6 +1,7 @@
 """The last window, kept from one session to the next; a damaged file costs only the memory. No Qt in here."""
 
 import json
+from pathlib import Path
 
 from p2sf.errors import P2SFError
 from p2sf.files.writing import write_beside
@@ -9,7 +10,7 @@ from p2sf_explorer.files import recent
 from p2sf_explorer.state.state import State, state_from_json, state_to_json
 
 
-def session_path():
+def session_path() -> Path:
     """Return where the last window is kept for this person."""
     return recent.recent_path().with_name("window.json")
 
@@ -25,7 +26,7 @@ def keep_session(state: State, geometry: dict[str, str]) -> None:
 
 
 def last_session() -> tuple[State, dict[str, str]]:
-    """Return the state kept last and the window's geometry; the first ones where there is none that can open."""
+    """Return the state and the window's geometry as kept last; the default ones where these cannot be opened."""
     try:
         text = session_path().read_text(encoding="utf-8")
         state, geometry = state_from_json(text), json.loads(text).get("geometry")

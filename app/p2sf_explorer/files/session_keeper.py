@@ -1,30 +1,45 @@
-"""Keeps the window for the next start: its state, its place, how its room is shared."""
+"""Keep the window for the next start: its state, its geometry, the sizes of its parts."""
+
+from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import QByteArray, QEvent, QObject, QTimer
+from PySide6.QtWidgets import QSplitter, QWidget
 
 from p2sf_explorer.files.session import keep_session
+from p2sf_explorer.store.store import Store
 
 OWN = "own "  # before a panel's key: the window it stands in
 LATER_MS = 1500  # after the last change, so that a crash costs no more than that
 
 
 class SessionKeeper(QObject):
-    """Writes the session a moment after every change, and when the window closes."""
+    """Writes the session a moment after every change, and when the window closes.
 
-    def __init__(self, window, geometry: dict[str, str]):
+    ``stack`` is the splitter whose sizes are kept, ``open_windows()`` the panels' own windows by their keys;
+    ``geometry`` is as `last_session` returned it.
+    """
+
+    def __init__(
+        self,
+        window: QWidget,
+        store: Store,
+        stack: QSplitter,
+        open_windows: Callable[[], Mapping[str, QWidget]],
+        geometry: dict[str, str],
+    ) -> None:
         super().__init__(window)
-        self._window = window
+        self._window, self._store, self._stack, self._open_windows = window, store, stack, open_windows
         window.restoreGeometry(unpacked(geometry.get("window", "")))
-        window.stack.restoreState(unpacked(geometry.get("stack", "")))
-        for key, own in window.floating.open.items():
+        stack.restoreState(unpacked(geometry.get("stack", "")))
+        for key, own in open_windows().items():
             own.restoreGeometry(unpacked(geometry.get(OWN + key, "")))
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self.keep)
-        window.store.changed.connect(lambda state: self._timer.start(LATER_MS))
+        store.changed.connect(lambda state: self._timer.start(LATER_MS))
         window.installEventFilter(self)
 
-    def eventFilter(self, watched, event) -> bool:
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Write the session when the window closes."""
         if event.type() == QEvent.Type.Close:
             self.keep()
@@ -33,16 +48,16 @@ class SessionKeeper(QObject):
     def keep(self) -> None:
         """Write the session now."""
         self._timer.stop()
-        places = {"window": self._window.saveGeometry(), "stack": self._window.stack.saveState()}
-        places |= {OWN + key: place for key, place in self._window.floating.present_places().items()}
-        keep_session(self._window.store.state, {name: packed(place) for name, place in places.items()})
+        places = {"window": self._window.saveGeometry(), "stack": self._stack.saveState()}
+        places |= {OWN + key: own.saveGeometry() for key, own in self._open_windows().items()}
+        keep_session(self._store.state, {name: packed(place) for name, place in places.items()})
 
 
 def packed(place: QByteArray) -> str:
     """Return Qt's bytes as text."""
-    return bytes(place.toBase64()).decode("ascii")
+    return place.toBase64().toStdString()
 
 
 def unpacked(text: str) -> QByteArray:
-    """Return the bytes of `packed`; of any other text some that Qt refuses in silence."""
+    """Return the bytes of `packed`; for any other text, bytes that Qt ignores."""
     return QByteArray.fromBase64(text.encode("ascii", "ignore"))

@@ -1,61 +1,72 @@
 """What a snapshot writes: the PSF's data or a picture, the state that made it inside and beside. No Qt in here."""
 
+import os
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from p2sf.errors import ExportError
 from p2sf.files.writing import write_beside
 from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe, versions
+from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import request_setup
 from p2sf_explorer.files.embedded_state import with_state
 from p2sf_explorer.state.state import State, state_to_json
 
+PathLike = str | os.PathLike[str]
 DATA_ENDINGS = (".npz", ".tiff", ".fits", ".csv")
 
 
-def side_car(path) -> Path:
+def side_car(path: PathLike) -> Path:
     """Return where the state of a snapshot lies: beside it, the same name with .json."""
     return Path(path).with_suffix(".json")
 
 
-def write_state(state: State, path, **extra) -> Path:
+def write_state(state: State, path: PathLike, **extra: object) -> Path:
     """Write a state file that ``p2sf explore`` opens again; a lens given by a relative path is made absolute."""
     text = state_to_json(_portable(state), versions=versions(), **extra)
     return write_beside(path, lambda handle: handle.write(text.encode()))
 
 
-def write_data(live: Live | None, path, state: State | None = None) -> tuple[Path, Path]:
+def write_data(live: Live | None, path: PathLike, state: State | None = None) -> tuple[Path, Path]:
     """Write the PSF on screen as .npz, .tiff, .fits or .csv and its state beside; return both paths. ExportError.
 
     ``state`` is the window's where that is more than the picture's own: B may be pinned beside it.
     """
     if live is None:
-        raise ExportError(f"{path}: this set-up has no PSF; change it until there is a picture")
+        raise ExportError("{path}: this set-up has no PSF; change it until there is a picture", path=str(path))
     state = state or live.state
     if Path(path).suffix.lower() not in DATA_ENDINGS:
-        ending = Path(path).suffix
-        raise ExportError(f'{path}: PSF data has no ending "{ending}"; choose {", ".join(DATA_ENDINGS)}')
+        raise ExportError(
+            '{path}: PSF data has no ending "{ending}"; choose {endings}',
+            path=str(path),
+            ending=Path(path).suffix,
+            endings=DATA_ENDINGS,
+        )
     meta = {**describe(request_setup(live.state)), "state": _entries(state)}
     written = _writer(path)(live.psf, path, meta)
     return written, write_state(state, side_car(path), exported=Path(path).name)
 
 
-def _writer(path):
-    """Return what writes a PSF under this name."""
+def _writer(path: PathLike) -> Callable[[Psf, PathLike, dict[str, Any]], Path]:
+    """Return the function that writes a PSF to a file of this name."""
     if Path(path).suffix.lower() != ".fits":
         return write_psf
-    from p2sf.io.fits_psf import write_psf_fits  # with it come databases, which a start can do without
+    from p2sf.io.fits_psf import write_psf_fits  # it imports databases, which the start of the window need not wait for
 
     return write_psf_fits
 
 
-def write_picture(state: State, png: bytes, path) -> tuple[Path, Path]:
+def write_picture(state: State, png: bytes, path: PathLike) -> tuple[Path, Path]:
     """Write a picture already encoded as PNG and its state beside; return both paths. ExportError."""
     if Path(path).suffix.lower() != ".png":
         raise ExportError(
-            f'{path}: a picture of the window ends in ".png", not "{Path(path).suffix}"; change the ending'
+            '{path}: a picture of the window ends in ".png", not "{ending}"; change the ending',
+            path=str(path),
+            ending=Path(path).suffix,
         )
     whole = with_state(png, _entries(state))
     written = write_beside(path, lambda handle: handle.write(whole))

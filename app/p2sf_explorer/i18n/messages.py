@@ -43,7 +43,9 @@ def number(written: str) -> str:
 WINDOW = Style(translate=tr, parameter=lambda name: tr(control(name)), number=number)
 
 
-def said(message: Message | P2SFError) -> str:
+def said(message: Message | P2SFError | str) -> str:
     """Return a message, or an error's, as the window says it: its language, its numbers, the names on its controls."""
+    if isinstance(message, str):
+        return tr(spoken(message))
     words = (message.message if isinstance(message, P2SFError) else message).text(WINDOW)
     return words[:1].upper() + words[1:]

@@ -1,19 +1,21 @@
-"""Changes of the state as a person writes them in a lesson: ``field_deg 10, tab mtf``. No Qt in here."""
+"""Changes of the state as a lesson writes them: ``field_deg 10, tab mtf``. No Qt in here."""
 
 from dataclasses import fields, replace
 from math import inf
 from pathlib import Path
+from typing import Any
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import TERMS
 
-NUMBERS = {"∞": inf, "inf": inf, "file": None, "whole": None}
+NUMBERS: dict[str, float | None] = {"∞": inf, "inf": inf, "file": None, "whole": None}
 TRUTH = {"yes": True, "no": False}
 
-Changes = tuple[tuple[str, object], ...]
+Changes = tuple[tuple[str, Any], ...]
 
 
 def changed(state: State, changes: Changes) -> State:
@@ -39,17 +41,17 @@ def read_changes(text: str, number: int, where: str) -> Changes:
             value = beside(word.strip(), where) if name == "lens" else _value(name, word.strip())
             changed(State(), ((name, value),))
         except P2SFError as error:
-            raise fault(where, number, str(error)) from None
+            raise fault(where, number, error.message) from None
         made.append((name, value))
     return tuple(made)
 
 
-def _value(name: str, word: str):
-    bare = State()  # made once: checking its entries takes longer than all the rest of a lesson
-    known = {field.name: getattr(bare, field.name) for field in fields(State)}
+def _value(name: str, word: str) -> object:
+    default = State()  # made once: to check its entries takes longer than to read the rest of a lesson
+    known = {field.name: getattr(default, field.name) for field in fields(State)}
     known |= {ADDED + term: 0.0 for term in TERMS}
     if name not in known or not word:
-        raise P2SFError(f'"{name} {word}" sets nothing; write entries such as field_deg 10, tab mtf')
+        raise P2SFError('"{entry}" sets nothing; write entries such as field_deg 10, tab mtf', entry=f"{name} {word}")
     if isinstance(known[name], bool):
         return TRUTH.get(word, word)
     if isinstance(known[name], tuple):
@@ -59,15 +61,20 @@ def _value(name: str, word: str):
     try:
         return NUMBERS[word] if word in NUMBERS else float(word)
     except ValueError:
-        raise P2SFError(f'{name} is "{word}"; give a number') from None
+        raise P2SFError('{name} is "{word}"; give a number', name=name, word=word) from None
 
 
-def fault(where: str, line: int, sentence: str) -> P2SFError:
-    """Return the error that says what is wrong with a lesson, and in which line."""
-    return P2SFError(f"{where}, line {line}: {sentence}")
+class LessonError(P2SFError):
+    """A lesson that cannot be read; the message begins with its file and line."""
+
+
+def fault(where: str, line: int, template: str | Message, /, **values: object) -> LessonError:
+    """Return the error that says what is wrong in a line of a lesson, as a template with values or a message."""
+    message = template if isinstance(template, Message) else Message(template, **values)
+    return LessonError("{path}, line {line}: {message}", path=where, line=line, message=message)
 
 
 def beside(name: str, where: str) -> str:
-    """Return the path of a lens file that stands beside the lesson, else the name of a shipped lens as it is."""
+    """Return the path of a lens file beside the lesson; the name of a shipped lens as it is."""
     path = Path(where).parent / name
     return str(path.resolve()) if path.suffix and path.is_file() else name

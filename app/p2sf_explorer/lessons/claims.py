@@ -37,16 +37,18 @@ class Claim:
 
 
 def parse_claim(text: str, changes: Callable[[str], Changes]) -> Claim:
-    """Return the claim of a line; ``changes`` reads what stands in brackets. P2SFError in a sentence."""
+    """Return the claim of a line; ``changes`` reads the text in brackets. P2SFError for a line that is no claim."""
     from p2sf_explorer.lessons.measures import MEASURES
 
     found = FORM.fullmatch(text.strip())
     if not found:
-        raise P2SFError(f'"{text}" is no claim; write one such as {EXAMPLE}')
+        raise P2SFError('"{text}" is no claim; write one such as {example}', text=text, example=EXAMPLE)
     if found["measure"] not in MEASURES:
-        raise P2SFError(f'measure "{found["measure"]}" is unknown; choose one of {", ".join(MEASURES)}')
+        raise P2SFError(
+            'measure "{measure}" is unknown; choose one of {choices}', measure=found["measure"], choices=tuple(MEASURES)
+        )
     if (found["relation"] == "is") != (found["tolerance"] is not None):
-        raise P2SFError(f'"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none')
+        raise P2SFError('"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none', text=text)
     how = {"/": "/", "-": "-", "−": "-", None: ""}[found["how"]]
     first, second = (changes(found[name] or "") for name in ("first", "second"))
     number, tolerance = _number(found["number"]), _number(found["tolerance"] or "0")
@@ -57,11 +59,11 @@ def _number(text: str) -> float:
     try:
         return float(text.replace("−", "-"))
     except ValueError:
-        raise P2SFError(f'"{text}" in a claim is no number; write one such as 0.25 or 1e-3') from None
+        raise P2SFError('"{text}" in a claim is no number; write one such as 0.25 or 1e-3', text=text) from None
 
 
 def measured(claim: Claim, state: State) -> float:
-    """Return what a claim's left side is at a state; P2SFError where it cannot be measured."""
+    """Return the value of a claim's left side at a state; P2SFError where it cannot be measured."""
     from p2sf_explorer.lessons.measures import MEASURES
 
     measure = MEASURES[claim.measure]
@@ -73,7 +75,7 @@ def measured(claim: Claim, state: State) -> float:
 
 
 def holds(claim: Claim, value: float) -> bool:
-    """Return whether a measured value keeps the claim."""
+    """Return whether a measured value fulfils the claim."""
     if claim.relation == "is":
         return abs(value - claim.number) <= claim.tolerance
     return value > claim.number if claim.relation == "above" else value < claim.number

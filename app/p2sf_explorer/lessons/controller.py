@@ -1,37 +1,56 @@
 """Lessons in the window: begin, go on, reveal, leave; the first start offers the first one."""
 
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 from PySide6.QtCore import QEvent, QObject, QTimer
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel, QSplitter, QWidget
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.files import recent
 from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from p2sf_explorer.lessons.lesson_panel import LessonPanel, tool
 from p2sf_explorer.state.state import State
+from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
-BESIDE = (0.29, 0.32, 0.39)  # of the row of pupil, PSF and coefficients, beside a lesson
+BESIDE = (0.29, 0.32, 0.39)  # shares of pupil, PSF and coefficients in their row beside a lesson
 OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
 
-NOTHING_BEFORE = "The window began with this lesson, so there is nothing to put back: its lens stays"
-UNTRANSLATED = "This lesson has not been translated and stands here as it was written"
+NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to put back: its lens stays")
+UNTRANSLATED = Message("This lesson has not been translated and stands here as it was written")
+
+
+@dataclass(frozen=True)
+class LessonRoom:
+    """The parts of the window that a lesson uses.
+
+    ``page`` is the row at whose right end the page of the lesson stands; ``panels`` is the splitter of pupil, PSF and
+    coefficients, which share their room anew beside it; ``offers`` is the column in which the first lesson is offered,
+    under the bar; ``sliders`` are the rows of the controls by their keys, of which a step may mark one.
+    """
+
+    page: QBoxLayout
+    panels: QSplitter
+    offers: QBoxLayout
+    sliders: Mapping[str, QWidget]
 
 
 class LessonController(QObject):
-    """Owns the lesson's page, made when the first lesson begins; the state says which lesson and step are on."""
+    """Owns the page of the lesson, made when the first one begins; the state says which lesson and step are on."""
 
-    def __init__(self, window):
+    def __init__(self, store: Store, window: QWidget, room: LessonRoom) -> None:
         super().__init__(window)
-        self.window, self.store = window, window.store
+        self.store, self._window, self._room = store, window, room
         self.panel: LessonPanel | None = None
         self.offer: Offer | None = None
         self._lessons: dict[str, Lesson] = {}
         self._sizes: list[int] | None = None
-        self._owned_up = False
+        self._told_untranslated = False
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
 
@@ -45,7 +64,7 @@ class LessonController(QObject):
         )
 
     def lessons(self) -> dict[str, Lesson]:
-        """Return the lessons by name; a bad file is told in the banner and costs only itself."""
+        """Return the lessons by name; the banner tells of a bad file, and the others open."""
         if not self._lessons:
             self._lessons, faults = found_lessons((FOLDER, own_folder()), current_language())
             if faults:  # after the picture of the step, which takes the banner away
@@ -81,13 +100,13 @@ class LessonController(QObject):
             self.store.update(lesson_told=True)
 
     def leave(self) -> None:
-        """End the lesson and put back what was on screen before it, which the steps of undo know."""
+        """End the lesson and go back to the state before it, which is among the steps of undo."""
         here = replace(self.store.state, lesson="", lesson_step=0, lesson_told=False)
         kept = {name: getattr(here, name) for name in PERSONAL}
         before = self.store.latest(lambda state: not state.lesson)
         self.store.replace(replace(before, **kept) if before else here)
         if not before:
-            self.store.said.emit(tr(NOTHING_BEFORE))
+            self.store.said.emit(NOTHING_BEFORE)
 
     def _go(self, name: str, number: int) -> None:
         if self.offer:
@@ -95,57 +114,59 @@ class LessonController(QObject):
         try:
             self.store.replace(self.lessons()[name].state(number, self.store.state))
         except P2SFError as error:
-            self.store.refused.emit(str(error))
+            self.store.refused.emit(error)
 
     def follow(self, state: State) -> None:
         """Show the page of the state's lesson and point to the slider it is about; hide it where there is none."""
         lesson = self.lessons().get(state.lesson) if state.lesson else None
-        if lesson and not self.panel:
-            self._make_panel()
+        slider = ""
         if lesson:
             number = min(int(state.lesson_step), len(lesson.steps) - 1)
+            slider = lesson.steps[number].move
+            self.panel = self.panel or self._new_panel()
             self.panel.show_step(lesson, number, state.lesson_told)
-            self._own_up(lesson)
+            self._tell_untranslated(lesson)
         if self.panel:
             self.panel.setVisible(lesson is not None)
             self._share_room(lesson is not None)
-        self._point(lesson.steps[number].move if lesson else "")
+        self._point(slider)
 
-    def _own_up(self, lesson: Lesson) -> None:
+    def _tell_untranslated(self, lesson: Lesson) -> None:
         """Say once that a lesson is in another language than the window, after the picture of its step is there."""
-        if not self._owned_up and lesson.language != current_language():
-            self._owned_up = True
-            QTimer.singleShot(0, lambda: self.store.said.emit(tr(UNTRANSLATED)))
+        if not self._told_untranslated and lesson.language != current_language():
+            self._told_untranslated = True
+            QTimer.singleShot(0, lambda: self.store.said.emit(UNTRANSLATED))
 
-    def _make_panel(self) -> None:
-        self.panel = LessonPanel(tuple(self.lessons().values()), self.window)
-        self.panel.chosen.connect(self.begin)
-        self.panel.moved.connect(self.move)
-        self.panel.asked.connect(self.reveal)
-        self.panel.left.connect(self.leave)
-        self.window.middle.addWidget(self.panel)
-        self.window.installEventFilter(self)
-        self.panel.fit(self.window.width())
+    def _new_panel(self) -> LessonPanel:
+        made = LessonPanel(tuple(self.lessons().values()), self._window)
+        made.chosen.connect(self.begin)
+        made.moved.connect(self.move)
+        made.asked.connect(self.reveal)
+        made.left.connect(self.leave)
+        self._room.page.addWidget(made)
+        self._window.installEventFilter(self)
+        made.fit(self._window.width())
+        return made
 
     def _share_room(self, shown: bool) -> None:
-        """Give the coefficients' bars, which most lessons are about, their room beside the page, and take it back."""
-        row = self.window.stack.widget(1)
+        """Give the coefficients, which most lessons are about, more room beside the page; undo that without one."""
+        row = self._room.panels
         if shown and self._sizes is None:
             self._sizes = row.sizes()
-            row.setSizes([round(part * sum(self._sizes)) for part in BESIDE])
+            row.setSizes([round(share * sum(self._sizes)) for share in BESIDE])
         elif not shown and self._sizes is not None:
             row.setSizes(self._sizes)
             self._sizes = None
 
-    def eventFilter(self, watched, event) -> bool:
-        """Let the page follow the window's width."""
-        if event.type() == QEvent.Type.Resize:
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Fit the page to the window's width."""
+        if isinstance(event, QResizeEvent) and self.panel:
             self.panel.fit(event.size().width())
         return False
 
     def _point(self, key: str) -> None:
         """Mark the row of one slider, by a line at its left and a bold name."""
-        for name, row in self.window.controls.rows.items():
+        for name, row in self._room.sliders.items():
             wanted = name == key
             if bool(row.property("pointed")) != wanted:
                 row.setProperty("pointed", wanted)
@@ -154,7 +175,7 @@ class LessonController(QObject):
                     part.style().polish(part)
 
     def offer_once(self) -> None:
-        """Offer the first lesson in a line under the bar; a person is asked once in a lifetime."""
+        """Offer the first lesson in a line under the bar, at the first start only."""
         path = recent.recent_path().with_name("lesson_offered")
         if path.exists() or self.store.state.lesson:
             return
@@ -163,15 +184,15 @@ class LessonController(QObject):
             path.touch()
         except OSError:
             return
-        self.offer = Offer(self.toggle, self.window)
-        self.window.centralWidget().layout().insertWidget(1, self.offer)
+        self.offer = Offer(self.toggle, self._window)
+        self._room.offers.insertWidget(1, self.offer)
         self.offer.show()
 
 
 class Offer(QFrame):
     """One line with Start and No, thanks."""
 
-    def __init__(self, start, parent=None):
+    def __init__(self, start: Callable[[], None], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("bar")
         words = QLabel(tr(OFFER))

@@ -1,16 +1,19 @@
 """Lessons as files a teacher writes: Markdown with a small header, steps that set the window, claims that are checked.
 
-A lesson is one ``.md`` file; ``app/lessons/README.md`` tells its form. No Qt in here.
+A lesson is one ``.md`` file; the ``README.md`` of this folder describes the format. No Qt in here.
 """
 
+import os
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.lessons.changes import beside, changed, fault, read_changes
+from p2sf_explorer.lessons.changes import Changes, LessonError, beside, changed, fault, read_changes
 from p2sf_explorer.lessons.claims import Claim, parse_claim
 from p2sf_explorer.state.limits import DRAGGED
 from p2sf_explorer.state.state import State
@@ -25,13 +28,16 @@ STEP = ("set", "move", *WORDS, "claim")
 ENGLISH = "en"
 ENTRY = re.compile(r"([a-z]+):\s*(.*)")
 
+Lines = list[tuple[int, str]]
+"""Lines of a file with their numbers, from 1."""
+
 
 @dataclass(frozen=True)
 class Step:
     """One page: what it sets, which slider to ``move``, its text, a question and its answer, and what it claims."""
 
     title: str
-    changes: tuple[tuple[str, object], ...]
+    changes: Changes
     move: str
     text: str
     attempt: str
@@ -48,15 +54,15 @@ class Lesson:
     title: str
     about: str
     lens: str
-    changes: tuple[tuple[str, object], ...]
+    changes: Changes
     steps: tuple[Step, ...]
     language: str = ENGLISH  # of its words
 
     def state(self, number: int, like: State = FIRST) -> State:
-        """Return what the window shows at a step (from 0), with the PERSONAL entries of ``like``; P2SFError."""
+        """Return the state at a step (from 0), with the PERSONAL entries of ``like``; P2SFError where there is none."""
         made = replace(default_state(self.lens), **{name: getattr(like, name) for name in PERSONAL})
-        for step in (self, *self.steps[: number + 1]):
-            made = changed(made, step.changes)
+        for changes in (self.changes, *(step.changes for step in self.steps[: number + 1])):
+            made = changed(made, changes)
         return replace(made, lesson=self.name, lesson_step=number)
 
 
@@ -73,13 +79,16 @@ def own_folder() -> Path:
     return user_data_path("p2sf-explorer", appauthor=False) / "lessons"
 
 
-def found_lessons(folders: tuple[Path, ...], language: str = ENGLISH) -> tuple[dict[str, Lesson], tuple[str, ...]]:
-    """Return the lessons of these folders by name, in its order, and a sentence for every file that is none.
+def found_lessons(
+    folders: tuple[Path, ...], language: str = ENGLISH
+) -> tuple[dict[str, Lesson], tuple[P2SFError, ...]]:
+    """Return the lessons of these folders by name, in the order of names, and the errors of files that are none.
 
-    A lesson of a later folder takes the place of one of the same name. Its words are those of the file of the same name
-    in a folder ``language`` beside it, where there is one.
+    A lesson of a later folder replaces one of the same name. Its text is taken from the file of the same name in the
+    folder ``language`` beside it, where there is one.
     """
-    found, faults = {}, []
+    found: dict[str, Lesson] = {}
+    faults: list[P2SFError] = []
     for path in (path for folder in folders for path in lesson_files(folder)):
         try:
             found[path.stem] = read_lesson(path)
@@ -87,7 +96,7 @@ def found_lessons(folders: tuple[Path, ...], language: str = ENGLISH) -> tuple[d
             if language != ENGLISH and words.is_file():
                 found[path.stem] = with_words(found[path.stem], words, language)
         except P2SFError as error:
-            faults.append(str(error))
+            faults.append(error)
     return dict(sorted(found.items())), tuple(faults)
 
 
@@ -96,36 +105,44 @@ def lesson_files(folder: Path = FOLDER) -> tuple[Path, ...]:
     return tuple(sorted(path for path in folder.glob("*.md") if path.name != "README.md"))
 
 
-def read_lesson(path) -> Lesson:
+def read_lesson(path: str | os.PathLike[str]) -> Lesson:
     """Return the lesson of a file; P2SFError says what is wrong and in which line."""
     return parse_lesson(_text(path), Path(path).stem, str(path))
 
 
-def _text(path) -> str:
+def _text(path: str | os.PathLike[str]) -> str:
     try:
         return Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise P2SFError(f"{path} cannot be read ({type(error).__name__}); give a lesson as UTF-8 text") from None
+        raise P2SFError(
+            "{path} cannot be read ({why}); give a lesson as UTF-8 text", path=str(path), why=type(error).__name__
+        ) from None
 
 
-def with_words(lesson: Lesson, path, language: str) -> Lesson:
-    """Return a lesson in the words of a file in another language; what it sets, moves and claims stays as it is.
+def with_words(lesson: Lesson, path: str | os.PathLike[str], language: str) -> Lesson:
+    """Return a lesson with the text of a file in another language; its changes, sliders and claims stay.
 
-    P2SFError for a file of other steps, or with more than words in it.
+    P2SFError for a file with another number of steps, or with more than text in it.
     """
     where = str(path)
     head, body = _halves(_text(path), where)
     found = {name: text for name, (_, text) in _entries(head, where, HEADER[:2]).items()}
     parts = _parts(body, where)
     if len(parts) != len(lesson.steps):
-        there = "there is 1 step" if len(parts) == 1 else f"there are {len(parts)} steps"
-        raise fault(where, 1, f"{there} of words, and the lesson has {len(lesson.steps)}; say each in its place")
+        one, many = Message("there is 1 step"), Message("there are {count} steps", count=len(parts))
+        raise fault(
+            where,
+            1,
+            "{there} of words, and the lesson has {count}; say each in its place",
+            there=one if len(parts) == 1 else many,
+            count=len(lesson.steps),
+        )
     steps = tuple(_step(part, where, WORDS) for part in parts)
-    spoken = tuple(
+    translated = tuple(
         replace(new, changes=old.changes, move=old.move, claims=old.claims)
         for new, old in zip(steps, lesson.steps, strict=True)
     )
-    return replace(lesson, **found, steps=spoken, language=language)
+    return replace(lesson, title=found["title"], about=found["about"], steps=translated, language=language)
 
 
 def parse_lesson(text: str, name: str, where: str) -> Lesson:
@@ -140,33 +157,36 @@ def parse_lesson(text: str, name: str, where: str) -> Lesson:
     return Lesson(name, *header, steps)
 
 
-def _halves(text: str, where: str):
+def _halves(text: str, where: str) -> tuple[Lines, Lines]:
     """Return the numbered lines of the header, and those below it."""
     lines = list(enumerate(text.splitlines(), 1))
     if not lines or lines[0][1].strip() != FENCE:
-        raise fault(where, 1, f'a lesson begins with a line "{FENCE}"; put title, about and lens below it')
+        raise fault(where, 1, 'a lesson begins with a line "{fence}"; put title, about and lens below it', fence=FENCE)
     close = next((n for n, line in lines[1:] if line.strip() == FENCE), None)
     if close is None:
-        raise fault(where, 1, f'the header has no end; close it with a line "{FENCE}"')
+        raise fault(where, 1, 'the header has no end; close it with a line "{fence}"', fence=FENCE)
     return lines[1 : close - 1], lines[close:]
 
 
-def _entries(lines, where: str, allowed: tuple[str, ...]) -> dict[str, tuple[int, str]]:
+def _entries(lines: Lines, where: str, allowed: tuple[str, ...]) -> dict[str, tuple[int, str]]:
     """Return the line number and text of every entry of a header."""
-    found = {}
+    found: dict[str, tuple[int, str]] = {}
     for number, line in lines:
         entry = ENTRY.fullmatch(line.strip())
         if line.strip() and (not entry or entry[1] not in allowed):
-            raise fault(where, number, f'"{line.strip()}" is no entry of the header; give {", ".join(allowed)}')
+            raise fault(
+                where, number, '"{line}" is no entry of the header; give {names}', line=line.strip(), names=allowed
+            )
         if entry:
             found[entry[1]] = number, entry[2]
     for name in allowed[:3]:
         if not found.get(name, (0, ""))[1]:
-            raise fault(where, 1, f'the header lacks "{name}"; add a line such as {name}: …')
+            raise fault(where, 1, 'the header lacks "{name}"; add a line such as {name}: …', name=name)
     return found
 
 
-def _header(lines, where: str):
+def _header(lines: Lines, where: str) -> tuple[str, str, str, Changes]:
+    """Return title, sentence about the lesson, lens and changes."""
     found = _entries(lines, where, HEADER)
     changes = read_changes(found["state"][1], found["state"][0], where) if "state" in found else ()
     lens = beside(found["lens"][1], where)
@@ -174,9 +194,9 @@ def _header(lines, where: str):
     return found["title"][1], found["about"][1], lens, changes
 
 
-def _parts(lines, where: str):
+def _parts(lines: Lines, where: str) -> list[Lines]:
     """Return the lines of every step, its heading first."""
-    parts: list[list[tuple[int, str]]] = []
+    parts: list[Lines] = []
     for number, line in lines:
         if line.startswith("## "):
             parts.append([])
@@ -187,13 +207,16 @@ def _parts(lines, where: str):
     return parts
 
 
-def _step(lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
-    found: dict[str, list[tuple[int, str]]] = {name: [] for name in STEP}
-    text, last = [], None
+def _step(lines: Lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
+    found: dict[str, Lines] = {name: [] for name in STEP}
+    text: list[str] = []
+    last: Lines | None = None
     for number, line in lines[1:]:
         entry = ENTRY.fullmatch(line)
         if entry and entry[1] not in allowed:
-            raise fault(where, number, f'"{entry[1]}:" is no entry of a step here; give {", ".join(allowed)}')
+            raise fault(
+                where, number, '"{name}:" is no entry of a step here; give {names}', name=entry[1], names=allowed
+            )
         if entry:
             last = found[entry[1]]
             last.append((number, entry[2]))
@@ -208,25 +231,36 @@ def _step(lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
         raise fault(where, lines[0][0], "a question and its answer go together; give both ask: and tell:")
     move = _move(found["move"], where)
     claims = tuple(_claim(value, number, where) for number, value in found["claim"])
-    return Step(lines[0][1][3:].strip(), changes, move, "\n".join(text).strip(), *words.values(), claims)
+    return Step(
+        lines[0][1][3:].strip(),
+        changes,
+        move,
+        "\n".join(text).strip(),
+        words["try"],
+        words["ask"],
+        words["tell"],
+        claims,
+    )
 
 
-def _move(found, where: str) -> str:
+def _move(found: Sequence[tuple[int, str]], where: str) -> str:
     for number, value in found:
         if value not in DRAGGED:
-            raise fault(where, number, f'"{value}" is no slider; move one of {", ".join(DRAGGED)}')
+            raise fault(where, number, '"{name}" is no slider; move one of {names}', name=value, names=DRAGGED)
     return found[-1][1] if found else ""
 
 
 def _claim(text: str, number: int, where: str) -> Claim:
     try:
         return parse_claim(text, lambda inner: read_changes(inner, number, where))
+    except LessonError:
+        raise
     except P2SFError as error:
-        raise error if str(error).startswith(where) else fault(where, number, str(error)) from None
+        raise fault(where, number, error.message) from None
 
 
 def _check_lens(name: str, number: int, where: str) -> None:
     try:
         default_state(name)
     except P2SFError as error:
-        raise fault(where, number, str(error)) from None
+        raise fault(where, number, error.message) from None

@@ -21,7 +21,7 @@ class LessonPanel(QFrame):
     asked = Signal()
     left = Signal()
 
-    def __init__(self, lessons: tuple[Lesson, ...], parent=None):
+    def __init__(self, lessons: tuple[Lesson, ...], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("card")
         self.setAccessibleName(tr("Lesson"))
@@ -41,7 +41,7 @@ class LessonPanel(QFrame):
         self.back, self.next = QPushButton(tr("Back")), QPushButton(tr("Next"))
         self.back.setToolTip(tr("The step before (Alt+Left)"))
         self.next.setToolTip(tr("The next step (Alt+Right)"))
-        self._shown: tuple = ()
+        self._shown: tuple[Lesson, int, bool] | None = None
         self._lay_out()
         self._connect()
         self.hide()
@@ -58,14 +58,14 @@ class LessonPanel(QFrame):
         for part in (self.about, self.title, self.text, self.attempt, self.question, self.reveal, self.answer):
             inner.addWidget(part)
         inner.addStretch(1)
-        self.scroll = QScrollArea()
-        self.scroll.setAccessibleName(tr("Text of the lesson"))
-        self.scroll.setWidgetResizable(True)
-        self.scroll.setFrameShape(QScrollArea.Shape.NoFrame)
-        self.scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.scroll.setWidget(page)
-        for part in (self.scroll.viewport(), page):
-            part.setAutoFillBackground(False)
+        self.area = QScrollArea()
+        self.area.setAccessibleName(tr("Text of the lesson"))
+        self.area.setWidgetResizable(True)
+        self.area.setFrameShape(QScrollArea.Shape.NoFrame)
+        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.area.setWidget(page)
+        for behind in (self.area.viewport(), page):
+            behind.setAutoFillBackground(False)
         foot = QHBoxLayout()
         foot.addWidget(self.back)
         foot.addStretch(1)
@@ -75,7 +75,7 @@ class LessonPanel(QFrame):
         column.setSpacing(10)
         column.addLayout(head)
         column.addWidget(self.choice)
-        column.addWidget(self.scroll, 1)
+        column.addWidget(self.area, 1)
         column.addLayout(foot)
 
     def _connect(self) -> None:
@@ -93,7 +93,8 @@ class LessonPanel(QFrame):
         """Show a step of a lesson, with its answer when it was ``told``."""
         if (lesson, number, told) == self._shown:
             return
-        new, self._shown = (lesson, number) != self._shown[:2], (lesson, number, told)
+        new = self._shown is None or (lesson, number) != self._shown[:2]
+        self._shown = lesson, number, told
         step, last = lesson.steps[number], len(lesson.steps) - 1
         select(self.choice, lesson.name)
         self.choice.setToolTip(lesson.title)  # the longest one is wider than the page
@@ -113,11 +114,11 @@ class LessonPanel(QFrame):
         self.back.setEnabled(number > 0)
         self.next.setText(tr("Next") if number < last else tr("Next lesson"))
         if new:
-            self.scroll.verticalScrollBar().setValue(0)
+            self.area.verticalScrollBar().setValue(0)
 
 
 def rich(text: str) -> str:
-    """Return Markdown as the HTML of a label, its paragraphs apart; a label's own Markdown runs them together."""
+    """Return Markdown as the HTML of a label with space between paragraphs, which a label's own Markdown lacks."""
     if not text:
         return ""
     document = QTextDocument()
@@ -128,8 +129,8 @@ def rich(text: str) -> str:
     )
 
 
-def wrapped(name: str, form=Qt.TextFormat.PlainText) -> QLabel:
-    """Return a label of several lines that a screen reader and a mouse can read."""
+def wrapped(name: str, form: Qt.TextFormat = Qt.TextFormat.PlainText) -> QLabel:
+    """Return a label of several lines whose text a mouse can select."""
     made = QLabel()
     made.setObjectName(name)
     made.setWordWrap(True)
@@ -139,7 +140,7 @@ def wrapped(name: str, form=Qt.TextFormat.PlainText) -> QLabel:
 
 
 def tool(text: str, tip: str) -> QToolButton:
-    """Return a small button that the keyboard reaches."""
+    """Return a small button that takes the keyboard focus."""
     made = QToolButton()
     made.setObjectName("small")
     made.setText(tr(text))

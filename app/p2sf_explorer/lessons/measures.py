@@ -4,21 +4,27 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 from threading import Event
+from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import find_stop
 from p2sf.psf.compare import r_squared as fidelity
 from p2sf.psf.methods import render
 from p2sf.psf.metrics import centroid, mtf, radius_of_energy
+from p2sf.psf.result import Psf
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.state import State
+
+if TYPE_CHECKING:
+    from p2sf_explorer.results.image import ImageResult
 
 CONTRAST_PER_MM = 50.0  # the frequency at which contrast is quoted: a line pair of 20 µm
 BLUE_RED_NM = 486.1327, 656.2725  # Fraunhofer's F and C
@@ -26,12 +32,12 @@ BLUE_RED_NM = 486.1327, 656.2725  # Fraunhofer's F and C
 Measure = Callable[[State], float]
 
 
-def of_setting(value: Callable[[ParaxialSetup], float]) -> Measure:
-    """Return a measure of the paraxial setting."""
+def of_setup(value: Callable[[ParaxialSetup], SupportsFloat]) -> Measure:
+    """Return a measure of the paraxial setup."""
     return lambda state: float(value(paraxial_setup(state)))
 
 
-def of_live(value: Callable[[Live], float]) -> Measure:
+def of_live(value: Callable[[Live], SupportsFloat]) -> Measure:
     """Return a measure of the settled answer that the panels show."""
     return lambda state: float(value(_live(state)))
 
@@ -43,7 +49,7 @@ def _live(state: State) -> Live:
 
 def coefficient(term: str) -> Measure:
     """Return the measure of one coefficient as the window shows it, waves."""
-    return of_setting(lambda made: getattr(made.coefficients, term))
+    return of_setup(lambda made: getattr(made.coefficients, term))
 
 
 ASTIGMATISM = {"petzval": -0.5, "sagittal": 0.0, "tangential": 1.0}  # of W22 in the ρ² term of each focus
@@ -52,12 +58,12 @@ ASTIGMATISM = {"petzval": -0.5, "sagittal": 0.0, "tangential": 1.0}  # of W22 in
 def focus_um(which: str) -> Measure:
     """Return where a fan comes to focus, µm behind the sensor: Δz = −2n′λW/NA² (Welford 1986, ch. 8)."""
 
-    def shift(made: ParaxialSetup) -> float:
+    def shift(made: ParaxialSetup) -> SupportsFloat:
         c = made.coefficients
         waves = c.w20 + c.wd + ASTIGMATISM[which] * c.w22
         return -2 * c.image_index * c.wavelength_um * waves / c.na**2
 
-    return of_setting(shift)
+    return of_setup(shift)
 
 
 def ray_focus_um(which: str) -> Measure:
@@ -90,7 +96,7 @@ def axial_colour_um(state: State) -> float:
 
 @lru_cache(maxsize=16)
 def r_squared(state: State) -> float:
-    """Return R² of the picture against the Huygens sum in the point's window, as the panel Accuracy says it."""
+    """Return R² of the picture against the Huygens sum in the window of the picture, as the Accuracy panel does."""
     from p2sf_explorer.compute.reference import measure
 
     return measure(_live(state), False, Event(), lambda part: None).r_squared
@@ -99,13 +105,12 @@ def r_squared(state: State) -> float:
 def r_squared_narrow(state: State) -> float:
     """Return R² of the state's method against the Huygens sum, in the paper's window of 32² samples over 22.12 µm."""
     made = paraxial_setup(state)
-    window = {"pixels": PIXELS, "pixel_um": WINDOW_UM / PIXELS}
-    shown = render(made.lens, made.source, method=state.method, **window)
+    shown = render(made.lens, made.source, method=state.method, pixels=PIXELS, pixel_um=WINDOW_UM / PIXELS)
     return float(fidelity(shown.values, _reference(made.lens, made.source).values))
 
 
 @lru_cache(maxsize=8)
-def _reference(lens, source: Source):
+def _reference(lens: Lens, source: Source) -> Psf:
     return render(lens, source, method="huygens", pixels=PIXELS, pixel_um=WINDOW_UM / PIXELS)
 
 
@@ -121,7 +126,7 @@ def database_error(rule: str) -> Measure:
 
 
 def photo_psfs(state: State) -> float:
-    """Return how many places on the sensor the coarse picture takes PSFs at."""
+    """Return the number of places on the sensor for which the coarse picture computes a PSF."""
     rows, columns = _coarse(state).plan.counts
     return float(rows * columns)
 
@@ -138,16 +143,16 @@ def sharpening_db(state: State) -> float:
 
 
 @lru_cache(maxsize=8)
-def _coarse(state: State):
+def _coarse(state: State) -> "ImageResult":
     from p2sf_explorer.results.image import coarse, question
 
     return coarse(question(_live(replace(state, method="seidel"))))
 
 
 def _spread(axis: str) -> Measure:
-    """Return the measure of the PSF's standard deviation along an axis, µm, in the window shown."""
+    """Return the measure of the PSF's standard deviation along an axis in the window shown, µm."""
 
-    def spread(live: Live) -> float:
+    def spread(live: Live) -> SupportsFloat:
         values = live.psf.values.sum(0 if axis == "x" else 1, dtype=float)
         place = live.psf.x_um if axis == "x" else live.psf.y_um
         share = values / values.sum()
@@ -162,13 +167,13 @@ def _contrast(direction: str) -> Measure:
 
 MEASURES: dict[str, Measure] = {
     "airy_radius_um": of_live(lambda live: live.airy_radius_um),
-    "numerical_aperture": of_setting(lambda made: made.coefficients.na),
-    "focal_length_mm": of_setting(lambda made: made.focal_length_mm),
-    "image_height_mm": of_setting(lambda made: made.coefficients.image_height),
-    "stop_surface": of_setting(lambda made: find_stop(made.lens).surface),
+    "numerical_aperture": of_setup(lambda made: made.coefficients.na),
+    "focal_length_mm": of_setup(lambda made: made.focal_length_mm),
+    "image_height_mm": of_setup(lambda made: made.coefficients.image_height),
+    "stop_surface": of_setup(lambda made: find_stop(made.lens).surface),
     **{f"{term}_waves": coefficient(term) for term in ("w40", "w31", "w22", "w20", "wd", "w11")},
     "rms_waves": of_live(lambda live: live.pupil.rms),
-    "strehl": of_live(lambda live: live.psf.strehl),
+    "strehl": of_live(lambda live: np.asarray(live.psf.strehl, float)),
     "centre_over_peak": of_live(lambda live: live.psf.values[tuple(n // 2 for n in live.psf.values.shape)]
                                 / live.psf.values.max()),
     "radius_80_um": of_live(lambda live: radius_of_energy(live.psf, 0.8)),

@@ -1,26 +1,32 @@
 """The panels: one file each, one line each in the registry below, imported when first opened.
 
-A panel is an object with a ``widget``, ``show(live)`` that paints what ``live`` holds and computes nothing, and
-``restyle(theme)``. Its view, if it needs one, is a function ``view(live)`` without Qt in `p2sf_explorer.results`; its
-result arrives as ``live.views[key]``.
+A panel is a `Panel`: it paints an answer and computes nothing. What it shows beyond the answer, its view, is a function
+``view(live)`` without Qt in `p2sf_explorer.results`, whose result arrives as ``live.views[key]``.
 """
 
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Protocol
-
-from PySide6.QtWidgets import QWidget
+from typing import Any, Protocol, runtime_checkable
 
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
 
 
+@runtime_checkable
 class Panel(Protocol):
-    """What the window asks of a panel."""
+    """What the window asks of every panel.
 
-    widget: QWidget
+    Through the panel's card the window covers it with a sentence where it has nothing to show (``show_overlay``), names
+    the side of a comparison (``show_side``), and hears that the panel is wanted in a window of its own
+    (``apart_asked``).
+    """
+
+    @property
+    def widget(self) -> Card:
+        """The card that the panel stands in."""
 
     def show(self, live: Live) -> None:
         """Paint an answer."""
@@ -29,11 +35,28 @@ class Panel(Protocol):
         """Take the colours of a theme."""
 
 
+@runtime_checkable
+class BackgroundPanel(Panel, Protocol):
+    """A panel with threads, processes or graphics memory of its own, which it gives up with the window."""
+
+    def stop(self) -> None:
+        """End the background work for good."""
+
+
+@runtime_checkable
+class PreparingPanel(Panel, Protocol):
+    """A panel that needs some time before it can show its first picture."""
+
+    @property
+    def busy(self) -> bool:
+        """Whether it is still being prepared."""
+
+
 @dataclass(frozen=True)
 class PanelEntry:
-    """One registered panel: module:class, place "main" or "tab", module:function of its view.
+    """One registered panel: ``panel`` is its module:class, ``view`` the module:function of its view, if it has one.
 
-    ``group``: the one of `GROUPS` whose tabs it stands among.
+    ``place`` is "main" or "tab", ``group`` the one of `GROUPS` among whose tabs it stands.
     """
 
     key: str
@@ -48,7 +71,7 @@ GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
 
 
 def tab(group: str, key: str, title: str, panel: str, view: str = "") -> PanelEntry:
-    """Return the line of a tab: its group, key and title, and module:name of panel and view in their folders."""
+    """Return the entry of a tab; panel and view are module:name in their folders."""
     return PanelEntry(
         key, title, f"p2sf_explorer.panels.{panel}", "tab", view and f"p2sf_explorer.results.{view}", group
     )
@@ -88,15 +111,17 @@ REGISTRY = (
 
 
 def build(entry: PanelEntry, store: Store) -> Panel:
-    """Return a new panel of a registry line; what it shows of B it does not put into A."""
-    return _named(entry.panel)(PanelStore(store))
+    """Return a new panel of a registry entry, whose store does not put values of B into A."""
+    made: Panel = _named(entry.panel)(PanelStore(store))
+    return made
 
 
 def view_of(entry: PanelEntry) -> ResultFunction | None:
-    """Return the view function of a registry line, None when it needs none."""
-    return _named(entry.view) if entry.view else None
+    """Return the view function of a registry entry, None where it has none."""
+    found: ResultFunction | None = _named(entry.view) if entry.view else None
+    return found
 
 
-def _named(path: str):
+def _named(path: str) -> Any:
     module, name = path.split(":")
     return getattr(import_module(module), name)

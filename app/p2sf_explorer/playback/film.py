@@ -1,4 +1,4 @@
-"""Frames to an animated GIF or to numbered PNG files: written beside, then renamed. No Qt in here."""
+"""Write frames as an animated GIF or as numbered PNG files, whole or not at all. No Qt in here."""
 
 import os
 import secrets
@@ -9,13 +9,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Event
+from typing import TYPE_CHECKING, BinaryIO
 
 from p2sf.errors import ExportError
 from p2sf.files.writing import check_place, write_beside
+from p2sf.messages import Alternatives
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 ENDINGS = (".gif", ".png")
-WAITING = 3  # frames between who grabs and who writes
+WAITING = 3  # frames between the window and the writer
 PATIENCE_S = 0.1
+PathLike = str | os.PathLike[str]
 
 
 @dataclass(frozen=True)
@@ -27,19 +33,19 @@ class FilmFrame:
     rgb: bytes
 
 
-class Reel:
-    """The frames on their way from the window to the writer, a few at a time."""
+class FrameQueue:
+    """The frames between the window and the writer, a few at a time."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._frames: Queue[FilmFrame | None] = Queue(WAITING)
 
     @property
     def full(self) -> bool:
-        """Return whether the writer is behind."""
+        """Return whether the writer is behind the window."""
         return self._frames.full()
 
     def put(self, frame: FilmFrame | None) -> None:
-        """Hand over a frame, None after the last; call only while not `full`."""
+        """Add a frame, None after the last; call only while not `full`."""
         self._frames.put_nowait(frame)
 
     def frames(self, cancelled: Event) -> Iterator[FilmFrame]:
@@ -56,14 +62,19 @@ class Reel:
             yield frame
 
 
-def check_film(path) -> None:
+def check_film(path: PathLike) -> None:
     """Raise ExportError where a film cannot be written: an unknown ending, or no such folder."""
     if Path(path).suffix.lower() not in ENDINGS:
-        raise ExportError(f'{path}: a film has no ending "{Path(path).suffix}"; choose {" or ".join(ENDINGS)}')
+        raise ExportError(
+            '{path}: a film has no ending "{ending}"; choose {endings}',
+            path=str(path),
+            ending=Path(path).suffix,
+            endings=Alternatives(ENDINGS),
+        )
     check_place(path)
 
 
-def write_film(frames: Iterator[FilmFrame], path, frame_ms: int) -> tuple[Path, ...]:
+def write_film(frames: Iterator[FilmFrame], path: PathLike, frame_ms: int) -> tuple[Path, ...]:
     """Write frames as one .gif, or as numbered .png files, whole or not at all; return the paths. ExportError."""
     check_film(path)
     if Path(path).suffix.lower() == ".gif":
@@ -71,17 +82,17 @@ def write_film(frames: Iterator[FilmFrame], path, frame_ms: int) -> tuple[Path, 
     return _write_pngs(frames, Path(path))
 
 
-def _picture(frame: FilmFrame):
-    from PIL import Image
+def _picture(frame: FilmFrame) -> "Image":
+    from PIL.Image import frombytes
 
-    return Image.frombytes("RGB", (frame.width, frame.height), frame.rgb)
+    return frombytes("RGB", (frame.width, frame.height), frame.rgb)
 
 
-def _write_gif(frames: Iterator[FilmFrame], handle, frame_ms: int) -> None:
+def _write_gif(frames: Iterator[FilmFrame], handle: BinaryIO, frame_ms: int) -> None:
     """Write a GIF that repeats for ever; each frame has its own 256 colours."""
-    from PIL import Image
+    from PIL.Image import Dither, Quantize
 
-    pictures = (_picture(frame).quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE) for frame in frames)
+    pictures = (_picture(frame).quantize(256, Quantize.FASTOCTREE, dither=Dither.NONE) for frame in frames)
     first = next(pictures, None)
     if first is None:
         raise ExportError("there is no frame to write; choose a longer sweep")
@@ -90,7 +101,7 @@ def _write_gif(frames: Iterator[FilmFrame], handle, frame_ms: int) -> None:
 
 def _write_pngs(frames: Iterator[FilmFrame], path: Path) -> tuple[Path, ...]:
     folder = path.resolve().with_name(f".{secrets.token_hex(6)}.part")
-    made = []
+    made: list[Path] = []
     try:
         folder.mkdir()
         for number, frame in enumerate(frames, 1):
@@ -99,8 +110,11 @@ def _write_pngs(frames: Iterator[FilmFrame], path: Path) -> tuple[Path, ...]:
         for target in made:
             os.replace(folder / target.name, target)
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise ExportError(f"{path} cannot be written, {reason}; choose another place") from error
+        raise ExportError(
+            "{path} cannot be written, {why}; choose another place",
+            path=str(path),
+            why=(error.strerror or str(error)).lower(),
+        ) from error
     finally:
         with suppress(OSError):
             shutil.rmtree(folder)

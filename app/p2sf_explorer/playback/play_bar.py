@@ -1,15 +1,28 @@
-"""The strip of a sweep: which slider, from where to where, how fast, and the film of it."""
+"""The bar of a sweep: which slider, from which value to which, how fast, and the film of it."""
 
+from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtWidgets import QFileDialog, QFrame, QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QToolButton
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QSizePolicy,
+    QToolButton,
+    QWidget,
+)
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.playback.filming import Filming
 from p2sf_explorer.playback.player import Player
 from p2sf_explorer.playback.sweep import TITLES, sweep
 from p2sf_explorer.state.scales import read_number
+from p2sf_explorer.state.state import State
+from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.value_edit import ValueEdit
@@ -24,17 +37,17 @@ SUBJECTS = (
     ("tabs", "the open tab"),
 )
 EDIT_WIDTH = 82
-TURN_WIDTH = 44  # holds ❚❚ beside the button's air
+TURN_WIDTH = 44  # holds ❚❚ and the padding of the button
 
 
 class PlayBar(QFrame):
-    """Visible while the state names a slider to sweep."""
+    """Visible while the state names a slider to sweep; ``part(key)`` returns the part of the window to film."""
 
-    def __init__(self, window):
-        super().__init__(window)
+    def __init__(self, store: Store, filming: Filming, part: Callable[[str], QWidget], parent: QWidget) -> None:
+        super().__init__(parent)
         self.setObjectName("bar")
-        self._window, self._store = window, window.store
-        self.player, self.filming = Player(window.store, self), Filming(window)
+        self._store, self._part = store, part
+        self.player, self.filming = Player(store, self), filming
         self.turn = self._button("▶", "Play or pause (Space on a slider)", self.toggle)
         self.key = chooser(tuple(TITLES.items()), "Which slider moves", self)
         self.first, self.last, self.seconds = (self._edit(name) for name in ("from", "to", "seconds one way"))
@@ -47,7 +60,7 @@ class PlayBar(QFrame):
         self._connect()
         self.hide()
 
-    def _button(self, text: str, tip: str, action) -> QToolButton:
+    def _button(self, text: str, tip: str, action: Callable[[], object]) -> QToolButton:
         button = QToolButton(self)
         button.setObjectName("small")
         button.setText(tr(text))
@@ -106,7 +119,7 @@ class PlayBar(QFrame):
         self.player.pause()
         self._store.update(play="", play_range=None)
 
-    def show_state(self, state) -> None:
+    def show_state(self, state: State) -> None:
         """Follow a state."""
         self.setVisible(bool(state.play))
         if not state.play:
@@ -120,7 +133,7 @@ class PlayBar(QFrame):
     def _set_range(self, first: str | None = None, last: str | None = None) -> None:
         found = sweep(self._store.state)
 
-        def ends() -> dict:
+        def ends() -> dict[str, object]:
             pairs = ((first, found.first), (last, found.last))
             return {"play_range": tuple(old if text is None else found.read(text) for text, old in pairs)}
 
@@ -129,12 +142,12 @@ class PlayBar(QFrame):
     def _set_seconds(self, text: str) -> None:
         self._try(lambda: {"play_seconds": seconds(text)})
 
-    def _try(self, read) -> None:
-        """Change what was typed, or say why not and show what holds."""
+    def _try(self, read: Callable[[], dict[str, object]]) -> None:
+        """Take over what was typed, or say why not; then show the values in force."""
         try:
             self._store.update(**read())
         except P2SFError as error:
-            self._store.refused.emit(str(error))
+            self._store.refused.emit(error)
         for edit in (self.first, self.last, self.seconds):
             edit.set_text("")
         self.show_state(self._store.state)
@@ -144,31 +157,27 @@ class PlayBar(QFrame):
         if not self._store.state.play:
             self._store.update(play="field_deg")
         first = f"{Path(self._store.state.lens).stem}_{self._store.state.play}.gif"
-        path, chosen = QFileDialog.getSaveFileName(self._window, tr("Save a film"), first, tr(FILMS))
+        path, chosen = QFileDialog.getSaveFileName(self.window(), tr("Save a film"), first, tr(FILMS))
         if path:
             self.film(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))
 
     def film(self, path: str) -> bool:
         """Film the sweep to a file; return whether it began."""
         self.player.pause()
-        began = not self.filming.busy and self.filming.start(path, self._shown(self.subject.currentData()))
+        began = not self.filming.busy and self.filming.start(path, self._part(self.subject.currentData()))
         self._show_filming(began or self.filming.busy)
         return began
-
-    def _shown(self, key: str):
-        """Return the widget of a subject."""
-        return getattr(self._window, key, None) or self._window.panels[key].widget
 
     def _show_filming(self, on: bool) -> None:
         for part in (self.progress, self.stop_film):
             part.setVisible(on)
-        for part in (self.subject, self.export, self.turn, self.key, self.close_bar):
-            part.setEnabled(not on)
+        for tool in (self.subject, self.export, self.turn, self.key, self.close_bar):
+            tool.setEnabled(not on)
         self.progress.setValue(0)
 
-    def _ended(self, sentence: str) -> None:
+    def _ended(self, message: Message | P2SFError) -> None:
         self._show_filming(False)
-        self._store.said.emit(sentence)
+        self._store.said.emit(message)
 
     def stop(self) -> None:
         """End playing and filming with the window."""

@@ -1,4 +1,4 @@
-"""Plays a slider: a timer that moves it as a hand would, all of it one step of undo."""
+"""Plays a slider: a timer moves it as a drag would, in one step of undo."""
 
 from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 
@@ -13,7 +13,7 @@ class Player(QObject):
 
     turned = Signal(bool)
 
-    def __init__(self, store: Store, parent: QObject | None = None):
+    def __init__(self, store: Store, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._store, self._clock, self._start_s = store, QElapsedTimer(), 0.0
         self._timer = QTimer(self)
@@ -54,7 +54,7 @@ class Player(QObject):
             self.turned.emit(False)
 
     def pause_on(self, key: str) -> None:
-        """Leave the slider where it is if it is the one of this key: a hand has taken hold of it."""
+        """Leave the slider where it is if it is the one of this key: a person has taken hold of it."""
         if self._store.state.play == key:
             self.pause()
 

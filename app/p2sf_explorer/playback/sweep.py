@@ -1,8 +1,9 @@
-"""A slider on its way from one value to another and back: where it is at which moment. No Qt in here."""
+"""A slider that moves from one value to another and back: its value at each moment. No Qt in here."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf, log
+from typing import Any
 
 from p2sf_explorer.compare.contrasts import LINK_WORDS
 from p2sf_explorer.compute.quantities import QUANTITIES
@@ -31,7 +32,7 @@ class Sweep:
     read: Callable[[str], float]
 
     def value(self, part: float) -> float:
-        """Return the value at a part (0 to 1) of the way: even in 1/distance, in ratios of f-numbers, or plainly."""
+        """Return the value at a part (0 to 1) of the way, linear in 1/distance, in log f-number, or in the value."""
         if self.key in VERGENCES:
             vergence = (1 - part) / self.first + part / self.last
             return 1 / vergence if vergence else inf
@@ -40,12 +41,13 @@ class Sweep:
         return self.first + part * (self.last - self.first)
 
     def part(self, value: float) -> float:
-        """Return at which part of the way a value is, held inside 0 to 1."""
-        ends = [self._even(x) for x in (self.first, self.last)]
-        found = (self._even(value) - ends[0]) / (ends[1] - ends[0]) if ends[0] != ends[1] else 0.0
+        """Return the part of the way at which a value is, clipped to 0 to 1."""
+        ends = [self._linear(x) for x in (self.first, self.last)]
+        found = (self._linear(value) - ends[0]) / (ends[1] - ends[0]) if ends[0] != ends[1] else 0.0
         return min(1.0, max(0.0, found))
 
-    def _even(self, value: float) -> float:
+    def _linear(self, value: float) -> float:
+        """Return the quantity in which equal times make equal changes."""
         return 1 / value if self.key in VERGENCES else log(value) if self.key in RATIOS else value
 
     def at(self, seconds: float) -> float:
@@ -83,7 +85,7 @@ def present(state: State) -> float:
     return quantity.shown(state, ranges(prescription(state)))
 
 
-def changes(state: State, value: float) -> dict:
+def changes(state: State, value: float) -> dict[str, Any]:
     """Return the entries of the state that put its swept slider at a value."""
     if state.play.startswith(ADDED):
         return {"added_waves": with_added(state, state.play.removeprefix(ADDED), value)}

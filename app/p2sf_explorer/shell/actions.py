@@ -1,5 +1,8 @@
-"""What menus, shortcuts and dropped files do."""
+"""The commands of menus, shortcuts and dropped files."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject
@@ -7,21 +10,26 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.compute.autofocus import best_shift_um
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import with_lens
-from p2sf_explorer.files.file_watcher import Watching
-from p2sf_explorer.files.opening import KINDS, REPORT_TAB, Refusal, opened, refusal
+from p2sf_explorer.files.opening import KINDS, Refusal, opened, refusal
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.saving import ask_save_lens
 from p2sf_explorer.files.snapshot import DATA_ENDINGS, side_car, write_data, write_picture, write_state
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
-from p2sf_explorer.shell.choices import everything, fill
+from p2sf_explorer.shell.bars import TopBar
+from p2sf_explorer.shell.choices import choices, fill
 from p2sf_explorer.shell.command_palette import Palette
 from p2sf_explorer.shell.help import HelpPage, help_text
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.copying import card_in_hand, copy_data, copy_picture, png_of
 
+COPIED, NO_DATA = Message("The panel's data are on the clipboard"), Message("This panel has no numbers")
 STATE_FILES = "Explorer states (*.json)"
 SNAPSHOT_FILES = (
     "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as FITS (*.fits);;PSF as CSV (*.csv);;"
@@ -29,150 +37,162 @@ SNAPSHOT_FILES = (
 )
 
 
-class Actions(QObject):
-    """The window's commands; every refusal is one sentence in the banner."""
+@dataclass(frozen=True)
+class PanelAccess:
+    """How the actions reach the panels and the answer on screen.
 
-    def __init__(self, window):
+    ``open`` brings a panel to the front, ``card`` returns its card, ``in_front`` that of the open tab; ``explain``
+    shows why a file was refused; ``detach`` gives the panel in front a window of its own, or takes it back.
+    """
+
+    live: Callable[[], Live | None]
+    open: Callable[[str], None]
+    card: Callable[[str], Card]
+    in_front: Callable[[], Card]
+    explain: Callable[[Refusal], None]
+    detach: Callable[[], None]
+
+
+class Actions(QObject):
+    """The commands of the window; what cannot be done is said in the banner, through the store."""
+
+    def __init__(self, window: QWidget, store: Store, top: TopBar, panels: PanelAccess) -> None:
         super().__init__(window)
-        self.window, self.store = window, window.store
+        self._window, self._store, self._top, self._panels = window, store, top, panels
         self.commands: list[Command] = []
         self.palette: Palette | None = None
         for command in self._first():
             self.add(command)
-        window.top.lens_chosen.connect(self.open_lens)
-        window.top.open_file.connect(self.ask_open)
-        window.top.recent_chosen.connect(self.open_path)
+        top.lens_chosen.connect(self.open_lens)
+        top.open_file.connect(self.ask_open)
+        top.recent_chosen.connect(self.open_path)
+        top.help_asked.connect(self.help)
+        top.set_snapshot_menu(self._menu())
         self._list_recent()
-        self.watching = Watching(window)
-        window.top.help_asked.connect(self.help)
-        window.controls.autofocus.connect(self.autofocus)
-        window.top.set_snapshot_menu(self._menu())
         listed = ("Find a command…", "Report: one page as PDF…", "Shortcuts")
-        fill(window.top.more.menu(), window, tuple(c for c in self.commands if c.title in listed))
-        self.store.said.connect(window.status.say)
-        window.tabs.tabBar().setAccessibleName(tr("Panels"))
+        fill(top.more.menu(), store, tuple(c for c in self.commands if c.title in listed))
 
     def _first(self) -> tuple[Command, ...]:
-        """Return what can be done from the start; other parts of the window `add` theirs."""
-        store, top = self.store, self.window.top
+        """Return the commands there are from the start; other parts of the window `add` theirs."""
+        store = self._store
         return (
             Command("Undo", store.undo, ("Ctrl+Z",), "Steps"),
             Command("Redo", store.redo, ("Ctrl+Shift+Z", "Ctrl+Y"), "Steps"),
             Command("Open a lens file or a saved state…", self.ask_open, ("Ctrl+O",), "Files"),
-            Command("Choose a shipped lens…", top.lens.open_gallery, ("Ctrl+L",), "Files"),
+            Command("Choose a shipped lens…", self._top.lens.open_gallery, ("Ctrl+L",), "Files"),
             Command("Save the lens as it is now…", self.ask_save_lens, ("Ctrl+Shift+S",), "Files"),
             Command("Snapshot: PSF data or picture, with the state…", self.ask_snapshot, ("Ctrl+E",), "Files"),
             Command("Autofocus: best RMS wavefront", self.autofocus, ("Ctrl+F",), "Lens"),
             Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+D",), "Files"),
             Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
             Command("Report: one page as PDF…", self.ask_report, ("Ctrl+P",), "Files"),
-            Command("Pop out", self.window.tabs.detach, ("Ctrl+D",), "Panel"),
+            Command("Pop out", self._panels.detach, ("Ctrl+D",), "Panel"),
             Command("Find a command…", self.find, ("Ctrl+K",)),
             Command("Shortcuts", self.help, ("F1", "?")),
-            Command("Close the window", self.window.close, ("Ctrl+Q",)),
+            Command("Close the window", self._window.close, ("Ctrl+Q",)),
         )
 
     def add(self, command: Command) -> None:
-        """Add something to do: its keys work from now on, and help and palette list it."""
+        """Add a command: its keys work from now on, and help and palette list it."""
         self.commands.append(command)
         for keys in command.keys:
-            QShortcut(QKeySequence(keys), self.window).activated.connect(command.run)
+            QShortcut(QKeySequence(keys), self._window).activated.connect(command.run)
 
-    def attempt(self, action, *arguments) -> bool:
-        """Run an action; say its refusal in the banner and return whether it went well."""
+    def attempt(self, action: Callable[[], object]) -> bool:
+        """Run an action, or say why it cannot be done; return whether it was."""
         try:
-            action(*arguments)
+            action()
         except P2SFError as error:
-            self.window.refuse(str(error))
+            self._store.refused.emit(error)
             return False
         return True
 
     def open_path(self, path: str) -> bool:
-        """Open a lens file of any known format or a saved state, told by its content."""
+        """Open a lens file of any known format or a saved state; its content decides."""
         try:
-            self.store.replace(opened(self.store.state, path))
+            self._store.replace(opened(self._store.state, path))
         except P2SFError as error:
-            self._explain(refusal(path, error))
+            refused = refusal(path, error)
+            self._panels.explain(refused)
+            self._store.refused.emit(refused.message)
             return False
         remember(path)
         self._list_recent()
         return True
 
-    def _explain(self, refused: Refusal) -> None:
-        """Show in the report why a file is not opened, and in the banner."""
-        self.window.open_panel(REPORT_TAB)
-        self.window.panels[REPORT_TAB].show_refusal(refused)
-        self.window.refuse(refused.message)
-
     def _list_recent(self) -> None:
-        self.window.top.show_recent(recent_files())
+        self._top.show_recent(recent_files())
 
     def open_lens(self, name: str) -> bool:
         """Move to another lens, shipped or a file."""
-        return self.attempt(lambda: self.store.replace(with_lens(self.store.state, name)))
+        return self.attempt(lambda: self._store.replace(with_lens(self._store.state, name)))
 
     def autofocus(self) -> bool:
         """Move the sensor to the smallest RMS wavefront."""
-        return self.attempt(lambda: self.store.update(sensor_shift_um=best_shift_um(self.store.state)))
+        return self.attempt(lambda: self._store.update(sensor_shift_um=best_shift_um(self._store.state)))
 
     def save(self, path: str, picture_of: QWidget | None = None) -> bool:
         """Write a snapshot by the ending of its name, its state beside it."""
-        ending = Path(path).suffix.lower()
+        ending, state = Path(path).suffix.lower(), self._store.state
+        done = Message("Saved {name}, and its state as {beside}", name=Path(path).name, beside=side_car(path).name)
         if ending in DATA_ENDINGS:
-            went = self.attempt(write_data, self.window.live, path, self.store.state)
+            went = self.attempt(lambda: write_data(self._panels.live(), path, state))
         elif ending == ".json":
-            went = self.attempt(write_state, self.store.state, path)
+            went, done = self.attempt(lambda: write_state(state, path)), Message("Saved {name}", name=Path(path).name)
         else:
-            went = self.attempt(write_picture, self.store.state, png_of(picture_of or self.window), path)
+            went = self.attempt(lambda: write_picture(state, png_of(picture_of or self._window), path))
         if went:
-            text = "Saved {name}" if ending == ".json" else "Saved {name}, and its state as {beside}"
-            self.window.status.say(tr(text, name=Path(path).name, beside=side_car(path).name))
+            self._store.said.emit(done)
         return went
 
     def ask_open(self) -> None:
         """Ask for a file and open it."""
-        path, _ = QFileDialog.getOpenFileName(self.window, tr("Open a lens or a state"), "", tr(KINDS))
+        path, _ = QFileDialog.getOpenFileName(self._window, tr("Open a lens or a state"), "", tr(KINDS))
         if path:
             self.open_path(path)
 
     def ask_save_lens(self) -> None:
         """Ask for a name and save the lens as it is now."""
-        ask_save_lens(self.window, self.store)
+        ask_save_lens(self._window, self._store)
 
     def ask_snapshot(self, kinds: str = SNAPSHOT_FILES, picture_of: QWidget | None = None) -> None:
         """Ask for a name and save the snapshot."""
         ending = kinds.split("*")[1].split(")")[0]
-        first = f"{Path(self.store.state.lens).stem}{ending}"
-        path, chosen = QFileDialog.getSaveFileName(self.window, tr("Save a snapshot"), first, tr(kinds))
+        first = f"{Path(self._store.state.lens).stem}{ending}"
+        path, chosen = QFileDialog.getSaveFileName(self._window, tr("Save a snapshot"), first, tr(kinds))
         if path:
             named = path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0]
             self.save(named, picture_of)
 
     def help(self) -> None:
         """Show shortcuts and what they do."""
-        page = self.window.findChild(HelpPage) or HelpPage(help_text(tuple(self.commands)), self.window)
+        page = self._window.findChild(HelpPage) or HelpPage(help_text(tuple(self.commands)), self._window)
         page.show()
         page.raise_()
 
     def find(self) -> None:
         """Open the command palette."""
-        self.palette = self.palette or Palette(self.window)
-        self.palette.open_with(everything(self.window))
+        self.palette = self.palette or Palette(self._window)
+        self.palette.open_with(self.everything())
+
+    def everything(self) -> tuple[Command, ...]:
+        """Return all commands of the palette."""
+        return (*self.commands, *choices(self._store, self._panels.open, self.open_lens))
 
     def copy_picture(self) -> None:
         """Put the picture of the panel in hand on the clipboard."""
-        copy_picture(card_in_hand(self.window))
-        self.store.said.emit(tr("The panel's picture is on the clipboard"))
+        copy_picture(card_in_hand(self._window, self._panels.in_front()))
+        self._store.said.emit(Message("The panel's picture is on the clipboard"))
 
     def copy_data(self) -> None:
         """Put the data of the panel in hand on the clipboard."""
-        copied = copy_data(card_in_hand(self.window))
-        self.store.said.emit(tr("The panel's data are on the clipboard" if copied else "This panel has no numbers"))
+        copied = copy_data(card_in_hand(self._window, self._panels.in_front()))
+        self._store.said.emit(COPIED if copied else NO_DATA)
 
     def ask_report(self) -> None:
         """Ask for a name and write the report."""
-        first = f"{Path(self.store.state.lens).stem}.pdf"
-        path, _ = QFileDialog.getSaveFileName(self.window, tr("Save the report"), first, tr("Report (*.pdf)"))
+        first = f"{Path(self._store.state.lens).stem}.pdf"
+        path, _ = QFileDialog.getSaveFileName(self._window, tr("Save the report"), first, tr("Report (*.pdf)"))
         if path:
             self.write_report(path if Path(path).suffix else f"{path}.pdf")
 
@@ -180,21 +200,21 @@ class Actions(QObject):
         """Write one page about the lens at this source as PDF."""
         from p2sf_explorer.shell.report import write_report
 
-        went = self.attempt(write_report, self.store.state, path)
+        went = self.attempt(lambda: write_report(self._store.state, path))
         if went:
-            self.store.said.emit(tr("Saved {name}", name=Path(path).name))
+            self._store.said.emit(Message("Saved {name}", name=Path(path).name))
         return went
 
     def _menu(self) -> QMenu:
-        menu = QMenu(self.window)
+        menu = QMenu(self._window)
         menu.addAction(tr("PSF data or window…") + "\tCtrl+E", self.ask_snapshot)
         pictures = menu.addMenu(tr("Picture of one panel"))
         for entry in REGISTRY:
-            pictures.addAction(tr(entry.title), lambda key=entry.key: self._ask_panel(key))
+            pictures.addAction(tr(entry.title), partial(self._ask_panel, entry.key))
         menu.addAction(tr("Lens…") + "\tCtrl+Shift+S", self.ask_save_lens)
         menu.addAction(tr("State only…"), lambda: self.ask_snapshot(STATE_FILES))
         return menu
 
     def _ask_panel(self, key: str) -> None:
-        self.window.open_panel(key)
-        self.ask_snapshot("Picture (*.png)", self.window.panels[key].widget)
+        self._panels.open(key)
+        self.ask_snapshot("Picture (*.png)", self._panels.card(key))

@@ -1,19 +1,25 @@
-"""The bar above (lens, method, steps, snapshot, theme), the line below (warnings, facts), the banner for refusals."""
+"""The bar above (lens, method, undo, snapshot, theme), the line below (warnings, facts), the banner for refusals."""
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
+from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.charts.theme import DARK, LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.i18n.messages import said, spoken
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.shell.lens_cards import shown_title
 from p2sf_explorer.shell.lens_chooser import LensChooser
-from p2sf_explorer.shell.show import UNKNOWN
+from p2sf_explorer.shell.no_answer import UNKNOWN
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, described, select
 from p2sf_explorer.widgets.readout import Readout
@@ -39,10 +45,10 @@ class TopBar(QFrame):
     recent_chosen = Signal(str)
     help_asked = Signal()
 
-    def __init__(self, store: Store, parent=None):
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("bar")
-        self._store = store
+        self._store, self._dark = store, False
         self.lens = LensChooser(self)
         self.lens.chosen.connect(self.lens_chosen)
         self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or one of the latest", None)
@@ -75,7 +81,7 @@ class TopBar(QFrame):
         self._lay_out()
         self._write(False)
 
-    def resizeEvent(self, event) -> None:
+    def resizeEvent(self, event: QResizeEvent) -> None:
         """Write less in a narrow window."""
         super().resizeEvent(event)
         self._write(event.size().width() < NARROW)
@@ -102,7 +108,7 @@ class TopBar(QFrame):
         for tool in (self.undo, self.redo, self.pin, self.snapshot, self.lessons, self.theme, self.more, self.help):
             row.addWidget(tool)
 
-    def _tool(self, text: str, tip: str, action) -> QToolButton:
+    def _tool(self, text: str, tip: str, action: Callable[[], object] | None) -> QToolButton:
         button = QToolButton(self)
         button.setText(tr(text))
         button.setToolTip(tr(tip))
@@ -117,19 +123,17 @@ class TopBar(QFrame):
         self.snapshot.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
 
     def show_recent(self, paths: tuple[str, ...]) -> None:
-        """List the way to a file, and the files opened lately."""
+        """List the dialog that opens a file, and the files opened lately."""
         menu = self.open.menu()
         menu.clear()
         menu.addAction(tr("Open a file…") + "\tCtrl+O", self.open_file.emit)
         menu.addSeparator()
         for number, path in enumerate(paths, 1):
-            action = menu.addAction(
-                f"&{number % 10}  {Path(path).name}", lambda path=path: self.recent_chosen.emit(path)
-            )
+            action = menu.addAction(f"&{number % 10}  {Path(path).name}", partial(self.recent_chosen.emit, path))
             action.setToolTip(path)
         menu.setToolTipsVisible(True)
 
-    def show_state(self, state, dark: bool) -> None:
+    def show_state(self, state: State, dark: bool) -> None:
         """Follow a state."""
         self.lens.show_lens(state.lens, shown_title(state), DARK if dark else LIGHT)
         self.edited.setVisible(state.lens_text is not None)
@@ -151,7 +155,7 @@ class TopBar(QFrame):
 class StatusLine(QWidget):
     """Warnings at the left, facts at the right."""
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.warning = Readout(self, colour="warning")
         self.facts = Readout(self, align=Qt.AlignmentFlag.AlignRight)
@@ -163,7 +167,7 @@ class StatusLine(QWidget):
         row.addWidget(self.facts)
 
     def show_live(self, live: Live, frame_ms: float | None) -> None:
-        """Show the sentences and figures of an answer."""
+        """Show the warnings and figures of an answer."""
         sentences = [said(warning) for warning in live.warnings]
         text = "   ".join(f"⚠ {sentence}" for sentence in sentences)
         if self.warning.text() != text:
@@ -172,16 +176,16 @@ class StatusLine(QWidget):
             self.warning.setToolTip("\n".join(sentences))
         self.facts.set_text(facts(live, frame_ms))
 
-    def show_none(self, sentence: str) -> None:
-        """Keep the sentence on why there is no answer, which outlasts the banner; no figures."""
-        words = words_of(sentence)
+    def show_none(self, why: Message | P2SFError) -> None:
+        """Show why there is no answer, for longer than the banner does, and no figures."""
+        words = said(why)
         self.warning.set_text(f"⚠ {words}")
         self.warning.setToolTip(words)
         self.facts.set_text(UNKNOWN)
 
-    def say(self, text: str) -> None:
-        """Show a passing message until the next answer."""
-        self.warning.set_text(words_of(text))
+    def say(self, message: Message | P2SFError) -> None:
+        """Show a message until the next answer."""
+        self.warning.set_text(said(message))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -200,9 +204,9 @@ def facts(live: Live, frame_ms: float | None) -> str:
 
 
 class Banner(QFrame):
-    """A refusal in one calm sentence; it goes by itself when the next answer comes, or by its button."""
+    """Says why something cannot be done; it hides with the next answer, or by its button."""
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("banner")
         self.text = QLabel(self)
@@ -216,12 +220,7 @@ class Banner(QFrame):
         row.addWidget(close)
         self.hide()
 
-    def say(self, sentence: str) -> None:
-        """Show a sentence."""
-        self.text.setText(unbroken(words_of(sentence)))
+    def say(self, message: Message | P2SFError) -> None:
+        """Show a message."""
+        self.text.setText(unbroken(said(message)))
         self.show()
-
-
-def words_of(sentence) -> str:
-    """Return a refusal in the window's words."""
-    return tr(spoken(sentence)) if isinstance(sentence, str) else said(sentence)

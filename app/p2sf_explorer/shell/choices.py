@@ -1,5 +1,6 @@
-"""What the palette and the menu of choices offer beside the window's own actions: panels, lenses, looks, languages."""
+"""Commands beside the window's own actions: panels, lenses, presets, colours, themes, languages."""
 
+from collections.abc import Callable, Iterator
 from functools import partial
 
 from PySide6.QtWidgets import QMenu
@@ -10,40 +11,39 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.what_if import PRESETS, of_preset
+from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
 COLOURS = {"standard": "Inferno", "viridis": "Viridis", "cividis": "Cividis", "grey": "Grey"}
 THEMES = {"system": "As the system", "light": "Light", "dark": "Dark"}
 
 
-def everything(window) -> tuple[Command, ...]:
-    """Return all a person can do in a window."""
-    return (*window.actions.commands, *_panels(window), *_lenses(window), *_presets(window), *looks(window))
+def choices(
+    store: Store, open_panel: Callable[[str], object], open_lens: Callable[[str], object]
+) -> tuple[Command, ...]:
+    """Return a command for every panel, lens, preset and appearance that a person may choose."""
+    return (*_panels(open_panel), *_lenses(open_lens), *_presets(store), *appearances(store))
 
 
-def _panels(window):
+def _panels(open_panel: Callable[[str], object]) -> Iterator[Command]:
     for entry in REGISTRY:
         if entry.place != "main":
-            yield Command(entry.title, partial(window.open_panel, entry.key), (), "Panel")
+            yield Command(entry.title, partial(open_panel, entry.key), (), "Panel")
 
 
-def _lenses(window):
+def _lenses(open_lens: Callable[[str], object]) -> Iterator[Command]:
     for name in shipped():
-        yield Command(title(name), partial(window.actions.open_lens, name), (), "Lens")
+        yield Command(title(name), partial(open_lens, name), (), "Lens")
 
 
-def _presets(window):
+def _presets(store: Store) -> Iterator[Command]:
     for preset in PRESETS:
-        yield Command(preset.title, partial(_take_preset, window, preset), (), "Preset")
+        yield Command(preset.title, partial(store.update, **of_preset(preset)), (), "Preset")
 
 
-def _take_preset(window, preset) -> None:
-    window.store.update(**of_preset(preset))
-
-
-def looks(window):
-    """Yield how the window may look and speak."""
-    update = window.store.update
+def appearances(store: Store) -> Iterator[Command]:
+    """Yield a command for every choice of colours, theme and language."""
+    update = store.update
     for value in CHOICES["colours"]:
         yield Command(COLOURS[value], partial(update, colours=value), (), "Colours")
     for value in CHOICES["theme"]:
@@ -53,14 +53,14 @@ def looks(window):
         yield Command(name, partial(update, language=code), (), "Language")
 
 
-def fill(menu: QMenu, window, first: tuple[Command, ...]) -> None:
-    """Put actions into a menu, and under them the looks, group by group."""
+def fill(menu: QMenu, store: Store, first: tuple[Command, ...]) -> None:
+    """Put commands into a menu, and under them the appearances, group by group."""
     for command in first:
         keys = f"\t{command.keys[0]}" if command.keys else ""
         menu.addAction(tr(command.title) + keys, command.run)
     menu.addSeparator()
     groups: dict[str, QMenu] = {}
-    for command in looks(window):
+    for command in appearances(store):
         if command.group not in groups:
             groups[command.group] = menu.addMenu(tr(command.group))
         groups[command.group].addAction(tr(command.title), command.run)

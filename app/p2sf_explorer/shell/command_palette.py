@@ -1,14 +1,15 @@
 """The command palette: every action, panel, lens and preset by a few letters of its name."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.command import Command
 
-START, NEXT, GAP = 8.0, 6.0, 0.3  # what a letter at a word's start and one right behind the last are worth; a gap costs
+START, NEXT, GAP = 8.0, 6.0, 0.3  # scores of a letter at a word's start and right behind the last; cost of a gap
 
 
 def score(sought: str, text: str) -> float | None:
@@ -20,8 +21,8 @@ def score(sought: str, text: str) -> float | None:
     return max((worth for at in starts for worth in _from(letters, words, at)), default=None)
 
 
-def _from(letters: str, words: str, at: int):
-    """Yield what the letters are worth when the first is taken at a place and each other as soon as it comes."""
+def _from(letters: str, words: str, at: int) -> Iterator[float]:
+    """Yield the score of the letters with the first one at a place and each other one at its next occurrence."""
     worth, last = 0.0, at - 1
     for letter in letters:
         found = _start(words, letter, last + 1)
@@ -59,8 +60,9 @@ STEPS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 class Palette(QFrame):
     """A line to type into and what fits it, the best first."""
 
-    def __init__(self, parent: QWidget):
+    def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
+        self._window = parent
         self.setObjectName("card")
         self.sought, self.found = QLineEdit(self), QListWidget(self)
         self.sought.setPlaceholderText(tr("What do you want to do?"))
@@ -82,7 +84,7 @@ class Palette(QFrame):
     def open_with(self, commands: tuple[Command, ...]) -> None:
         """Show all commands, ready to type."""
         self._commands = commands
-        parent = self.parentWidget()
+        parent = self._window
         self.resize(min(WIDE, parent.width() - 40), min(460, parent.height() - 120))
         corner = parent.mapToGlobal(parent.rect().topLeft())
         self.move(corner.x() + (parent.width() - self.width()) // 2, corner.y() + 70)
@@ -112,9 +114,9 @@ class Palette(QFrame):
             self.hide()
             self._commands[number].run()
 
-    def eventFilter(self, watched, event) -> bool:
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Hand the keys that choose on to the list."""
-        if event.type() != QEvent.Type.KeyPress:
+        if not isinstance(event, QKeyEvent) or event.type() != QEvent.Type.KeyPress:
             return False
         if event.key() in STEPS:
             self.found.event(event)

@@ -15,13 +15,14 @@ from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, visible_colour
+from p2sf_explorer.compute.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, Scale, visible_colour
 from p2sf_explorer.compute.setup import Ranges, default_state, prescription, ranges
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.first_order import OF_A, rows
-from p2sf_explorer.shell.show import UNKNOWN
+from p2sf_explorer.shell.no_answer import UNKNOWN
 from p2sf_explorer.state.scales import Vergence, short_distance, signed
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.readout import FactTable, Readout, scrolled
@@ -34,9 +35,9 @@ CHOICES = (("file", "as in the file"), ("auto", "found"))
 
 
 class StopRow(QWidget):
-    """Chooser and check box; they tell the store and follow the state."""
+    """Chooser of the stop and check box of clipping; they update the store and follow the state."""
 
-    def __init__(self, store: Store, parent=None):
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         name = QLabel(tr("Stop"), self)
         name.setToolTip(tr(STOP_TIP))
@@ -52,7 +53,7 @@ class StopRow(QWidget):
         row.addStretch(1)
         row.addWidget(self.clip, 0, Qt.AlignmentFlag.AlignRight)
 
-    def show_state(self, state) -> None:
+    def show_state(self, state: State) -> None:
         """Follow a state; no signal goes back."""
         select(self.stop, state.stop)
         if self.clip.isChecked() != state.clip:
@@ -65,11 +66,11 @@ WIDTH = 292
 
 
 class QuantityRow(QWidget):
-    """One quantity: name and number above, slider below; tells the store, follows the state."""
+    """One quantity: name and number above, slider below; it updates the store and follows the state."""
 
     swept, grasped = Signal(str), Signal(str)
 
-    def __init__(self, quantity: Quantity, store: Store, parent=None):
+    def __init__(self, quantity: Quantity, store: Store, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.quantity, self._store = quantity, store
         self.setToolTip(tr(quantity.tip))
@@ -78,7 +79,8 @@ class QuantityRow(QWidget):
         self.edit.setAccessibleName(tr(quantity.title))
         self.play = PlayButton(self)
         self.buttons = [self._button(*button) for button in quantity.buttons]
-        self._scale = self._shown = None
+        self._scale: Scale | None = None
+        self._shown: tuple[float, Scale] | None = None
         self._lay_out()
         self._connect()
 
@@ -125,7 +127,7 @@ class QuantityRow(QWidget):
         fresh = default_state(self._store.state.lens, self._store.state.lens_text)
         self._store.update(**{self.quantity.key: getattr(fresh, self.quantity.key)})
 
-    def show_state(self, state, limits: Ranges) -> None:
+    def show_state(self, state: State, limits: Ranges) -> None:
         """Follow a state: slider, number, ticks; no signal goes back."""
         scale = self.quantity.scale(limits)
         if scale != self._scale:
@@ -140,7 +142,7 @@ class QuantityRow(QWidget):
         self.slider.blockSignals(False)
         self.edit.set_text(tr(self.quantity.write(value)) if value < 0 else self.quantity.write(value))
 
-    def _set_marks(self, scale) -> None:
+    def _set_marks(self, scale: Scale) -> None:
         inside = [(v, name) for v, name in self.quantity.ticks if scale.low <= v <= scale.high]
         self.slider.set_ticks(tuple((scale.travel(v), name) for v, name in inside))
         if isinstance(scale, Vergence):
@@ -150,7 +152,7 @@ class QuantityRow(QWidget):
             self.slider.set_spectrum(tuple((t, visible_colour(scale.value(t))) for t in steps))
 
     def show_note(self, text: str) -> None:
-        """Show a line of consequences under the slider."""
+        """Show what follows from the value, in a line under the slider."""
         self.note.set_text(text)
 
     def restyle(self, theme: Tokens) -> None:
@@ -159,18 +161,19 @@ class QuantityRow(QWidget):
         self.note.restyle(theme)
 
     def _on_slider(self, step: int) -> None:
-        self._store.update(**{self.quantity.key: self._scale.value(step / STEPS)})
+        if self._scale:
+            self._store.update(**{self.quantity.key: self._scale.value(step / STEPS)})
 
     def _on_text(self, text: str) -> None:
         try:
             value = self.quantity.read(text)
         except P2SFError as error:
-            self._store.refused.emit(str(error))
+            self._store.refused.emit(error)
             self.edit.set_text(self.edit.last)
         else:
             self._store.update(**{self.quantity.key: value})
             if getattr(self._store.state, self.quantity.key) != value:
-                self.edit.set_text(self.edit.last)  # refused: the number shown stays the picture's
+                self.edit.set_text(self.edit.last)  # refused: the number stays that of the picture
 
 
 class Controls(QWidget):
@@ -179,7 +182,7 @@ class Controls(QWidget):
     autofocus = Signal()
     swept, grasped = Signal(str), Signal(str)
 
-    def __init__(self, store: Store, parent=None):
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("controls")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -227,7 +230,7 @@ class Controls(QWidget):
             part.setAutoFillBackground(False)
         return column
 
-    def show_state(self, state) -> None:
+    def show_state(self, state: State) -> None:
         """Follow a state."""
         limits = ranges(prescription(state))
         for row in self.rows.values():
@@ -241,12 +244,13 @@ class Controls(QWidget):
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
         apart = live.state.shown != "a"  # B or A − B is on screen, and this column stays A's
-        self.sentence.setText(unbroken(f"A: {said(live.dominant)}" if apart else said(live.dominant)))
+        dominant = said(live.dominant)
+        self.sentence.setText(unbroken(f"A: {dominant}" if apart else dominant))
         self.detail.setText(unbroken(live.why.text(WINDOW)))
         self.facts.show_rows((OF_A, *rows(live)) if apart else rows(live))
 
     def show_none(self) -> None:
-        """Show that nothing follows from the state: no figure, no dominant term."""
+        """Show no figures and no dominant term, where a state has no answer."""
         self.rows["field_deg"].show_note(UNKNOWN)
         self.sentence.clear()
         self.detail.clear()

@@ -1,23 +1,25 @@
 """Panels in windows of their own: they follow the state's ``windows``, and closing one takes it out of there."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
-from PySide6.QtCore import QByteArray, QObject
+from PySide6.QtCore import QByteArray, QObject, Qt
 from PySide6.QtWidgets import QLabel, QWidget
 
-from p2sf_explorer.panels import PanelEntry
+from p2sf_explorer.panels import Panel, PanelEntry
 from p2sf_explorer.shell.tabs import OwnWindow
 from p2sf_explorer.store.store import Store
 
 
-class Floating(QObject):
-    """Moves panels between their page, at ``homes`` by their key, and a window of their own.
+class FloatingPanels(QObject):
+    """Moves panels between their page, in ``homes`` by their keys, and a window of their own.
 
-    ``places``: where each own window stood last, as Qt keeps it. A panel whose tab is not in front waits outside the
-    window: a new style is worked out for every widget within, on show or not, and most are not.
+    ``places`` keeps the geometry that each own window had last. A panel whose tab is not in front is taken out of the
+    window: a new style sheet is computed for every widget inside, shown or not, and most are not shown.
     """
 
-    def __init__(self, window: QWidget, store: Store, homes: dict[str, QWidget], entries: tuple[PanelEntry, ...]):
+    def __init__(
+        self, window: QWidget, store: Store, homes: dict[str, QWidget], entries: tuple[PanelEntry, ...]
+    ) -> None:
         super().__init__(window)
         self._window, self._store, self._homes = window, store, homes
         self._titles = {entry.key: entry.title for entry in entries}
@@ -26,8 +28,8 @@ class Floating(QObject):
         self.places: dict[str, QByteArray] = {}
         self._closing = False
         self._front = ""
-        self._attic = QWidget()
-        self.destroyed.connect(self._attic.deleteLater)  # no child of the window, it would outlive it with its panels
+        self._out_of_sight = QWidget()
+        self.destroyed.connect(self._out_of_sight.deleteLater)  # it is no child of the window, and would outlive it
 
     def toggle(self, key: str) -> None:
         """Put a panel into a window of its own, or back."""
@@ -35,22 +37,24 @@ class Floating(QObject):
         self._store.update(windows=tuple(k for k in now if k != key) if key in now else (*now, key))
 
     def place(self, key: str, widget: QWidget) -> None:
-        """Put a panel where it belongs: into its window if it has one, else onto its page, or away behind its tab."""
+        """Put a panel into its own window if it has one, else onto its page if that is in front, else out of sight."""
         if self._is_behind(key):
-            widget.setParent(self._attic)
+            widget.setParent(self._out_of_sight)
         else:
-            home = self.open.get(key) or self._homes[key]
-            home.layout().addWidget(widget)
+            layout = (self.open.get(key) or self._homes[key]).layout()
+            if layout is not None:
+                layout.addWidget(widget)
             widget.show()
-        self._homes[key].findChild(QLabel, "muted").setVisible(key in self.open)
+        for note in self._homes[key].findChildren(QLabel, "muted", Qt.FindChildOption.FindDirectChildrenOnly):
+            note.setVisible(key in self.open)
 
     def _is_behind(self, key: str) -> bool:
         return key in self._tabbed and key != self._front and key not in self.open
 
-    def bring_up(self, key: str, panels: dict, turn: Callable[[str], None]) -> None:
-        """Put the panel of a tab onto its page, ``turn`` to that, and put the one that was in front away.
+    def bring_up(self, key: str, panels: Mapping[str, Panel], turn: Callable[[str], None]) -> None:
+        """Put the panel of a tab onto its page, ``turn`` to that page, and put the panel before it out of sight.
 
-        In this order: Qt hands the keys on to what stands on the page it turns to, else to whatever comes next.
+        In this order, since Qt hands the focus to a widget on the page it turns to, else to the next one anywhere.
         """
         before, self._front = self._front, key
         if before != key:
@@ -59,8 +63,8 @@ class Floating(QObject):
         if before != key and before in panels:
             self.place(before, panels[before].widget)
 
-    def follow(self, wanted: tuple[str, ...], panels: dict) -> None:
-        """Open and close windows until they are those wanted."""
+    def follow(self, wanted: tuple[str, ...], panels: Mapping[str, Panel]) -> None:
+        """Open and close windows until the open ones are those wanted."""
         for key in [key for key in self.open if key not in wanted]:
             self.places |= self.present_places()
             closed = self.open.pop(key)
@@ -77,11 +81,11 @@ class Floating(QObject):
             made.show()
 
     def present_places(self) -> dict[str, QByteArray]:
-        """Return where the open windows stand."""
+        """Return the geometry of the open windows."""
         return {key: own.saveGeometry() for key, own in self.open.items()}
 
     def stop(self) -> None:
-        """Close every window with the main one; the state keeps them for the next start."""
+        """Close every window with the main one; the state keeps them open for the next start."""
         self._closing = True
         for own in self.open.values():
             own.close()

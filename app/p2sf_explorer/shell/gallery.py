@@ -1,4 +1,4 @@
-"""Pictures of the window for whoever changes a panel: ``python -m p2sf_explorer.shell.gallery FOLDER``."""
+"""Pictures of the window, to look at after changing a panel: ``python -m p2sf_explorer.shell.gallery FOLDER``."""
 
 import sys
 from dataclasses import replace
@@ -27,8 +27,7 @@ def states() -> dict[str, State]:
     shown["close_up"] = State(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
     shown["eye"] = State(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")
     shown["surface"] = State(phase="surface", theme="dark")
-    by_hand = {"added_waves": (0.0, 1.5, 0.0, 0.0, -2.0, 0.0), "muted": ("w22",)}
-    shown["what_if"] = State(theme="light", **by_hand)
+    shown["what_if"] = State(theme="light", added_waves=(0.0, 1.5, 0.0, 0.0, -2.0, 0.0), muted=("w22",))
     shown["free_pupil"] = State(theme="dark", added_waves=(0.0, 3.0, 0.0, 0.0, 0.0, 0.0), free_pupil=True, tab="mtf")
     pair = State(theme="light", pinned=State(f_number=8.0), linked=("field_deg",), play="field_deg")
     for side in CHOICES["shown"]:
@@ -41,21 +40,12 @@ def states() -> dict[str, State]:
 def settle(window: MainWindow) -> None:
     """Let the window paint, and its background measurement end."""
     loop, looking, longest = QEventLoop(), QTimer(), QTimer()
-    looking.timeout.connect(lambda: None if working(window) else loop.quit())
+    looking.timeout.connect(lambda: None if window.is_busy() else loop.quit())
     longest.setSingleShot(True)
     longest.timeout.connect(loop.quit)
     looking.start(LOOK_MS)
     longest.start(LONGEST_MS)
     loop.exec()
-
-
-def working(window: MainWindow) -> bool:
-    """Return whether anything is still computed in the background."""
-    panels = tuple(window.panels.values())
-    owners = (window.measuring, *panels, *(getattr(panel, "asking", None) for panel in panels))
-    workers = (getattr(owner, name, None) for owner in owners for name in ("worker", "quick", "fine"))
-    preparing = any(getattr(panel, "busy", False) for panel in panels)
-    return preparing or any(worker is not None and worker.busy for worker in workers)
 
 
 def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
@@ -76,8 +66,8 @@ def main(arguments: list[str]) -> int:
         return 2
     folder = Path(arguments[0])
     folder.mkdir(parents=True, exist_ok=True)
-    application = QApplication.instance() or QApplication(sys.argv[:1])
-    application.setStyle("Fusion")
+    _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
+    QApplication.setStyle("Fusion")
     configure_plots()
     for name, state in states().items():
         for size, pixels in SIZES.items():

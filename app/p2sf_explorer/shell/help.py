@@ -1,4 +1,4 @@
-"""The page of shortcuts, made from the commands themselves, in a window that scrolls where the screen is short."""
+"""The page of shortcuts, made from the commands themselves."""
 
 from html import escape
 
@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.command import Command
 
-HANDS = (
+MOUSE_AND_KEYS = (
     ("← → ↑ ↓, Page Up/Down", "move the slider that has the focus"),
     ("double-click", "back to the lens's own value"),
     ("Tab, Shift+Tab", "to the next or the previous control"),
@@ -23,8 +23,8 @@ LEAD = "Drag a slider: lens, pupil and PSF follow. Hover over a name for its def
 
 
 def help_text(commands: tuple[Command, ...]) -> str:
-    """Return the page as HTML: what hands do, then every command with keys, group by group."""
-    rows = [_row(tr(keys), tr(words)) for keys, words in HANDS]
+    """Return the page as HTML: mouse and slider keys, then every command with keys, group by group."""
+    rows = [_row(tr(keys), tr(words)) for keys, words in MOUSE_AND_KEYS]
     for group in dict.fromkeys(command.group for command in commands):
         known = [command for command in commands if command.group == group and command.keys]
         if known:
@@ -44,7 +44,7 @@ WIDE, TALL = 620, 860
 class HelpPage(QDialog):
     """Shows a page of HTML; Escape or its frame closes it."""
 
-    def __init__(self, html: str, parent: QWidget):
+    def __init__(self, html: str, parent: QWidget) -> None:
         super().__init__(parent)
         self.setObjectName("window")
         self.setWindowTitle(tr("Help"))

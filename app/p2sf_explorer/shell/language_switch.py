@@ -1,23 +1,24 @@
-"""Opens the window, and opens it anew when its language changes: what is built says what it says."""
+"""Opens the window, and opens another one when its language changes, since widgets take their texts when built."""
 
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QTimer
 
 from p2sf_explorer.i18n.language import current_language, language_of, set_language
+from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State
 
 
 class LanguageSwitch(QObject):
     """Holds the one window; ``make`` builds a window for a state, shown or not."""
 
-    def __init__(self, state: State, make: Callable, parent: QObject | None = None):
+    def __init__(self, state: State, make: Callable[[State], MainWindow], parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._make = make
         set_language(state.language)
         self.window = self._made(state)
 
-    def _made(self, state: State):
+    def _made(self, state: State) -> MainWindow:
         window = self._make(state)
         window.store.changed.connect(self._listen)
         return window
@@ -27,7 +28,7 @@ class LanguageSwitch(QObject):
             QTimer.singleShot(0, self.reopen)
 
     def reopen(self) -> None:
-        """Put a window in the state's language in the place of the old one; undo still goes back all the way."""
+        """Replace the window by one in the state's language, with all steps of undo."""
         old = self.window
         if language_of(old.store.state.language) == current_language():
             return

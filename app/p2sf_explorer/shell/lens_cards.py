@@ -1,4 +1,4 @@
-"""What a gallery says of a lens: title, first-order figures, one line of character, a drawing. No Qt in here."""
+"""The cards of the lens gallery: title, first-order figures, one line of character, a drawing. No Qt in here."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,35 +17,36 @@ from p2sf_explorer.state.state import State
 
 @dataclass(frozen=True, eq=False)
 class LensCard:
-    """One lens of the gallery; ``drawing`` is None where the lens cannot be drawn."""
+    """One lens of the gallery; ``drawing`` is None where the lens cannot be drawn, and ``problem`` then says why."""
 
     name: str
     title: str
     facts: str
     character: str
+    problem: P2SFError | None = None
     drawing: Drawing | None = None
 
 
 @lru_cache(maxsize=64)
 def lens_card(name: str) -> LensCard:
-    """Return the card of a lens; one that cannot be read says why in place of its character."""
+    """Return the card of a lens, with the ``problem`` of one that cannot be read."""
     try:
         lens = load(name)
         stop = find_stop(lens)
         drawn = drawing(lens, float(stop.surface), float(stop.semi_diameter))
-        return LensCard(name, lens.title or lens.name, facts(lens), lens.character, drawn)
+        return LensCard(name, lens.title or lens.name, facts(lens), lens.character, drawing=drawn)
     except P2SFError as error:
-        return LensCard(name, title(name), "", str(error))
+        return LensCard(name, title(name), "", "", error)
 
 
 def shown_title(state: State) -> str:
-    """Return how the top bar names the state's lens; read once, since a slider asks for it on every frame."""
+    """Return the title of the state's lens for the top bar, cached since every frame asks for it."""
     return _shown_title(state.lens, state.lens_text, stamp(state.lens))
 
 
 @lru_cache(maxsize=128)
 def _shown_title(name: str, lens_text: str | None, _stamp: tuple[int, int]) -> str:
-    """Return a lens's title; a shipped one's glasses are not looked up for that."""
+    """Return a lens's title, without looking up the glasses of a shipped one."""
     found = title(name)
     if lens_text is None and found != name:
         return found
@@ -57,7 +58,7 @@ def _shown_title(name: str, lens_text: str | None, _stamp: tuple[int, int]) -> s
 
 
 def facts(lens: Lens) -> str:
-    """Return focal length, f-number and half field as people say them."""
+    """Return focal length, f-number and half field in one line."""
     wavelength = lens.reference_wavelength_um
     focal = float(cardinal_points(lens, wavelength).effective_focal_length)
     speed = float(f_number(lens, wavelength))

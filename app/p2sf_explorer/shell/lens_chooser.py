@@ -1,7 +1,16 @@
 """The lens chooser: a button with the present lens's title, and a gallery of the shipped ones under it."""
 
-from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QPainter, QPen, QStandardItem, QStandardItemModel
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QColor,
+    QKeyEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+    QStandardItem,
+    QStandardItemModel,
+)
 from PySide6.QtWidgets import (
     QFrame,
     QLabel,
@@ -10,12 +19,15 @@ from PySide6.QtWidgets import (
     QSizePolicy,
     QStyle,
     QStyledItemDelegate,
+    QStyleOptionViewItem,
     QVBoxLayout,
+    QWidget,
 )
 
 from p2sf_explorer.charts.plots import small_font
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.setup import shipped, title
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.shell.lens_cards import LensCard, lens_card
 from p2sf_explorer.widgets.card import paint_chevron
@@ -25,6 +37,7 @@ NAME = Qt.ItemDataRole.UserRole
 WIDE, NARROW = 560, 110
 CELL, PICTURE = QSize(254, 172), 74
 SIZE = QSize(4 * 254 + 30, 4 * 172 + 48)
+ModelIndex = QModelIndex | QPersistentModelIndex
 ALIGN = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
 
 
@@ -33,7 +46,7 @@ class LensChooser(QPushButton):
 
     chosen = Signal(str)
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(tr("Lens"))
         self.setToolTip(tr("The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)"))
@@ -44,7 +57,7 @@ class LensChooser(QPushButton):
         self.clicked.connect(self.open_gallery)
 
     def currentData(self) -> str:
-        """Return the present lens's name, as the boxes beside do."""
+        """Return the name of the present lens, as a combo box returns its choice."""
         return self._name
 
     def show_lens(self, name: str, shown_title: str, theme: Tokens) -> None:
@@ -60,10 +73,10 @@ class LensChooser(QPushButton):
         return QSize(WIDE, super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:
-        """Return a width that holds a title's beginning: a small window has less room."""
+        """Return a width that holds the beginning of a title, for a small window."""
         return QSize(NARROW, super().minimumSizeHint().height())
 
-    def resizeEvent(self, event) -> None:
+    def resizeEvent(self, event: QResizeEvent) -> None:
         """Show as much of the title as there is room for."""
         super().resizeEvent(event)
         self._fit()
@@ -79,25 +92,25 @@ class LensChooser(QPushButton):
             self.gallery.chosen.connect(self.chosen)
         self.gallery.open_at(self.mapToGlobal(QPoint(0, self.height() + 4)), self._name, self._theme)
 
-    def keyPressEvent(self, event) -> None:
+    def keyPressEvent(self, event: QKeyEvent) -> None:
         """Open the gallery with the keys that open a combo box."""
         if event.key() in (Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self.open_gallery()
         else:
             super().keyPressEvent(event)
 
-    def paintEvent(self, event) -> None:
+    def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the button, then a chevron."""
         super().paintEvent(event)
         paint_chevron(self)
 
 
 class Gallery(QFrame):
-    """The shipped lenses as cards; a card is worked out when it comes into sight, one at a time."""
+    """The shipped lenses as cards; a card is computed when it first comes into view, one at a time."""
 
     chosen = Signal(str)
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
         self.setObjectName("card")
         self.list, self.cards = QListView(self), CardPainter(self)
@@ -146,12 +159,12 @@ class Gallery(QFrame):
         self.list.scrollTo(self.list.currentIndex())
         self.list.setFocus()
 
-    def _choose(self, index) -> None:
+    def _choose(self, index: QModelIndex) -> None:
         if self.isVisible():  # a click may also count as an activation
             self.hide()
             self.chosen.emit(index.data(NAME))
 
-    def keyPressEvent(self, event) -> None:
+    def keyPressEvent(self, event: QKeyEvent) -> None:
         """Close with Escape."""
         if event.key() == Qt.Key.Key_Escape:
             self.hide()
@@ -160,31 +173,31 @@ class Gallery(QFrame):
 
 
 class CardPainter(QStyledItemDelegate):
-    """Paints cards; the figures of one not yet seen are worked out between two frames."""
+    """Paints cards; the figures of a card that is new are computed between two frames."""
 
     arrived = Signal()
 
-    def __init__(self, parent=None):
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.theme: Tokens = LIGHT
         self.known: dict[str, LensCard] = {}
         self._awaited: list[str] = []
         self._timer = QTimer(self, singleShot=True, interval=0)
-        self._timer.timeout.connect(self._work_out)
+        self._timer.timeout.connect(self._compute_next)
 
-    def _work_out(self) -> None:
+    def _compute_next(self) -> None:
         if self._awaited:
             name = self._awaited.pop(0)
             self.known[name] = lens_card(name)
             self.arrived.emit()
             self._timer.start()
 
-    def sizeHint(self, option, index) -> QSize:
+    def sizeHint(self, option: QStyleOptionViewItem, index: ModelIndex) -> QSize:
         """Return the size of a card."""
         return CELL
 
-    def paint(self, painter: QPainter, option, index) -> None:
-        """Paint a card, or its title alone while it is worked out."""
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: ModelIndex) -> None:
+        """Paint a card, or its title alone until its figures are there."""
         name, room = index.data(NAME), QRectF(option.rect).adjusted(4, 4, -4, -4)
         painter.save()
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -201,7 +214,7 @@ class CardPainter(QStyledItemDelegate):
         painter.drawText(inner.adjusted(0, PICTURE + 4, 0, 0), ALIGN, words)
         painter.restore()
 
-    def _paint_ground(self, painter: QPainter, room: QRectF, state) -> None:
+    def _paint_ground(self, painter: QPainter, room: QRectF, state: QStyle.StateFlag) -> None:
         chosen = bool(state & QStyle.StateFlag.State_Selected)
         under = bool(state & QStyle.StateFlag.State_MouseOver)
         painter.setPen(QPen(QColor(self.theme.accent if chosen else self.theme.line), 2 if chosen else 1))
@@ -214,5 +227,5 @@ class CardPainter(QStyledItemDelegate):
         painter.setPen(QColor(self.theme.muted))
         painter.setFont(small_font())
         painter.drawText(room.adjusted(0, PICTURE + 21, 0, 0), ALIGN, tr(card.facts))
-        words = Qt.TextFlag.TextWordWrap
-        painter.drawText(room.adjusted(0, PICTURE + 37, 0, 0), ALIGN | words, tr(card.character))
+        words = said(card.problem) if card.problem else tr(card.character)
+        painter.drawText(room.adjusted(0, PICTURE + 37, 0, 0), ALIGN | Qt.TextFlag.TextWordWrap, words)

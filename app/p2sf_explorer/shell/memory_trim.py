@@ -1,4 +1,4 @@
-"""Memory given back to the system: what a burst of frames has freed, the C library would keep to the end."""
+"""Returns freed memory to the system: the C library would keep what a burst of frames has freed."""
 
 import ctypes
 import sys
@@ -7,14 +7,14 @@ from threading import Thread
 
 from PySide6.QtCore import QObject, QTimer
 
-REST_MS = 2_000  # so long after the last change a hand is taken to rest
-LATEST_MS = 20_000  # a hand that never rests waits for the allocator's lock this seldom, some ms at a time
+REST_MS = 2_000  # after the last change
+LATEST_MS = 20_000  # while changes go on: trimming holds the allocator's lock for some ms
 
 
 class MemoryTrim(QObject):
-    """Gives freed memory back when the window rests, off the GUI thread; ``touch`` it at every change."""
+    """Trims the heap, off the GUI thread, when nothing has changed for a while; call ``touch`` at every change."""
 
-    def __init__(self, parent: QObject | None = None):
+    def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._rest, self._latest = QTimer(self), QTimer(self)
         for timer, pause in ((self._rest, REST_MS), (self._latest, LATEST_MS)):
@@ -23,13 +23,13 @@ class MemoryTrim(QObject):
             timer.timeout.connect(self._on_time)
 
     def touch(self) -> None:
-        """Note that something was computed, and freed."""
+        """Note that something was computed, and memory freed."""
         self._rest.start()
         if not self._latest.isActive():
             self._latest.start()
 
     def stop(self) -> None:
-        """Give back nothing more."""
+        """Trim no more until the next change."""
         self._rest.stop()
         self._latest.stop()
 
@@ -40,5 +40,5 @@ class MemoryTrim(QObject):
 
 
 def trimming() -> Callable[[int], int] | None:
-    """Return glibc's malloc_trim(3), which returns free pages in the middle of its heaps too; None without glibc."""
+    """Return malloc_trim(3) of glibc, which also returns free pages in the middle of its heaps; None without glibc."""
     return getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None

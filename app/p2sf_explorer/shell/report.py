@@ -1,9 +1,10 @@
-"""One printed page about a lens at the present source: drawing, first-order data, PSFs over the field, coefficients."""
+"""A report of one page on a lens at the present source: drawing, first order, coefficients, PSFs over the field."""
 
 from dataclasses import dataclass, replace
 from math import isfinite
 
 import numpy as np
+from numpy.typing import ArrayLike
 from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QImage, QPageSize, QPainter, QPdfWriter, QPen, QPolygonF
 
@@ -58,9 +59,10 @@ class Page:
         """Draw lines of a width from now on."""
         self.painter.setPen(QPen(QColor(colour), self.scale * mm))
 
-    def lines(self, z, y, closed: bool = False) -> None:
+    def lines(self, z: ArrayLike, y: ArrayLike, closed: bool = False) -> None:
         """Draw a line, or a filled region, through points."""
-        points = QPolygonF([QPointF(self.scale * a, self.scale * b) for a, b in zip(z, y, strict=True)])
+        places = zip(self.scale * np.asarray(z, float), self.scale * np.asarray(y, float), strict=True)
+        points = QPolygonF([QPointF(a, b) for a, b in places])
         self.painter.drawPolygon(points) if closed else self.painter.drawPolyline(points)
 
 
@@ -72,7 +74,7 @@ def write_report(state: State, path: str) -> None:
 
 
 def pdf(answer: Live, over_field: list[Live]) -> bytes:
-    """Return the page as a PDF document. It is made in memory, since Qt does not tell of a disk that is full."""
+    """Return the page as a PDF document, made in memory since Qt does not report a full disk."""
     made = QBuffer()
     made.open(QIODevice.OpenModeFlag.WriteOnly)
     writer = QPdfWriter(made)
@@ -84,7 +86,7 @@ def pdf(answer: Live, over_field: list[Live]) -> bytes:
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     paint(Page(painter, DPI / 25.4), answer, over_field)
     painter.end()
-    return bytes(made.data())
+    return bytes(made.data().data())
 
 
 def fields(state: State) -> tuple[State, ...]:
@@ -102,9 +104,8 @@ def paint(page: Page, answer: Live, over_field: list[Live]) -> None:
     page.write(QRectF(MARGIN, 21, wide, 6), f"{source} · {said(answer.dominant)}", 9)
     draw_layout(page, answer.layout, QRectF(MARGIN, 30, wide, 62))
     heading(page, 95, tr("First order"))
-    pairs(
-        page, [(tr(name), value.text(WINDOW)) for name, value, _ in rows(answer)], QRectF(MARGIN, 103, 0.46 * wide, 60)
-    )
+    figures = [(tr(name), value.text(WINDOW)) for name, value, _ in rows(answer)]
+    pairs(page, figures, QRectF(MARGIN, 103, 0.46 * wide, 60))
     page.write(QRectF(MARGIN + 0.54 * wide, 95, 0.46 * wide, 6), tr("Coefficients"), 11, bold=True)
     pairs(page, _coefficients(answer), QRectF(MARGIN + 0.54 * wide, 103, 0.46 * wide, 36))
     heading(page, 170, tr("PSF over the field"))
@@ -149,7 +150,7 @@ def draw_layout(page: Page, shown: Layout, room: QRectF) -> None:
     scale = min(room.width() / (drawn.right - left), room.height() / (2 * half))
     begin = room.center().x() - scale * (drawn.right + left) / 2
 
-    def at(z, y):
+    def at(z: ArrayLike, y: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         return begin + scale * np.asarray(z, float), room.center().y() - scale * np.asarray(y, float)
 
     page.painter.save()
@@ -157,7 +158,8 @@ def draw_layout(page: Page, shown: Layout, room: QRectF) -> None:
     for outline in drawn.outlines:
         page.painter.setBrush(glass(outline.index, LIGHT))
         page.pen(LIGHT.glass_edge, 0.15)
-        page.lines(*at(outline.z, outline.y), closed=True)
+        z, y = at(outline.z, outline.y)
+        page.lines(z, y, closed=True)
     for ray in shown.rays:
         page.pen(RAY_COLOURS[ray.kind], 0.25 if ray.kind == "chief" else 0.15)
         page.lines(*at(ray.z, ray.y))
@@ -177,7 +179,8 @@ def draw_psf(page: Page, answer: Live, room: QRectF) -> None:
     image = QImage(pixels.data, pixels.shape[1], pixels.shape[0], 4 * pixels.shape[1], QImage.Format.Format_RGB32)
     page.painter.drawImage(page.pixels(room), image)
     width = psf.values.shape[-1] * psf.pixel_um
-    strehl = f" · Strehl {significant(float(psf.strehl), 2)}" if isfinite(float(psf.strehl)) else ""
+    ratio = float(np.asarray(psf.strehl, float))  # NaN for None
+    strehl = f" · Strehl {significant(ratio, 2)}" if isfinite(ratio) else ""
     words = f"{signed(answer.state.field_deg, 1)}° · {significant(width, 3)} µm"
     page.write(QRectF(room.x(), room.bottom() + 1, room.width(), 5), words, 7.5, side=0)
     page.write(QRectF(room.x(), room.bottom() + 6, room.width(), 5), f"{psf.method}{strehl}", 7.5, side=0)

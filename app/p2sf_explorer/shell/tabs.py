@@ -1,7 +1,9 @@
-"""The tabs: five groups, the panels of one of them at a time, and panels that stand in windows of their own."""
+"""The tabs: five groups, of which one shows its panels, and the panels that stand in windows of their own."""
 
-from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QShortcut
+from functools import partial
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QCloseEvent, QMouseEvent, QShortcut
 from PySide6.QtWidgets import (
     QButtonGroup,
     QHBoxLayout,
@@ -19,7 +21,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import GROUPS, PanelEntry
 
 OWN_WINDOW = "Open in its own window (double-click the tab or drag it out, or Ctrl+D)"
-OUT_PX = 40  # so far off the bar a dragged tab is out
+OUT_PX = 40  # a tab dragged farther off the bar than this gets a window of its own
 APART = (("Pop out", OWN_WINDOW), ("Put back", "Close the panel's own window and have it back under its tab (Ctrl+D)"))
 ALL = "Every panel by its group (Alt+0)"
 SIZE = 720, 480
@@ -31,7 +33,7 @@ class Tabs(QTabWidget):
     detach_asked = Signal(str)
     chosen = Signal(str)
 
-    def __init__(self, entries: tuple[PanelEntry, ...], parent=None):
+    def __init__(self, entries: tuple[PanelEntry, ...], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._groups = {entry.key: entry.group for entry in entries}
         self._last: dict[str, str] = {}
@@ -45,14 +47,17 @@ class Tabs(QTabWidget):
         self.menu = self._all_panels(entries)
         self.setCornerWidget(self._tools(), Qt.Corner.TopRightCorner)
         self.setUsesScrollButtons(True)
+        self.tabBar().setAccessibleName(tr("Panels"))
         self.tabBar().setElideMode(Qt.TextElideMode.ElideNone)
-        self.tabBarDoubleClicked.connect(lambda at: self.detach_asked.emit(self.widget(at).objectName()))
+        self.tabBarDoubleClicked.connect(lambda at: self.detach_asked.emit(self._key(at)))
         self.currentChanged.connect(self._show_group)
         self.tabBar().installEventFilter(self)
         self._show_group()
 
-    def eventFilter(self, watched, event) -> bool:
-        """Let a tab that is dragged off the bar have its own window."""
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Give a tab that is dragged off the bar a window of its own."""
+        if not isinstance(event, QMouseEvent):
+            return super().eventFilter(watched, event)
         if event.type() == QEvent.Type.MouseMove and event.buttons() & Qt.MouseButton.LeftButton:
             bar, place = self.tabBar(), event.position().toPoint()
             if not bar.rect().adjusted(-OUT_PX, -OUT_PX, OUT_PX, OUT_PX).contains(place) and not self._out:
@@ -67,11 +72,15 @@ class Tabs(QTabWidget):
         return self._pages
 
     def current(self) -> str:
-        """Return the panel at the front."""
-        return self.currentWidget().objectName()
+        """Return the key of the panel in front."""
+        return self._key(self.currentIndex())
+
+    def _key(self, number: int) -> str:
+        page = self.widget(number)
+        return page.objectName() if page else ""
 
     def bring_up(self, key: str) -> None:
-        """Bring a panel to the front, and its group with it, without telling anybody."""
+        """Bring a panel to the front, and its group with it, without a signal."""
         if self.current() != key:
             self.blockSignals(True)
             self.setTabVisible(self.indexOf(self.pages()[key]), True)
@@ -84,8 +93,8 @@ class Tabs(QTabWidget):
         self.detach_asked.emit(self.current())
 
     def show_apart(self, keys: tuple[str, ...]) -> None:
-        """Say what the button does to the panel in front, ``keys`` being those in windows of their own."""
-        if (words := APART[self.current() in keys]) != self._apart:  # this is on a slider's way
+        """Name what the button does to the panel in front; ``keys`` are the panels in windows of their own."""
+        if (words := APART[self.current() in keys]) != self._apart:  # checked first: a slider calls this on every move
             self._apart = words
             _name(self.apart, *words)
 
@@ -100,14 +109,14 @@ class Tabs(QTabWidget):
         self._last[group] = self.current()
         self.buttons.mark(group)
         for k in range(self.count()):
-            self.setTabVisible(k, self._groups[self.widget(k).objectName()] == group)
+            self.setTabVisible(k, self._groups[self._key(k)] == group)
 
     def _all_panels(self, entries: tuple[PanelEntry, ...]) -> QMenu:
         menu = QMenu(self)
         for group in GROUPS:
             menu.addSection(tr(group))
             for entry in (entry for entry in entries if entry.group == group):
-                menu.addAction(tr(entry.title), lambda key=entry.key: self.chosen.emit(key))
+                menu.addAction(tr(entry.title), partial(self.chosen.emit, entry.key))
         return menu
 
     def _tools(self) -> QWidget:
@@ -134,13 +143,14 @@ def _name(button: QToolButton, text: str, tip: str) -> None:
 
 
 class GroupButtons(QWidget):
-    """One button a group, one of them down; Alt+1, Alt+2 … press them."""
+    """One button for each group, one of them checked; Alt+1, Alt+2 … press them."""
 
     chosen = Signal(str)
 
-    def __init__(self, groups: tuple[str, ...], parent=None):
+    def __init__(self, groups: tuple[str, ...], parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._group, self.named = QButtonGroup(self), {}
+        self._group = QButtonGroup(self)
+        self.named: dict[str, QPushButton] = {}
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 1, SPACE, 3)
         row.setSpacing(2)
@@ -161,11 +171,11 @@ class GroupButtons(QWidget):
 
 
 class OwnWindow(QWidget):
-    """A panel in a window of its own; closing it asks to have the panel back."""
+    """A window of a panel's own; ``closed`` asks for the panel to be put back."""
 
     closed = Signal(str)
 
-    def __init__(self, key: str, title: str, parent: QWidget):
+    def __init__(self, key: str, title: str, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Window)
         self.setObjectName("window")
         self.setWindowTitle(f"{tr(title)} · P2SF Explorer")
@@ -176,14 +186,14 @@ class OwnWindow(QWidget):
         for keys in ("Ctrl+D", "Ctrl+W"):
             QShortcut(keys, self, self.close)
 
-    def closeEvent(self, event) -> None:
-        """Give the panel back to its tab."""
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ask for the panel to be put back under its tab."""
         self.closed.emit(self.key)
         event.accept()
 
 
 def page(key: str) -> QWidget:
-    """Return a tab's page: a note for when its panel stands elsewhere, to be covered by the panel."""
+    """Return the page of a tab, with the note to show while its panel stands elsewhere."""
     made = QWidget()
     made.setObjectName(key)
     column = QVBoxLayout(made)
@@ -191,7 +201,7 @@ def page(key: str) -> QWidget:
     note = QLabel(tr("This panel stands in its own window; close that window to have it back here."), made)
     note.setObjectName("muted")
     note.setAlignment(Qt.AlignmentFlag.AlignCenter)
-    note.setWordWrap(True)  # a narrow place in the grid stays as narrow
+    note.setWordWrap(True)  # so that it fits a narrow place of the grid
     note.hide()
     column.addWidget(note)
     return made

@@ -1,29 +1,37 @@
-"""The window: from slider to picture in three hops, store → live → panels."""
+"""The window: from slider to picture in three steps, store → live → panels."""
 
+from functools import partial
 from pathlib import Path
 from time import perf_counter
+from typing import TypeVar
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.charts.theme import SPACE, palette, stylesheet, tokens
+from p2sf.messages import Message
+from p2sf_explorer.charts.theme import SPACE, Tokens, palette, stylesheet, tokens
 from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
-from p2sf_explorer.compute.live import Live
-from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.lessons.controller import LessonController
-from p2sf_explorer.panels import REGISTRY, Panel, build, view_of
+from p2sf_explorer.compute.live import Live, Refused
+from p2sf_explorer.files.file_watcher import FileWatcher
+from p2sf_explorer.files.opening import REPORT_TAB, Refusal
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.lessons.controller import LessonController, LessonRoom
+from p2sf_explorer.panels import REGISTRY, BackgroundPanel, Panel, PreparingPanel, build, view_of
+from p2sf_explorer.panels.coefficients import CoefficientsPanel
+from p2sf_explorer.panels.psf import PsfPanel
+from p2sf_explorer.playback.filming import Filming
 from p2sf_explorer.playback.play_bar import PlayBar
-from p2sf_explorer.shell.actions import Actions
+from p2sf_explorer.shell.actions import Actions, PanelAccess
 from p2sf_explorer.shell.bars import Banner, StatusLine, TopBar
 from p2sf_explorer.shell.controls import Controls
-from p2sf_explorer.shell.floating_panels import Floating
+from p2sf_explorer.shell.floating_panels import FloatingPanels
 from p2sf_explorer.shell.memory_trim import MemoryTrim
+from p2sf_explorer.shell.no_answer import NO_ANSWER, drawn
 from p2sf_explorer.shell.sharing import Sharing
-from p2sf_explorer.shell.show import WHY, drawn, paint
 from p2sf_explorer.shell.tabs import Tabs, page
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.link import is_link
@@ -31,11 +39,14 @@ from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.drop import dropped, is_photo
 from p2sf_explorer.workers.deferred import DeferredWorker
-from p2sf_explorer.workers.live_accuracy import LiveAccuracy
+from p2sf_explorer.workers.live_accuracy import AccuracyDisplay, LiveAccuracy, asked_for
+from p2sf_explorer.workers.worker import LatestWins
+
+T = TypeVar("T")
 
 
 def splitter(orientation: Qt.Orientation, widgets: list[QWidget], shares: tuple[int, ...]) -> QSplitter:
-    """Return a splitter whose parts keep these shares of the room."""
+    """Return a splitter whose parts have these shares of its length."""
     made = QSplitter(orientation)
     made.setHandleWidth(SPACE)
     made.setChildrenCollapsible(False)
@@ -57,68 +68,100 @@ class MainWindow(QMainWindow):
     ``measured`` False leaves the accuracy of the picture unmeasured: no background work.
     """
 
-    def __init__(self, state: State | None = None, measured: bool = True):
+    def __init__(self, state: State | None = None, measured: bool = True) -> None:
         super().__init__()
         self.setWindowTitle("P2SF Explorer")
         self.setAcceptDrops(True)
         self.store = Store(state or State(), self)
-        self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
-        self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(TABS, self)
-        self.compare, self.play = CompareBar(self, self.store), PlayBar(self)
-        self.homes = {key: page(key) for key in MAIN} | self.tabs.pages()
-        self.floating = Floating(self, self.store, self.homes, REGISTRY)
-        self.tabs.detach_asked.connect(self.floating.toggle)
-        self.panels: dict[str, Panel] = {}
-        for key in MAIN:
-            self._build(key)
         self.live: Live | None = None
         self._answers: Answers | None = None
         self.frame_ms: float | None = None
-        self._theme, self._styled = None, {}
+        self._theme: Tokens = tokens(self.store.state.theme, self.store.state.colours)
+        self._styled: dict[str, Tokens] = {}
+        self.panels: dict[str, Panel] = {}
+        self._make_bars()
+        for key in MAIN:
+            self._build(key)
         self._lay_out()
-        self.actions, self.measuring = Actions(self), LiveAccuracy(self, measured)
-        self.sharing, self.settling, self.memory_trim = Sharing(self), DeferredWorker(self), MemoryTrim(self)
-        self.teaching = LessonController(self)
-        for command in (*self.compare.commands(), *self.play.commands(), *self.teaching.commands()):
-            self.actions.add(command)
+        self._make_helpers(measured)
+        self._connect()
+        self._apply_theme()
+        self.refresh(self.store.state)
+
+    def _make_bars(self) -> None:
+        """Make everything around the panels, and the pages that the panels stand on."""
+        self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
+        self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(TABS, self)
+        self.homes = {key: page(key) for key in MAIN} | self.tabs.pages()
+        self.floating = FloatingPanels(self, self.store, self.homes, REGISTRY)
+        self.compare = CompareBar(self, self.store)
+        filming = Filming(self.store, self.refresh, self.is_busy, self._pause_accuracy, self)
+        self.play = PlayBar(self.store, filming, self._part, self)
+
+    def _make_helpers(self, measured: bool) -> None:
+        """Make what works for the window in the background, and the commands."""
+        self.measuring = LiveAccuracy(self._panel("psf", PsfPanel).show_badge, self._accuracy_panel, self, measured)
+        self.settling = DeferredWorker(self.store, self.refresh, self)
+        self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
+        self.file_watcher = FileWatcher(self.store, self._read_again, self)
+        self.lesson_room = LessonRoom(self.middle, self.main_row, self.column, self.controls.rows)
+        self.teaching = LessonController(self.store, self, self.lesson_room)
+        access = PanelAccess(
+            live=lambda: self.live,
+            open=self.open_panel,
+            card=lambda key: self.panels[key].widget,
+            in_front=lambda: self.panels[self.tabs.current()].widget,
+            explain=self._explain,
+            detach=self.tabs.detach,
+        )
+        self.commands = Actions(self, self.store, self.top, access)
+        for part in (self.sharing, self.compare, self.play, self.teaching):
+            for command in part.commands():
+                self.commands.add(command)
+        self.sharing.fill(self.top.snapshot.menu())
+
+    def _connect(self) -> None:
         self.top.pin.clicked.connect(self.compare.turn)
         self.top.lessons.clicked.connect(self.teaching.toggle)
+        self.controls.autofocus.connect(self.commands.autofocus)
         self.controls.swept.connect(self.play.player.toggle)
         self.controls.grasped.connect(self.play.player.pause_on)
-        self.panels["coefficients"].bars.swept.connect(lambda term: self.play.player.toggle(ADDED + term))
+        mixer = self._panel("coefficients", CoefficientsPanel).bars
+        mixer.swept.connect(lambda term: self.play.player.toggle(ADDED + term))
         self.store.changed.connect(self.refresh)
         self.store.refused.connect(self.refuse)
+        self.store.said.connect(self.status.say)
+        self.tabs.detach_asked.connect(self.floating.toggle)
         self.tabs.currentChanged.connect(self._on_tab)
         self.tabs.chosen.connect(self.open_panel)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_scheme)
-        self.refresh(self.store.state)
 
     def _lay_out(self) -> None:
-        row = splitter(Qt.Orientation.Horizontal, [self.homes[key] for key in MAIN[1:]], (19, 19, 17))
-        self.stack = splitter(Qt.Orientation.Vertical, [self.homes[MAIN[0]], row, self.tabs], (27, 41, 32))
-        self.middle = middle = QHBoxLayout()
-        middle.setSpacing(SPACE)
-        middle.addWidget(self.controls)
+        self.main_row = splitter(Qt.Orientation.Horizontal, [self.homes[key] for key in MAIN[1:]], (19, 19, 17))
+        self.stack = splitter(Qt.Orientation.Vertical, [self.homes[MAIN[0]], self.main_row, self.tabs], (27, 41, 32))
+        self.middle = QHBoxLayout()
+        self.middle.setSpacing(SPACE)
+        self.middle.addWidget(self.controls)
         right = QVBoxLayout()
         right.setSpacing(SPACE)
         right.addWidget(self.compare)
         right.addWidget(self.play)
         right.addWidget(self.stack, 1)
-        middle.addLayout(right, 1)
+        self.middle.addLayout(right, 1)
         body = QWidget(self)
         body.setObjectName("window")
-        column = QVBoxLayout(body)
-        column.setContentsMargins(SPACE, SPACE, SPACE, SPACE // 2)
-        column.setSpacing(SPACE)
-        column.addWidget(self.top)
-        column.addWidget(self.banner)
-        column.addLayout(middle, 1)
-        column.addWidget(self.status)
+        self.column = QVBoxLayout(body)
+        self.column.setContentsMargins(SPACE, SPACE, SPACE, SPACE // 2)
+        self.column.setSpacing(SPACE)
+        self.column.addWidget(self.top)
+        self.column.addWidget(self.banner)
+        self.column.addLayout(self.middle, 1)
+        self.column.addWidget(self.status)
         self.setCentralWidget(body)
         self.resize(1440, 900)
 
     def refresh(self, state: State) -> None:
-        """Compute an answer and paint it; where there is none, say so over what is of another set-up."""
+        """Compute the answer for a state and paint it; where there is none, cover what belongs to another one."""
         begun = perf_counter()
         self.memory_trim.touch()
         self._restyle(state)
@@ -129,7 +172,7 @@ class MainWindow(QMainWindow):
             self.play.show_state(state)
             self._answers = self._answer(state)
         except P2SFError as error:
-            self._show_none(state, error.message)
+            self._show_none(state, error)
             return
         self.live = live = self._answers.seen
         self.banner.hide()
@@ -142,19 +185,20 @@ class MainWindow(QMainWindow):
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._painted(begun))
 
-    def _show_none(self, state: State, sentence: str) -> None:
-        """Say why there is no answer; nothing on screen may pass for one but the lens, where it can be drawn."""
-        self.refuse(sentence)
-        if self.live and self._answers.a.state == state:
-            return  # only its file has changed, and is half written perhaps: the picture stays
+    def _show_none(self, state: State, why: P2SFError) -> None:
+        """Say why there is no answer, and cover every panel; the lens is drawn where it can be."""
+        self.refuse(why)
+        if self.live and self._answers and self._answers.a.state == state:
+            return  # only the lens file has changed, and is perhaps half written: the picture stays
         self.live = None
         self.settling.watch(state, None)
+        self.measuring.watch(None)
         self.controls.show_none()
-        self.status.show_none(sentence)
+        self.status.show_none(why)
         for panel in self.panels.values():
-            panel.widget.show_overlay(tr(WHY))
+            panel.widget.show_overlay(said(NO_ANSWER))
         if lens := drawn(state):
-            self.panels["layout"].show(lens)
+            self.panels["layout"].show(lens)  # type: ignore[arg-type]  # which uses no more of an answer than this
             self.panels["layout"].widget.show_overlay("")
 
     def _answer(self, state: State) -> Answers:
@@ -162,9 +206,9 @@ class MainWindow(QMainWindow):
         quality = "preview" if self.store.moving else "settled"
         return answers(state, quality, self._wanted(), self._answers, self.settling.cache)
 
-    def refuse(self, sentence: str) -> None:
-        """Say in the banner why something cannot be; the last good picture stays."""
-        self.banner.say(sentence)
+    def refuse(self, why: Message | P2SFError) -> None:
+        """Say in the banner why something cannot be done; the last picture stays."""
+        self.banner.say(why)
         self.top.show_state(self.store.state, self._theme.dark)
 
     def open_panel(self, key: str) -> None:
@@ -174,6 +218,46 @@ class MainWindow(QMainWindow):
 
     def _painted(self, begun: float) -> None:
         self.frame_ms = 1e3 * (perf_counter() - begun)
+
+    def is_busy(self) -> bool:
+        """Return whether anything is still computed in the background."""
+        panels = self.panels.values()
+        workers = [worker for panel in panels for worker in panel.widget.findChildren(LatestWins)]
+        own = self.measuring.worker, self.settling.worker
+        preparing = any(isinstance(panel, PreparingPanel) and panel.busy for panel in panels)
+        return preparing or any(worker.busy for worker in (*workers, *own))
+
+    def _panel(self, key: str, kind: type[T]) -> T:
+        """Return a panel as its own type."""
+        panel = self.panels[key]
+        if not isinstance(panel, kind):
+            raise TypeError(f"panel {key} is a {type(panel).__name__}, not a {kind.__name__}")
+        return panel
+
+    def _accuracy_panel(self) -> AccuracyDisplay | None:
+        panel = self.panels.get("accuracy")
+        return panel if isinstance(panel, AccuracyDisplay) else None
+
+    def _pause_accuracy(self, on: bool) -> None:
+        """Measure no accuracy for a while, unless its panel is on show, or measure again."""
+        self.measuring.rest(on and not asked_for(self.store.state))
+
+    def _part(self, key: str) -> QWidget:
+        """Return the part of the window that a film shows."""
+        parts: dict[str, QWidget] = {"stack": self.stack, "tabs": self.tabs}
+        return parts.get(key) or self.panels[key].widget
+
+    def _explain(self, refused: Refusal) -> None:
+        """Show in the import report why a file is not opened."""
+        from p2sf_explorer.panels.import_report import ImportReportPanel
+
+        self.open_panel(REPORT_TAB)
+        self._panel(REPORT_TAB, ImportReportPanel).show_refusal(refused)
+
+    def _read_again(self) -> bool:
+        """Show the lens as its file is now; return whether it can be read."""
+        self.refresh(self.store.state)
+        return not self.banner.isVisible()
 
     def _visible(self) -> tuple[str, ...]:
         """Return the panels on show: the main ones, the open tab, and those in windows of their own."""
@@ -198,7 +282,7 @@ class MainWindow(QMainWindow):
 
     def _build(self, key: str) -> None:
         self.panels[key] = made = build(ENTRIES[key], self.store)
-        made.widget.apart_asked.connect(lambda: self.floating.toggle(key))
+        made.widget.apart_asked.connect(partial(self.floating.toggle, key))
         self.floating.place(key, made.widget)
 
     def _on_tab(self) -> None:
@@ -210,21 +294,23 @@ class MainWindow(QMainWindow):
 
     def _restyle(self, state: State) -> None:
         theme = tokens(state.theme, state.colours)
-        if theme == self._theme:
-            return
-        self._theme = theme
-        QApplication.instance().setPalette(palette(theme))
-        self.setStyleSheet(stylesheet(theme))
-        for part in (self.controls, self.status):
-            part.restyle(theme)
+        if theme != self._theme:
+            self._theme = theme
+            self._apply_theme()
+
+    def _apply_theme(self) -> None:
+        QApplication.setPalette(palette(self._theme))
+        self.setStyleSheet(stylesheet(self._theme))
+        self.controls.restyle(self._theme)
+        self.status.restyle(self._theme)
 
     def _style(self, key: str) -> None:
-        """Paint a panel in the present theme, the first time it is on show since that changed."""
+        """Give a panel the present theme, when it is first shown after a change."""
         if self._styled.get(key) != self._theme:
             self._styled[key] = self._theme
             self.panels[key].restyle(self._theme)
 
-    def closeEvent(self, event) -> None:
+    def closeEvent(self, event: QCloseEvent) -> None:
         """End the background work with the window."""
         self.play.stop()
         self.measuring.stop()
@@ -232,19 +318,38 @@ class MainWindow(QMainWindow):
         self.memory_trim.stop()
         self.floating.stop()
         for panel in self.panels.values():
-            getattr(panel, "stop", lambda: None)()
+            if isinstance(panel, BackgroundPanel):
+                panel.stop()
         super().closeEvent(event)
 
-    def dragEnterEvent(self, event) -> None:
-        """Welcome a lens file, a saved state, a snapshot, or a link."""
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Accept a lens file, a saved state, a snapshot, or a link."""
         if dropped(event.mimeData()):
             event.acceptProposedAction()
 
-    def dropEvent(self, event) -> None:
+    def dropEvent(self, event: QDropEvent) -> None:
         """Open what was dropped."""
         event.acceptProposedAction()
         found = dropped(event.mimeData())
-        if found and "image" in self._visible() and is_photo(found):
-            self.panels["image"].drop.take(Path(found))
+        if not found:
             return
-        (self.sharing.open if is_link(found) else self.actions.open_path)(found)
+        if "image" in self._visible() and is_photo(found):
+            from p2sf_explorer.panels.image import ImagePanel
+
+            self._panel("image", ImagePanel).drop.take(Path(found))
+        elif is_link(found):
+            self.sharing.open(found)
+        else:
+            self.commands.open_path(found)
+
+
+def paint(panel: Panel, key: str, live: Live) -> None:
+    """Have a panel show an answer and the side of a comparison that it is of, or say why it has nothing to show."""
+    found = live.views.get(key)
+    if isinstance(found, Refused):
+        panel.widget.show_overlay(said(found.message))
+        return
+    panel.show(live)
+    panel.widget.show_overlay("")
+    why = live.difference.why.get(key) if live.difference else None
+    panel.widget.show_side("A" if why else live.side, said(why) if why else "")

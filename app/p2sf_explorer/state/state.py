@@ -29,7 +29,7 @@ class State:
     the diameter of blur that still counts as sharp, ``spectrum`` the light of the colour PSF
     (`p2sf.colour.spectrum`). What-if: ``added_waves`` are added to the lens's own six coefficients (in the order of
     `TERMS`), or stand alone in a ``free_pupil``; ``muted`` terms count as zero, and with any ``solo`` all others do.
-    Compare: ``pinned`` is the setup B, ``shown`` the side that is on screen, ``linked`` the entries that change in both.
+    Compare: ``pinned`` is the setup B, ``shown`` the side that is on screen, ``linked`` those that change in both.
     ``play`` is the slider that is swept, over ``play_range`` (None: all of its travel) in ``play_seconds``.
     ``photo`` is the name of a chart or a file; ``photo_pixel_um`` None shows the whole field of the lens. ``lesson`` is
     the one under way, "" for none; ``lesson_told`` says whether the answer of its step is shown. ``language`` is a file

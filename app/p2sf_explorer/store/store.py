@@ -1,8 +1,9 @@
-"""The one place the state lives while the window is open: changes, undo, redo."""
+"""The one place where the state lives while the window is open: changes, undo, redo."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
@@ -14,27 +15,22 @@ MOST_STEPS = 1000  # of undo: an edited lens is kilobytes a step
 
 
 class Store(QObject):
-    """Holds the present State; ``changed`` tells of every new one.
+    """Holds the present State and the steps of undo. A drag, from ``begin`` to ``end``, is one step."""
 
-    ``refused`` carries a sentence on what cannot be, ``said`` one on what was done; ``stepped`` comes before
-    a step is taken back or again; ``pointed`` tells of the surface (from 1) under the pointer, 0 for none.
-    A drag is one step of undo: what happens between ``begin`` and ``end`` is undone together.
-    """
+    changed = Signal(object)  # the new State
+    refused = Signal(object)  # a Message, or the P2SFError, on what cannot be done
+    said = Signal(object)  # a Message on what was done
+    stepped = Signal()  # before undo and redo
+    pointed = Signal(int)  # the surface under the pointer, from 1; 0 for none
 
-    changed = Signal(object)
-    refused = Signal(object)
-    said = Signal(object)
-    stepped = Signal()
-    pointed = Signal(int)
-
-    def __init__(self, state: State, parent: QObject | None = None):
+    def __init__(self, state: State, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._states, self._at = [state], 0
         self._before_drag: State | None = None
         self._pointed_at = 0
 
     def point_at(self, surface: int) -> None:
-        """Tell that the pointer is at a surface (from 1), 0 for none; no part of the state, nothing to undo."""
+        """Tell which surface (from 1) the pointer is at, 0 for none. This is no part of the state and not undone."""
         if surface != self._pointed_at:
             self._pointed_at = surface
             self.pointed.emit(surface)
@@ -49,18 +45,15 @@ class Store(QObject):
         """Return whether a control is being dragged."""
         return self._before_drag is not None
 
-    def update(self, **changes) -> None:
-        """Change some entries, and B's that are linked to them.
-
-        A value that cannot be is refused in a sentence and nothing changes.
-        """
+    def update(self, **changes: Any) -> None:
+        """Change some entries, and those of B that are linked to them; refuse a bad value and change nothing."""
         try:
             self.replace(self.changed_by(changes))
         except P2SFError as error:
-            self.refused.emit(str(error))
+            self.refused.emit(error)
 
-    def changed_by(self, changes: dict) -> State:
-        """Return what the state would be after changes; P2SFError for one that cannot be."""
+    def changed_by(self, changes: dict[str, Any]) -> State:
+        """Return the state after changes, without making them; P2SFError for a bad value."""
         return replace(self.state, **with_links(self.state, changes))
 
     def replace(self, state: State) -> None:
@@ -81,7 +74,7 @@ class Store(QObject):
             self._before_drag = self.state
 
     def end(self) -> None:
-        """End a drag; the settled picture is owed, so ``changed`` is sent once more."""
+        """End a drag, and send ``changed`` once more, for the settled picture."""
         if self.moving:
             moved = self.state is not self._before_drag
             self._before_drag = None
@@ -89,8 +82,8 @@ class Store(QObject):
                 self.changed.emit(self.state)
 
     @contextmanager
-    def drag(self):
-        """Hold a drag open for a block."""
+    def drag(self) -> Iterator["Store"]:
+        """Keep a drag open for a block."""
         self.begin()
         try:
             yield self
@@ -108,7 +101,7 @@ class Store(QObject):
         return self._at + 1 < len(self._states)
 
     def latest(self, wanted: Callable[[State], bool]) -> State | None:
-        """Return the last state, the present one or a step to undo to, that is ``wanted``; None where none is."""
+        """Return the latest state, the present one or a step of undo, that is ``wanted``; None where none is."""
         return next((state for state in reversed(self._states[: self._at + 1]) if wanted(state)), None)
 
     def undo(self) -> None:
@@ -120,7 +113,7 @@ class Store(QObject):
         self._go(1, self.can_redo)
 
     def take_over(self, other: "Store") -> None:
-        """Become what another store is, its steps of undo included."""
+        """Take over the state of another store with its steps of undo."""
         other.end()
         self._states, self._at = list(other._states), other._at
 

@@ -2,7 +2,7 @@
 
 import csv
 import io
-from typing import Any, Protocol, cast
+from typing import Protocol, cast
 
 import numpy as np
 import pyqtgraph as pg
@@ -37,16 +37,15 @@ def copy_menu(card: QWidget) -> QMenu:
     return menu
 
 
-def card_in_hand(window: Any) -> QWidget:
-    """Return the panel that has the focus, else the one under the pointer, else the one in the open tab."""
+def card_in_hand(window: QWidget, in_front: QWidget) -> QWidget:
+    """Return the panel that has the focus, else the one under the pointer, else the one ``in_front`` of the tabs."""
     for found in (QApplication.focusWidget(), QApplication.widgetAt(window.cursor().pos())):
         widget: QWidget | None = found
         while widget is not None and widget.objectName() != "card":
             widget = widget.parentWidget()
         if widget is not None:
             return widget
-    card: QWidget = window.panels[window.tabs.current()].widget
-    return card
+    return in_front
 
 
 def png_of(widget: QWidget) -> bytes:

@@ -1,6 +1,6 @@
 """Sums the waves of settled pictures in the background where that is too slow for a frame."""
 
-from typing import Any
+from collections.abc import Callable
 
 from PySide6.QtCore import QObject
 
@@ -8,16 +8,20 @@ from p2sf.messages import Message
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest, by_rays
 from p2sf_explorer.state.state import State
+from p2sf_explorer.store.store import Store
 from p2sf_explorer.workers.worker import LatestWins
 
 
 class DeferredWorker(QObject):
-    """Owns the worker and the ``cache`` of its sums; `watch` is called with the sum that a picture waits for."""
+    """Owns the worker and the ``cache`` of its sums; `watch` is called with the sum that a picture waits for.
 
-    def __init__(self, window: Any):
-        super().__init__(window)
-        self._window, self.cache = window, SumCache()
-        self._state = window.store.state
+    ``refresh(state)`` shows a state anew once the sum of its picture is there.
+    """
+
+    def __init__(self, store: Store, refresh: Callable[[State], None], parent: QObject) -> None:
+        super().__init__(parent)
+        self._store, self._refresh, self.cache = store, refresh, SumCache()
+        self._state = store.state
         self._pending: SumRequest | None = None
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_finished)
@@ -37,15 +41,15 @@ class DeferredWorker(QObject):
         self.cache.keep(request, psf)
         if request == self._pending:
             self._pending = None
-            self._window.refresh(self._state)
+            self._refresh(self._state)
 
     def _on_failed(self, request: SumRequest, message: Message) -> None:
         """Say why there is no picture, and remember it: the same sum would fail again."""
         self.cache.keep(request, message)
         if request == self._pending:
             self._pending = None
-            self._window.refresh(self._state)
-            self._window.refuse(message)
+            self._refresh(self._state)
+            self._store.refused.emit(message)
 
     def stop(self) -> None:
         """End the worker's thread."""

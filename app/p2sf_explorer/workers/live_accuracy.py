@@ -1,6 +1,7 @@
 """Measures every settled picture against the Huygens reference in the background, for the panels that show it."""
 
-from typing import Any
+from collections.abc import Callable
+from typing import Protocol, runtime_checkable
 
 from PySide6.QtCore import QObject
 
@@ -11,14 +12,41 @@ from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import NO_REFERENCE
 from p2sf_explorer.workers.worker import LatestWins
 
+ShowBadge = Callable[[Live, float | None, bool], None]
+"""Writes R² of an answer, None for none, on the PSF; True where it belongs to an earlier picture."""
+
+
+@runtime_checkable
+class AccuracyDisplay(Protocol):
+    """A panel that shows the accuracy."""
+
+    def show_accuracy(self, accuracy: Accuracy, stale: bool, /) -> None:
+        """Show a measured accuracy; ``stale`` where it belongs to an earlier picture."""
+
+    def show_failure(self, why: Message, /) -> None:
+        """Show why there is no accuracy."""
+
+    def show_progress(self, part: float, /) -> None:
+        """Show how far the measuring is, 0 to 1."""
+
 
 class LiveAccuracy(QObject):
-    """Owns the worker; ``watch`` is called with every answer, results go to the panels that show accuracy."""
+    """Owns the worker; ``watch`` is called with every answer, and with None where there is none.
 
-    def __init__(self, window: Any, enabled: bool = True):
-        super().__init__(window)
+    ``display()`` is the panel that shows the accuracy, None before it was first opened.
+    """
+
+    def __init__(
+        self,
+        show_badge: ShowBadge,
+        display: Callable[[], AccuracyDisplay | None],
+        parent: QObject,
+        enabled: bool = True,
+    ) -> None:
+        super().__init__(parent)
         self._enabled, self._resting = enabled, False
-        self._window = window
+        self._show_badge, self._display = show_badge, display
+        self._live: Live | None = None
         self._last: Accuracy | None = None
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_finished)
@@ -29,9 +57,10 @@ class LiveAccuracy(QObject):
         """Measure nothing while ``resting``: the pictures are for a film."""
         self._resting = resting
 
-    def watch(self, live: Live) -> None:
-        """Measure a settled answer unless its own sum is pending; show an earlier figure in grey meanwhile."""
-        if not self._enabled or self._resting or live.quality != "settled" or live.pending:
+    def watch(self, live: Live | None) -> None:
+        """Measure a settled answer that stands in for no other; show an earlier figure in grey meanwhile."""
+        self._live = live
+        if live is None or not self._enabled or self._resting or live.quality != "settled" or live.pending:
             return
         if live.setup.altered:
             self._refuse_altered(live)
@@ -45,31 +74,33 @@ class LiveAccuracy(QObject):
     def _refuse_altered(self, live: Live) -> None:
         """Show no figure: the reference is the lens's, and this picture is not."""
         self.worker.cancel()
-        self._window.panels["psf"].show_badge(live, None, False)
-        self._each("show_failure", Message(NO_REFERENCE))
+        self._show_badge(live, None, False)
+        if display := self._display_on_show():
+            display.show_failure(Message(NO_REFERENCE))
 
     def _on_finished(self, key: Live, accuracy: Accuracy) -> None:
         self._last = accuracy
         self._tell(accuracy)
 
     def _tell(self, accuracy: Accuracy) -> None:
-        live = self._window.live
+        live = self._live
         if live is None or live.setup.altered:
             return
         stale = not fits(accuracy, live, False) or live.quality != "settled" or live.pending is not None
-        self._window.panels["psf"].show_badge(live, accuracy.r_squared, stale)
-        self._each("show_accuracy", accuracy, stale)
+        self._show_badge(live, accuracy.r_squared, stale)
+        if display := self._display_on_show():
+            display.show_accuracy(accuracy, stale)
 
     def _on_failed(self, key: Live, message: Message) -> None:
-        self._each("show_failure", message)
+        if display := self._display_on_show():
+            display.show_failure(message)
 
     def _on_progress(self, key: Live, part: float) -> None:
-        self._each("show_progress", part)
+        if display := self._display_on_show():
+            display.show_progress(part)
 
-    def _each(self, method: str, *arguments: object) -> None:
-        panel = self._window.panels.get("accuracy")
-        if panel and self._window.live and asked_for(self._window.live.state):
-            getattr(panel, method)(*arguments)
+    def _display_on_show(self) -> AccuracyDisplay | None:
+        return self._display() if self._live and asked_for(self._live.state) else None
 
     def stop(self) -> None:
         """End the worker's thread."""

@@ -90,7 +90,7 @@ def test_a_state_is_known_by_its_content_not_its_ending(window, tmp_path):
 @pytest.mark.parametrize("name", FOREIGN[1:])
 def test_opening_is_one_undo(window, name):
     first = window.store.state
-    window.actions.open_path(str(FILES / name))
+    window.commands.open_path(str(FILES / name))
     window.store.undo()
     assert window.store.state == first
 
@@ -116,7 +116,7 @@ def test_a_file_that_is_no_lens_is_refused_in_banner_and_report(window, tmp_path
     assert not report.accept.isVisible()
     window.store.update(field_deg=5.0)
     assert "Refused" in report.text.toPlainText()  # until another lens comes
-    window.actions.open_lens("tessar")
+    window.commands.open_lens("tessar")
     assert "Refused" not in report.text.toPlainText()
 
 
@@ -142,7 +142,7 @@ def test_the_report_of_a_shipped_lens_and_of_a_lens_whose_file_is_gone(window, z
 
 
 def test_a_file_changed_on_disk_is_read_again(window, qtbot, zemax):
-    window.actions.open_path(str(zemax))
+    window.commands.open_path(str(zemax))
     beside = zemax.with_suffix(".new")  # as editors save: a new file renamed into its place
     beside.write_text(zemax.read_text().replace("DISZ 6.0", "DISZ 6.5"))
     os.replace(beside, zemax)
@@ -154,7 +154,7 @@ def test_a_file_changed_on_disk_is_read_again(window, qtbot, zemax):
 
 
 def test_a_file_spoilt_on_disk_is_a_sentence_and_the_picture_stays(window, qtbot, zemax):
-    window.actions.open_path(str(zemax))
+    window.commands.open_path(str(zemax))
     live = window.live
     zemax.write_text("nothing")
     qtbot.waitUntil(window.banner.isVisible, timeout=5000)
@@ -162,7 +162,7 @@ def test_a_file_spoilt_on_disk_is_a_sentence_and_the_picture_stays(window, qtbot
 
 
 def test_edits_outlive_a_change_on_disk(window, qtbot, zemax):
-    window.actions.open_path(str(zemax))
+    window.commands.open_path(str(zemax))
     window.open_panel("lens")
     model = window.panels["lens"].model
     model.setData(model.index(0, 0), "70")
@@ -174,7 +174,7 @@ def test_edits_outlive_a_change_on_disk(window, qtbot, zemax):
 def test_recent_files_are_listed_newest_first_and_open(window, tmp_path):
     paths = [Path(shutil.copy(FILES / name, tmp_path)) for name in FOREIGN[:3]]
     for path in paths:
-        window.actions.open_path(str(path))
+        window.commands.open_path(str(path))
     entries = [action for action in window.top.open.menu().actions() if action.toolTip().startswith(str(tmp_path))]
     assert [action.toolTip() for action in entries] == [str(path) for path in reversed(paths)]
     entries[-1].trigger()

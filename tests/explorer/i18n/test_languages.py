@@ -21,7 +21,6 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.scene3d import opengl_probe as probe
-from p2sf_explorer.shell.choices import everything
 from p2sf_explorer.shell.command_palette import named
 from p2sf_explorer.shell.help import help_text
 from p2sf_explorer.shell.language_switch import LanguageSwitch
@@ -97,8 +96,8 @@ def german(only_window):
             if entry.place != "main":
                 made.open_panel(entry.key)
                 made.grab()
-        help_text(tuple(made.actions.commands))
-        for command in everything(made):
+        help_text(tuple(made.commands.commands))
+        for command in made.commands.everything():
             named(command)
         yield made, QApplication.instance().findChild(Listening)
         made.close()

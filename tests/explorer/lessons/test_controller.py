@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
-from p2sf_explorer.lessons.controller import LessonController
+from p2sf_explorer.lessons.controller import NOTHING_BEFORE, LessonController
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
 
@@ -65,7 +65,7 @@ def test_where_nothing_was_before_the_lesson_stays_and_says_so(window, teaching)
     window.store.said.connect(told.append)
     teaching.leave()
     window.store.said.disconnect(told.append)
-    assert window.store.state == replace(kept, lesson="") and "nothing to put back" in told[0]
+    assert window.store.state == replace(kept, lesson="") and told == [NOTHING_BEFORE]
 
 
 def test_next_and_back_set_the_window_and_keys_do_the_same(window, qtbot, panel):
@@ -143,7 +143,7 @@ def test_a_state_that_names_an_unknown_lesson_opens_without_one(window, teaching
 def test_a_bad_lesson_is_one_sentence_in_the_banner_and_the_others_stay(window, qtbot, monkeypatch, tmp_path):
     (tmp_path / "99_bad.md").write_text("no lesson", encoding="utf-8")
     monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
-    made = LessonController(window)
+    made = LessonController(window.store, window, window.lesson_room)
     assert len(made.lessons()) == len(shipped_lessons())
     qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text(), timeout=2000)
     window.store.changed.disconnect(made.follow)
@@ -157,7 +157,7 @@ def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, 
     qtbot.mouseClick(offer.start, Qt.MouseButton.LeftButton)
     assert window.store.state.lesson == FIRST.name and not offer.isVisible()
     teaching.leave()
-    again = LessonController(window)  # no lesson is on, so it makes no page of its own
+    again = LessonController(window.store, window, window.lesson_room)
     again.offer_once()
     assert again.offer is None
     window.store.changed.disconnect(again.follow)

@@ -182,7 +182,7 @@ def test_a_bad_file_costs_only_itself_and_an_own_one_takes_the_place_of_a_shippe
     found, faults = found_lessons((FOLDER, mine, tmp_path / "nowhere"))
     assert list(found) == [lesson.name for lesson in LESSONS]
     assert found["02_diffraction"].title == "One"
-    assert len(faults) == 1 and "99_bad.md, line 1" in faults[0]
+    assert len(faults) == 1 and "99_bad.md, line 1" in str(faults[0])
 
 
 def test_a_claim_compares_states_and_knows_when_it_fails():

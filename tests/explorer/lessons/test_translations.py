@@ -7,8 +7,9 @@ from PySide6.QtWidgets import QApplication, QStyle, QStyleOptionComboBox
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.i18n.language import set_language, texts
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons import controller as teaching
-from p2sf_explorer.lessons.controller import LessonController
+from p2sf_explorer.lessons.controller import UNTRANSLATED, LessonController
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, read_lesson, with_words
 from p2sf_explorer.lessons.lesson_panel import LessonPanel
 
@@ -80,7 +81,7 @@ def test_bad_words_are_one_sentence_and_the_lesson_is_told_as_it_was_written(tmp
     (tmp_path / "de" / NAMES[0]).write_text(text, encoding="utf-8")
     found, faults = found_lessons((tmp_path,), "de")
     assert [lesson.language for lesson in found.values()] == ["en"]
-    assert len(faults) == 1 and f"{NAMES[0]}, line {line}: " in faults[0] and words in faults[0]
+    assert len(faults) == 1 and f"{NAMES[0]}, line {line}: " in str(faults[0]) and words in str(faults[0])
     with pytest.raises(P2SFError):
         with_words(read_lesson(FOLDER / NAMES[0]), tmp_path / "de" / NAMES[0], "de")
 
@@ -92,7 +93,7 @@ def teaching_german(window, monkeypatch, tmp_path):
     monkeypatch.setattr(teaching, "own_folder", lambda: tmp_path)
     window.store.changed.disconnect(window.teaching.follow)
     set_language("de")
-    made = LessonController(window)
+    made = LessonController(window.store, window, window.lesson_room)
     yield made
     set_language("en")
     made.leave()
@@ -102,14 +103,15 @@ def teaching_german(window, monkeypatch, tmp_path):
 
 
 def test_the_page_speaks_german_and_says_once_where_it_cannot(teaching_german, window):
-    said = []
-    window.store.said.connect(said.append)
+    told = []
+    window.store.said.connect(told.append)
     for name, words in (("03_defocus", 0), ("99_own", 1), ("03_defocus", 1), ("99_own", 1)):
         teaching_german.begin(name)
         QApplication.processEvents()
-        assert len(said) == words
-    window.store.said.disconnect(said.append)
-    assert said == ["Diese Lektion ist nicht übersetzt und steht hier, wie sie geschrieben wurde"]
+        assert len(told) == words
+    window.store.said.disconnect(told.append)
+    assert told == [UNTRANSLATED]
+    assert said(UNTRANSLATED) == "Diese Lektion ist nicht übersetzt und steht hier, wie sie geschrieben wurde"
     panel = teaching_german.panel
     assert panel.title.text() == "A quarter of a wave" and panel.choice.count() == len(NAMES) + 1
     teaching_german.begin("03_defocus")

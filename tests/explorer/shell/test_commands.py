@@ -7,7 +7,6 @@ from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.compute.setup import shipped, title
 from p2sf_explorer.panels import REGISTRY
-from p2sf_explorer.shell.choices import everything
 from p2sf_explorer.shell.command_palette import named, ranked, score
 from p2sf_explorer.shell.help import HelpPage
 from p2sf_explorer.state.what_if import PRESETS
@@ -33,30 +32,30 @@ def test_letters_that_are_not_there_in_their_order_find_nothing():
 
 
 def test_no_two_commands_answer_to_the_same_key(window):
-    keys = [QKeySequence(key).toString() for command in window.actions.commands for key in command.keys]
+    keys = [QKeySequence(key).toString() for command in window.commands.commands for key in command.keys]
     assert len(keys) == len(set(keys)) and all(keys)
 
 
 def test_the_palette_lists_every_panel_lens_and_preset(window):
-    listed = {command.title for command in everything(window)}
+    listed = {command.title for command in window.commands.everything()}
     assert listed >= {entry.title for entry in REGISTRY if entry.place != "main"}
     assert listed >= {title(name) for name in shipped()} | {preset.title for preset in PRESETS}
 
 
 def test_no_command_says_its_group_twice(window):
-    names = [named(command) for command in everything(window)]
+    names = [named(command) for command in window.commands.everything()]
     assert not [name for name in names if name.split(": ")[1].startswith(name.split(": ")[0])]
 
 
 def test_typing_and_enter_do_what_is_found(window, qtbot):
     qtbot.keyClick(window, Qt.Key.Key_K, Qt.KeyboardModifier.ControlModifier)
-    palette = window.actions.palette
+    palette = window.commands.palette
     assert palette.isVisible()
     qtbot.keyClicks(palette.sought, "cooke")
     assert "Cooke triplet" in palette.found.item(0).text()
     qtbot.keyClick(palette.sought, Qt.Key.Key_Return)
     assert window.store.state.lens == "cooke_triplet" and not palette.isVisible()
-    window.actions.find()
+    window.commands.find()
     qtbot.keyClicks(palette.sought, "panel mtf")
     qtbot.keyClick(palette.sought, Qt.Key.Key_Return)
     assert window.store.state.tab == "mtf"
@@ -64,14 +63,14 @@ def test_typing_and_enter_do_what_is_found(window, qtbot):
 
 def test_arrows_choose_and_escape_goes_back(window, qtbot):
     before = window.store.state
-    window.actions.find()
-    palette = window.actions.palette
+    window.commands.find()
+    palette = window.commands.palette
     qtbot.keyClicks(palette.sought, "theme")
     qtbot.keyClick(palette.sought, Qt.Key.Key_Down)
     assert palette.found.currentRow() == 1
     qtbot.keyClick(palette.sought, Qt.Key.Key_Escape)
     assert not palette.isVisible() and window.store.state == before
-    window.actions.find()
+    window.commands.find()
     qtbot.keyClicks(palette.sought, "qqqq")
     qtbot.keyClick(palette.sought, Qt.Key.Key_Return)
     assert window.store.state == before
@@ -82,10 +81,10 @@ def test_the_question_mark_lists_every_key(window, qtbot):
     qtbot.keyClick(window, Qt.Key.Key_Question)
     page = window.findChild(HelpPage)
     lines = page.text.toPlainText()
-    for command in window.actions.commands:
+    for command in window.commands.commands:
         assert not command.keys or (command.title in lines and all(key in lines for key in command.keys))
     assert page.height() <= page.screen().availableGeometry().height()
-    window.actions.help()
+    window.commands.help()
     assert window.findChildren(HelpPage) == [page], "asked again, the one page comes to the front"
     qtbot.keyClick(page, Qt.Key.Key_Escape)
     assert not page.isVisible()

@@ -91,7 +91,7 @@ def test_a_lens_that_cannot_be_read_says_why(tmp_path):
     path.write_text("radius = ")
     card = lens_card(str(path))
     assert card.drawing is None
-    assert "line 1" in card.character
+    assert "line 1" in str(card.problem)
 
 
 def test_the_bar_names_a_foreign_lens_by_its_own_title(window):

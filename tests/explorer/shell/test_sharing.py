@@ -80,7 +80,7 @@ def test_copy_and_paste_by_keys(window, qtbot):
 
 
 def test_the_next_start_finds_the_last_window(window):
-    keeping = SessionKeeper(window, {})
+    keeping = SessionKeeper(window, window.store, window.stack, lambda: window.floating.open, {})
     window.stack.setSizes([200, 300, 250])
     shares = window.stack.sizes()
     window.store.update(field_deg=2.5, method="fitted", tab="mtf")
@@ -89,7 +89,7 @@ def test_the_next_start_finds_the_last_window(window):
     window.stack.setSizes([300, 300, 150])
     state, geometry = last_session()
     assert state == kept
-    again = SessionKeeper(window, geometry)
+    again = SessionKeeper(window, window.store, window.stack, lambda: window.floating.open, geometry)
     found = window.stack.sizes()
     assert [size / sum(found) for size in found] == pytest.approx([size / sum(shares) for size in shares], abs=0.01)
     for filtering in (keeping, again):

@@ -184,13 +184,13 @@ def test_light_and_dark(window):
 
 @pytest.mark.parametrize("name", ["cooke_triplet", "eye_navarro", "relay", "landscape"])
 def test_every_kind_of_lens_opens(window, name):
-    assert window.actions.open_lens(name)
+    assert window.commands.open_lens(name)
     assert window.live.state.lens == name
     assert not window.banner.isVisible()
 
 
 def test_an_unknown_lens_is_a_sentence(window):
-    assert not window.actions.open_lens("double_gaus_28")
+    assert not window.commands.open_lens("double_gaus_28")
     assert "double_gauss_28" in window.banner.text.text()
     assert window.top.lens.currentData() == "double_gauss_28"
 

@@ -37,7 +37,7 @@ def test_a_value_that_cannot_be_is_refused_and_nothing_changes(qtbot):
     store = Store(State())
     with qtbot.waitSignal(store.refused) as told:
         store.update(depth_mm=-5.0)
-    assert "source depth is -5 mm" in told.args[0]
+    assert "source depth is -5 mm" in str(told.args[0])
     assert store.state == State()
 
 

@@ -1,4 +1,4 @@
-"""A set-up without an answer: nothing of the one before may pass for it."""
+"""A setup without an answer: nothing of the one before may pass for it."""
 
 from dataclasses import replace
 from math import inf
@@ -11,7 +11,7 @@ from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compute.live import Refused
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.results.mtf import contrast
-from p2sf_explorer.shell.show import UNKNOWN, WHY
+from p2sf_explorer.shell.no_answer import NO_ANSWER, UNKNOWN
 from p2sf_explorer.shell.window import MAIN
 from p2sf_explorer.state.state import State
 from p2sf_explorer.widgets.copying import data_of
@@ -30,7 +30,7 @@ def without(window):
 def test_no_picture_and_no_figure_of_the_lens_before_is_left(without):
     for key in ("pupil", "psf", "coefficients", without.tabs.current()):
         overlay = without.panels[key].widget.overlay
-        assert overlay.isVisible() and overlay.text == WHY
+        assert overlay.isVisible() and overlay.text == str(NO_ANSWER)
         assert overlay.geometry().contains(without.panels[key].widget.rect().center())
         assert not data_of(without.panels[key].widget), "nor copied"
     assert {str(value) for _, value, _ in without.controls.facts.rows} == {UNKNOWN}
@@ -56,22 +56,22 @@ def test_a_theme_is_taken_up_without_an_answer(without):
 
 
 def test_the_psf_before_is_not_saved_under_the_new_name(without, tmp_path):
-    assert not without.actions.save(str(tmp_path / "psf.npz"))
+    assert not without.commands.save(str(tmp_path / "psf.npz"))
     assert "no PSF" in without.banner.text.text() and not list(tmp_path.iterdir())
 
 
-def test_the_next_answer_lifts_every_veil(without):
+def test_the_next_answer_uncovers_every_panel(without):
     without.store.update(depth_mm=94.412)
     assert not without.banner.isVisible()
     assert not any(without.panels[key].widget.overlay.isVisible() for key in without._visible())
     assert UNKNOWN not in {str(value) for _, value, _ in without.controls.facts.rows}
 
 
-REASON = "the blur is too wide for a table"
+REASON = Message("the blur is too wide for a table; stop down")
 
 
 def refusing(live):
-    raise SamplingError(f"{REASON}; stop down")
+    raise SamplingError(REASON)
 
 
 @pytest.fixture
@@ -84,7 +84,7 @@ def one_refusing(window, monkeypatch):
     window.store.update(tab="profiles")
 
 
-def test_a_tab_that_has_nothing_to_show_veils_itself_alone(one_refusing):
+def test_a_tab_that_has_nothing_to_show_covers_itself_alone(one_refusing):
     window, overlay = one_refusing, one_refusing.panels["mtf"].widget.overlay
     assert overlay.isVisible() and overlay.text == "The blur is too wide for a table; stop down"
     assert not any(window.panels[key].widget.overlay.isVisible() for key in MAIN)
@@ -92,7 +92,7 @@ def test_a_tab_that_has_nothing_to_show_veils_itself_alone(one_refusing):
     assert UNKNOWN not in {str(value) for _, value, _ in window.controls.facts.rows}
 
 
-def test_its_veil_goes_with_the_next_answer(one_refusing, monkeypatch):
+def test_its_overlay_goes_with_the_next_answer(one_refusing, monkeypatch):
     monkeypatch.undo()
     one_refusing.store.update(field_deg=5.0)
     assert not one_refusing.panels["mtf"].widget.overlay.isVisible() and data_of(one_refusing.panels["mtf"].widget)
@@ -103,4 +103,4 @@ def test_a_difference_is_as_it_was_where_a_side_has_nothing(window):
     b_refuses = {"mtf": lambda live: refusing(live) if live.state.f_number == 8.0 else contrast(live)}
     seen = answers(asked, "preview", b_refuses).seen
     assert str(seen.difference.why["mtf"]) == "This is A; B has none: the blur is too wide for a table; stop down"
-    assert answers(asked, "preview", {"mtf": refusing}).seen.views["mtf"] == Refused(Message(f"{REASON}; stop down"))
+    assert answers(asked, "preview", {"mtf": refusing}).seen.views["mtf"] == Refused(REASON)
