@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 from xml.etree import ElementTree
 
-from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
+from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTranslator
 
 from p2sf_explorer.i18n.tr import CONTEXT, forget
 
@@ -28,14 +28,14 @@ NAMES = {ENGLISH: "English"}  # Qt would say of which country
 class Translation(QTranslator):
     """A language read from its .ts file: no compiled file has to be kept beside it."""
 
-    def __init__(self, code: str, parent=None):
+    def __init__(self, code: str, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.code, self.texts = code, texts(code)
         # The more of a template is fixed, the sooner it is tried: "{count} wavelengths" fits the end of much.
         braced = sorted((source for source in self.texts if "{" in source), key=lambda s: -len(BRACES.sub("", s)))
         self.templates = tuple(template(source, self.texts[source]) for source in braced)
 
-    def translate(self, context, source, disambiguation=None, n=-1) -> str | None:
+    def translate(self, context: str, source: str, disambiguation: str | None = None, n: int = -1) -> str | None:
         """Return one of our texts in the language, as it is where the language has nothing; nothing for Qt's own."""
         return self.said(source) if context == CONTEXT else None  # not "": Qt would show that
 
@@ -91,13 +91,13 @@ def template(source: str, said: str):
 
 
 def texts(code: str) -> dict[str, str]:
-    """Return what a language says for each English text; nothing for English."""
+    """Return the translation of each English text in a language; nothing for English."""
     path = FOLDER / f"{code}.ts"
     if not path.is_file():
         return {}
     messages = ElementTree.parse(path).iter("message")
-    said = {message.findtext("source"): message.findtext("translation") for message in messages}
-    return {source: text for source, text in said.items() if source and text}
+    found = ((message.findtext("source"), message.findtext("translation")) for message in messages)
+    return {source: text for source, text in found if source and text}
 
 
 def languages() -> dict[str, str]:
@@ -113,15 +113,16 @@ def language_of(choice: str) -> str:
 
 
 def current_language() -> str:
-    """Return the language the application speaks now."""
-    found = QCoreApplication.instance().findChild(Translation)
+    """Return the present language of the application."""
+    application = QCoreApplication.instance()
+    found = application.findChild(Translation) if application else None
     return found.code if found else ENGLISH
 
 
 def set_language(choice: str) -> None:
-    """Have everything that is built from now on speak a language; Qt's own words go with it."""
+    """Set the language of everything built from now on, and of Qt's own texts."""
     code, application = language_of(choice), QCoreApplication.instance()
-    if code == current_language():
+    if application is None or code == current_language():
         return
     for translator in application.findChildren(QTranslator):
         application.removeTranslator(translator)

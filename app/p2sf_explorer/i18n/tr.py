@@ -1,4 +1,4 @@
-"""What the window says, in the language of whoever sits at it: write every sentence as ``tr("English")``.
+"""Texts of the window in the language of the person at it: write every text as ``tr("English")``.
 
 With numbers in it: ``tr("object {height} mm", height=signed(h, 2))``. The English text is the key; the other languages
 lie as Qt .ts files in ``i18n/languages``. No Qt in here: Qt's translation is asked only where Qt is loaded, so that
@@ -8,28 +8,32 @@ chooser or the registry are translated there; only what a panel builds itself ne
 
 import re
 import sys
+from collections.abc import Callable
 from functools import lru_cache
+from typing import TypeVar
+
+T = TypeVar("T")
 
 CONTEXT = "p2sf"
 UNITS = "%|[kMGn]?m|[µm]m|cm|ms|s|dB|λ|kB|MiB|GiB|waves?|Wellen?|rays|Strahlen|numbers|Zahlen|PSFs"
 GAP = re.compile(rf"(?<=[\d∞]) (?=(?:{UNITS})(?![^\W_]))|(?<=[≥≤≈]) (?=[−\d])")
 
 
-_per_language: list = []
+_cache_clears: list[Callable[[], None]] = []
 
 
-def cached_per_language(size: int):
+def cached_per_language(size: int) -> Callable[[Callable[..., T]], Callable[..., T]]:
     """Return `functools.lru_cache` of this size for a function of translated texts; a new language empties it."""
 
-    def decorate(function):
+    def decorate(function: Callable[..., T]) -> Callable[..., T]:
         cached = lru_cache(maxsize=size)(function)
-        _per_language.append(cached)
+        _cache_clears.append(cached.cache_clear)
         return cached
 
     return decorate
 
 
-def tr(text: str, **values) -> str:
+def tr(text: str, **values: object) -> str:
     """Return a text in the present language, ``values`` put into its braces; English where there is no other."""
     said = _translated(text)
     return said.format(**values) if values else said
@@ -38,16 +42,19 @@ def tr(text: str, **values) -> str:
 @cached_per_language(4096)
 def _translated(text: str) -> str:
     core = sys.modules.get("PySide6.QtCore")
-    return core.QCoreApplication.translate(CONTEXT, text) if core and text else text
+    if not core or not text:
+        return text
+    translated: str = core.QCoreApplication.translate(CONTEXT, text)
+    return translated
 
 
 @lru_cache(maxsize=512)
 def unbroken(text: str) -> str:
-    """Return a text that no line end parts from its unit or from its ≥ where a number stands: for labels that wrap."""
+    """Return a text in which no line breaks between a number and its unit, or ≥ and its number."""
     return GAP.sub("\u00a0", text)
 
 
 def forget() -> None:
-    """Ask Qt anew from now on: the language has changed."""
-    for cached in _per_language:
-        cached.cache_clear()
+    """Clear the caches: the language has changed."""
+    for clear in _cache_clears:
+        clear()
