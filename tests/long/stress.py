@@ -1,4 +1,4 @@
-"""The explorer under random hands: Qt events by the thousand, and what they cost in memory, time and errors.
+"""Stress test of the explorer: random Qt events by the thousand, and their cost in memory, time and errors.
 
 ``python -m tests.long.stress [minutes] [events] [seed]`` (60 minutes or 200 000 events unless told, whichever ends
 first) prints a line a minute, a verdict and how many events there were of each kind (see `tests.support.monkey`);
@@ -69,7 +69,7 @@ class Verdict:
 
 
 def stress(seconds: float, events: int, seed: int = 0, tell=lambda line: None) -> Verdict:
-    """Let random hands work on a window for so long or so many events, whichever ends first."""
+    """Use a window at random for so many seconds or events, whichever ends first."""
     with tempfile.TemporaryDirectory() as folder, own_files(Path(folder), seed), overheard(tell) as errors:
         window = MainWindow(FIRST)
         window.show()

@@ -1,4 +1,4 @@
-"""Single movements that QTest has no words for: letters of any alphabet, repeats of a held key, turns of the wheel."""
+"""Events that QTest cannot send: letters of any alphabet, repeats of a held key, turns of the wheel."""
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QKeyEvent, QWheelEvent

@@ -1,9 +1,8 @@
-"""Random hands on the explorer: one thing after another, by mouse and keys, each event charged to the GUI thread.
+"""Random use of the explorer by mouse and keys, with the CPU time of the GUI thread for each event.
 
-An event is what Qt would hand to the window: a press, a move, a release, a key with its repeats one by one, a turn of
-the wheel, an entry taken, an edit. The window computes its answer to every one. Events come in bursts as a hand's do: a
-drag has tens of moves and a held key repeats, and some of them arrive while a frame is painted, so that one repaint
-answers them all (`FRAME`).
+An event is what Qt would send to the window: a press, a move, a release, a key with its repeats one by one, a turn of
+the wheel, a menu entry, an edit. The window computes an answer to each. Events come in bursts, as from a person: a drag
+has tens of moves and a held key repeats, and those that arrive while a frame is painted share one repaint (`FRAME`).
 """
 
 import random

@@ -1,9 +1,9 @@
 """The languages of the window: one Qt .ts file each in this folder, as Qt Linguist writes them; English needs none.
 
-Adding a language is adding a file: copy ``de.ts``, name it after the language, translate it.
+To add a language, copy ``de.ts``, name it after the language and translate it;
+``python -m p2sf_explorer.i18n.extract LANGUAGE`` lists what is missing.
 """
 
-import re
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -13,15 +13,6 @@ from p2sf_explorer.i18n.tr import CONTEXT, forget
 
 FOLDER = Path(__file__).parent / "languages"
 ENGLISH = "en"
-BRACES, WORD = re.compile(r"\{\w*\}"), re.compile(r"[^\W\d_]{2}")
-JOINTS = re.compile(r"(<[^>]*>|&nbsp;| · |   ⚠ |^⚠ |\n)")  # what stands between sentences on one line
-CLAUSES = re.compile(r"(; )")  # and between what is wrong and what to do
-ANYTHING = r"((?:(?! · |\n).)+?)"  # what may stand for a name in braces,
-WITHIN = r"((?:(?! · |\n|; ).)+?)"  # for one in a clause,
-FIGURE = r"([-−+]?[\d.∞][^\s;]*)"  # for {number} and {count}, and for {path}
-PATH = r"([^;\n]*?[./\\][^;\n]*?)"
-PLACE = re.compile(r"\{(\d+)\}")
-STANDS = {"{number}": FIGURE, "{count}": FIGURE, "{path}": PATH, "{why}": ANYTHING}  # a reason has clauses of its own
 NAMES = {ENGLISH: "English"}  # Qt would say of which country
 
 
@@ -31,63 +22,14 @@ class Translation(QTranslator):
     def __init__(self, code: str, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.code, self.texts = code, texts(code)
-        # The more of a template is fixed, the sooner it is tried: "{count} wavelengths" fits the end of much.
-        braced = sorted((source for source in self.texts if "{" in source), key=lambda s: -len(BRACES.sub("", s)))
-        self.templates = tuple(template(source, self.texts[source]) for source in braced)
 
     def translate(self, context: str, source: str, disambiguation: str | None = None, n: int = -1) -> str | None:
-        """Return one of our texts in the language, as it is where the language has nothing; nothing for Qt's own."""
-        return self.said(source) if context == CONTEXT else None  # not "": Qt would show that
-
-    def said(self, source: str) -> str:
-        """Return a text in the language: as it stands there, or by the first template it fits, else piece by piece."""
-        bare = source.strip(" ")
-        if bare != source:
-            return source.replace(bare, self.said(bare), 1) if bare else source
-        found = self.texts.get(source)
-        if found is None and WORD.search(source):
-            small = source[0].lower() + source[1:]  # a sentence that is known from the middle of another
-            said = self.texts.get(small) or self._by_template(source) or self._by_template(small)
-            found = said and said[0].upper() + said[1:] if source != small else said
-        if found is None:
-            joints = JOINTS if JOINTS.search(source) else CLAUSES
-            pieces = joints.split(source)  # every second one is a joint
-            pieces[::2] = map(self.said, pieces[::2]) if len(pieces) > 1 else pieces
-            found = "".join(pieces)
-        return found
-
-    def _by_template(self, source: str) -> str | None:
-        for form, said in self.templates:
-            fit = form(source)
-            if fit:
-                return filled(said, [self.said(value) for value in fit.groups()])
-        return None
+        """Return one of our texts in the language, as it is where it has no translation; None for Qt's own texts."""
+        return self.texts.get(source, source) if context == CONTEXT else None  # not "", which Qt would show
 
     def isEmpty(self) -> bool:
-        """Return whether there is nothing in it: Qt asks before it installs."""
+        """Return whether there are no translations: Qt asks before it installs."""
         return not self.texts
-
-
-def filled(said: str, values: list[str]) -> str:
-    """Return a translation with values in its numbered braces; other braces are its own."""
-    return PLACE.sub(lambda place: values[int(place[1])], said)
-
-
-def template(source: str, said: str):
-    """Return what tells whether a text fits a source with braces, and the translation, its braces numbered alike."""
-    names = BRACES.findall(source)
-    parts = re.split(r"(\{\w*\})", source)
-    anything = ANYTHING if "; " in source else WITHIN
-    form = "".join(STANDS.get(p, anything) if p in names else re.escape(p) for p in parts)
-    for number, name in enumerate(names):
-        said = said.replace(name, f"{{{number}}}", 1)
-    fits, fixed, dots = (
-        re.compile(form).fullmatch,
-        max((p for p in parts if p not in names), key=len),
-        source.count(" · "),
-    )
-    # Most texts lack the words, or have other parts: no need to match them, which takes long.
-    return lambda text: fits(text) if fixed in text and text.count(" · ") == dots else None, said
 
 
 def texts(code: str) -> dict[str, str]:

@@ -15,10 +15,7 @@ MOUSE_AND_KEYS = (
     ("drop a file", "open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, "
      ".csv with named columns, .toml, or a saved state"),
 )  # fmt: skip
-POINT = (
-    "Numbers have a decimal point, in every language, as in files and on the command line; "
-    "a comma that is typed is read as one too."
-)
+POINT = "Typed numbers may have a decimal point or a decimal comma; files and the command line take a decimal point."
 LEAD = "Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition."
 
 

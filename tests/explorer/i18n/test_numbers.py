@@ -1,23 +1,8 @@
-"""Numbers on the screen: a decimal point in every language, and no line end between a number and its unit."""
-
-import re
+"""Numbers on the screen: no line ends between a number and its unit."""
 
 import pytest
 
-from p2sf_explorer.i18n.language import texts
 from p2sf_explorer.i18n.tr import unbroken
-from p2sf_explorer.lessons.lesson import FOLDER
-from p2sf_explorer.shell.help import POINT
-
-GERMAN = texts("de")
-
-
-def test_numbers_have_a_decimal_point_in_german_too():
-    """As the figures beside them, which are computed; a list of wavelengths keeps its commas."""
-    lessons = {path.name: path.read_text(encoding="utf-8") for path in (FOLDER / "de").glob("*.md")}
-    told = {**GERMAN, **lessons}
-    assert not {name for name, text in told.items() if re.search(r"(?<![\d,:])\d+,\d+(?![\d,])", text)}
-    assert "Dezimalpunkt" in GERMAN[POINT]
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from p2sf_explorer.shell import memory_trim as memory_trim
+from p2sf_explorer.shell import memory_trim
 from p2sf_explorer.shell.memory_trim import MemoryTrim, trimming
 from tests.long.stress import resident_mb
 
@@ -26,8 +26,8 @@ def test_holes_are_given_back():
 
 
 @pytest.fixture
-def thrifty(qapp, monkeypatch, qtbot):
-    """Thrift with short pauses, and how often it has given back."""
+def trimmed(qapp, monkeypatch, qtbot):
+    """Return a MemoryTrim with short pauses, and the calls of trimming."""
     given = []
     monkeypatch.setattr(memory_trim, "trimming", lambda: lambda pad: given.append(pad))
     made = MemoryTrim()
@@ -37,16 +37,16 @@ def thrifty(qapp, monkeypatch, qtbot):
     made.stop()
 
 
-def test_once_for_a_burst_that_rests(thrifty, qtbot):
-    made, given = thrifty
+def test_once_for_a_burst_that_rests(trimmed, qtbot):
+    made, given = trimmed
     for _ in range(5):
         made.touch()
     qtbot.waitUntil(lambda: len(given) == 1)
     assert not made._rest.isActive() and not made._latest.isActive(), "nothing more until something changes"
 
 
-def test_a_hand_that_never_rests_is_served_too(thrifty, qtbot):
-    made, given = thrifty
+def test_a_hand_that_never_rests_is_served_too(trimmed, qtbot):
+    made, given = trimmed
     made._rest.setInterval(10**6)
 
     def still_moving():
