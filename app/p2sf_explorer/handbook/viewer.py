@@ -5,11 +5,13 @@ from PySide6.QtCore import QSize, Qt, QUrl
 from PySide6.QtGui import (
     QColor,
     QImage,
+    QTextBlock,
     QTextBlockFormat,
     QTextCharFormat,
     QTextCursor,
     QTextDocument,
     QTextFormat,
+    QTextFragment,
     QTextLength,
     QTextTable,
 )
@@ -45,8 +47,9 @@ class Handbook(QDialog):
         self.text.setFrameShape(QTextBrowser.Shape.NoFrame)
         self.text.anchorClicked.connect(self._follow)
         for name, title in PAGES.items():
-            self.contents.addTopLevelItem(_branch(name, title))
-        self.contents.topLevelItem(0).setExpanded(True)
+            branch = _branch(name, title)
+            self.contents.addTopLevelItem(branch)
+            branch.setExpanded(name == next(iter(PAGES)))
         self.contents.itemClicked.connect(lambda item: self._open(*item.data(0, Qt.ItemDataRole.UserRole)))
         split = QSplitter(self)
         split.addWidget(self.contents)
@@ -137,11 +140,20 @@ def painted(formula: Formula, colour: str, ratio: float) -> QImage:
     return picture
 
 
+def fragments(block: QTextBlock) -> list[QTextFragment]:
+    """Return the parts of a paragraph that look alike within themselves."""
+    place, found = block.begin(), []
+    while not place.atEnd():
+        found.append(place.fragment())
+        place += 1
+    return found
+
+
 def lay_out(document: QTextDocument) -> None:
     """Give headings, paragraphs and formulas their room; let each formula end where its line of text ends."""
     block = document.begin()
     while block.isValid():
-        pieces = [piece.fragment() for piece in block]
+        pieces = fragments(block)
         pictures = [piece for piece in pieces if piece.charFormat().isImageFormat()]
         form, level = block.blockFormat(), block.blockFormat().headingLevel()
         in_table = QTextCursor(block).currentTable() is not None

@@ -11,6 +11,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import ExactDatabase, GridDatabase, Space, build_database, depth_nodes
+from p2sf.database.build import build_exact
 from p2sf.database.parts import KINDS
 from p2sf.database.render import Sampling, rendered
 from p2sf.errors import Cancelled, P2SFError, SamplingError
@@ -99,7 +100,7 @@ def answer(request: DatabaseRequest, stopped: Callable[[], bool] = lambda: False
     space = nodes(request)
     near = np.linspace(1 / request.depths_mm[1], 1 / request.depths_mm[0], MAP[1])
     near[-1] = 1 / space.depths_mm[0]
-    exact = build_database(request.lens, space, "exact", stop(request))
+    exact = build_exact(request.lens, space, stop(request))
     maps = mapped(exact, near, fields, request.wavelength_um)
     errors, largest = {}, {"exact": exact.errors}
     for rule in LOSSY:
