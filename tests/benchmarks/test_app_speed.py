@@ -19,7 +19,7 @@ from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.shell.window import MainWindow
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 
 FRAMES = 200
 FRAME_MS, START_S = 16.0, 2.5
@@ -30,7 +30,7 @@ def window(qapp):
     qapp.setStyle("Fusion")
     configure_plots()
     with threadpool_limits(1):
-        window = MainWindow(State(theme="light", method="seidel"), measured=False)
+        window = MainWindow(new_state(theme="light", method="seidel"), measured=False)
         window.resize(1440, 900)
         window.show()
         qapp.processEvents()
@@ -41,7 +41,7 @@ def window(qapp):
 @pytest.mark.parametrize("method", ["seidel", "auto"])
 @pytest.mark.parametrize("key", ["field_deg", "depth_mm", "wavelength_nm", "sensor_shift_um", "f_number"])
 def test_slider_to_all_panels_painted(window, qapp, benchmark, key, method):
-    window.store.replace(State(theme="light", method=method))
+    window.store.replace(new_state(theme="light", method=method))
     slider, wall, cpu = window.controls.rows[key].slider, [], []
     window.store.begin()
 
@@ -64,9 +64,9 @@ def test_slider_to_all_panels_painted(window, qapp, benchmark, key, method):
 
 @pytest.mark.parametrize("what", ["free pupil", "on the lens", "beside B", "A − B"])
 def test_what_if_slider_to_all_panels_painted(window, qapp, benchmark, what):
-    pair = {"pinned": State(f_number=8.0, method="seidel"), "shown": "difference" if what == "A − B" else "a"}
+    pair = {"pinned": new_state(f_number=8.0, method="seidel"), "shown": "difference" if what == "A − B" else "a"}
     extra = pair if "B" in what else {"free_pupil": what == "free pupil"}
-    window.store.replace(State(theme="light", method="seidel", **extra))
+    window.store.replace(new_state(theme="light", method="seidel", **extra))
     qapp.processEvents()
     desk, wall, cpu, steps = window.panels["coefficients"].bars, [], [], count()
     window.store.begin()

@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.shell.window import MainWindow
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 
 EDITS, EDIT_MS = 60, 30.0
 
@@ -27,7 +27,7 @@ def window(qapp):
     qapp.setStyle("Fusion")
     configure_plots()
     with threadpool_limits(1):
-        window = MainWindow(State(theme="light", tab="lens"), measured=False)
+        window = MainWindow(new_state(theme="light", tab="lens"), measured=False)
         window.resize(1440, 900)
         window.show()
         qapp.processEvents()
@@ -37,7 +37,7 @@ def window(qapp):
 
 @pytest.mark.parametrize("method", ["seidel", "auto"])
 def test_edit_to_all_panels_painted(window, qapp, benchmark, method):
-    window.store.replace(State(theme="light", method=method, tab="lens"))
+    window.store.replace(new_state(theme="light", method=method, tab="lens"))
     model, wall, cpu, steps = window.panels["lens"].model, [], [], count(1)
 
     def edit():

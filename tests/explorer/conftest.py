@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.shell.window import MainWindow
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -20,7 +20,7 @@ def own_memory(tmp_path_factory):
         yield path
 
 
-FIRST = State(method="seidel", theme="light")
+FIRST = new_state(method="seidel", theme="light")
 
 
 @pytest.fixture(scope="session")
@@ -50,7 +50,7 @@ def window(only_window, qtbot):
 @pytest.fixture
 def image_panel(window, qtbot):
     """Return the image panel of the window, photographing print; afterwards another tab is in front again."""
-    window.store.update(tab="image", photo_pixel_um=16.0, photo="text")
+    window.store.update(tab="image", photo_pixel_um=16.0, photo_source="text")
     made = window.panels["image"]
     qtbot.waitUntil(lambda: not made._stale(), timeout=30000)
     yield made

@@ -1,6 +1,5 @@
 """What the fuzzing starts from: every sample file of the tests, a database, and ordinary command lines."""
 
-from dataclasses import replace
 from functools import cache
 from io import BytesIO
 from pathlib import Path
@@ -21,7 +20,8 @@ from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.files.embedded_state import with_state
 from p2sf_explorer.lessons.lesson import lesson_files
 from p2sf_explorer.state.link import link
-from p2sf_explorer.state.state import State, state_to_json
+from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state_files import state_to_json
 from tests.fuzz.targets import ENDINGS, PSF_ENDINGS, good_database
 from tests.support.lens_files import FILES, FOLDER
 from tests.support.waves import waves
@@ -105,8 +105,8 @@ def scenes() -> list[bytes]:
 
 
 def states() -> list[bytes]:
-    edited = replace(State(), field_deg=3.0, lens_text=lens_to_toml(find_lens("singlet_f6")), windows=("mtf",))
-    pinned = replace(State(), pinned=edited)
+    edited = changed(State(), field_deg=3.0, lens_text=lens_to_toml(find_lens("singlet_f6")), windows=("mtf",))
+    pinned = changed(State(), pinned=edited)
     saved = [b"\1" + state_to_json(state).encode() for state in (State(), edited, pinned)]
     return saved + [b"\0" + link(state).encode() for state in (State(), edited, pinned)]
 

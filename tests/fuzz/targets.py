@@ -34,7 +34,7 @@ from p2sf.scene.files import read_scene
 from p2sf_explorer.files.embedded_state import text_inside
 from p2sf_explorer.lessons.lesson import parse_lesson
 from p2sf_explorer.state.link import state_of_link
-from p2sf_explorer.state.state import state_from_json, state_to_json
+from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
 LAST = "last-input"  # the file with what a fuzzing process tried last, beside its folder of inputs
 ENDINGS = (".toml", ".zmx", ".seq", ".csv", ".json", ".txt", ".dat")

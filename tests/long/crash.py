@@ -31,7 +31,8 @@ from p2sf.psf.result import Psf
 from p2sf_explorer.files import recent
 from p2sf_explorer.files.recent import remember
 from p2sf_explorer.files.snapshot import write_state
-from p2sf_explorer.state.state import State, read_state
+from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.state_files import read_state
 
 LENS = find_lens("tessar")
 NOISE = np.random.default_rng(1).random((64, 64))
@@ -46,7 +47,7 @@ def writers(folder: Path, version: int) -> dict:
     many = {f"{name}-{version}": "x" * 40 for name in range(60)}
     return {
         "lens.toml": lambda: write_lens(LENS, folder / "lens.toml"),
-        "state.json": lambda: write_state(State(field_deg=version % 60), folder / "state.json", **many),
+        "state.json": lambda: write_state(new_state(field_deg=version % 60), folder / "state.json", **many),
         "snapshot.npz": lambda: write_psf(psf, folder / "snapshot.npz", {}),
         "picture.png": lambda: write_photo(folder / "picture.png", NOISE),
         "database.npz": lambda: save_database(DATABASE, LENS, folder / "database.npz"),

@@ -30,7 +30,7 @@ from threadpoolctl import threadpool_limits
 from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.shell.memory_trim import REST_MS
 from p2sf_explorer.shell.window import MainWindow
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 from tests.support.lens_files import FILES, FOLDER
 from tests.support.monkey import STALL_MS, Ledger, Person
 
@@ -39,7 +39,7 @@ GROWTH = 0.05
 PAUSE_MS = 2 * REST_MS
 WARM = 0.5  # the first part opens every panel and lens and fills the caches: not counted as growth
 JUDGED = 20.0  # minutes: before, caches fill and panels open for the first time, and CI's machine has its own speed
-FIRST = State(method="seidel", theme="light")
+FIRST = new_state(method="seidel", theme="light")
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication
 
 from p2sf_explorer.shell.window import MainWindow
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, new_state
 from tests.support.events import send_key, turn_wheel, type_text
 
 STALL_MS = 250.0
@@ -44,7 +44,8 @@ class Ledger:
         self.done[name] += 1
         self.worst = max(self.worst, (milliseconds, name))
         if milliseconds > STALL_MS:
-            setup = f"{state.lens[-30:]}, {state.method}, {state.tab}, {state.field_deg:g}°, {state.depth_mm:g} mm"
+            o = state.optics
+            setup = f"{o.lens[-30:]}, {o.method}, {state.display.tab}, {o.field_deg:g}°, {o.depth_mm:g} mm"
             self.slow.append(f"{name} {milliseconds:.0f} ms ({setup})")
 
 
@@ -210,7 +211,7 @@ class Person:
 
     def probe(self) -> float:
         """Return the median CPU milliseconds of one and the same drag of the field."""
-        self.window.store.replace(State(method="seidel", theme="light"))
+        self.window.store.replace(new_state(method="seidel", theme="light"))
         self.window.resize(1440, 900)
         QApplication.processEvents()
         slider, costs = self.window.controls.rows["field_deg"].slider, []

@@ -89,29 +89,29 @@ class CompareBar(QFrame):
     def turn(self) -> None:
         """Pin B, or take it away."""
         state = self._store.state
-        self._store.replace(unpin(state) if state.pinned else pin(state))
+        self._store.replace(unpin(state) if state.compare.pinned else pin(state))
 
     def exchange(self) -> None:
         """Exchange A and B, if there is a B."""
-        if self._store.state.pinned:
+        if self._store.state.compare.pinned:
             self._store.replace(swapped(self._store.state))
 
     def next_side(self) -> None:
         """Show the next of A, B, A − B; pins B first."""
-        if not self._store.state.pinned:
+        if not self._store.state.compare.pinned:
             self.turn()
         sides = CHOICES["shown"]
-        self._store.update(shown=sides[(sides.index(self._store.state.shown) + 1) % len(sides)])
+        self._store.update(shown=sides[(sides.index(self._store.state.compare.shown) + 1) % len(sides)])
 
     def show_state(self, state: State) -> None:
         """Follow a state."""
-        self.setVisible(state.pinned is not None)
-        if not state.pinned:
+        self.setVisible(state.compare.pinned is not None)
+        if not state.compare.pinned:
             return
-        self.sides[state.shown].setChecked(True)
+        self.sides[state.compare.shown].setChecked(True)
         for key, action in self.links.items():
-            action.setChecked(key in state.linked)
-        self.link.setText(tr("Link: {count}", count=len(state.linked)) if state.linked else tr("Link"))
+            action.setChecked(key in state.compare.linked)
+        self.link.setText(tr("Link: {count}", count=len(state.compare.linked)) if state.compare.linked else tr("Link"))
         parts = [
             f"<b>{tr(name)}</b>&nbsp; A {marked_up(a)} &nbsp;|&nbsp; B {marked_up(b)}"
             for name, a, b in contrasts(state)

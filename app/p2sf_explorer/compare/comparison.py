@@ -63,7 +63,7 @@ def answers(
     Raises P2SFError where there is no answer.
     """
     moving = quality == "preview"
-    if not state.pinned:
+    if not state.compare.pinned:
         a = compute.live(state, quality, views, kept_method(last.a if last and moving else None, state), cache=cache)
         return Answers(a, None, a)
     begun, other = perf_counter(), side_b(state)
@@ -77,7 +77,7 @@ def answers(
     )
     b = _b(other, conditions, prescription(other))
     if width_um(b) > width_um(a) * (1 + 1e-9):
-        a = compute.live(state, quality, {}, a.method if state.method == "auto" else "", width_um(b), cache)
+        a = compute.live(state, quality, {}, a.method if state.optics.method == "auto" else "", width_um(b), cache)
     return Answers(a, b, seen(state, a, b, views, begun))
 
 
@@ -100,7 +100,7 @@ def _b(state: State, conditions: _Conditions, lens: Lens) -> Live:
 
 def kept_method(last: Live | None, state: State) -> str:
     """Return the method that ``auto`` had chosen in the last answer, if the state still leaves it to ``auto``."""
-    return last.method if last and state.method == "auto" and not last.setup.altered else ""
+    return last.method if last and state.optics.method == "auto" and not last.setup.altered else ""
 
 
 def width_um(live: Live) -> float:
@@ -110,9 +110,9 @@ def width_um(live: Live) -> float:
 
 def seen(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
     """Return the answer on screen, its views computed."""
-    chosen = compute.with_views(b if state.shown == "b" else a, views, begun)
-    if state.shown != "difference":
-        return replace(chosen, side=state.shown.upper())
+    chosen = compute.with_views(b if state.compare.shown == "b" else a, views, begun)
+    if state.compare.shown != "difference":
+        return replace(chosen, side=state.compare.shown.upper())
     found = {name: subtracted(name, chosen.views[name], compute.attempted(view, b)) for name, view in views.items()}
     why = WHY | {name: message for name, (_, message) in found.items() if message}
     minus = replace(difference(a, b), why=why)

@@ -7,8 +7,8 @@ from typing import Any
 from p2sf.messages import Message, Number
 from p2sf_explorer.compute.quantities import BEYOND, QUANTITIES
 from p2sf_explorer.compute.setup import prescription, ranges, title
-from p2sf_explorer.state.state import State
-from p2sf_explorer.state.what_if import UNTOUCHED, is_altered
+from p2sf_explorer.state.state import State, entry
+from p2sf_explorer.state.what_if import is_altered
 
 LINK_WORDS = {quantity.key: quantity.title for quantity in QUANTITIES}
 LINK_WORDS |= {"method": "Method", "added_waves": "Added waves"}
@@ -26,11 +26,11 @@ Contrast = tuple[str, Message, Message]
 
 def contrasts(state: State) -> tuple[Contrast, ...]:
     """Return everything in which A and the pinned B differ; nothing without a B."""
-    a, b = state, state.pinned
+    a, b = state, state.compare.pinned
     if b is None:
         return ()
     found: list[Contrast] = []
-    if (a.lens, a.lens_text) != (b.lens, b.lens_text):
+    if (a.optics.lens, a.optics.lens_text) != (b.optics.lens, b.optics.lens_text):
         found.append(("Lens", lens_name(a), lens_name(b)))
     limits = [ranges(prescription(side)) for side in (a, b)]
     for quantity in QUANTITIES:
@@ -38,10 +38,10 @@ def contrasts(state: State) -> tuple[Contrast, ...]:
         if not isclose(first, second, rel_tol=SAME):
             found.append((quantity.title, *distinct(quantity.write, first, second)))
     for name, label, described in OTHERS:
-        mine, other = getattr(a, name), getattr(b, name)
+        mine, other = entry(a, name), entry(b, name)
         if mine != other:
             found.append((label, described(mine), described(other)))
-    if any(getattr(a, name) != getattr(b, name) for name in UNTOUCHED):
+    if a.what_if != b.what_if:
         found.append(("Coefficients", coefficients_of(a), coefficients_of(b)))
     return tuple(found)
 
@@ -59,12 +59,12 @@ def written(value: str) -> Message:
 
 def lens_name(state: State) -> Message:
     """Return how a lens is named."""
-    name = Message(title(state.lens))
-    return name if state.lens_text is None else Message("{lens} ({note})", lens=name, note=Message("edited"))
+    name = Message(title(state.optics.lens))
+    return name if state.optics.lens_text is None else Message("{lens} ({note})", lens=name, note=Message("edited"))
 
 
 def coefficients_of(state: State) -> Message:
     """Return whose the coefficients are."""
-    if state.free_pupil:
+    if state.what_if.free_pupil:
         return Message("free pupil")
     return Message("by hand") if is_altered(state) else Message("the lens's own")

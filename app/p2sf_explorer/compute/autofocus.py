@@ -1,7 +1,5 @@
 """Autofocus: the sensor shift at which the wavefront's RMS is smallest. No Qt in here."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from p2sf.errors import GeometryError
@@ -9,7 +7,7 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import displayed_opd
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.what_if import check_focusable, is_altered
 
 STEPS = 3  # the reference sphere depends on the sensor, so the projection is repeated
@@ -21,7 +19,7 @@ def best_shift_um(state: State) -> float:
     Raises GeometryError where no shift can focus: the image is at infinity, or the what-if sets Wd aside.
     """
     check_focusable(state)
-    by_coefficients = state.method == "seidel" or is_altered(state)
+    by_coefficients = state.optics.method == "seidel" or is_altered(state)
     for _ in range(1 if by_coefficients else STEPS):
         setup = paraxial_setup(state)
         focus = seidel_focus(setup.coefficients) if by_coefficients else traced_focus(setup)
@@ -30,8 +28,8 @@ def best_shift_um(state: State) -> float:
             raise GeometryError("the image is at infinity, so no sensor position is in focus; move the source")
         index = float(setup.coefficients.image_index)
         shift = -focus * 2 * index * setup.source.wavelength_um / na**2  # Wd = NA²Δz/(2n′λ)
-        state = replace(state, sensor_shift_um=state.sensor_shift_um + shift)
-    return round(state.sensor_shift_um, 3)
+        state = changed(state, sensor_shift_um=state.optics.sensor_shift_um + shift)
+    return round(state.optics.sensor_shift_um, 3)
 
 
 def seidel_focus(c: Coefficients) -> float:

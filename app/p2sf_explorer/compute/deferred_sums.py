@@ -56,7 +56,7 @@ class SumCache:
 
 def sum_request(state: State, setup: ParaxialSetup, method: str, window: tuple[int, float]) -> SumRequest:
     """Return what a state asks of one method in a window."""
-    return SumRequest(setup.lens, setup.source, method, window, state.tolerance, state.clip)
+    return SumRequest(setup.lens, setup.source, method, window, state.optics.tolerance, state.optics.clip)
 
 
 def by_rays(request: SumRequest, quality: str = "settled", cancelled: Callable[[], bool] | None = None) -> Psf:

@@ -13,7 +13,7 @@ from p2sf.lensfile.toml import lens_to_toml
 from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
 from p2sf_explorer.compute.setup import load, paraxial_setup
 from p2sf_explorer.state.scales import INFINITE, MM_PER_UNIT, read_number
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 
 MODEL = re.compile(r"nd\s*=?\s*([\d.]+)[,\s]+vd\s*=?\s*([\d.]+)", re.IGNORECASE)
 
@@ -23,14 +23,14 @@ def edited_state(state: State, lens: Lens) -> State:
 
     Raises P2SFError where the lens has no picture at the state's source, so that no state has a bad lens.
     """
-    edited = replace(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
+    edited = changed(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
     paraxial_setup(edited)
     return edited
 
 
 def _as_filed(state: State, lens: Lens) -> bool:
     try:
-        return load(state.lens) == lens
+        return load(state.optics.lens) == lens
     except P2SFError:  # the file is gone or broken; the edited lens stands for itself
         return False
 
@@ -45,8 +45,8 @@ def with_value(lens: Lens, number: int, column: str, text: str) -> Lens:
         after = replace(before, **{column: READERS[column](text)})
     except P2SFError as error:
         raise type(error)("surface {number}: {error}", number=number, error=error) from None
-    changed = replace(lens, surfaces=(*lens.surfaces[: number - 1], after, *lens.surfaces[number:]))
-    return _opened_to(changed, number, after) if column == "semi_diameter" else changed
+    edited = replace(lens, surfaces=(*lens.surfaces[: number - 1], after, *lens.surfaces[number:]))
+    return _opened_to(edited, number, after) if column == "semi_diameter" else edited
 
 
 def _opened_to(lens: Lens, number: int, surface: Surface) -> Lens:

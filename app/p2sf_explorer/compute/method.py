@@ -125,7 +125,7 @@ def moving(
 
     Where rays are lost and there is no ``cache``, traced is waited for. ``quality`` sets the number of samples.
     """
-    pixels, traced = PIXELS[quality], preview(setup, state.clip)
+    pixels, traced = PIXELS[quality], preview(setup, state.optics.clip)
     pupil = preview_pupil(traced) if traced and quality == "preview" else None
     landing = landing_um(traced.rays if traced else edge_pencil(setup))
     window = pixels, max(at_least_um, ray_window_um(setup, landing)) / pixels
@@ -166,8 +166,8 @@ def rimmed(state: State, setup: ParaxialSetup, method: str, window: tuple[int, f
 def blurred(state: State, setup: ParaxialSetup, method: str, quality: str, at_least_um: float) -> Rendered:
     """Return the density of rays, in a window as wide as most of them reach."""
     exact, pixels = method != "seidel", PIXELS[quality]
-    wide = min(window_um(setup, method), ray_window_um(setup, main_reach_um(setup, exact, state.clip)))
-    psf = geometric_psf(setup, exact, (pixels, max(at_least_um, wide) / pixels), quality, state.clip)
+    wide = min(window_um(setup, method), ray_window_um(setup, main_reach_um(setup, exact, state.optics.clip)))
+    psf = geometric_psf(setup, exact, (pixels, max(at_least_um, wide) / pixels), quality, state.optics.clip)
     return Rendered(psf, density_reason(psf), exact, method)
 
 
@@ -215,12 +215,12 @@ def edge_pencil(setup: ParaxialSetup) -> Pencil:
 
 def chosen(state: State, setup: ParaxialSetup) -> tuple[str, Message]:
     """Return the method in use and why: a person's choice needs no reason."""
-    if state.method != "auto":
-        return state.method, NO_REASON
+    if state.optics.method != "auto":
+        return state.optics.method, NO_REASON
     from p2sf.psf.methods import choose
 
-    choice = choose(setup.lens, setup.source, state.tolerance, state.clip)
-    return choice.method, reason(choice, state.tolerance)
+    choice = choose(setup.lens, setup.source, state.optics.tolerance, state.optics.clip)
+    return choice.method, reason(choice, state.optics.tolerance)
 
 
 def reason(choice: "Choice", tolerance: float) -> Message:

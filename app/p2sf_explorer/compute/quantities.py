@@ -17,7 +17,7 @@ from p2sf_explorer.state.scales import (
     significant,
     written_distance,
 )
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, entry
 
 Scale = Linear | Logarithmic | Vergence
 BEYOND = "beyond ∞"  # where a file's sensor stands that no object is sharp on
@@ -44,7 +44,7 @@ class Quantity:
 
 
 def _plain(key: str) -> Callable[[State, Ranges], float]:
-    return lambda state, ranges: getattr(state, key)
+    return lambda state, ranges: entry(state, key)
 
 
 def _reader(words: str, **units: float) -> Callable[[str], float]:
@@ -94,7 +94,7 @@ FOCUS = Quantity(
     scale=lambda ranges: Vergence(ranges.closest_mm),
     write=lambda value: BEYOND if value < 0 else written_distance(value),
     read=read_distance,
-    shown=lambda state, ranges: ranges.focused_mm if state.focus_mm is None else state.focus_mm,
+    shown=lambda state, ranges: ranges.focused_mm if state.optics.focus_mm is None else state.optics.focus_mm,
     buttons=(("∞", inf, "Focus at infinity"), ("file", None, "Put the sensor where the lens file has it")),
 )
 SHIFT = Quantity(
@@ -113,7 +113,7 @@ F_NUMBER = Quantity(
     scale=lambda ranges: Logarithmic(*ranges.f_number),
     write=lambda value: f"f/{significant(value, 3)}",
     read=read_f_number,
-    shown=lambda state, ranges: ranges.file_f_number if state.f_number is None else state.f_number,
+    shown=lambda state, ranges: ranges.file_f_number if state.optics.f_number is None else state.optics.f_number,
     buttons=(("file", None, "Open the lens as its file has it"),),
     ticks=_f_ticks(),
 )

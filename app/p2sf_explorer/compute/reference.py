@@ -61,7 +61,7 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
         REFERENCE_TOLERANCE,
         lambda part: progress(share * part),
         cancelled.is_set,
-        Filling(clip=live.state.clip),
+        Filling(clip=live.state.optics.clip),
     )
     shown = in_window(live, reference)
     results: tuple[MethodResult, ...] = ()
@@ -106,4 +106,6 @@ def psf_by(method: str, live: Live, reference: Psf) -> Psf:
 
     pixels, pitch = reference.values.shape[-1], reference.pixel_um
     setup, state = live.setup, live.state
-    return render(setup.lens, setup.source, method, pixels, pitch, tolerance=state.tolerance, clip=state.clip)
+    return render(
+        setup.lens, setup.source, method, pixels, pitch, tolerance=state.optics.tolerance, clip=state.optics.clip
+    )

@@ -1,7 +1,5 @@
 """Small PSFs of the present setup with something changed, for panels that show many of them."""
 
-from dataclasses import replace
-
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.compute.deferred_sums import by_rays, sum_request
@@ -20,7 +18,7 @@ OPTICS = (
 
 def optics(state: State) -> State:
     """Return a state with the optics of this one and everything else at its default."""
-    return replace(State(), **{name: getattr(state, name) for name in OPTICS})
+    return State(optics=state.optics, what_if=state.what_if)
 
 
 def by_coefficients(live: Live) -> bool:
@@ -33,7 +31,7 @@ def everywhere_by_coefficients(live: Live) -> bool:
 
     What ``auto`` chooses holds for the present point only, not for other fields and sensor positions.
     """
-    return live.state.method == "seidel" or live.setup.altered
+    return live.state.optics.method == "seidel" or live.setup.altered
 
 
 def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
@@ -44,10 +42,10 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     """
     setup = paraxial_setup(state)
     if too_blurred(setup):
-        return geometric_psf(setup, not six, window, "preview", state.clip)
+        return geometric_psf(setup, not six, window, "preview", state.optics.clip)
     if six or setup.altered:
         return seidel_psf(setup.coefficients, *window, "preview")
-    traced = preview(setup, state.clip)
+    traced = preview(setup, state.optics.clip)
     if traced:
         return preview_psf(traced, *window)
     return by_rays(sum_request(state, setup, "traced", window), "preview")

@@ -2,7 +2,7 @@
 
 import os
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from math import inf, isfinite
 from pathlib import Path
@@ -18,7 +18,7 @@ from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.request import Request, Setup, set_up, with_field
 from p2sf_explorer.compute.ranges import closest_distance, file_focus, focused_distance, telling_field, wavelength_range
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.state.what_if import altered
 
 
@@ -77,7 +77,7 @@ def _load(name: str, _changed: int) -> Lens:
 
 def prescription(state: State) -> Lens:
     """Return the state's lens before it is opened and focused: as edited, else as its file has it; LensFileError."""
-    return load(state.lens) if state.lens_text is None else _edited(state.lens_text)
+    return load(state.optics.lens) if state.optics.lens_text is None else _edited(state.optics.lens_text)
 
 
 @lru_cache(maxsize=128)
@@ -108,7 +108,7 @@ def shipped() -> tuple[str, ...]:
 def paraxial_setup(state: State) -> ParaxialSetup:
     """Return everything paraxial about the state; P2SFError where there is no answer."""
     axial = _axial(prescription(state), _request(state, None))
-    setup = with_field(axial.setup, _request(state, state.field_deg))
+    setup = with_field(axial.setup, _request(state, state.optics.field_deg))
     source, stop = setup.source, setup.stop
     own = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     gap = source.depth_mm + float(axial.pupils.entrance_from_first)
@@ -129,7 +129,7 @@ def paraxial_setup(state: State) -> ParaxialSetup:
 def request_setup(state: State) -> Setup:
     """Return the state as the library's own setup, which is also what a file says about where it comes from."""
     axial = _axial(prescription(state), _request(state, None))
-    return with_field(axial.setup, _request(state, state.field_deg))
+    return with_field(axial.setup, _request(state, state.optics.field_deg))
 
 
 @dataclass(frozen=True)
@@ -156,13 +156,13 @@ def _axial(prescription: Lens, request: Request) -> _Axial:
 
 def _request(state: State, field_deg: float | None) -> Request:
     return Request(
-        depth_mm=state.depth_mm,
+        depth_mm=state.optics.depth_mm,
         field_deg=field_deg,
-        wavelength_nm=state.wavelength_nm,
-        focus_mm=state.focus_mm,
-        sensor_shift_um=state.sensor_shift_um,
-        f_number=state.f_number,
-        stop="auto" if state.stop == "auto" else "file",
+        wavelength_nm=state.optics.wavelength_nm,
+        focus_mm=state.optics.focus_mm,
+        sensor_shift_um=state.optics.sensor_shift_um,
+        f_number=state.optics.f_number,
+        stop="auto" if state.optics.stop == "auto" else "file",
     )
 
 
@@ -188,7 +188,7 @@ def ranges(lens: Lens) -> Ranges:
 
 def default_state(name: str, lens_text: str | None = None) -> State:
     """Return the state a lens is first shown in: its own focus, a field worth showing, its middle wavelength."""
-    return _defaults(State(lens=name, lens_text=lens_text), prescription(State(lens=name, lens_text=lens_text)))
+    return _defaults(new_state(lens=name, lens_text=lens_text), prescription(new_state(lens=name, lens_text=lens_text)))
 
 
 @lru_cache(maxsize=32)
@@ -197,19 +197,19 @@ def _defaults(state: State, lens: Lens) -> State:
     focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
     depth = inf if focused > 30 * focal or not isfinite(focal) else float(np.round(focused, 3))
     wavelength = lens.reference_wavelength_um * NM_PER_UM
-    return replace(state, depth_mm=depth, field_deg=telling_field(lens, depth), wavelength_nm=wavelength)
+    return changed(state, depth_mm=depth, field_deg=telling_field(lens, depth), wavelength_nm=wavelength)
 
 
 def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
     """Return the state moved to another lens: its defaults for the source, the person's choices for the rest."""
     fresh = default_state(name, lens_text)
-    return replace(
+    return changed(
         state,
         lens=name,
         lens_text=lens_text,
-        depth_mm=fresh.depth_mm,
-        field_deg=fresh.field_deg,
-        wavelength_nm=fresh.wavelength_nm,
+        depth_mm=fresh.optics.depth_mm,
+        field_deg=fresh.optics.field_deg,
+        wavelength_nm=fresh.optics.wavelength_nm,
         focus_mm=None,
         sensor_shift_um=0.0,
         f_number=None,

@@ -9,7 +9,8 @@ from pathlib import Path
 from p2sf.files.atomic import DAMAGED
 from p2sf.io.psf_files import READERS
 from p2sf.messages import Message
-from p2sf_explorer.state.state import State, state_from_json
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state_files import state_from_json
 
 KEYWORD = "p2sf-state"  # of the PNG text chunk
 PNG_HEADER = 33  # bytes: signature and the chunk of the size

@@ -32,12 +32,12 @@ class FileWatcher(QObject):
 
     def follow(self, state: State) -> None:
         """Watch the file of this state's lens and no other."""
-        if state.lens == self._path:
+        if state.optics.lens == self._path:
             return
         watched = self._watcher.files() + self._watcher.directories()
         if watched:
             self._watcher.removePaths(watched)
-        self._path, self._stamp = state.lens, stamp(state.lens)
+        self._path, self._stamp = state.optics.lens, stamp(state.optics.lens)
         self._watch()
 
     def _watch(self) -> None:
@@ -51,7 +51,7 @@ class FileWatcher(QObject):
             return
         self._stamp = found
         name = Path(self._path).name
-        if self._store.state.lens_text is not None:
+        if self._store.state.optics.lens_text is not None:
             kept = "{name} has changed on disk; your edits are kept, Back to file takes the new one"
             self._store.said.emit(Message(kept, name=name))
         elif self._read_again():

@@ -1,7 +1,7 @@
 """Open any file a person gives: a state, a snapshot, a lens; or say why it is none of these. No Qt in here."""
 
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
@@ -11,7 +11,8 @@ from p2sf.lensfile.toml import lens_to_toml
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.files.embedded_state import foreign, state_inside
-from p2sf_explorer.state.state import SCHEMA, State, read_state
+from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state_files import SCHEMA, read_state
 
 SNAPSHOTS = "*.png *.npz *.tiff *.fits *.csv"
 KINDS = (
@@ -48,7 +49,7 @@ def opened(state: State, path: str) -> State:
     if reason:
         raise LensFileError(reason, path)
     fresh = with_lens(state, path)
-    return fresh if imported(path).report.format == OWN_FORMAT else replace(fresh, tab=REPORT_TAB)
+    return fresh if imported(path).report.format == OWN_FORMAT else changed(fresh, tab=REPORT_TAB)
 
 
 def is_state(path: str) -> bool:

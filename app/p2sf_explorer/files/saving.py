@@ -1,6 +1,5 @@
 """Save the present lens as a file, in the format of its ending."""
 
-from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtWidgets import QFileDialog, QWidget
@@ -10,6 +9,7 @@ from p2sf.lensfile.writing import write_lens
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.state.state import changed
 from p2sf_explorer.store.store import Store
 
 KINDS = "P2SF lens (*.toml);;Zemax (*.zmx);;ISET lens (*.json)"
@@ -26,14 +26,14 @@ def save_lens(store: Store, path: str) -> bool:
         store.refused.emit(error)
         return False
     if Path(path).suffix.lower() == ".toml":
-        store.replace(replace(store.state, lens=str(Path(path).resolve()), lens_text=None))
+        store.replace(changed(store.state, lens=str(Path(path).resolve()), lens_text=None))
     store.said.emit(Message("Saved {name}", name=Path(path).name))
     return True
 
 
 def ask_save_lens(parent: QWidget, store: Store) -> None:
     """Ask for a name and save the lens."""
-    first = f"{Path(store.state.lens).stem}.toml"
+    first = f"{Path(store.state.optics.lens).stem}.toml"
     path, chosen = QFileDialog.getSaveFileName(parent, tr("Save the lens"), first, tr(KINDS))
     if path:
         save_lens(store, path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))

@@ -7,7 +7,8 @@ from p2sf.errors import P2SFError
 from p2sf.files.writing import write_beside
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.files import recent
-from p2sf_explorer.state.state import State, state_from_json, state_to_json
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
 
 def session_path() -> Path:
@@ -31,8 +32,8 @@ def last_session() -> tuple[State, dict[str, str]]:
         text = session_path().read_text(encoding="utf-8")
         state, geometry = state_from_json(text), json.loads(text).get("geometry")
         prescription(state)
-        if state.pinned:
-            prescription(state.pinned)
+        if state.compare.pinned:
+            prescription(state.compare.pinned)
     except (OSError, UnicodeDecodeError, P2SFError):
         return State(), {}
     sound = isinstance(geometry, dict) and all(isinstance(item, str) for item in geometry.values())

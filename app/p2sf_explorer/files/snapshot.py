@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,8 @@ from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import request_setup
 from p2sf_explorer.files.embedded_state import with_state
-from p2sf_explorer.state.state import State, state_to_json
+from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state_files import state_to_json
 
 PathLike = str | os.PathLike[str]
 DATA_ENDINGS = (".npz", ".tiff", ".fits", ".csv")
@@ -78,5 +78,5 @@ def _entries(state: State) -> str:
 
 
 def _portable(state: State) -> State:
-    path = Path(state.lens)
-    return replace(state, lens=str(path.resolve())) if path.is_file() else state
+    path = Path(state.optics.lens)
+    return changed(state, lens=str(path.resolve())) if path.is_file() else state

@@ -66,7 +66,7 @@ class SourceHandle:
         painter.drawEllipse(at, RADIUS_PX, RADIUS_PX)
         painter.setPen(QColor(theme.muted))
         rect = QRectF(at.x() - 40, at.y() + RADIUS_PX + 2, 80, 14)
-        write(painter, rect, written_distance(shown.state.depth_mm))
+        write(painter, rect, written_distance(shown.state.optics.depth_mm))
 
     def near(self, chart: Chart, shown: Drawn, point: QPointF) -> bool:
         """Return whether a pixel is close enough to the ring to take hold of it."""
@@ -95,7 +95,7 @@ class SourceHandle:
         distance, changes = layout.entrance_z - z, {}
         if distance > 0:
             changes["field_deg"] = max(-89.0, min(89.0, degrees(atan2(-y, distance))))
-        if isfinite(state.depth_mm) and at > chart.ranges()[0][0] + EDGE_PX * chart.per_pixel():
+        if isfinite(state.optics.depth_mm) and at > chart.ranges()[0][0] + EDGE_PX * chart.per_pixel():
             changes["depth_mm"] = -z
         self._store.update(**changes)
 

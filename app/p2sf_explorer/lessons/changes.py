@@ -1,6 +1,5 @@
 """Changes of the state as a lesson writes them: ``field_deg 10, tab mtf``. No Qt in here."""
 
-from dataclasses import fields, replace
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -9,7 +8,8 @@ from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.limits import ADDED
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import ENTRIES, State, changed, entry
+from p2sf_explorer.state.state_files import present_name
 from p2sf_explorer.state.terms import TERMS
 
 NUMBERS: dict[str, float | None] = {"∞": inf, "inf": inf, "file": None, "whole": None}
@@ -18,17 +18,17 @@ TRUTH = {"yes": True, "no": False}
 Changes = tuple[tuple[str, Any], ...]
 
 
-def changed(state: State, changes: Changes) -> State:
+def applied(state: State, changes: Changes) -> State:
     """Return the state with (name, value) changes made; another lens brings its own defaults."""
     for name, value in changes:
         if name == "lens":
             state = with_lens(state, value)
         elif name.startswith(ADDED) and name != "added_waves":
-            waves = list(state.added_waves)
+            waves = list(state.what_if.added_waves)
             waves[TERMS.index(name.removeprefix(ADDED))] = value
-            state = replace(state, added_waves=tuple(waves))
+            state = changed(state, added_waves=tuple(waves))
         else:
-            state = replace(state, **{name: value})
+            state = changed(state, **{name: value})
     return state
 
 
@@ -37,9 +37,10 @@ def read_changes(text: str, number: int, where: str) -> Changes:
     made = []
     for part in filter(None, (part.strip() for part in text.split(","))):
         name, _, word = part.partition(" ")
+        name = present_name(name)  # lessons of version 0.1 go on
         try:
             value = beside(word.strip(), where) if name == "lens" else _value(name, word.strip())
-            changed(State(), ((name, value),))
+            applied(State(), ((name, value),))
         except P2SFError as error:
             raise fault(where, number, error.message) from None
         made.append((name, value))
@@ -48,7 +49,7 @@ def read_changes(text: str, number: int, where: str) -> Changes:
 
 def _value(name: str, word: str) -> object:
     default = State()  # made once: to check its entries takes longer than to read the rest of a lesson
-    known = {field.name: getattr(default, field.name) for field in fields(State)}
+    known = {name: entry(default, name) for name in ENTRIES}
     known |= {ADDED + term: 0.0 for term in TERMS}
     if name not in known or not word:
         raise P2SFError('"{entry}" sets nothing; write entries such as field_deg 10, tab mtf', entry=f"{name} {word}")

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.lessons.changes import Changes, changed
+from p2sf_explorer.lessons.changes import Changes, applied
 from p2sf_explorer.state.state import State
 
 NUMBER = r"[-−+]?\d[\d.]*(?:e[-+]?\d+)?"
@@ -67,10 +67,10 @@ def measured(claim: Claim, state: State) -> float:
     from p2sf_explorer.lessons.measures import MEASURES
 
     measure = MEASURES[claim.measure]
-    value = measure(changed(state, claim.first))
+    value = measure(applied(state, claim.first))
     if not claim.how:
         return value
-    other = measure(changed(state, claim.second))
+    other = measure(applied(state, claim.second))
     return value / other if claim.how == "/" else value - other
 
 

@@ -1,7 +1,7 @@
 """Lessons in the window: begin, go on, reveal, leave; the first start offers the first one."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtGui import QResizeEvent
@@ -14,7 +14,7 @@ from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from p2sf_explorer.lessons.lesson_panel import LessonPanel, tool
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed, entry
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
@@ -73,7 +73,7 @@ class LessonController(QObject):
 
     def toggle(self) -> None:
         """Begin the first lesson, or leave the one under way."""
-        if self.store.state.lesson:
+        if self.store.state.lesson.name:
             self.leave()
         elif self.lessons():
             self.begin(next(iter(self.lessons())))
@@ -85,26 +85,26 @@ class LessonController(QObject):
     def move(self, step: int) -> None:
         """Go a step on or back; from the last one on to the next lesson, and after the last lesson out."""
         state, names = self.store.state, list(self.lessons())
-        if state.lesson not in names:
+        if state.lesson.name not in names:
             return
-        number = state.lesson_step + step
-        if 0 <= number < len(self.lessons()[state.lesson].steps):
-            self._go(state.lesson, number)
+        number = state.lesson.step + step
+        if 0 <= number < len(self.lessons()[state.lesson.name].steps):
+            self._go(state.lesson.name, number)
         elif number > 0:
-            following = names[names.index(state.lesson) + 1 :]
+            following = names[names.index(state.lesson.name) + 1 :]
             self._go(following[0], 0) if following else self.leave()
 
     def reveal(self) -> None:
         """Show the answer of the present step."""
-        if self.store.state.lesson:
+        if self.store.state.lesson.name:
             self.store.update(lesson_told=True)
 
     def leave(self) -> None:
         """End the lesson and go back to the state before it, which is among the steps of undo."""
-        here = replace(self.store.state, lesson="", lesson_step=0, lesson_told=False)
-        kept = {name: getattr(here, name) for name in PERSONAL}
-        before = self.store.latest(lambda state: not state.lesson)
-        self.store.replace(replace(before, **kept) if before else here)
+        here = changed(self.store.state, lesson_name="", lesson_step=0, lesson_told=False)
+        kept = {name: entry(here, name) for name in PERSONAL}
+        before = self.store.latest(lambda state: not state.lesson.name)
+        self.store.replace(changed(before, **kept) if before else here)
         if not before:
             self.store.said.emit(NOTHING_BEFORE)
 
@@ -118,13 +118,13 @@ class LessonController(QObject):
 
     def follow(self, state: State) -> None:
         """Show the page of the state's lesson and point to the slider it is about; hide it where there is none."""
-        lesson = self.lessons().get(state.lesson) if state.lesson else None
+        lesson = self.lessons().get(state.lesson.name) if state.lesson.name else None
         slider = ""
         if lesson:
-            number = min(int(state.lesson_step), len(lesson.steps) - 1)
+            number = min(int(state.lesson.step), len(lesson.steps) - 1)
             slider = lesson.steps[number].move
             self.panel = self.panel or self._new_panel()
-            self.panel.show_step(lesson, number, state.lesson_told)
+            self.panel.show_step(lesson, number, state.lesson.told)
             self._tell_untranslated(lesson)
         if self.panel:
             self.panel.setVisible(lesson is not None)
@@ -177,7 +177,7 @@ class LessonController(QObject):
     def offer_once(self) -> None:
         """Offer the first lesson in a line under the bar, at the first start only."""
         path = recent.recent_path().with_name("lesson_offered")
-        if path.exists() or self.store.state.lesson:
+        if path.exists() or self.store.state.lesson.name:
             return
         try:
             path.parent.mkdir(parents=True, exist_ok=True)

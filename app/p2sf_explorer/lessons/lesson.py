@@ -13,10 +13,10 @@ from pathlib import Path
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.lessons.changes import Changes, LessonError, beside, changed, fault, read_changes
+from p2sf_explorer.lessons.changes import Changes, LessonError, applied, beside, fault, read_changes
 from p2sf_explorer.lessons.claims import Claim, parse_claim
 from p2sf_explorer.state.limits import DRAGGED
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed, entry
 
 FOLDER = Path(__file__).parent
 FENCE = "---"
@@ -60,10 +60,10 @@ class Lesson:
 
     def state(self, number: int, like: State = FIRST) -> State:
         """Return the state at a step (from 0), with the PERSONAL entries of ``like``; P2SFError where there is none."""
-        made = replace(default_state(self.lens), **{name: getattr(like, name) for name in PERSONAL})
+        made = changed(default_state(self.lens), **{name: entry(like, name) for name in PERSONAL})
         for changes in (self.changes, *(step.changes for step in self.steps[: number + 1])):
-            made = changed(made, changes)
-        return replace(made, lesson=self.name, lesson_step=number)
+            made = applied(made, changes)
+        return changed(made, lesson_name=self.name, lesson_step=number)
 
 
 @lru_cache(maxsize=1)

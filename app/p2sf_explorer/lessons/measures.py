@@ -1,7 +1,6 @@
 """Measures that a lesson may claim something about, by name: each a number of the window's state. No Qt in here."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import lru_cache
 from threading import Event
 from typing import TYPE_CHECKING, SupportsFloat
@@ -21,7 +20,7 @@ from p2sf.studies.paper import PIXELS, WINDOW_UM
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 
 if TYPE_CHECKING:
     from p2sf_explorer.results.image import ImageResult
@@ -90,7 +89,7 @@ def distortion_percent(state: State) -> float:
 def axial_colour_um(state: State) -> float:
     """Return how far red (C) comes to focus behind blue (F) on the axis, µm."""
     made = paraxial_setup(state)
-    blue, red = (float(image_distance(made.lens, state.depth_mm, nm / NM_PER_UM)) for nm in BLUE_RED_NM)
+    blue, red = (float(image_distance(made.lens, state.optics.depth_mm, nm / NM_PER_UM)) for nm in BLUE_RED_NM)
     return UM_PER_MM * (red - blue)
 
 
@@ -105,7 +104,7 @@ def r_squared(state: State) -> float:
 def r_squared_narrow(state: State) -> float:
     """Return R² of the state's method against the Huygens sum, in the paper's window of 32² samples over 22.12 µm."""
     made = paraxial_setup(state)
-    shown = render(made.lens, made.source, method=state.method, pixels=PIXELS, pixel_um=WINDOW_UM / PIXELS)
+    shown = render(made.lens, made.source, method=state.optics.method, pixels=PIXELS, pixel_um=WINDOW_UM / PIXELS)
     return float(fidelity(shown.values, _reference(made.lens, made.source).values))
 
 
@@ -138,7 +137,7 @@ def sharpening_db(state: State) -> float:
     from p2sf_explorer.results.photos import scene_values
 
     found = _coarse(state)
-    truth = scene_values(state.photo, (ROWS, COLUMNS))
+    truth = scene_values(state.photo.source, (ROWS, COLUMNS))
     return psnr(found.after, truth) - psnr(found.before, truth)
 
 
@@ -146,7 +145,7 @@ def sharpening_db(state: State) -> float:
 def _coarse(state: State) -> "ImageResult":
     from p2sf_explorer.results.image import coarse, question
 
-    return coarse(question(_live(replace(state, method="seidel"))))
+    return coarse(question(_live(changed(state, method="seidel"))))
 
 
 def _spread(axis: str) -> Measure:

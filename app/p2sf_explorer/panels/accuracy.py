@@ -91,7 +91,7 @@ class AccuracyPanel:
         count, step = reference.values.shape[-1], reference.pixel_um
         start = -(count // 2 + 0.5) * step
         rect, peak = (start, start, count * step, count * step), float(reference.values.max())
-        scale = accuracy.live.state.psf_scale
+        scale = accuracy.live.state.display.psf_scale
         self.reference.show_values(stretched(reference.values / peak, scale), (0.0, 1.0), rect)
         self.reference.means(reference.values / peak, "PSF, peak = 1")
         self.reference.bar.show_scale(PSF_MAP, "peak = 1", ((0.0, "0"), (1.0, "1")))

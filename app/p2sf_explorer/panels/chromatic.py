@@ -41,7 +41,7 @@ class ChromaticPanel:
             curve.set_data(ends, (side * view.depth_of_focus_um,) * 2)
         low, high = around(view.shift_um, least=1.0)
         self.chart.set_range((float(ends[0]), float(ends[1])), (low, high))
-        here = live.state.wavelength_nm
+        here = live.state.optics.wavelength_nm
         names = [(nm, high - 0.07 * (high - low), name, "muted", 0) for nm, name in LINES if ends[0] <= nm <= ends[1]]
         self.chart.show_notes(names, ((here, "muted"),))
         self._say(view)

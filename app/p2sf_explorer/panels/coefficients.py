@@ -10,6 +10,7 @@ from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import read_number
+from p2sf_explorer.state.state import entry
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import PRESETS, SHORT_NOTE, UNTOUCHED, Preset, of_preset, toggled, with_added
 from p2sf_explorer.store.store import Store
@@ -49,7 +50,7 @@ class CoefficientsPanel:
         bars.released.connect(store.end)
         bars.added.connect(lambda term, waves: store.update(added_waves=with_added(store.state, term, waves)))
         bars.typed.connect(self._type)
-        bars.toggled.connect(lambda kind, term: store.update(**{kind: toggled(getattr(store.state, kind), term)}))
+        bars.toggled.connect(lambda kind, term: store.update(**{kind: toggled(entry(store.state, kind), term)}))
 
     def _type(self, term: str, text: str) -> None:
         """Set a coefficient to a typed number of waves, by adding the rest."""
@@ -86,17 +87,21 @@ class CoefficientsPanel:
         """Paint the coefficients."""
         state, altered = live.state, live.setup.altered
         values, own = as_numbers(live.setup.coefficients), as_numbers(live.setup.own)
-        own = dict.fromkeys(TERMS, 0.0) if state.free_pupil else own
+        own = dict.fromkeys(TERMS, 0.0) if state.what_if.free_pupil else own
         if live.difference:
             values = own = dict(live.difference.coefficients)
         self.bars.show_values(
-            values, own, dict(zip(TERMS, state.added_waves, strict=True)), muted=state.muted, solo=state.solo
+            values,
+            own,
+            dict(zip(TERMS, state.what_if.added_waves, strict=True)),
+            muted=state.what_if.muted,
+            solo=state.what_if.solo,
         )
         self.bars.setEnabled(live.side != "B")  # the sliders move A
-        self.free.setChecked(state.free_pupil)
+        self.free.setChecked(state.what_if.free_pupil)
         self.reset.setEnabled(altered)
         note = "what-if" if live.side else SHORT_NOTE  # beside a side's name there is less room
-        words = "" if live.difference else tr("at {wavelength} nm", wavelength=f"{state.wavelength_nm:.1f}")
+        words = "" if live.difference else tr("at {wavelength} nm", wavelength=f"{state.optics.wavelength_nm:.1f}")
         self._note = tr(note) if altered else ""  # "A − B" needs the room, and λ stand at the numbers
         self.widget.set_readout(self._coloured() or words)
 

@@ -85,7 +85,7 @@ class ColourPanel:
 
     def show(self, live: Live) -> None:
         """Ask for the picture of the present point."""
-        name, scale = live.state.spectrum, live.state.psf_scale
+        name, scale = live.state.display.spectrum, live.state.display.psf_scale
         select(self.choice, name if self.choice.findData(name) >= 0 else "")
         self.typed.set_text(name)
         turn = np.linspace(0, 2 * np.pi, 73)
@@ -121,7 +121,7 @@ class ColourPanel:
 
     def _type(self, text: str) -> None:
         self._store.update(spectrum=text.strip().lower())
-        self.typed.set_text(self._store.state.spectrum)
+        self.typed.set_text(self._store.state.display.spectrum)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

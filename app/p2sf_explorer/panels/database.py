@@ -75,11 +75,11 @@ class DatabasePanel:
         asked: DatabaseRequest = live.views["database"]
         state = live.state
         for chart in (self.map, self.error, self.atlas):
-            chart.show_point(state.depth_mm, state.field_deg)
+            chart.show_point(state.optics.depth_mm, state.optics.field_deg)
         if asked != self._asked:
             self._asked = asked
             self.worker.submit(asked, lambda cancelled, progress: answer(asked, cancelled.is_set))
-        self._show_wavelength(state.wavelength_nm)
+        self._show_wavelength(state.optics.wavelength_nm)
 
     def _show_wavelength(self, wavelength_nm: float) -> None:
         at = tr("at {wavelength} nm", wavelength=f"{wavelength_nm:.1f}")

@@ -68,7 +68,7 @@ class DepthOfFieldPanel:
         self.tolerated.set_data(edges, (view.tolerated_um,) * 2)
         self._frame(view, edges)
         self.chart.sharp = sharp_range(view, edges[1])
-        self.chart.show_notes((), ((1 / live.state.depth_mm, "chief"),))
+        self.chart.show_notes((), ((1 / live.state.optics.depth_mm, "chief"),))
         self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {sentence(view)}")
 
     def _frame(self, view: DepthOfField, edges: tuple[float, float]) -> None:

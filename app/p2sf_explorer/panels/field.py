@@ -60,7 +60,7 @@ class FieldPanel:
         self._show_focus(view, at, top)
         self._show_distortion(view, at, top)
         for name in ("field", "field again"):
-            here = abs(live.state.field_deg)
+            here = abs(live.state.optics.field_deg)
             self.curves[name].set_data((-1e9, 1e9), (here, here))
         if view is not self._drawn:
             self._drawn = view

@@ -98,8 +98,8 @@ class FieldMapPanel:
 
     def show(self, live: Live) -> None:
         """Mark the present field, and ask for the map when more than the field has changed."""
-        self.chart.show_field(live.state.field_deg)
-        changed, self._scale = live.state.psf_scale != self._scale, live.state.psf_scale
+        self.chart.show_field(live.state.optics.field_deg)
+        changed, self._scale = live.state.display.psf_scale != self._scale, live.state.display.psf_scale
         self.asking.ask(live.views["field_map"])
         if changed:
             self.asking.again()

@@ -93,7 +93,7 @@ class ImagePanel:
 
     def _connect(self) -> None:
         store = self._store
-        self.photo.activated.connect(lambda: store.update(photo=self.photo.currentData()))
+        self.photo.activated.connect(lambda: store.update(photo_source=self.photo.currentData()))
         self.show_box.activated.connect(lambda: store.update(photo_show=self.show_box.currentData()))
         self.pixel.activated.connect(self._choose_pixel)
         self.plan_line.turned.connect(self._turn)
@@ -102,7 +102,7 @@ class ImagePanel:
         self.split_view.moved.connect(lambda part: store.update(photo_split=part))
         self.split_view.looked.connect(self._look)
         self.drop = PhotoDrop(self.widget)
-        self.drop.photo.connect(lambda path: store.update(photo=path))
+        self.drop.photo.connect(lambda path: store.update(photo_source=path))
         self.drop.refused.connect(store.refused)
 
     def show(self, live: Live) -> None:
@@ -111,7 +111,7 @@ class ImagePanel:
         state = live.state
         self._settled = live.quality == "settled"
         self._show_choices(state)
-        self.split_view.show_split(state.photo_split)
+        self.split_view.show_split(state.photo.split)
         if asked != self._asked:
             self._asked = asked
             self._call_off()
@@ -121,13 +121,13 @@ class ImagePanel:
         self._show_readout()
 
     def _show_choices(self, state: State) -> None:
-        if self.photo.findData(state.photo) < 0:
-            self.photo.addItem(Path(state.photo).name, state.photo)
-        pitch = state.photo_pixel_um
+        if self.photo.findData(state.photo.source) < 0:
+            self.photo.addItem(Path(state.photo.source).name, state.photo.source)
+        pitch = state.photo.pixel_um
         size = "" if pitch is None else str(float(pitch))
         if self.pixel.findData(size) < 0:
             self.pixel.addItem(tr("{pitch} µm pixels", pitch=f"{pitch:g}"), size)
-        for box, value in ((self.photo, state.photo), (self.pixel, size), (self.show_box, state.photo_show)):
+        for box, value in ((self.photo, state.photo.source), (self.pixel, size), (self.show_box, state.photo.show)):
             select(box, value)
 
     def _quickest(self, asked: ImageRequest) -> Callable[[ImageRequest, Progress], ImageResult]:
@@ -237,7 +237,7 @@ class ImagePanel:
     def _ask_photo(self) -> None:
         path, _ = QFileDialog.getOpenFileName(self.widget, tr("Choose a photo"), "", tr(PHOTOS))
         if path:
-            self._store.update(photo=path)
+            self._store.update(photo_source=path)
 
     def _ask_save(self) -> None:
         path, _ = QFileDialog.getSaveFileName(self.widget, tr("Save the picture"), "image.png", tr(PHOTOS))

@@ -39,7 +39,7 @@ class ImportReportPanel:
 
     def show(self, live: Live) -> None:
         """Show the report of the present lens, unless a file was refused while this lens was open."""
-        if self._refusal and self._refused_beside != (live.state.lens, live.state.lens_text):
+        if self._refusal and self._refused_beside != (live.state.optics.lens, live.state.optics.lens_text):
             self._refusal = None
         if not self._refusal:
             self._write(live.views["import"])
@@ -48,7 +48,7 @@ class ImportReportPanel:
     def show_refusal(self, refusal: Refusal) -> None:
         """Show why a file was not opened; the present lens stays."""
         self._refusal = refusal
-        self._refused_beside = self._store.state.lens, self._store.state.lens_text
+        self._refused_beside = self._store.state.optics.lens, self._store.state.optics.lens_text
         self._write(refused(Path(refusal.path).name, refusal.path, refusal.message))
         self.accept.setVisible(bool(refusal.substituted))
 

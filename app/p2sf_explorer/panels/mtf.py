@@ -29,7 +29,7 @@ class MtfPanel(CurvesPanel):
         self.show_curves(view.frequency_per_mm, curves)
         low, high = signed_range(live, curves, (0.0, 1.04))
         self.set_range((0.0, float(view.frequency_per_mm[-1])), (low, high))
-        self._mark(live.state.pixel_um, low + 0.91 * (high - low))
+        self._mark(live.state.display.pixel_um, low + 0.91 * (high - low))
 
     def _mark(self, pixel_um: float, height: float) -> None:
         """Mark the sensor's Nyquist frequency, with its name at this contrast."""

@@ -43,7 +43,7 @@ class BesidePanel:
         for heat, (values, step), means in zip(self.maps, shown, MEANINGS, strict=True):
             start = -(values.shape[0] // 2 + 0.5) * step
             rect = (start, start, values.shape[0] * step, values.shape[0] * step)
-            heat.show_values(stretched(np.asarray(values, float), live.state.psf_scale), (0.0, 1.0), rect)
+            heat.show_values(stretched(np.asarray(values, float), live.state.display.psf_scale), (0.0, 1.0), rect)
             heat.means(values, means)
             heat.set_extent(half)
         self.maps[2].means(view.pixels, MEANINGS[2])

@@ -53,19 +53,19 @@ class PsfPanel:
     def show(self, live: Live) -> None:
         """Paint the PSF."""
         psf, state = live.psf, live.state
-        select(self.scale, state.psf_scale)
-        select(self.units, state.psf_units)
+        select(self.scale, state.display.psf_scale)
+        select(self.units, state.display.psf_units)
         count, step = psf.values.shape[-1], psf.pixel_um
         start = -(count // 2 + 0.5) * step
         peak = float(psf.values.max()) or 1.0
         rect = (start, start, count * step, count * step)
         if live.difference:
-            show_signed(self.map, live.difference.psf, rect, state.psf_scale, "of peak")
+            show_signed(self.map, live.difference.psf, rect, state.display.psf_scale, "of peak")
         else:
             self.map.set_map(PSF_MAP)
-            self.map.show_values(stretched(psf.values / peak, state.psf_scale), (0.0, 1.0), rect)
-            self.map.means(psf.values * (top_value(state, psf, peak) / peak), QUANTITIES[state.psf_units])
-            self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.psf_units], labels(state, psf, peak))
+            self.map.show_values(stretched(psf.values / peak, state.display.psf_scale), (0.0, 1.0), rect)
+            self.map.means(psf.values * (top_value(state, psf, peak) / peak), QUANTITIES[state.display.psf_units])
+            self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.display.psf_units], labels(state, psf, peak))
         self.airy.token = self.arrow.token = "muted" if live.difference else WHITE
         self._frame(count * step / 2, live)
         self.show_badge(live, self._r_squared, not live.setup.altered)
@@ -142,13 +142,13 @@ def decade(top: float, decades: int) -> str:
 
 def top_value(state: State, psf: Psf, peak: float) -> float:
     """Return the brightest sample in the chosen units."""
-    return {"peak": 1.0, "sum": peak, "strehl": float(np.asarray(psf.strehl))}[state.psf_units]
+    return {"peak": 1.0, "sum": peak, "strehl": float(np.asarray(psf.strehl))}[state.display.psf_units]
 
 
 def labels(state: State, psf: Psf, peak: float) -> tuple[tuple[float, str], ...]:
     """Return the colour bar's labels: parts of the bar and the value there in the chosen units."""
     top = top_value(state, psf, peak)
-    if state.psf_scale == "log":
+    if state.display.psf_scale == "log":
         return tuple((1 - k / DECADES, decade(top, k)) for k in range(DECADES + 1))
-    power = 2 if state.psf_scale == "sqrt" else 1
+    power = 2 if state.display.psf_scale == "sqrt" else 1
     return tuple((part, f"{top * part**power:.2g}") for part in (0.0, 0.25, 0.5, 0.75, 1.0))

@@ -33,7 +33,9 @@ class PupilPanel:
         self.map.chart.add_curve("muted").set_data(np.cos(turn), np.sin(turn))
         self.map.set_extent(1.0)
         self.surface = SurfaceView(self.map)
-        self.surface.turned.connect(lambda turn, tilt: store.update(relief_turn_deg=turn, relief_tilt_deg=tilt))
+        self.surface.turned.connect(
+            lambda turn, tilt: store.update(camera_surface_turn_deg=turn, camera_surface_tilt_deg=tilt)
+        )
         self.surface.taken.connect(store.begin)
         self.surface.released.connect(store.end)
         self.map.row.insertWidget(0, self.surface, 1)
@@ -45,7 +47,7 @@ class PupilPanel:
     def show(self, live: Live) -> None:
         """Paint the wavefront."""
         pupil = live.difference.pupil if live.difference else live.pupil
-        mode = live.state.phase if live.state.phase in SIGNED or not live.difference else "waves"
+        mode = live.state.display.phase if live.state.display.phase in SIGNED or not live.difference else "waves"
         select(self.mode, mode)
         self.surface.setVisible(mode == "surface")
         self.map.chart.setVisible(mode != "surface")
@@ -62,7 +64,7 @@ class PupilPanel:
             self._paint(shown, (-limit, limit), labels)
             self.map.means(pupil.waves, "W, waves")
             if mode == "surface":
-                camera = Camera(live.state.relief_turn_deg, live.state.relief_tilt_deg)
+                camera = Camera(live.state.camera.surface_turn_deg, live.state.camera.surface_tilt_deg)
                 self.surface.show_waves(pupil.waves, limit, live.quality, camera)
         rms, peak_to_valley = (significant(value, 3) for value in (pupil.rms, pupil.peak_to_valley))
         numbers = tr("RMS {r} λ · PV {p} λ", r=rms, p=peak_to_valley)

@@ -61,8 +61,8 @@ class SolidPanel:
             FACTORS,
             front=f"{view.front.factor:g}",
             psf=f"{view.psf_surface.factor:g}",
-            scale=tr(SCALES[live.state.psf_scale]),
-            wavelength=significant(live.state.wavelength_nm, 4),
+            scale=tr(SCALES[live.state.display.psf_scale]),
+            wavelength=significant(live.state.optics.wavelength_nm, 4),
         )
         self.factors.set_text(factors)
         if self.process is None:
@@ -121,7 +121,7 @@ class SolidPanel:
         self.save_button.setEnabled(True)
 
     def _ask_save(self) -> None:
-        first = f"{Path(self._store.state.lens).stem}.png"
+        first = f"{Path(self._store.state.optics.lens).stem}.png"
         path, chosen = QFileDialog.getSaveFileName(self.widget, tr("Save the 3D view"), first, tr(FILES))
         if path:
             self.save(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))

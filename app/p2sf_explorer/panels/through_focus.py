@@ -109,11 +109,11 @@ class ThroughFocusPanel:
     def show(self, live: Live) -> None:
         """Show the sensor, and ask for the strip when more than the sensor has changed."""
         asked: Strip | Message = live.views["through_focus"]
-        scale = live.state.psf_scale
+        scale = live.state.display.psf_scale
         if scale != self._scale:
             self._scale = scale
             self.asking.again()
-        self.chart.show_sensor(live.state.sensor_shift_um)
+        self.chart.show_sensor(live.state.optics.sensor_shift_um)
         if isinstance(asked, Message):
             half = ranges(prescription(live.state)).shift_um
             self.chart.set_range((-half, half), (0.0, 1.0))

@@ -1,7 +1,6 @@
 """Films a sweep: the window shows its frames one by one, and a worker writes them."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -13,7 +12,7 @@ from p2sf.messages import Message
 from p2sf_explorer.playback.film import FilmFrame, FrameQueue, check_film, write_film
 from p2sf_explorer.playback.sweep import changes, sweep
 from p2sf_explorer.state.pinning import with_links
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.workers.worker import LatestWins
 
@@ -122,9 +121,9 @@ def written(paths: tuple[Path, ...]) -> Message:
 
 def moments(state: State) -> tuple[State, ...]:
     """Return the states of a film's frames: the state's sweep once, with B following where it is linked."""
-    way, count = sweep(state), max(2, round(FRAMES_PER_S * state.play_seconds))
+    way, count = sweep(state), max(2, round(FRAMES_PER_S * state.playback.seconds))
     moved = (changes(state, way.value(number / (count - 1))) for number in range(count))
-    return tuple(replace(state, **with_links(state, each)) for each in moved)
+    return tuple(changed(state, **with_links(state, each)) for each in moved)
 
 
 def frame_of(widget: QWidget) -> FilmFrame:

@@ -92,13 +92,13 @@ class PlayBar(QFrame):
 
     def _connect(self) -> None:
         store = self._store
-        self.key.activated.connect(lambda: store.update(play=self.key.currentData(), play_range=None))
+        self.key.activated.connect(lambda: store.update(playback_slider=self.key.currentData(), playback_range=None))
         self.first.committed.connect(lambda text: self._set_range(first=text))
         self.last.committed.connect(lambda text: self._set_range(last=text))
         for edit in (self.first, self.last):
-            edit.reset.connect(lambda: store.update(play_range=None))
+            edit.reset.connect(lambda: store.update(playback_range=None))
         self.seconds.committed.connect(self._set_seconds)
-        self.seconds.reset.connect(lambda: store.update(play_seconds=4.0))
+        self.seconds.reset.connect(lambda: store.update(playback_seconds=4.0))
         self.player.turned.connect(lambda on: self.turn.setText("❚❚" if on else "▶"))
         self.filming.progressed.connect(lambda part: self.progress.setValue(round(100 * part)))
         self.filming.ended.connect(self._ended)
@@ -112,35 +112,35 @@ class PlayBar(QFrame):
 
     def toggle(self) -> None:
         """Play or pause the state's slider, the field if it names none."""
-        self.player.toggle(self._store.state.play or "field_deg")
+        self.player.toggle(self._store.state.playback.slider or "field_deg")
 
     def put_away(self) -> None:
         """Pause, and name no slider any more."""
         self.player.pause()
-        self._store.update(play="", play_range=None)
+        self._store.update(playback_slider="", playback_range=None)
 
     def show_state(self, state: State) -> None:
         """Follow a state."""
-        self.setVisible(bool(state.play))
-        if not state.play:
+        self.setVisible(bool(state.playback.slider))
+        if not state.playback.slider:
             return
-        select(self.key, state.play)
+        select(self.key, state.playback.slider)
         found = sweep(state)
         for edit, value in ((self.first, found.first), (self.last, found.last)):
             edit.set_text(found.write(value))
-        self.seconds.set_text(f"{state.play_seconds:g} s")
+        self.seconds.set_text(f"{state.playback.seconds:g} s")
 
     def _set_range(self, first: str | None = None, last: str | None = None) -> None:
         found = sweep(self._store.state)
 
         def ends() -> dict[str, object]:
             pairs = ((first, found.first), (last, found.last))
-            return {"play_range": tuple(old if text is None else found.read(text) for text, old in pairs)}
+            return {"playback_range": tuple(old if text is None else found.read(text) for text, old in pairs)}
 
         self._try(ends)
 
     def _set_seconds(self, text: str) -> None:
-        self._try(lambda: {"play_seconds": seconds(text)})
+        self._try(lambda: {"playback_seconds": seconds(text)})
 
     def _try(self, read: Callable[[], dict[str, object]]) -> None:
         """Take over what was typed, or say why not; then show the values in force."""
@@ -154,9 +154,9 @@ class PlayBar(QFrame):
 
     def ask_film(self) -> None:
         """Ask for a name and film the sweep."""
-        if not self._store.state.play:
-            self._store.update(play="field_deg")
-        first = f"{Path(self._store.state.lens).stem}_{self._store.state.play}.gif"
+        if not self._store.state.playback.slider:
+            self._store.update(playback_slider="field_deg")
+        first = f"{Path(self._store.state.optics.lens).stem}_{self._store.state.playback.slider}.gif"
         path, chosen = QFileDialog.getSaveFileName(self.window(), tr("Save a film"), first, tr(FILMS))
         if path:
             self.film(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))

@@ -28,20 +28,20 @@ class Player(QObject):
 
     def toggle(self, key: str) -> None:
         """Play the slider of this key, or pause it if it is the one that plays."""
-        again = self.playing and self._store.state.play == key
+        again = self.playing and self._store.state.playback.slider == key
         self.pause()
         if again or not key:
             return
-        if self._store.state.play != key:
-            self._store.update(play=key, play_range=None)
+        if self._store.state.playback.slider != key:
+            self._store.update(playback_slider=key, playback_range=None)
         self.play()
 
     def play(self) -> None:
         """Move the state's slider, from where it stands."""
         state = self._store.state
-        if not state.play or self.playing:
+        if not state.playback.slider or self.playing:
             return
-        self._start_s = state.play_seconds * sweep(state).part(present(state))
+        self._start_s = state.playback.seconds * sweep(state).part(present(state))
         self._clock.start()
         self._timer.start()
         self.turned.emit(True)
@@ -55,13 +55,13 @@ class Player(QObject):
 
     def pause_on(self, key: str) -> None:
         """Leave the slider where it is if it is the one of this key: a person has taken hold of it."""
-        if self._store.state.play == key:
+        if self._store.state.playback.slider == key:
             self.pause()
 
     def step(self) -> None:
         """Put the slider where it belongs at this moment."""
         state = self._store.state
-        if not state.play:
+        if not state.playback.slider:
             self.pause()
             return
         self._store.begin()

@@ -58,14 +58,14 @@ class Sweep:
 
 def sweep(state: State) -> Sweep:
     """Return the sweep that the state describes, over all of the slider's travel where it names no range."""
-    key = state.play
+    key = state.playback.slider
     if key.startswith(ADDED):
-        first, last = state.play_range or USUAL_WAVES
-        return Sweep(key, first, last, state.play_seconds, waves, lambda text: read_number(text, "waves", LAMBDAS))
+        first, last = state.playback.range or USUAL_WAVES
+        return Sweep(key, first, last, state.playback.seconds, waves, lambda text: read_number(text, "waves", LAMBDAS))
     quantity = next(quantity for quantity in QUANTITIES if quantity.key == key)
     scale = quantity.scale(ranges(prescription(state)))
-    first, last = state.play_range or (scale.low, scale.high)
-    return Sweep(key, first, last, state.play_seconds, quantity.write, quantity.read)
+    first, last = state.playback.range or (scale.low, scale.high)
+    return Sweep(key, first, last, state.playback.seconds, quantity.write, quantity.read)
 
 
 LAMBDAS = {"": 1.0, "λ": 1.0}
@@ -78,15 +78,15 @@ def waves(value: float) -> str:
 
 def present(state: State) -> float:
     """Return where the swept slider stands."""
-    key = state.play
+    key = state.playback.slider
     if key.startswith(ADDED):
-        return state.added_waves[TERMS.index(key.removeprefix(ADDED))]
+        return state.what_if.added_waves[TERMS.index(key.removeprefix(ADDED))]
     quantity = next(quantity for quantity in QUANTITIES if quantity.key == key)
     return quantity.shown(state, ranges(prescription(state)))
 
 
 def changes(state: State, value: float) -> dict[str, Any]:
     """Return the entries of the state that put its swept slider at a value."""
-    if state.play.startswith(ADDED):
-        return {"added_waves": with_added(state, state.play.removeprefix(ADDED), value)}
-    return {state.play: value}
+    if state.playback.slider.startswith(ADDED):
+        return {"added_waves": with_added(state, state.playback.slider.removeprefix(ADDED), value)}
+    return {state.playback.slider: value}

@@ -20,7 +20,7 @@ from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 
 COUNT = {"preview": 7, "settled": 15}
 FINE_UM = np.arange(0.4, 0.7001, 0.005)
@@ -62,7 +62,7 @@ class Colours:
 def question(live: Live) -> ColourQuestion | Message:
     """Return what to show for the present point, or why there is nothing."""
     s, pixels = live.setup, PIXELS[live.quality]
-    spectrum = spectrum_of(live.state.spectrum)
+    spectrum = spectrum_of(live.state.display.spectrum)
     try:
         pitch = suitable_pitch_um(s.lens, s.source, spectrum, pixels, s.stop)
     except P2SFError as error:  # a line outside the glasses' data: the rest of the window has its answer
@@ -81,7 +81,7 @@ def answer(request: ColourQuestion, stopped: Callable[[], bool], tell: Callable[
         )
 
     # A free pupil has no glass: the axis of the lens, where no colour lands beside another, stands for it.
-    source = replace(setup.source, field_slope=0.0) if request.state.free_pupil else setup.source
+    source = replace(setup.source, field_slope=0.0) if request.state.what_if.free_pupil else setup.source
     psf = colour_psf(setup.lens, source, spectrum, request.window, one, request.count)
     waves = np.array(spectrum.numbers) / NM_PER_UM if spectrum.kind == "lines" else FINE_UM
     power = np.ones(waves.size) if spectrum.kind == "lines" else relative_power(spectrum, waves)
@@ -90,8 +90,10 @@ def answer(request: ColourQuestion, stopped: Callable[[], bool], tell: Callable[
 
 def at_wavelength(state: State, wavelength_nm: float) -> State:
     """Return the setup at another wavelength; a path added by hand is more waves of a shorter wavelength."""
-    ratio = state.wavelength_nm / wavelength_nm
-    return replace(state, wavelength_nm=wavelength_nm, added_waves=tuple(ratio * waves for waves in state.added_waves))
+    ratio = state.optics.wavelength_nm / wavelength_nm
+    return changed(
+        state, wavelength_nm=wavelength_nm, added_waves=tuple(ratio * waves for waves in state.what_if.added_waves)
+    )
 
 
 def hues(wavelength_um: np.ndarray) -> np.ndarray:

@@ -45,7 +45,7 @@ class DepthOfField:
 
 def depth_of_field(live: Live) -> DepthOfField:
     """Return the blur at every depth with the sensor where it stands."""
-    s, tolerated = live.setup, live.state.blur_um
+    s, tolerated = live.setup, live.state.display.blur_um
     clear = sharp(s, tolerated)
     near = np.linspace(*shown(live, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
     if focus := sharp(s, FOCUS_UM):
@@ -68,7 +68,7 @@ def shown(live: Live, closest: float) -> tuple[float, float]:
     As wide as the paraxial blur stays below three times what is tolerated, or twice the least there is; where the
     exact rays' least blur is larger, up to that; and out to where they have it, unless that is too far off.
     """
-    blur = max(SEEN * live.state.blur_um, 2 * least_axial(live, closest))
+    blur = max(SEEN * live.state.display.blur_um, 2 * least_axial(live, closest))
     ends = within(live.setup, blur, closest)
     least = np.nanmin(probed(live, ends)[1], initial=inf)
     if blur < least < inf:
@@ -98,7 +98,7 @@ def within(setup: ParaxialSetup, blur_um: float, closest: float) -> tuple[float,
 
 def least_axial(live: Live, closest: float) -> float:
     """Return the least paraxial blur from infinity to 1/``closest``, µm; 0 where any depth is sharp."""
-    if sharp(live.setup, live.state.blur_um):
+    if sharp(live.setup, live.state.display.blur_um):
         return 0.0
     return 2 * UM_PER_MM * float(np.abs(axial_heights(live.setup, np.array([inf, 1 / closest]))).min())
 
@@ -132,7 +132,7 @@ def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
     source = Source(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
     try:
         xi, eta = hexapolar(rings)
-        rays = pencil(s.lens, source, xi, eta, clip=live.state.clip)
+        rays = pencil(s.lens, source, xi, eta, clip=live.state.optics.clip)
     except P2SFError:  # a chief ray is lost at some depth: only the paraxial curve remains
         return np.full(len(depths), np.nan)
     lost = rays.passed.sum(-1) < FEWEST

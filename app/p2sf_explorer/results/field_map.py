@@ -1,7 +1,7 @@
 """The PSF over the picture: a grid of places on the sensor, each PSF turned as its field is."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window,
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.results.field import widest_slope
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 
 SHAPE = 3, 9  # rows, columns
 ASPECT = 1.5  # of the sensor, whose corner is the field's edge
@@ -41,7 +41,7 @@ def field_map(live: Live) -> FieldMap:
     c = coefficients(s.lens, s.source.depth_mm, slopes, s.source.wavelength_um, s.stop)
     wide = nice(MOST_OF * pixels * float(np.max(suitable_pixel_um(c, pixels))), WINDOWS)
     return FieldMap(
-        replace(optics(live.state), field_deg=0.0), corner, (pixels, wide / pixels), everywhere_by_coefficients(live)
+        changed(optics(live.state), field_deg=0.0), corner, (pixels, wide / pixels), everywhere_by_coefficients(live)
     )
 
 
@@ -74,7 +74,7 @@ def answer(request: FieldMap, stopped: Callable[[], bool], tell: Callable[[float
 
 def picture_at(request: FieldMap, ring: float) -> np.ndarray:
     """Return the PSF at a share of the corner's field over its peak, +y away from the axis, NaN where there is none."""
-    state = replace(request.state, field_deg=float(degrees_from_slope(ring * request.corner_slope)))
+    state = changed(request.state, field_deg=float(degrees_from_slope(ring * request.corner_slope)))
     try:
         values = in_window(state, request.window, request.six).values
     except P2SFError:  # rays lost at the edge of the field: an empty place

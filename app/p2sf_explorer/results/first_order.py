@@ -177,11 +177,11 @@ def source_rows(live: Live) -> tuple[Row, ...]:
     gap = s.lens.sensor_mm - float(c.image_distance)
     ratio = float(magnification(s.lens, s.source.depth_mm, s.source.wavelength_um))
     return (
-        ("Wavelength", Message("{value:.1f} nm", value=live.state.wavelength_nm), "In vacuum."),
+        ("Wavelength", Message("{value:.1f} nm", value=live.state.optics.wavelength_nm), "In vacuum."),
         ("Depth", distance(s.source.depth_mm), "Source to first vertex."),
         (
             "Field",
-            Message("{value:z.2f}°", value=live.state.field_deg),
+            Message("{value:z.2f}°", value=live.state.optics.field_deg),
             "Angle of the chief ray at the entrance pupil.",
         ),
         ("Object height", NONE if height is None else length(height), "Of the source; none at infinity."),

@@ -170,9 +170,11 @@ class ImageResult:
 def question(live: Live) -> ImageRequest:
     """Return what the picture of the present state depends on."""
     state, setup = live.state, live.setup
-    whole = state.photo_pixel_um is None
+    whole = state.photo.pixel_um is None
     centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
-    return ImageRequest(setup.lens, state.depth_mm, state.photo, state.photo_show, state.photo_pixel_um, centre)
+    return ImageRequest(
+        setup.lens, state.optics.depth_mm, state.photo.source, state.photo.show, state.photo.pixel_um, centre
+    )
 
 
 def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:

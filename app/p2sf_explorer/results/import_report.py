@@ -24,7 +24,11 @@ class Report:
 def report(live: Live) -> Report:
     """Return the import report of the state's lens."""
     state = live.state
-    path = str(lenses_folder() / f"{state.lens}.toml") if state.lens in shipped_lenses() else state.lens
+    path = (
+        str(lenses_folder() / f"{state.optics.lens}.toml")
+        if state.optics.lens in shipped_lenses()
+        else state.optics.lens
+    )
     heading = live.setup.lens.title or live.setup.lens.name
     if not is_file(path):
         away = Message("{path} is not on this computer; the saved state carries the lens itself", path=path)
@@ -33,7 +37,7 @@ def report(live: Live) -> Report:
         as_filed = described(heading, imported(path).report)
     except P2SFError as error:
         as_filed = refused(heading, path, error.message)
-    if state.lens_text is None:
+    if state.optics.lens_text is None:
         return as_filed
     edited = Message("{source}; {note}", source=as_filed.source, note=Message("edited since"))
     return replace(as_filed, source=edited)

@@ -24,4 +24,4 @@ def rows(live: Live) -> Rows:
     """Return what the table shows: the lens before the focus and f-number controls change it."""
     lens = prescription(live.state)
     texts = tuple(tuple(written(surface, column) for column in COLUMNS) for surface in lens.surfaces)
-    return Rows(lens, texts, lens.stop_surface or 0, live.state.lens_text is not None)
+    return Rows(lens, texts, lens.stop_surface or 0, live.state.optics.lens_text is not None)

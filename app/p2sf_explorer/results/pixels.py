@@ -29,7 +29,7 @@ class Beside:
 
 def beside(live: Live) -> Beside:
     """Return the three pictures of the present point."""
-    psf, pixel = live.psf, live.state.pixel_um
+    psf, pixel = live.psf, live.state.display.pixel_um
     perfect = airy_picture(psf, live.airy_radius_um)
     shares = 1.0 if psf.energy is None else min(1.0, float(psf.energy))
     real = psf.values / (float(psf.values.max()) or 1.0)

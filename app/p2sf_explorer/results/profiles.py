@@ -66,7 +66,7 @@ def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
     That is the case where rays are lost, where the picture is ray density, and where a sum would take too long.
     """
-    if live.psf.method == "geometric" or live.state.clip:
+    if live.psf.method == "geometric" or live.state.optics.clip:
         return None
     try:
         nodes = seidel_nodes(live) if by_coefficients(live) else fitted_nodes(live)

@@ -10,7 +10,7 @@ FAN_RAYS = 41
 def spots(live: Live) -> Spot:
     """Return where hexapolar rays meet the sensor, µm from the chief ray; fewer rays while a slider moves."""
     setup = live.setup
-    return spot(setup.lens, setup.source, RINGS[live.quality], clip=live.state.clip)
+    return spot(setup.lens, setup.source, RINGS[live.quality], clip=live.state.optics.clip)
 
 
 def ray_errors(live: Live) -> Fan:

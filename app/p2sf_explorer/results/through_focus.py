@@ -1,7 +1,7 @@
 """The PSF at several sensor positions: which of them, how wide a window, and the pictures."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.what_if import check_focusable
 
 COUNT = {"preview": 7, "settled": 11}
@@ -60,7 +60,7 @@ def strip(live: Live) -> Strip | Message:
         check_focusable(live.state)
     except GeometryError as error:
         return error.message
-    state = replace(optics(live.state), sensor_shift_um=0.0)
+    state = changed(optics(live.state), sensor_shift_um=0.0)
     setup = paraxial_setup(state)
     low, high, half = reach(setup)
     shifts = tuple(np.linspace(low, high, COUNT[live.quality]).tolist())
@@ -97,7 +97,7 @@ def answer(request: Strip, stopped: Callable[[], bool], tell: Callable[[float, o
 def light(shift_um: float, request: Strip) -> np.ndarray:
     """Return the light per sample of one position, in units of the unaberrated peak; NaN where there is no PSF."""
     try:
-        psf = in_window(replace(request.state, sensor_shift_um=shift_um), request.window, request.six)
+        psf = in_window(changed(request.state, sensor_shift_um=shift_um), request.window, request.six)
     except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip
         return np.full((request.window[0],) * 2, np.nan)
     peak = float(psf.values.max()) or 1.0
@@ -117,7 +117,7 @@ def foci(request: Strip) -> tuple[float, float, float]:
     else:
         near = real_foci(setup.lens, setup.source, setup.source.field_slope, setup.stop)
     try:
-        best = best_shift_um(replace(request.state, method="seidel" if request.six else "fitted"))
+        best = best_shift_um(changed(request.state, method="seidel" if request.six else "fitted"))
     except P2SFError:
         best = np.nan
     return 1e3 * float(near.sagittal), 1e3 * float(near.tangential), best

@@ -39,7 +39,7 @@ def scene(live: Live) -> Scene3D:
         stop=ring(drawn.stop_rim, drawn.stop_rim + wedge, drawn.stop_z, thick),
         sensor=plate(half, drawn.sensor_z, thick),
         rays=rays,
-        colour=visible_colour(live.state.wavelength_nm),
+        colour=visible_colour(live.state.optics.wavelength_nm),
         front=front(setup, drawn, float(drawn.glass.last[0].max())),
         psf_surface=psf_surface(live.psf, brightness(live), drawn, half, float(rays[0, -1, 1])),
     )
@@ -48,4 +48,4 @@ def scene(live: Live) -> Scene3D:
 def brightness(live: Live) -> np.ndarray:
     """Return the PSF's samples on the scale the window shows, 0 to 1."""
     peak = float(live.psf.values.max()) or 1.0
-    return stretched(live.psf.values / peak, live.state.psf_scale)
+    return stretched(live.psf.values / peak, live.state.display.psf_scale)

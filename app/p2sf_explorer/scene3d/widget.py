@@ -60,7 +60,7 @@ class SceneView(QWidget):
         """Show an answer's scene."""
         self._live = live
         if not self._held:
-            self._camera = Camera(live.state.eye_turn_deg, live.state.eye_tilt_deg, live.state.eye_near)
+            self._camera = Camera(live.state.camera.turn_deg, live.state.camera.tilt_deg, live.state.camera.zoom)
         self._forget()
 
     def restyle(self, theme: Tokens) -> None:
@@ -123,7 +123,7 @@ class SceneView(QWidget):
     def _keep(self, camera: Camera) -> None:
         """Make this the camera of the state."""
         self._held = None
-        self._store.update(eye_turn_deg=camera.turn, eye_tilt_deg=camera.tilt, eye_near=camera.near)
+        self._store.update(camera_turn_deg=camera.turn, camera_tilt_deg=camera.tilt, camera_zoom=camera.near)
         self._forget()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:

@@ -158,7 +158,7 @@ class Actions(QObject):
     def ask_snapshot(self, kinds: str = SNAPSHOT_FILES, picture_of: QWidget | None = None) -> None:
         """Ask for a name and save the snapshot."""
         ending = kinds.split("*")[1].split(")")[0]
-        first = f"{Path(self._store.state.lens).stem}{ending}"
+        first = f"{Path(self._store.state.optics.lens).stem}{ending}"
         path, chosen = QFileDialog.getSaveFileName(self._window, tr("Save a snapshot"), first, tr(kinds))
         if path:
             named = path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0]
@@ -191,7 +191,7 @@ class Actions(QObject):
 
     def ask_report(self) -> None:
         """Ask for a name and write the report."""
-        first = f"{Path(self._store.state.lens).stem}.pdf"
+        first = f"{Path(self._store.state.optics.lens).stem}.pdf"
         path, _ = QFileDialog.getSaveFileName(self._window, tr("Save the report"), first, tr("Report (*.pdf)"))
         if path:
             self.write_report(path if Path(path).suffix else f"{path}.pdf")

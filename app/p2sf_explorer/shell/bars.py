@@ -135,16 +135,16 @@ class TopBar(QFrame):
 
     def show_state(self, state: State, dark: bool) -> None:
         """Follow a state."""
-        self.lens.show_lens(state.lens, shown_title(state), DARK if dark else LIGHT)
-        self.edited.setVisible(state.lens_text is not None)
-        select(self.method, state.method)
-        if self.tolerance.findData(str(state.tolerance)) < 0:
-            self.tolerance.addItem(f"R² ≥ {state.tolerance:g}", str(state.tolerance))
-        select(self.tolerance, str(state.tolerance))
-        self.tolerance.setVisible(state.method == "auto")
+        self.lens.show_lens(state.optics.lens, shown_title(state), DARK if dark else LIGHT)
+        self.edited.setVisible(state.optics.lens_text is not None)
+        select(self.method, state.optics.method)
+        if self.tolerance.findData(str(state.optics.tolerance)) < 0:
+            self.tolerance.addItem(f"R² ≥ {state.optics.tolerance:g}", str(state.optics.tolerance))
+        select(self.tolerance, str(state.optics.tolerance))
+        self.tolerance.setVisible(state.optics.method == "auto")
         self.undo.setEnabled(self._store.can_undo)
         self.redo.setEnabled(self._store.can_redo)
-        self.pin.setVisible(state.pinned is None)
+        self.pin.setVisible(state.compare.pinned is None)
         self.theme.setText(tr("Light") if dark else tr("Dark"))
         self._dark = dark
 

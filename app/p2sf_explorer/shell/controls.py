@@ -22,7 +22,7 @@ from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.first_order import OF_A, rows
 from p2sf_explorer.shell.no_answer import UNKNOWN
 from p2sf_explorer.state.scales import Vergence, short_distance, signed
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.readout import FactTable, Readout, scrolled
@@ -55,10 +55,10 @@ class StopRow(QWidget):
 
     def show_state(self, state: State) -> None:
         """Follow a state; no signal goes back."""
-        select(self.stop, state.stop)
-        if self.clip.isChecked() != state.clip:
+        select(self.stop, state.optics.stop)
+        if self.clip.isChecked() != state.optics.clip:
             self.clip.blockSignals(True)
-            self.clip.setChecked(state.clip)
+            self.clip.setChecked(state.optics.clip)
             self.clip.blockSignals(False)
 
 
@@ -124,8 +124,8 @@ class QuantityRow(QWidget):
 
     def reset(self) -> None:
         """Go back to the lens's own value."""
-        fresh = default_state(self._store.state.lens, self._store.state.lens_text)
-        self._store.update(**{self.quantity.key: getattr(fresh, self.quantity.key)})
+        fresh = default_state(self._store.state.optics.lens, self._store.state.optics.lens_text)
+        self._store.update(**{self.quantity.key: entry(fresh, self.quantity.key)})
 
     def show_state(self, state: State, limits: Ranges) -> None:
         """Follow a state: slider, number, ticks; no signal goes back."""
@@ -172,7 +172,7 @@ class QuantityRow(QWidget):
             self.edit.set_text(self.edit.last)
         else:
             self._store.update(**{self.quantity.key: value})
-            if getattr(self._store.state, self.quantity.key) != value:
+            if entry(self._store.state, self.quantity.key) != value:
                 self.edit.set_text(self.edit.last)  # refused: the number stays that of the picture
 
 
@@ -243,7 +243,7 @@ class Controls(QWidget):
         image = float(live.setup.coefficients.image_height)
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
-        apart = live.state.shown != "a"  # B or A − B is on screen, and this column stays A's
+        apart = live.state.compare.shown != "a"  # B or A − B is on screen, and this column stays A's
         dominant = said(live.dominant)
         self.sentence.setText(unbroken(f"A: {dominant}" if apart else dominant))
         self.detail.setText(unbroken(live.why.text(WINDOW)))

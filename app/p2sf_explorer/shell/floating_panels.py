@@ -33,7 +33,7 @@ class FloatingPanels(QObject):
 
     def toggle(self, key: str) -> None:
         """Put a panel into a window of its own, or back."""
-        now = self._store.state.windows
+        now = self._store.state.display.windows
         self._store.update(windows=tuple(k for k in now if k != key) if key in now else (*now, key))
 
     def place(self, key: str, widget: QWidget) -> None:
@@ -91,5 +91,5 @@ class FloatingPanels(QObject):
             own.close()
 
     def _on_closed(self, key: str) -> None:
-        if not self._closing and key in self._store.state.windows:
+        if not self._closing and key in self._store.state.display.windows:
             self.toggle(key)

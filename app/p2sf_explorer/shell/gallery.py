@@ -1,7 +1,6 @@
 """Pictures of the window, to look at after changing a panel: ``python -m p2sf_explorer.shell.gallery FOLDER``."""
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QTimer
@@ -13,7 +12,7 @@ from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.limits import CHOICES
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed, new_state
 
 SIZES = {"small": (1280, 800), "large": (1920, 1080)}
 LONGEST_MS = 20_000  # for the background measurement of one picture
@@ -22,19 +21,21 @@ LOOK_MS = 50
 
 def states() -> dict[str, State]:
     """Return the states to show: the first picture in both themes, and every other tab."""
-    tabs = [entry.key for entry in REGISTRY if entry.place != "main" and entry.key != State().tab]
-    shown = {"first_light": State(theme="light"), "first_dark": State(theme="dark")}
-    shown["close_up"] = State(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
-    shown["eye"] = State(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")
-    shown["surface"] = State(phase="surface", theme="dark")
-    shown["what_if"] = State(theme="light", added_waves=(0.0, 1.5, 0.0, 0.0, -2.0, 0.0), muted=("w22",))
-    shown["free_pupil"] = State(theme="dark", added_waves=(0.0, 3.0, 0.0, 0.0, 0.0, 0.0), free_pupil=True, tab="mtf")
-    pair = State(theme="light", pinned=State(f_number=8.0), linked=("field_deg",), play="field_deg")
+    tabs = [entry.key for entry in REGISTRY if entry.place != "main" and entry.key != State().display.tab]
+    shown = {"first_light": new_state(theme="light"), "first_dark": new_state(theme="dark")}
+    shown["close_up"] = new_state(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
+    shown["eye"] = new_state(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")
+    shown["surface"] = new_state(phase="surface", theme="dark")
+    shown["what_if"] = new_state(theme="light", added_waves=(0.0, 1.5, 0.0, 0.0, -2.0, 0.0), muted=("w22",))
+    shown["free_pupil"] = new_state(
+        theme="dark", added_waves=(0.0, 3.0, 0.0, 0.0, 0.0, 0.0), free_pupil=True, tab="mtf"
+    )
+    pair = new_state(theme="light", pinned=new_state(f_number=8.0), linked=("field_deg",), playback_slider="field_deg")
     for side in CHOICES["shown"]:
-        shown[f"compare_{side}"] = replace(pair, shown=side)
-    shown["lesson"] = replace(shipped_lessons()[4].state(1, State(theme="light")), lesson_told=True)
-    shown["german"] = State(theme="light", language="de", tab="first_order")
-    return shown | {f"tab_{tab}": State(tab=tab, theme="light") for tab in tabs}
+        shown[f"compare_{side}"] = changed(pair, shown=side)
+    shown["lesson"] = changed(shipped_lessons()[4].state(1, new_state(theme="light")), lesson_told=True)
+    shown["german"] = new_state(theme="light", language="de", tab="first_order")
+    return shown | {f"tab_{tab}": new_state(tab=tab, theme="light") for tab in tabs}
 
 
 def settle(window: MainWindow) -> None:
@@ -50,7 +51,9 @@ def settle(window: MainWindow) -> None:
 
 def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
     """Save a picture of the window in a state, its accuracy ``measured`` or not."""
-    set_language(ENGLISH if state.language == "system" else state.language)  # the same pictures on every machine
+    set_language(
+        ENGLISH if state.display.language == "system" else state.display.language
+    )  # the same pictures on every machine
     window = MainWindow(state, measured)
     window.resize(*size)
     window.show()

@@ -15,7 +15,7 @@ class LanguageSwitch(QObject):
     def __init__(self, state: State, make: Callable[[State], MainWindow], parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._make = make
-        set_language(state.language)
+        set_language(state.display.language)
         self.window = self._made(state)
 
     def _made(self, state: State) -> MainWindow:
@@ -24,15 +24,15 @@ class LanguageSwitch(QObject):
         return window
 
     def _listen(self, state: State) -> None:
-        if language_of(state.language) != current_language():
+        if language_of(state.display.language) != current_language():
             QTimer.singleShot(0, self.reopen)
 
     def reopen(self) -> None:
         """Replace the window by one in the state's language, with all steps of undo."""
         old = self.window
-        if language_of(old.store.state.language) == current_language():
+        if language_of(old.store.state.display.language) == current_language():
             return
-        set_language(old.store.state.language)
+        set_language(old.store.state.display.language)
         self.window = self._made(old.store.state)
         self.window.store.take_over(old.store)
         self.window.restoreGeometry(old.saveGeometry())

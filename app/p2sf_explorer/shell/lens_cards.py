@@ -12,7 +12,7 @@ from p2sf_explorer.compute.layout import Drawing, drawing
 from p2sf_explorer.compute.setup import load, prescription, title
 from p2sf_explorer.files.opening import stamp
 from p2sf_explorer.state.scales import significant
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, new_state
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ def lens_card(name: str) -> LensCard:
 
 def shown_title(state: State) -> str:
     """Return the title of the state's lens for the top bar, cached since every frame asks for it."""
-    return _shown_title(state.lens, state.lens_text, stamp(state.lens))
+    return _shown_title(state.optics.lens, state.optics.lens_text, stamp(state.optics.lens))
 
 
 @lru_cache(maxsize=128)
@@ -51,7 +51,7 @@ def _shown_title(name: str, lens_text: str | None, _stamp: tuple[int, int]) -> s
     if lens_text is None and found != name:
         return found
     try:
-        lens = prescription(State(lens=name, lens_text=lens_text))
+        lens = prescription(new_state(lens=name, lens_text=lens_text))
     except P2SFError:  # the picture on show is of an earlier lens; the banner says why
         return found
     return lens.title or lens.name

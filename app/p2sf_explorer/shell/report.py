@@ -1,6 +1,6 @@
 """A report of one page on a lens at the present source: drawing, first order, coefficients, PSFs over the field."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
@@ -20,7 +20,7 @@ from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.first_order import described_depth, rows
 from p2sf_explorer.shell.lens_cards import shown_title
 from p2sf_explorer.state.scales import signed, significant
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.terms import FORMULAS, TERMS, WORDS
 from p2sf_explorer.widgets.thumbnail import glass
 
@@ -92,15 +92,15 @@ def pdf(answer: Live, over_field: list[Live]) -> bytes:
 def fields(state: State) -> tuple[State, ...]:
     """Return the state at the fields whose PSFs are printed: from the axis to the widest of the lens file."""
     widest = max(abs(angle) for angle in prescription(state).fields_deg)
-    return tuple(replace(state, field_deg=share * widest) for share in SHARES)
+    return tuple(changed(state, field_deg=share * widest) for share in SHARES)
 
 
 def paint(page: Page, answer: Live, over_field: list[Live]) -> None:
     """Paint the page, top to bottom."""
     state, wide = answer.state, PAGE.width() - 2 * MARGIN
     page.write(QRectF(MARGIN, 12, wide, 9), shown_title(state), 16, bold=True)
-    source = tr("{depth}, field {field}°, {wavelength} nm", depth=described_depth(state.depth_mm).text(WINDOW),
-                field=signed(state.field_deg, 2), wavelength=f"{state.wavelength_nm:.1f}")  # fmt: skip
+    source = tr("{depth}, field {field}°, {wavelength} nm", depth=described_depth(state.optics.depth_mm).text(WINDOW),
+                field=signed(state.optics.field_deg, 2), wavelength=f"{state.optics.wavelength_nm:.1f}")  # fmt: skip
     page.write(QRectF(MARGIN, 21, wide, 6), f"{source} · {said(answer.dominant)}", 9)
     draw_layout(page, answer.layout, QRectF(MARGIN, 30, wide, 62))
     heading(page, 95, tr("First order"))
@@ -112,7 +112,7 @@ def paint(page: Page, answer: Live, over_field: list[Live]) -> None:
     side = (wide - 3 * 5) / 4
     for number, one in enumerate(over_field):
         draw_psf(page, one, QRectF(MARGIN + number * (side + 5), 178, side, side))
-    scale = tr(SCALE_WORDS[state.psf_scale])
+    scale = tr(SCALE_WORDS[state.display.psf_scale])
     note = tr("Each PSF over its own peak, {scale}; W11 moves the image and is left out.", scale=scale)
     page.write(QRectF(MARGIN, 236, wide, 5), note, 8)
     page.write(QRectF(MARGIN, 242, wide, 10), answer.why.text(WINDOW), 8)
@@ -173,14 +173,14 @@ def draw_layout(page: Page, shown: Layout, room: QRectF) -> None:
 def draw_psf(page: Page, answer: Live, room: QRectF) -> None:
     """Draw a PSF with its field, its width and its Strehl ratio under it."""
     psf, peak = answer.psf, float(answer.psf.values.max()) or 1.0
-    table = lookup(tokens("light", answer.state.colours).brightness)
-    bright = stretched(psf.values[::-1] / peak, answer.state.psf_scale)
+    table = lookup(tokens("light", answer.state.display.colours).brightness)
+    bright = stretched(psf.values[::-1] / peak, answer.state.display.psf_scale)
     pixels = np.ascontiguousarray(table[as_indices(np.asarray(bright, float), 0.0, 1.0)])
     image = QImage(pixels.data, pixels.shape[1], pixels.shape[0], 4 * pixels.shape[1], QImage.Format.Format_RGB32)
     page.painter.drawImage(page.pixels(room), image)
     width = psf.values.shape[-1] * psf.pixel_um
     ratio = float(np.asarray(psf.strehl, float))  # NaN for None
     strehl = f" · Strehl {significant(ratio, 2)}" if isfinite(ratio) else ""
-    words = f"{signed(answer.state.field_deg, 1)}° · {significant(width, 3)} µm"
+    words = f"{signed(answer.state.optics.field_deg, 1)}° · {significant(width, 3)} µm"
     page.write(QRectF(room.x(), room.bottom() + 1, room.width(), 5), words, 7.5, side=0)
     page.write(QRectF(room.x(), room.bottom() + 6, room.width(), 5), f"{psf.method}{strehl}", 7.5, side=0)

@@ -76,7 +76,7 @@ class MainWindow(QMainWindow):
         self.live: Live | None = None
         self._answers: Answers | None = None
         self.frame_ms: float | None = None
-        self._theme: Tokens = tokens(self.store.state.theme, self.store.state.colours)
+        self._theme: Tokens = tokens(self.store.state.display.theme, self.store.state.display.colours)
         self._styled: dict[str, Tokens] = {}
         self.panels: dict[str, Panel] = {}
         self._make_bars()
@@ -270,8 +270,8 @@ class MainWindow(QMainWindow):
     def _bring_up(self, state: State) -> None:
         """Bring the state's tab to the front and its panels into their own windows, building each the first time."""
         pages = self.tabs.pages()
-        key = state.tab if state.tab in pages else next(iter(pages))
-        apart = tuple(name for name in state.windows if name in self.homes)
+        key = state.display.tab if state.display.tab in pages else next(iter(pages))
+        apart = tuple(name for name in state.display.windows if name in self.homes)
         for name in {key, *apart} - set(self.panels):
             self._build(name)
         self.floating.follow(apart, self.panels)
@@ -289,11 +289,11 @@ class MainWindow(QMainWindow):
         self.store.update(tab=self.tabs.current())
 
     def _on_scheme(self) -> None:
-        if self.store.state.theme == "system":
+        if self.store.state.display.theme == "system":
             self.refresh(self.store.state)
 
     def _restyle(self, state: State) -> None:
-        theme = tokens(state.theme, state.colours)
+        theme = tokens(state.display.theme, state.display.colours)
         if theme != self._theme:
             self._theme = theme
             self._apply_theme()

@@ -19,11 +19,11 @@ CAMERA = Camera()
 
 def turned(camera: Camera, turn: float, tilt: float) -> Camera:
     """Return the camera moved around the scene by some degrees; it never tilts over the top."""
-    low, high = RANGES["eye_tilt_deg"][:2]
+    low, high = RANGES["camera_tilt_deg"][:2]
     return replace(camera, turn=(camera.turn + turn + 180) % 360 - 180, tilt=min(high, max(low, camera.tilt + tilt)))
 
 
 def nearer(camera: Camera, factor: float) -> Camera:
     """Return the camera moved nearer by a factor, within the limits of the state."""
-    low, high = RANGES["eye_near"][:2]
+    low, high = RANGES["camera_zoom"][:2]
     return replace(camera, near=min(high, max(low, factor * camera.near)))

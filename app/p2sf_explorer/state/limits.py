@@ -27,15 +27,15 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "tolerance": (0.0, 1.0, Message("tolerance R²"), ""),
     "pixel_um": (0.01, 1000.0, Message("pixel"), "µm"),
     "blur_um": (0.01, 10000.0, Message("blur to tolerate"), "µm"),
-    "play_seconds": (0.1, 600.0, Message("duration of a sweep"), "s"),
+    "playback_seconds": (0.1, 600.0, Message("duration of a sweep"), "s"),
     "photo_pixel_um": (0.1, 1000.0, Message("pixel of the photo"), "µm"),
     "photo_split": (0.0, 1.0, Message("split of the photo"), ""),
     "lesson_step": (0, 1000, Message("step of the lesson"), ""),
-    "eye_turn_deg": (-360.0, 360.0, Message("turn of the 3D view"), "°"),
-    "eye_tilt_deg": (-89.0, 89.0, Message("tilt of the 3D view"), "°"),
-    "eye_near": (0.2, 50.0, Message("enlargement of the 3D view"), ""),
-    "relief_turn_deg": (-360.0, 360.0, Message("turn of the wavefront's surface"), "°"),
-    "relief_tilt_deg": (0.0, 90.0, Message("tilt of the wavefront's surface"), "°"),
+    "camera_turn_deg": (-360.0, 360.0, Message("turn of the 3D view"), "°"),
+    "camera_tilt_deg": (-89.0, 89.0, Message("tilt of the 3D view"), "°"),
+    "camera_zoom": (0.2, 50.0, Message("enlargement of the 3D view"), ""),
+    "camera_surface_turn_deg": (-360.0, 360.0, Message("turn of the wavefront's surface"), "°"),
+    "camera_surface_tilt_deg": (0.0, 90.0, Message("tilt of the wavefront's surface"), "°"),
 }
 MOST_WAVES = 1000.0
 DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
@@ -44,4 +44,13 @@ ADDED = "added_"  # before a term's name: the slider that adds waves to it
 PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
 KINDS = {str: Message("a text"), bool: Message("true or false"), int: Message("a whole number")}
 OPTIONAL = ("focus_mm", "f_number", "photo_pixel_um")
-PLAIN: dict[str, type] = {"language": str, "photo": str, "lesson": str, "lesson_told": bool, "lesson_step": int}
+PLAIN: dict[str, type] = {
+    "clip": bool,
+    "tab": str,
+    "free_pupil": bool,
+    "language": str,
+    "photo_source": str,
+    "lesson_name": str,
+    "lesson_told": bool,
+    "lesson_step": int,
+}

@@ -4,9 +4,12 @@ import binascii
 import json
 import zlib
 from base64 import urlsafe_b64decode, urlsafe_b64encode
+from typing import Any
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.state.state import VERSION, State, state_from_dict, state_to_dict
+from p2sf.messages import Message
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state_files import VERSION, check_version, state_from_dict, state_to_dict
 
 PREFIX = "p2sf:"
 LARGEST = 4_000_000  # bytes of JSON: a state with two edited lenses is a hundredth of it
@@ -36,20 +39,19 @@ def state_of_link(text: str) -> State:
         raise P2SFError("the link is cut off or changed; copy all of it again, from p2sf: to its last letter") from None
     if not isinstance(document, dict) or not isinstance(document.get("state"), dict):
         raise P2SFError("the link holds no state of the explorer; copy it again from the explorer")
-    if document.get("version") != VERSION:
-        raise P2SFError(
-            "the link has version {found}; this program reads version {version}",
-            found=str(document.get("version")),
-            version=VERSION,
-        )
-    return state_from_dict(document["state"])
+    check_version(document.get("version"), Message("the link"))
+    return state_from_dict(document["state"], document["version"])
 
 
-def shortened(state: State) -> dict[str, object]:
-    """Return the entries that differ from the default state, as plain JSON values."""
-    usual = state_to_dict(State())
-    short = {name: value for name, value in state_to_dict(state).items() if value != usual[name]}
-    return short | ({"pinned": shortened(state.pinned)} if state.pinned else {})
+def shortened(state: State) -> dict[str, dict[str, Any]]:
+    """Return the entries that differ from the first state, as plain JSON values, group by group."""
+    usual, short = state_to_dict(State()), {}
+    for group, entries in state_to_dict(state).items():
+        if differing := {name: value for name, value in entries.items() if value != usual[group][name]}:
+            short[group] = differing
+    if state.compare.pinned:
+        short["compare"]["pinned"] = shortened(state.compare.pinned)
+    return short
 
 
 def unpacked(packed: bytes) -> bytes:

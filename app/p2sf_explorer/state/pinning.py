@@ -4,51 +4,45 @@ from dataclasses import replace
 from typing import Any
 
 from p2sf_explorer.state.limits import LINKABLE
-from p2sf_explorer.state.state import State
-from p2sf_explorer.state.what_if import UNTOUCHED
+from p2sf_explorer.state.state import ENTRIES, Compare, State, changed
 
 # The entries that determine the picture; the others say how it is displayed, the same way for A and for B.
-OPTICS = (
-    *("lens", "lens_text", "depth_mm", "focus_mm", "sensor_shift_um", "field_deg", "wavelength_nm", "f_number"),
-    *("stop", "clip", "method", "tolerance", *UNTOUCHED),
-)
+OPTICS = tuple(name for name, (group, _) in ENTRIES.items() if group in ("optics", "what_if"))
 
 
-def optics(state: State) -> dict[str, Any]:
-    """Return the entries of a state that determine its picture."""
-    return {name: getattr(state, name) for name in OPTICS}
+def optics(state: State) -> State:
+    """Return what determines the picture of a state; everything else as at first."""
+    return State(optics=state.optics, what_if=state.what_if)
 
 
 def pin(state: State) -> State:
     """Return the state with its own setup pinned as B."""
-    return replace(state, pinned=State(**optics(state)), shown="a")
+    return changed(state, pinned=optics(state), shown="a")
 
 
 def unpin(state: State) -> State:
     """Return the state with nothing pinned."""
-    return replace(state, pinned=None, shown="a", linked=())
+    return replace(state, compare=Compare())
 
 
 def swapped(state: State) -> State:
     """Return the state with A and B exchanged, so that the controls move the other one."""
-    return replace(state, **_optics_of_b(state), pinned=State(**optics(state)))
+    b = state.compare.pinned or state
+    return changed(replace(state, optics=b.optics, what_if=b.what_if), pinned=optics(state))
 
 
 def side_b(state: State) -> State:
     """Return B alone, displayed as A is."""
-    return replace(state, **_optics_of_b(state), pinned=None, shown="a")
-
-
-def _optics_of_b(state: State) -> dict[str, Any]:
-    return optics(state.pinned) if state.pinned else {}
+    b = state.compare.pinned or state
+    return changed(replace(state, optics=b.optics, what_if=b.what_if), pinned=None, shown="a")
 
 
 def with_links(state: State, changes: dict[str, Any]) -> dict[str, Any]:
     """Return changes to A together with what they change in B through the links."""
-    both = {name: value for name, value in changes.items() if name in state.linked}
-    return changes | {"pinned": replace(state.pinned, **both)} if state.pinned and both else changes
+    b, both = state.compare.pinned, {name: value for name, value in changes.items() if name in state.compare.linked}
+    return changes | {"pinned": changed(b, **both)} if b and both else changes
 
 
 def link_toggled(state: State, key: str) -> tuple[str, ...]:
     """Return the links with one made or broken."""
-    return tuple(name for name in LINKABLE if (name in state.linked) != (name == key))
+    return tuple(name for name in LINKABLE if (name in state.compare.linked) != (name == key))

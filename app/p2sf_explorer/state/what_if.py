@@ -6,7 +6,7 @@ from typing import Any
 from p2sf.errors import GeometryError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, WhatIf
 from p2sf_explorer.state.terms import TERMS
 
 NOTE = "what-if: coefficients altered by hand"
@@ -44,26 +44,26 @@ PRESETS = (
 
 def is_altered(state: State) -> bool:
     """Return whether any coefficient is not the lens's own."""
-    return any(getattr(state, name) != value for name, value in UNTOUCHED.items())
+    return state.what_if != WhatIf()
 
 
 def is_heard(state: State, term: str) -> bool:
     """Return whether a term counts: not muted, and among the solo ones where there are any."""
-    return term not in state.muted and (not state.solo or term in state.solo)
+    return term not in state.what_if.muted and (not state.what_if.solo or term in state.what_if.solo)
 
 
 def altered(own: Coefficients, state: State) -> Coefficients:
     """Return the coefficients as the state alters the lens's ``own``: own + added where the term counts, else 0."""
     if not is_altered(state):
         return own
-    added = dict(zip(TERMS, state.added_waves, strict=True))
-    base = 0.0 if state.free_pupil else 1.0
+    added = dict(zip(TERMS, state.what_if.added_waves, strict=True))
+    base = 0.0 if state.what_if.free_pupil else 1.0
     return replace(own, **{t: (base * getattr(own, t) + added[t]) * is_heard(state, t) for t in TERMS})
 
 
 def with_added(state: State, term: str, waves: float) -> tuple[float, ...]:
     """Return the added waves with one term's changed."""
-    return tuple(waves if name == term else old for name, old in zip(TERMS, state.added_waves, strict=True))
+    return tuple(waves if name == term else old for name, old in zip(TERMS, state.what_if.added_waves, strict=True))
 
 
 def toggled(names: tuple[str, ...], term: str) -> tuple[str, ...]:
@@ -78,8 +78,8 @@ def of_preset(preset: Preset) -> dict[str, Any]:
 
 def check_focusable(state: State) -> None:
     """Raise GeometryError where moving the sensor does not change the wavefront: Wd is not the lens's own."""
-    if state.free_pupil or not is_heard(state, "wd"):
+    if state.what_if.free_pupil or not is_heard(state, "wd"):
         raise GeometryError(
             "{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if",
-            why=Message("the free pupil has no lens") if state.free_pupil else Message("Wd is muted"),
+            why=Message("the free pupil has no lens") if state.what_if.free_pupil else Message("Wd is muted"),
         )

@@ -4,7 +4,7 @@ from typing import Any
 
 from p2sf.messages import Message
 from p2sf_explorer.state.pinning import OPTICS
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
 
 OTHER_SIDE = Message("B is on screen, and the controls move A; show A, or swap the two, to change this one")
@@ -30,17 +30,17 @@ class PanelStore:
 
     def replace(self, state: State) -> None:
         """Make this the present state, as `Store.replace`."""
-        if not self._refused({name: getattr(state, name) for name in OPTICS}):
+        if not self._refused({name: entry(state, name) for name in OPTICS}):
             self._store.replace(state)
 
     def _refused(self, changes: dict[str, Any]) -> bool:
         state = self._store.state
-        moves = any(name in OPTICS and getattr(state, name) != value for name, value in changes.items())
+        moves = any(name in OPTICS and entry(state, name) != value for name, value in changes.items())
         return moves and self.refused_for_b()
 
     def refused_for_b(self) -> bool:
         """Return whether B is on screen; if so, say why nothing is changed."""
-        if self._store.state.shown == "b":
+        if self._store.state.compare.shown == "b":
             self._store.refused.emit(OTHER_SIDE)
             return True
         return False

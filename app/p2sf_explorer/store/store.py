@@ -2,14 +2,13 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.state.pinning import with_links
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 
 MOST_STEPS = 1000  # of undo: an edited lens is kilobytes a step
 
@@ -54,7 +53,7 @@ class Store(QObject):
 
     def changed_by(self, changes: dict[str, Any]) -> State:
         """Return the state after changes, without making them; P2SFError for a bad value."""
-        return replace(self.state, **with_links(self.state, changes))
+        return changed(self.state, **with_links(self.state, changes))
 
     def replace(self, state: State) -> None:
         """Make this the present state: one step of undo, or part of the drag under way."""

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidg
 from p2sf.errors import P2SFError
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import read_number, significant
+from p2sf_explorer.state.state import entry
 from p2sf_explorer.store.store import Store
 
 
@@ -89,4 +90,4 @@ class MicronEdit(QWidget):
             self._store.update(**{self._key: read_number(text, self._label.lower(), MICRONS)})
         except P2SFError as error:
             self._store.refused.emit(error)
-        self.show_value(getattr(self._store.state, self._key))
+        self.show_value(entry(self._store.state, self._key))

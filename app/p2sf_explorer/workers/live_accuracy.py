@@ -109,7 +109,7 @@ class LiveAccuracy(QObject):
 
 def asked_for(state: State) -> bool:
     """Return whether the accuracy has its panel on show, in front of the tabs or in a window of its own."""
-    return "accuracy" in (state.tab, *state.windows)
+    return "accuracy" in (state.display.tab, *state.display.windows)
 
 
 def fits(known: Accuracy, live: Live, every_method: bool) -> bool:
@@ -123,4 +123,4 @@ def fits(known: Accuracy, live: Live, every_method: bool) -> bool:
 def picture(live: Live) -> tuple:
     """Return everything that R² of a settled picture depends on."""
     setup, psf = live.setup, live.psf
-    return setup.lens, setup.source, psf.method, psf.numbers, live.state.clip, psf.values.shape, psf.pixel_um
+    return setup.lens, setup.source, psf.method, psf.numbers, live.state.optics.clip, psf.values.shape, psf.pixel_um

@@ -65,16 +65,16 @@ def test_the_wave_of_a_lens_is_a_surface_that_mouse_and_keys_turn(window):
     first = view.pixels
     QTest.keyClick(view, Qt.Key.Key_Left)
     QTest.keyClick(view, Qt.Key.Key_Up)
-    assert (store.state.relief_turn_deg, store.state.relief_tilt_deg) == (-35.0, 40.0)
+    assert (store.state.camera.surface_turn_deg, store.state.camera.surface_tilt_deg) == (-35.0, 40.0)
     assert view.pixels.shape == first.shape and (view.pixels != first).any()
     QTest.mousePress(view, Qt.MouseButton.LeftButton, pos=QPoint(60, 60))
     QTest.mouseMove(view, QPoint(40, 60))
     assert store.moving and view.pixels.shape < first.shape  # fewer pixels while it moves
     QTest.mouseRelease(view, Qt.MouseButton.LeftButton, pos=QPoint(40, 60))
-    assert not store.moving and store.state.relief_turn_deg == -25.0
+    assert not store.moving and store.state.camera.surface_turn_deg == -25.0
     for _ in range(20):
         QTest.keyClick(view, Qt.Key.Key_Down)
-    assert store.state.relief_tilt_deg == 0.0
+    assert store.state.camera.surface_tilt_deg == 0.0
     QTest.keyClick(view, Qt.Key.Key_Home)
     assert (view.pixels == first).all()
 

@@ -1,7 +1,5 @@
 """Two setups in one window: what is pinned stays, what is linked moves along, and A − B is the difference."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
@@ -15,29 +13,29 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.results.mtf import contrast
 from p2sf_explorer.results.profiles import profiles
 from p2sf_explorer.state.pinning import OPTICS, optics, pin, side_b, swapped, unpin, with_links
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import ENTRIES, changed, entry, new_state
 from p2sf_explorer.state.terms import TERMS
 
 VIEWS = {"profiles": profiles, "mtf": contrast}
-A = State(method="seidel", f_number=4.0, field_deg=5.0, theme="light")
-PAIR = replace(A, pinned=State(method="seidel", f_number=8.0, field_deg=5.0))
+A = new_state(method="seidel", f_number=4.0, field_deg=5.0, theme="light")
+PAIR = changed(A, pinned=new_state(method="seidel", f_number=8.0, field_deg=5.0))
 
 
 def test_pinning_and_taking_away_leave_the_state_as_it_was():
     assert unpin(pin(A)) == A
-    assert optics(side_b(PAIR)) == optics(PAIR.pinned)
-    unlike = {name for name in State.__dataclass_fields__ if getattr(side_b(PAIR), name) != getattr(A, name)}
+    assert optics(side_b(PAIR)) == optics(PAIR.compare.pinned)
+    unlike = {name for name in ENTRIES if entry(side_b(PAIR), name) != entry(A, name)}
     assert unlike <= set(OPTICS)
 
 
 def test_exchanging_twice_is_nothing():
     assert swapped(swapped(PAIR)) == PAIR
-    assert optics(swapped(PAIR)) == optics(PAIR.pinned)
+    assert optics(swapped(PAIR)) == optics(PAIR.compare.pinned)
 
 
 def test_only_what_is_linked_moves_both():
-    linked = replace(PAIR, linked=("field_deg",))
-    assert with_links(linked, {"field_deg": 9.0})["pinned"].field_deg == 9.0
+    linked = changed(PAIR, linked=("field_deg",))
+    assert with_links(linked, {"field_deg": 9.0})["pinned"].optics.field_deg == 9.0
     assert with_links(linked, {"f_number": 2.0}) == {"f_number": 2.0}
     assert with_links(PAIR, {"field_deg": 9.0}) == {"field_deg": 9.0}
 
@@ -58,7 +56,7 @@ def test_the_window_holds_the_wider_of_the_two_whichever_is_a():
 
 
 def test_what_is_on_screen_is_a_or_b_or_their_difference():
-    a, b, d = (answers(replace(PAIR, shown=side), "settled", VIEWS).seen for side in ("a", "b", "difference"))
+    a, b, d = (answers(changed(PAIR, shown=side), "settled", VIEWS).seen for side in ("a", "b", "difference"))
     peak = max(a.psf.values.max(), b.psf.values.max())
     assert np.array_equal(d.difference.psf, (a.psf.values - b.psf.values) / peak)
     assert d.difference.psf.sum() == approx(0, abs=1e-5 / peak)  # both of unit sum in float32
@@ -72,7 +70,7 @@ def test_what_is_on_screen_is_a_or_b_or_their_difference():
 
 
 def test_stopped_down_the_difference_of_contrast_ends_where_the_wider_one_does():
-    sides = (replace(PAIR, shown=side) for side in ("a", "b", "difference"))
+    sides = (changed(PAIR, shown=side) for side in ("a", "b", "difference"))
     a, b, d = (answers(state, "settled", VIEWS).seen.views["mtf"] for state in sides)
     assert b.frequency_per_mm[-1] < a.frequency_per_mm[-1]  # the cut-off 2NA/λ halves from f/4 to f/8
     beyond = a.frequency_per_mm > b.frequency_per_mm[-1]
@@ -81,7 +79,7 @@ def test_stopped_down_the_difference_of_contrast_ends_where_the_wider_one_does()
 
 
 def test_equal_setups_differ_nowhere():
-    found = answers(replace(pin(A), shown="difference"), "settled", VIEWS).seen.difference
+    found = answers(changed(pin(A), shown="difference"), "settled", VIEWS).seen.difference
     assert not found.psf.any()
     assert not np.nan_to_num(found.pupil.waves).any()
     assert contrasts(pin(A)) == ()
@@ -97,13 +95,13 @@ UNLIKE = {
 @pytest.mark.parametrize("name", OPTICS)
 def test_whatever_makes_another_picture_is_named(name):
     """B differs from A in one entry of what makes a picture: the strip must not call the two the same."""
-    value = (lenses_folder() / f"{A.lens}.toml").read_text("utf-8") if name == "lens_text" else UNLIKE[name]
-    title, a, b = contrasts(replace(pin(A), **{name: value}))[0]
+    value = (lenses_folder() / f"{A.optics.lens}.toml").read_text("utf-8") if name == "lens_text" else UNLIKE[name]
+    title, a, b = contrasts(changed(pin(A), **{name: value}))[0]
     assert title and a != b
 
 
 def test_two_methods_are_put_on_one_grid():
-    state = replace(pin(replace(A, method="traced")), method="seidel", shown="difference")
+    state = changed(pin(changed(A, method="traced")), method="seidel", shown="difference")
     found = answers(state, "settled", {}).seen.difference
     # On axis-like 5° at f/4 the fourth-order wavefront and the exact one agree to a wave over most of the pupil.
     assert np.isfinite(found.pupil.waves).mean() > 0.6
@@ -133,7 +131,7 @@ def test_ctrl_b_pins_and_every_panel_shows_the_side_asked_for(both, qtbot):
     shown = {}
     for side, button in bar.sides.items():
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-        assert both.store.state.shown == side
+        assert both.store.state.compare.shown == side
         shown[side] = {
             "psf": panels["psf"].map.indices.copy(),
             "pupil": panels["pupil"].map.indices.copy(),
@@ -157,8 +155,8 @@ def test_a_linked_slider_moves_both_and_is_one_undo(both, drag):
     before = both.store.state
     drag(both.controls.rows["field_deg"].slider, 0.3)
     state = both.store.state
-    assert state.field_deg == state.pinned.field_deg != before.field_deg
-    assert (state.f_number, state.pinned.f_number) == (4.0, 8.0)
+    assert state.optics.field_deg == state.compare.pinned.optics.field_deg != before.optics.field_deg
+    assert (state.optics.f_number, state.compare.pinned.optics.f_number) == (4.0, 8.0)
     both.store.undo()
     assert both.store.state == before
 
@@ -166,7 +164,7 @@ def test_a_linked_slider_moves_both_and_is_one_undo(both, drag):
 def test_swap_gives_the_controls_the_other_one(both, qtbot):
     qtbot.mouseClick(both.compare.swap, Qt.MouseButton.LeftButton)
     assert both.controls.rows["f_number"].edit.text() == "f/8.00"
-    assert both.live.state.f_number == 8.0
+    assert both.live.state.optics.f_number == 8.0
 
 
 def test_what_a_panel_shows_of_b_is_not_put_into_a(both, qtbot):
@@ -179,12 +177,12 @@ def test_what_a_panel_shows_of_b_is_not_put_into_a(both, qtbot):
         assert both.store.state == before and both.banner.isVisible()
     both.panels["psf"].scale.setCurrentIndex(0)
     both.panels["psf"].scale.activated.emit(0)
-    assert both.store.state.psf_scale == "linear", "looks are common to both"
+    assert both.store.state.display.psf_scale == "linear", "looks are common to both"
     both.controls.rows["sensor_shift_um"].edit.committed.emit("40")
-    assert both.store.state.sensor_shift_um == 40.0, "the controls show A and move it"
+    assert both.store.state.optics.sensor_shift_um == 40.0, "the controls show A and move it"
     both.store.update(shown="a")
     qtbot.keyClick(chart, Qt.Key.Key_Right)
-    assert both.store.state.sensor_shift_um > 40.0
+    assert both.store.state.optics.sensor_shift_um > 40.0
 
 
 def test_b_stands_still_while_a_is_dragged(both):

@@ -18,10 +18,12 @@ from p2sf_explorer.panels import REGISTRY, view_of
 from p2sf_explorer.results.first_order import aperture, distance, length, pupil, stop
 from p2sf_explorer.results.through_focus import answer
 from p2sf_explorer.state.pinning import side_b
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 
 ENTRIES = {entry.key: entry for entry in REGISTRY}
-PAIR = State(method="seidel", f_number=4.0, field_deg=5.0, theme="light", pinned=State(method="seidel", f_number=8.0))
+PAIR = new_state(
+    method="seidel", f_number=4.0, field_deg=5.0, theme="light", pinned=new_state(method="seidel", f_number=8.0)
+)
 STOP = Stop(np.asarray(6), np.asarray(9.0), np.asarray(6), "file")
 STILL = ("solid", "image", "database", "accuracy", "colour")  # OpenGL, or seconds of work; their sentences are the same
 
@@ -29,8 +31,8 @@ STILL = ("solid", "image", "database", "accuracy", "colour")  # OpenGL, or secon
 @pytest.fixture(scope="module")
 def views():
     wanted = {key: view_of(ENTRIES[key]) for key in SUBTRACTED}
-    a, b = (compute.live(side, "preview", wanted).views for side in (replace(PAIR, pinned=None), side_b(PAIR)))
-    return a, b, answers(replace(PAIR, shown="difference"), "preview", wanted).seen.views
+    a, b = (compute.live(side, "preview", wanted).views for side in (changed(PAIR, pinned=None), side_b(PAIR)))
+    return a, b, answers(changed(PAIR, shown="difference"), "preview", wanted).seen.views
 
 
 def test_every_panel_either_differs_or_says_why():
@@ -42,7 +44,7 @@ def test_every_panel_either_differs_or_says_why():
 
 
 def test_in_the_window_every_panel_names_its_side_and_says_why(window):
-    window.store.replace(replace(PAIR, shown="difference"))
+    window.store.replace(changed(PAIR, shown="difference"))
     for key in (key for key in ENTRIES if key not in STILL):
         window.store.update(tab=key if ENTRIES[key].place == "tab" else "profiles")
         card = window.panels[key].widget
@@ -52,7 +54,7 @@ def test_in_the_window_every_panel_names_its_side_and_says_why(window):
     window.store.update(shown="b", tab="profiles")
     assert window.panels["layout"].widget.title.text() == "Layout · B"
     assert not window.panels["layout"].widget.note.isVisible()
-    window.store.replace(replace(PAIR, pinned=None))
+    window.store.replace(changed(PAIR, pinned=None))
     assert window.panels["layout"].widget.title.text() == "Layout"
 
 
@@ -69,7 +71,7 @@ def test_fans_and_sums_per_surface_are_taken_from_each_other(views):
 
 def test_a_lens_with_other_surfaces_has_no_sums_to_take_away(views):
     other = compute.live(
-        State(lens="cooke_triplet", method="seidel"), "preview", {"seidel": view_of(ENTRIES["seidel"])}
+        new_state(lens="cooke_triplet", method="seidel"), "preview", {"seidel": view_of(ENTRIES["seidel"])}
     )
     shown, why = subtracted("seidel", views[0]["seidel"], other.views["seidel"])
     assert shown is views[0]["seidel"] and why.values == {"a": 11, "b": 6}

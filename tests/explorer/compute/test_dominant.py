@@ -10,7 +10,7 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf_explorer.compute.pupil import disc, dominant, strongest, variance_parts
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER, remedy
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, new_state
 
 ZERO = replace(paraxial_setup(State()).coefficients, w40=0.0, w31=0.0, w22=0.0, w20=0.0, wd=0.0, w11=0.0)
 
@@ -53,8 +53,8 @@ def test_what_pulls_against_the_blur_has_no_share_of_it():
 @pytest.mark.parametrize(
     ("state", "words", "advice"),
     [
-        (State(lens="wide_angle_35"), "spherical aberration", NEARER),
-        (State(depth_mm=1500.0), "defocus", TOGETHER),
+        (new_state(lens="wide_angle_35"), "spherical aberration", NEARER),
+        (new_state(depth_mm=1500.0), "defocus", TOGETHER),
     ],
 )
 def test_the_advice_fits_what_is_said_to_blur_most(state, words, advice):

@@ -1,7 +1,5 @@
 """The picture while a slider moves is near the exact one, by as few numbers as do, and says by how many."""
 
-from dataclasses import replace
-
 import pytest
 
 from p2sf.psf.compare import r_squared
@@ -12,13 +10,14 @@ from p2sf_explorer.compute import preview as quick
 from p2sf_explorer.compute.method import ray_window_um
 from p2sf_explorer.compute.preview import best_fit, landing_um, preview_psf
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
+from p2sf_explorer.state.state import changed
 
 PIXELS = 64
 
 
 def moving(lens, **changes):
     """Return what moves, its window, and the exact picture in it."""
-    setup = paraxial_setup(replace(default_state(lens), **changes))
+    setup = paraxial_setup(changed(default_state(lens), **changes))
     made = quick.preview(setup)
     window = PIXELS, ray_window_um(setup, landing_um(made.rays)) / PIXELS
     return made, window, render(setup.lens, setup.source, "traced", *window).values
@@ -50,7 +49,7 @@ def test_where_no_fit_comes_near_exact_rays_make_the_picture(monkeypatch):
 
 
 def test_a_fit_of_more_rays_is_left_where_one_of_them_is_lost(monkeypatch):
-    made = quick.preview(paraxial_setup(replace(default_state("telephoto"), f_number=4.5, field_deg=0.0)))
+    made = quick.preview(paraxial_setup(changed(default_state("telephoto"), f_number=4.5, field_deg=0.0)))
     assert best_fit(made).numbers == 72
 
     def lost(*_, **__):

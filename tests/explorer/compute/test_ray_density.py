@@ -11,9 +11,9 @@ from p2sf_explorer.compute.ray_density import density, exact_landing, finely, ge
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER
 from p2sf_explorer.state.limits import CHOICES
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 
-BLURRED = State(depth_mm=1500.0, focus_mm=None, field_deg=8.0, method="fitted")
+BLURRED = new_state(depth_mm=1500.0, focus_mm=None, field_deg=8.0, method="fitted")
 
 
 def moments(psf) -> np.ndarray:
@@ -42,7 +42,7 @@ def test_the_density_has_the_moments_of_the_spot():
 
 
 def test_pure_defocus_is_an_even_disc_of_the_known_size():
-    setup = paraxial_setup(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
+    setup = paraxial_setup(new_state(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
     c = setup.coefficients
     radius = abs(2 * float(c.wd + c.w40) * setup.source.wavelength_um / float(c.reduced_slope))
     psf = geometric_psf(setup, False, (64, 2.4 * radius / 64))
@@ -55,7 +55,7 @@ def test_pure_defocus_is_an_even_disc_of_the_known_size():
     ("exact", "quality", "pixels"), [(True, "settled", 128), (False, "settled", 128), (True, "preview", 64)]
 )
 def test_an_even_blur_has_neither_a_hole_nor_rings(exact, quality, pixels):
-    setup = paraxial_setup(State(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
+    setup = paraxial_setup(new_state(depth_mm=1500.0, field_deg=0.0, f_number=22.0, method="seidel"))
     c = setup.coefficients
     radius = abs(2 * float(c.wd + c.w40) * setup.source.wavelength_um / float(c.reduced_slope))
     psf = geometric_psf(setup, exact, (pixels, 2.4 * radius / pixels), quality)
@@ -105,12 +105,12 @@ def test_the_window_says_that_it_shows_rays_only():
     assert answer.psf.method == "geometric"
     assert "ray density, no diffraction" in str(answer.why)
     assert any("ray density, no diffraction" in str(sentence) for sentence in answer.warnings)
-    assert not any("ray density" in str(sentence) for sentence in live(State(method="fitted")).warnings)
+    assert not any("ray density" in str(sentence) for sentence in live(new_state(method="fitted")).warnings)
 
 
 @pytest.mark.parametrize("name", ["wide_angle_35", "fast_gauss_f14"])
 def test_a_few_far_rays_do_not_shrink_the_picture_to_a_dot(name):
-    state = State(lens=name)
+    state = new_state(lens=name)
     answer = live(state)
     half = answer.psf.pixel_um * answer.psf.values.shape[0] / 2
     assert answer.psf.method == "geometric"
@@ -135,5 +135,5 @@ FRONT_FOCUS_MM = 29.32063039659634  # the depth whose image the default lens put
 @pytest.mark.parametrize("method", CHOICES["method"])
 def test_an_object_in_the_front_focal_plane_is_the_same_sentence_by_every_method(method, quality):
     with pytest.raises(GeometryError, match=r"lies at infinity .*; move the object or refocus"):
-        live(State(depth_mm=FRONT_FOCUS_MM, method=method), quality)
-    assert live(State(depth_mm=FRONT_FOCUS_MM * (1 + 1e-12), method=method), quality).psf.values.sum() > 0.5
+        live(new_state(depth_mm=FRONT_FOCUS_MM, method=method), quality)
+    assert live(new_state(depth_mm=FRONT_FOCUS_MM * (1 + 1e-12), method=method), quality).psf.values.sum() > 0.5

@@ -4,7 +4,6 @@ import json
 import os
 import shutil
 import zipfile
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -21,7 +20,7 @@ from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.snapshot import write_state
 from p2sf_explorer.i18n.language import texts
 from p2sf_explorer.results.import_report import described
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 
 FILES = Path(__file__).parents[2] / "data" / "import"
 FOREIGN = ("bench.txt", "doublet.seq", "doublet.zmx", "gauss.dat", "singlet.csv", "triplet.json")
@@ -53,7 +52,7 @@ def drop(window, path) -> None:
 def test_every_kind_of_file_dropped_shows_its_lens_and_report(window, name):
     drop(window, FILES / name)
     assert not window.banner.isVisible()
-    assert window.live.state.lens == str(FILES / name)
+    assert window.live.state.optics.lens == str(FILES / name)
     text = window.panels["import"].text.toPlainText()
     assert name in text
     assert "Read" in text
@@ -77,12 +76,12 @@ def test_a_zipped_lens_from_the_open_dialog_by_its_key(window, qtbot, tmp_path, 
     window.activateWindow()
     qtbot.waitUntil(window.isActiveWindow)  # a shortcut answers in the active window only
     qtbot.keyClick(window, Qt.Key.Key_O, Qt.KeyboardModifier.ControlModifier)
-    assert window.live.state.lens == str(path)
+    assert window.live.state.optics.lens == str(path)
     assert "lens.zmx" in window.panels["import"].text.toPlainText()
 
 
 def test_a_state_is_known_by_its_content_not_its_ending(window, tmp_path):
-    state = State(lens="tessar", field_deg=3.0, method="seidel", theme="light")
+    state = new_state(lens="tessar", field_deg=3.0, method="seidel", theme="light")
     path = Path(shutil.move(write_state(state, tmp_path / "a.json"), tmp_path / "state.txt"))
     drop(window, path)
     assert window.store.state == state
@@ -105,11 +104,11 @@ def test_opening_is_one_undo(window, name):
     ],
 )
 def test_a_file_that_is_no_lens_is_refused_in_banner_and_report(window, tmp_path, name, text, words):
-    lens = window.store.state.lens
+    lens = window.store.state.optics.lens
     path = tmp_path / name
     path.write_text(text)
     drop(window, path)
-    assert window.store.state.lens == lens
+    assert window.store.state.optics.lens == lens
     assert words in window.banner.text.text().lower()
     report = window.panels["import"]
     assert "Refused" in report.text.toPlainText()
@@ -127,7 +126,7 @@ def test_substitutes_need_consent_and_then_count_as_an_edit(window, qtbot, obsol
     assert "accept a substitute" in window.banner.text.text()
     assert "With consent: substituted" in report.text.toPlainText()
     qtbot.mouseClick(report.accept, Qt.MouseButton.LeftButton)
-    assert window.live.state.lens == str(obsolete)
+    assert window.live.state.optics.lens == str(obsolete)
     assert window.live.setup.lens.surfaces[0].medium.label == "SCHOTT N-BK7"
     assert window.top.edited.isVisible()
     assert not report.accept.isVisible()
@@ -137,7 +136,7 @@ def test_the_report_of_a_shipped_lens_and_of_a_lens_whose_file_is_gone(window, z
     window.open_panel("import")
     assert "exactly as written" in window.panels["import"].text.toPlainText()
     lens_text = (lenses_folder() / "tessar.toml").read_text()
-    window.store.replace(replace(window.store.state, lens="/nowhere/mine.zmx", lens_text=lens_text))
+    window.store.replace(changed(window.store.state, lens="/nowhere/mine.zmx", lens_text=lens_text))
     assert not window.banner.isVisible()
     assert "not on this computer" in window.panels["import"].text.toPlainText()
 
@@ -179,7 +178,7 @@ def test_recent_files_are_listed_newest_first_and_open(window, tmp_path):
     entries = [action for action in window.top.open.menu().actions() if action.toolTip().startswith(str(tmp_path))]
     assert [action.toolTip() for action in entries] == [str(path) for path in reversed(paths)]
     entries[-1].trigger()
-    assert window.store.state.lens == str(paths[0])
+    assert window.store.state.optics.lens == str(paths[0])
     assert recent_files()[0] == str(paths[0])
 
 

@@ -22,7 +22,8 @@ from p2sf_explorer.files.embedded_state import PNG_HEADER, foreign, state_inside
 from p2sf_explorer.files.opening import opened
 from p2sf_explorer.files.snapshot import DATA_ENDINGS
 from p2sf_explorer.shell.display import NO_DISPLAY, display_problem
-from p2sf_explorer.state.state import State, read_state
+from p2sf_explorer.state.state import State, new_state
+from p2sf_explorer.state.state_files import read_state
 from p2sf_explorer.widgets.copying import png_of
 from tests.explorer.conftest import FIRST
 from tests.support.waves import waves
@@ -61,7 +62,7 @@ def drop(window, path) -> None:
 SETUPS = {
     "plain": {},
     "by hand": {"added_waves": (0.5, -1.0, 0.0, 0.0, 0.25, 0.0), "muted": ("w22",), "free_pupil": True},
-    "compared": {"pinned": State(method="seidel", f_number=8.0), "shown": "b"},
+    "compared": {"pinned": new_state(method="seidel", f_number=8.0), "shown": "b"},
     "edited": {"lens_text": lens_to_toml(find_lens("cooke_triplet")).replace("Cooke", "Cooke & Söhne's ")},
 }
 

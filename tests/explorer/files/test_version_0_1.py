@@ -10,7 +10,8 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.files import session
 from p2sf_explorer.files.opening import opened
 from p2sf_explorer.state.link import state_of_link
-from p2sf_explorer.state.state import State, read_state, state_to_dict
+from p2sf_explorer.state.state import ENTRIES, State, entry
+from p2sf_explorer.state.state_files import RENAMED, read_state
 from tests.support.reference import DATA
 
 FILES = DATA / "version_0_1"
@@ -20,8 +21,17 @@ SNAPSHOTS = sorted(FILES.glob("snapshot_*.*"))
 
 
 def entries(state: State) -> dict:
-    """Return a state's entries under the names that version 0.1 gave them."""
-    return state_to_dict(state)
+    """Return a state's entries under the names, and as the plain values, that version 0.1 gave them."""
+    old = {new: name for name, new in RENAMED.items()}
+    return {old.get(name, name): plain(entry(state, name)) for name in ENTRIES}
+
+
+def plain(value):
+    if isinstance(value, State):
+        return entries(value)
+    if isinstance(value, tuple):
+        return [plain(item) for item in value]
+    return "inf" if value == inf else value
 
 
 @pytest.mark.parametrize("name", EXPECTED)

@@ -21,7 +21,7 @@ from p2sf_explorer.shell.command_palette import named
 from p2sf_explorer.shell.help import help_text
 from p2sf_explorer.shell.language_switch import LanguageSwitch
 from p2sf_explorer.shell.window import MainWindow
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, new_state
 
 ROOT = Path(__file__).parents[3]
 LETTERS = re.compile(r"[^\W\d_]{3}")
@@ -70,12 +70,12 @@ def is_german(text: str) -> bool:
 @pytest.fixture(scope="module")
 def german(only_window):
     """Return a German window, every panel of which was opened, and its translator."""
-    only_window.store.replace(State(method="seidel"))  # a file's warnings left there would be heard in English
+    only_window.store.replace(new_state(method="seidel"))  # a file's warnings left there would be heard in English
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(languages, "Translation", Listening)
         patch.setattr(SolidPanel, "_probe", lambda panel: None)  # the renderer says nothing
         set_language("de")
-        made = MainWindow(State(method="seidel", theme="light", language="de", f_number=8.0), measured=False)
+        made = MainWindow(new_state(method="seidel", theme="light", language="de", f_number=8.0), measured=False)
         made.resize(1440, 900)
         made.show()
         for entry in REGISTRY:
@@ -172,7 +172,7 @@ def test_a_change_of_language_reopens_the_window_and_undo_brings_it_back(only_wi
     def made(state):
         return MainWindow(state, measured=False)
 
-    switch = LanguageSwitch(State(method="seidel", language="en"), made)
+    switch = LanguageSwitch(new_state(method="seidel", language="en"), made)
     try:
         first = switch.window
         first.store.update(field_deg=7.0)
@@ -184,7 +184,7 @@ def test_a_change_of_language_reopens_the_window_and_undo_brings_it_back(only_wi
         switch.reopen()
         assert current_language() == "en" and switch.window.top.undo.text() == "Undo"
         switch.window.store.undo()
-        assert switch.window.store.state.field_deg == 10.0
+        assert switch.window.store.state.optics.field_deg == 10.0
     finally:
         set_language("en")
         switch.window.close()

@@ -1,7 +1,5 @@
 """Lessons in the window: begun, gone through, answered and left by keyboard and mouse; the first start's offer."""
 
-from dataclasses import replace
-
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
@@ -9,6 +7,7 @@ from PySide6.QtWidgets import QLabel
 from p2sf_explorer.lessons.controller import NOTHING_BEFORE, LessonController
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
+from p2sf_explorer.state.state import changed
 
 FIRST, SECOND = shipped_lessons()[:2]
 ALT = Qt.KeyboardModifier.AltModifier
@@ -17,7 +16,7 @@ ALT = Qt.KeyboardModifier.AltModifier
 @pytest.fixture
 def teaching(window):
     yield window.teaching
-    if window.store.state.lesson:
+    if window.store.state.lesson.name:
         window.teaching.leave()
 
 
@@ -53,7 +52,7 @@ def test_leaving_once_more_after_undo_still_puts_back_what_was_before(window, qt
     window.teaching.move(1)
     teaching.leave()
     window.store.undo()
-    assert window.store.state.lesson == FIRST.name
+    assert window.store.state.lesson.name == FIRST.name
     teaching.leave()
     assert window.store.state == before
 
@@ -65,21 +64,21 @@ def test_where_nothing_was_before_the_lesson_stays_and_says_so(window, teaching)
     window.store.said.connect(told.append)
     teaching.leave()
     window.store.said.disconnect(told.append)
-    assert window.store.state == replace(kept, lesson="") and told == [NOTHING_BEFORE]
+    assert window.store.state == changed(kept, lesson_name="") and told == [NOTHING_BEFORE]
 
 
 def test_next_and_back_set_the_window_and_keys_do_the_same(window, qtbot, panel):
     qtbot.mouseClick(panel.next, Qt.MouseButton.LeftButton)
-    assert window.store.state == FIRST.state(1, window.store.state) and window.live.state.field_deg == 10
+    assert window.store.state == FIRST.state(1, window.store.state) and window.live.state.optics.field_deg == 10
     assert shown(panel.count) == f"step 2 of {len(FIRST.steps)}"
     window.store.update(field_deg=12.0)
     qtbot.keyClick(window, Qt.Key.Key_Right, ALT)
     qtbot.keyClick(window, Qt.Key.Key_Left, ALT)
-    assert window.store.state.field_deg == 10  # a step is what its file says, whatever was dragged before
+    assert window.store.state.optics.field_deg == 10  # a step is what its file says, whatever was dragged before
     qtbot.mouseClick(panel.back, Qt.MouseButton.LeftButton)
-    assert window.store.state.lesson_step == 0 and not panel.back.isEnabled()
+    assert window.store.state.lesson.step == 0 and not panel.back.isEnabled()
     window.teaching.move(-1)
-    assert window.store.state.lesson_step == 0
+    assert window.store.state.lesson.step == 0
 
 
 def test_the_answer_is_hidden_until_asked_for(window, qtbot, panel):
@@ -105,12 +104,12 @@ def test_the_slider_of_the_step_is_pointed_to(window, qtbot, panel):
 def test_after_the_last_step_comes_the_next_lesson_and_the_list_leads_to_any(window, qtbot, panel, teaching):
     for _ in FIRST.steps:
         teaching.move(1)
-    assert window.store.state.lesson == SECOND.name and window.store.state.lens == SECOND.lens
+    assert window.store.state.lesson.name == SECOND.name and window.store.state.optics.lens == SECOND.lens
     panel.choice.setCurrentIndex(len(shipped_lessons()) - 1)
     panel.choice.activated.emit(panel.choice.currentIndex())
     last = shipped_lessons()[-1]
-    assert window.store.state.lesson == last.name
-    before = window.store.latest(lambda state: not state.lesson)
+    assert window.store.state.lesson.name == last.name
+    before = window.store.latest(lambda state: not state.lesson.name)
     for _ in last.steps:
         teaching.move(1)
     assert window.store.state == before
@@ -123,7 +122,7 @@ def test_every_step_of_every_lesson_is_painted(window, teaching, lesson):
         assert window.live.state == lesson.state(number, window.store.state)
         assert not window.banner.isVisible()
         assert shown(teaching.panel.title) == step.title
-        assert window.tabs.current() == window.store.state.tab
+        assert window.tabs.current() == window.store.state.display.tab
         teaching.move(1)
 
 
@@ -133,10 +132,10 @@ def test_paragraphs_stand_apart_and_emphasis_is_seen(qapp):
 
 
 def test_a_state_that_names_an_unknown_lesson_opens_without_one(window, teaching):
-    window.store.update(lesson="99_gone", lesson_step=5)
+    window.store.update(lesson_name="99_gone", lesson_step=5)
     assert teaching.panel is None or not teaching.panel.isVisible()
     teaching.move(1)
-    window.store.update(lesson=FIRST.name, lesson_step=50)
+    window.store.update(lesson_name=FIRST.name, lesson_step=50)
     assert shown(teaching.panel.title) == FIRST.steps[-1].title
 
 
@@ -155,7 +154,7 @@ def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, 
     offer = teaching.offer
     assert offer.isVisible()
     qtbot.mouseClick(offer.start, Qt.MouseButton.LeftButton)
-    assert window.store.state.lesson == FIRST.name and not offer.isVisible()
+    assert window.store.state.lesson.name == FIRST.name and not offer.isVisible()
     teaching.leave()
     again = LessonController(window.store, window, window.lesson_room)
     again.offer_once()

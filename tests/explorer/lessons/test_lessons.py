@@ -10,12 +10,12 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import prescription, ranges
-from p2sf_explorer.lessons.changes import changed
+from p2sf_explorer.lessons.changes import applied
 from p2sf_explorer.lessons.claims import Claim, holds, measured, parse_claim
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, parse_lesson, read_lesson, shipped_lessons
 from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.panels import REGISTRY
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import Optics, new_state
 
 FILES = lesson_files()
 
@@ -80,7 +80,7 @@ def test_every_step_has_a_picture_a_panel_and_something_to_read(lesson):
     for number, step in enumerate(lesson.steps):
         state = lesson.state(number)
         assert compute.live(state, "preview").psf.values.sum() == pytest.approx(1, abs=1e-3)
-        assert state.tab in TABS and set(state.windows) <= TABS
+        assert state.display.tab in TABS and set(state.display.windows) <= TABS
         assert step.title and (step.text or step.attempt)
 
 
@@ -89,11 +89,11 @@ def test_whatever_a_lesson_sets_can_be_set_by_the_slider(lesson):
     """A value beyond the slider's end jumps to the end at the first touch, and nobody can drag it "on"."""
     for number, step in enumerate(lesson.steps):
         first = lesson.state(number)
-        for state in (first, *(changed(first, claim.first) for claim in step.claims)):
+        for state in (first, *(applied(first, claim.first) for claim in step.claims)):
             limits = ranges(prescription(state))
             for quantity in QUANTITIES:
                 value, scale = quantity.shown(state, limits), quantity.scale(limits)
-                if quantity.key == "focus_mm" and state.focus_mm is None and value < 0:
+                if quantity.key == "focus_mm" and state.optics.focus_mm is None and value < 0:
                     value = inf  # the file's sensor, nearer than the image of ∞: the slider's end is next to it
                     assert step.move != quantity.key
                 assert scale.value(scale.travel(value)) == pytest.approx(value), f"step {number + 1}: {quantity.title}"
@@ -114,12 +114,12 @@ def test_the_course_is_whole():
 def test_steps_go_on_from_one_another_and_a_lens_begins_anew():
     lesson = parsed(GOOD)
     first, second = lesson.state(0), lesson.state(1)
-    assert (first.f_number, first.field_deg, first.solo) == (12.0, 3.0, ("w31", "w22"))
-    assert (second.f_number, second.field_deg) == (None, 3.0)
-    assert (first.lesson, second.lesson_step) == ("one", 1)
+    assert (first.optics.f_number, first.optics.field_deg, first.what_if.solo) == (12.0, 3.0, ("w31", "w22"))
+    assert (second.optics.f_number, second.optics.field_deg) == (None, 3.0)
+    assert (first.lesson.name, second.lesson.step) == ("one", 1)
     third = parsed(GOOD + "## Third\nset: lens singlet_f6\n").state(2)
-    assert third.lens == "singlet_f6" and third.f_number is None and third.field_deg != 3.0
-    assert lesson.state(0, State(theme="dark")).theme == "dark"
+    assert third.optics.lens == "singlet_f6" and third.optics.f_number is None and third.optics.field_deg != 3.0
+    assert lesson.state(0, new_state(theme="dark")).display.theme == "dark"
 
 
 def test_a_step_is_read_whole():
@@ -130,7 +130,7 @@ def test_a_step_is_read_whole():
 
 def test_a_lens_may_lie_beside_its_lesson():
     lesson = next(lesson for lesson in LESSONS if lesson.name == "08_the_stop")
-    assert Path(lesson.state(1).lens) == FOLDER / "landscape_front.toml"
+    assert Path(lesson.state(1).optics.lens) == FOLDER / "landscape_front.toml"
 
 
 @pytest.mark.parametrize(
@@ -204,8 +204,8 @@ def changes(text: str):
 
 def test_reading_an_entry_does_not_check_a_state_for_every_name_there_is(monkeypatch):
     """The fifty checks an entry cost held the window up for a third of a second when the lessons opened."""
-    made, check = [], State.__post_init__
-    monkeypatch.setattr(State, "__post_init__", lambda state: (made.append(state), check(state)))
+    made, check = [], Optics.__post_init__
+    monkeypatch.setattr(Optics, "__post_init__", lambda group: (made.append(group), check(group)))
     assert changes("field_deg 10, tab mtf") == (("field_deg", 10.0), ("tab", "mtf"))
     assert len(made) <= 8
 

@@ -1,7 +1,5 @@
 """The colour PSF on screen: which colour lies where."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
@@ -9,13 +7,13 @@ from PySide6.QtCore import Qt
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.results import colour
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 
-FIRST = State(method="seidel", theme="light")
+FIRST = new_state(method="seidel", theme="light")
 
 
 def asked(**changes):
-    question = colour.question(live(replace(FIRST, **changes), "preview"))
+    question = colour.question(live(changed(FIRST, **changes), "preview"))
     return question, colour.answer(question, lambda: False, lambda share, found: None)
 
 
@@ -55,7 +53,7 @@ def test_tungsten_is_redder_than_daylight():
 def test_the_sensor_stays_while_the_colours_change():
     question, _ = asked(focus_mm=2000.0)
     places = {
-        paraxial_setup(replace(question.state, wavelength_nm=nm)).lens.sensor_mm for nm in (450.0, 587.5618, 650.0)
+        paraxial_setup(changed(question.state, wavelength_nm=nm)).lens.sensor_mm for nm in (450.0, 587.5618, 650.0)
     }
     assert len(places) == 1
 
@@ -67,7 +65,7 @@ def test_the_hue_of_a_wavelength_is_its_own():
 
 def test_what_is_added_by_hand_is_one_path_in_every_colour():
     """A step of a micrometre is more waves of blue than of red: W·λ stays (Welford 1986, ch. 7)."""
-    state = replace(FIRST, free_pupil=True, added_waves=(0.5, 0.0, 0.0, 0.0, 1.0, 0.0))
+    state = changed(FIRST, free_pupil=True, added_waves=(0.5, 0.0, 0.0, 0.0, 1.0, 0.0))
     made = [paraxial_setup(colour.at_wavelength(state, nm)).coefficients for nm in (450.0, 587.5618, 650.0)]
     for term, waves in (("w40", 0.5), ("wd", 1.0)):
         paths = [float(getattr(c, term) * c.wavelength_um) for c in made]
@@ -96,16 +94,16 @@ def test_choosing_and_typing_a_spectrum(window, panel, qtbot):
     assert panel.choice.currentText() == "typed" and panel.typed.text() == "lines:486,656"
     panel.choice.setCurrentIndex(0)
     panel.choice.activated.emit(0)
-    assert window.store.state.spectrum == "d65" and panel.typed.text() == "d65"
+    assert window.store.state.display.spectrum == "d65" and panel.typed.text() == "d65"
     panel.typed.setFocus()
     panel.typed.selectAll()
     qtbot.keyClicks(panel.typed, "planck:4000")
     qtbot.keyClick(panel.typed, Qt.Key.Key_Return)
-    assert window.store.state.spectrum == "planck:4000"
+    assert window.store.state.display.spectrum == "planck:4000"
     panel.typed.selectAll()
     qtbot.keyClicks(panel.typed, "candle")
     qtbot.keyClick(panel.typed, Qt.Key.Key_Return)
-    assert "candle" in window.banner.text.text() and window.store.state.spectrum == "planck:4000"
+    assert "candle" in window.banner.text.text() and window.store.state.display.spectrum == "planck:4000"
     assert panel.typed.text() == "planck:4000"
     filled(panel, qtbot)
     assert panel.found[1].psf.spectrum == "planck:4000"

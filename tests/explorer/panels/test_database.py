@@ -14,11 +14,11 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import paraxial_setup, shipped
 from p2sf_explorer.results.database import ATLAS_DEFOCUS, answer, question
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 
 
 def asked(**changes):
-    return question(compute.live(State(method="seidel", **changes)))
+    return question(compute.live(new_state(method="seidel", **changes)))
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def panel(window, qtbot):
 @pytest.mark.parametrize("lens", ["double_gauss_28", "eye_navarro", "wide_angle_35"])
 def test_the_map_is_the_direct_evaluation(lens):
     found = answer(asked(lens=lens))
-    made = paraxial_setup(State(lens=lens, depth_mm=inf))
+    made = paraxial_setup(new_state(lens=lens, depth_mm=inf))
     with np.errstate(divide="ignore"):
         depths = np.minimum(1 / found.near, found.nodes.depths_mm[-1])
     slopes = slope_from_degrees(found.fields_deg)[:, None]
@@ -66,7 +66,7 @@ def test_every_shipped_lens_has_maps_and_an_atlas(lens):
 def test_the_atlas_stands_around_the_depth_in_focus():
     found = answer(asked(focus_mm=2000.0))
     depths = found.atlas.depths_mm
-    made = paraxial_setup(State(focus_mm=2000.0, depth_mm=2000.0))
+    made = paraxial_setup(new_state(focus_mm=2000.0, depth_mm=2000.0))
     wd = coefficients(made.lens, depths, 0.0, made.source.wavelength_um, made.stop).wd
     assert depths[len(depths) // 2] == pytest.approx(2000, rel=1e-3)  # Wd runs straight to that over the columns
     assert np.abs(wd).max() == pytest.approx(ATLAS_DEFOCUS, rel=0.05)
@@ -105,8 +105,8 @@ def test_clicking_a_cell_of_the_atlas_sets_depth_and_field(window, panel, qtbot)
     first, atlas = window.store.state, panel.atlas
     place = atlas.cell_rect(2, 5).center().toPoint()
     qtbot.mouseClick(atlas, Qt.MouseButton.LeftButton, pos=place)
-    assert window.store.state.depth_mm == panel._answer.atlas.depths_mm[5]
-    assert window.store.state.field_deg == panel._answer.atlas.fields_deg[2]
+    assert window.store.state.optics.depth_mm == panel._answer.atlas.depths_mm[5]
+    assert window.store.state.optics.field_deg == panel._answer.atlas.fields_deg[2]
     assert atlas.cell == (2, 5)
     window.store.undo()
     assert window.store.state == first
@@ -147,10 +147,10 @@ def test_dragging_on_the_map_sets_the_point_under_the_pointer(window, panel, qtb
     x, y = chart.to_pixels(4.0, 6.0)  # 250 mm, 6°
     qtbot.mouseClick(chart, Qt.MouseButton.LeftButton, pos=QPointF(float(x), float(y)).toPoint())
     pixel = chart.per_pixel()
-    assert 1000 / window.store.state.depth_mm == pytest.approx(4.0, abs=pixel)
-    assert window.store.state.field_deg == pytest.approx(6.0, abs=1.0)
+    assert 1000 / window.store.state.optics.depth_mm == pytest.approx(4.0, abs=pixel)
+    assert window.store.state.optics.field_deg == pytest.approx(6.0, abs=1.0)
     qtbot.mouseClick(chart, Qt.MouseButton.LeftButton, pos=QPointF(0.0, float(y)).toPoint())
-    assert window.store.state.depth_mm == inf
+    assert window.store.state.optics.depth_mm == inf
 
 
 def test_arrow_keys_choose_a_node_of_the_map_and_enter_sets_the_source_on_it(window, panel, qtbot):
@@ -159,10 +159,10 @@ def test_arrow_keys_choose_a_node_of_the_map_and_enter_sets_the_source_on_it(win
     chart.setFocus()
     for key in (Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Up):
         qtbot.keyClick(chart, key)
-    assert window.store.state.field_deg == 0.0
+    assert window.store.state.optics.field_deg == 0.0
     qtbot.keyClick(chart, Qt.Key.Key_Return)
-    assert window.store.state.field_deg == pytest.approx(float(np.sort(fields)[2]), abs=1e-6)
-    assert 1000 / window.store.state.depth_mm == pytest.approx(float(np.sort(near)[1]), rel=1e-6)
+    assert window.store.state.optics.field_deg == pytest.approx(float(np.sort(fields)[2]), abs=1e-6)
+    assert 1000 / window.store.state.optics.depth_mm == pytest.approx(float(np.sort(near)[1]), rel=1e-6)
 
 
 def test_arrow_keys_start_from_where_a_slider_has_put_the_source(window, panel, qtbot):
@@ -173,7 +173,7 @@ def test_arrow_keys_start_from_where_a_slider_has_put_the_source(window, panel, 
     window.store.update(field_deg=float(fields.max()))
     qtbot.keyClick(chart, Qt.Key.Key_Down)
     qtbot.keyClick(chart, Qt.Key.Key_Return)
-    assert window.store.state.field_deg == pytest.approx(float(np.sort(fields)[-2]), abs=1e-6)
+    assert window.store.state.optics.field_deg == pytest.approx(float(np.sort(fields)[-2]), abs=1e-6)
 
 
 def test_the_choosers_repaint(window, panel, qtbot):

@@ -33,13 +33,13 @@ from p2sf_explorer.results.image import (
     shown,
 )
 from p2sf_explorer.results.photos import channels_of, fitted, scene_values
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 
-FAST = State(method="seidel", photo_pixel_um=16.0, theme="light")
+FAST = new_state(method="seidel", photo_pixel_um=16.0, theme="light")
 
 
 def asked(**changes):
-    return question(compute.live(replace(FAST, **changes)))
+    return question(compute.live(changed(FAST, **changes)))
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +80,7 @@ def test_the_whole_field_uses_mirror_images_and_reaches_the_widest_chief_ray():
     assert scene.sensor.centred
     farthest = scene.sensor.corners_mm()[1]
     widest = np.tan(np.deg2rad(max(find_lens("singlet_f6").fields_deg)))
-    focal = compute.live(State(lens="singlet_f6", method="seidel")).setup.focal_length_mm
+    focal = compute.live(new_state(lens="singlet_f6", method="seidel")).setup.focal_length_mm
     assert farthest == pytest.approx(focal * widest, rel=0.05)  # 3 % kept back, and some distortion
     assert coarse(whole).headline.values == {"count": 12}  # 2 × 2 of 3 × 3 in three colours
 
@@ -95,7 +95,7 @@ def test_large_pixels_get_no_plan_and_small_ones_do():
 
 
 def test_sharpening_by_the_right_psfs_helps_and_by_the_axis_psf_does_not():
-    quick = coarse(asked(photo="siemens_star", photo_show="sharpened", field_deg=14.0))
+    quick = coarse(asked(photo_source="siemens_star", photo_show="sharpened", field_deg=14.0))
     blurred, own, axis = (dict(quick.notes)[Message("Sharpening")].values[name] for name in ("blurred", "own", "axis"))
     assert own > blurred + 3  # what knowing the PSF buys, in dB
     assert axis < own - 3
@@ -152,7 +152,7 @@ def test_a_blur_too_wide_to_wait_for_is_one_sentence():
 
 @pytest.mark.parametrize("name", ["relay", "eye_navarro", "landscape"])
 def test_other_lenses_have_a_picture(name):
-    state = replace(default_state(name), method="seidel", photo_pixel_um=16.0, field_deg=0.0)
+    state = changed(default_state(name), method="seidel", photo_pixel_um=16.0, field_deg=0.0)
     found = coarse(question(compute.live(state)))
     assert found.after.shape == (ROWS, COLUMNS, 3) and np.isfinite(found.after).all()
 
@@ -186,13 +186,13 @@ def test_dragging_the_split_is_one_undo_and_hovering_moves_the_psf(window, image
     for place in places[1:]:
         qtbot.mouseMove(split_view, place)
     qtbot.mouseRelease(split_view, Qt.MouseButton.LeftButton, pos=places[-1])
-    assert window.store.state.photo_split == pytest.approx(0.25, abs=1.5 / area.width())
+    assert window.store.state.photo.split == pytest.approx(0.25, abs=1.5 / area.width())
     window.store.undo()
-    assert window.store.state == first and split_view.split == first.photo_split
+    assert window.store.state == first and split_view.split == first.photo.split
     image_panel._look(0.0, 0.0)
     assert split_view.place == (0.0, 0.0)
     qtbot.keyClick(split_view, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
-    assert window.store.state.photo_split == pytest.approx(first.photo_split + 0.05)
+    assert window.store.state.photo.split == pytest.approx(first.photo.split + 0.05)
 
 
 def test_saving_writes_the_picture_and_the_state(window, image_panel, tmp_path):
@@ -204,7 +204,7 @@ def test_saving_writes_the_picture_and_the_state(window, image_panel, tmp_path):
 
 
 def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
-    window.store.update(photo="/nowhere/photo.png")
+    window.store.update(photo_source="/nowhere/photo.png")
     qtbot.waitUntil(lambda: "cannot be read" in image_panel.overlay.text, timeout=10000)
     assert image_panel.widget.readout.text() == "no picture"
     window.store.update(psf_scale="log")  # nothing the picture depends on
@@ -212,7 +212,7 @@ def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     assert not image_panel.save.isEnabled() and not image_panel.words.button.isEnabled()
     image_panel.save_as("/nowhere/out.png")
     assert "there is no picture yet" in window.banner.text.text().lower()
-    window.store.update(photo="text")
+    window.store.update(photo_source="text")
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=10000)
     assert not image_panel.overlay.text and image_panel.save.isEnabled() and image_panel.words.button.isEnabled()
 

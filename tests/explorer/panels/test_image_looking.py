@@ -34,19 +34,20 @@ from p2sf_explorer.results.image import (
     planning,
 )
 from p2sf_explorer.results.photos import cut_away, scene_values
+from p2sf_explorer.state.state import changed
 from p2sf_explorer.widgets.copying import png_of
 from p2sf_explorer.widgets.split_view import close_up, places
 
 
 def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):
-    split_view, split = image_panel.split_view, window.store.state.photo_split
+    split_view, split = image_panel.split_view, window.store.state.photo.split
     image_panel._look(100.0, 150.0)
     for key, place in (("Down", (108.0, 150.0)), ("Right", (108.0, 158.0)), ("Up", (100.0, 158.0))):
         qtbot.keyClick(split_view, getattr(Qt.Key, f"Key_{key}"))
         assert split_view.place == pytest.approx(place)
     image_panel._look(0.0, COLUMNS - 1.0)
     qtbot.keyClick(split_view, Qt.Key.Key_Right)
-    assert split_view.place == pytest.approx((0.0, COLUMNS - 1.0)) and window.store.state.photo_split == split
+    assert split_view.place == pytest.approx((0.0, COLUMNS - 1.0)) and window.store.state.photo.split == split
     wanted = local_psf(image_panel._answer, 0.0, COLUMNS - 1.0)
     assert np.array_equal(split_view.psf, pixels(np.sqrt(wanted)))
 
@@ -90,7 +91,7 @@ def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_th
 ):
     write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
     assert drop(image_panel.widget, tmp_path / "grey.png").isAccepted()
-    assert window.store.state.photo == str(tmp_path / "grey.png")
+    assert window.store.state.photo.source == str(tmp_path / "grey.png")
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
     assert image_panel.split_view.before[5, 5] & 0xFF == pytest.approx(188, abs=1)  # sRGB of half the light
     said = []
@@ -98,7 +99,7 @@ def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_th
     drop(image_panel.widget, tmp_path / "holiday.jpg")
     assert [message.values for message in said] == [{"file": "holiday.jpg"}]
     assert not drop(image_panel.widget, tmp_path / "lens.zmx").isAccepted()
-    window.store.update(photo="text")
+    window.store.update(photo_source="text")
 
 
 def test_a_photo_dropped_beside_the_open_panel_is_photographed_and_a_snapshot_still_opens(
@@ -107,12 +108,12 @@ def test_a_photo_dropped_beside_the_open_panel_is_photographed_and_a_snapshot_st
     before = window.store.state
     write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
     assert drop(window, tmp_path / "grey.png").isAccepted()
-    assert window.store.state == replace(before, photo=str(tmp_path / "grey.png"))
+    assert window.store.state == changed(before, photo_source=str(tmp_path / "grey.png"))
     assert not window.banner.isVisible()
-    window.store.update(photo="text")
-    write_picture(replace(before, field_deg=7.0), png_of(window), tmp_path / "snapshot.png")
+    window.store.update(photo_source="text")
+    write_picture(changed(before, field_deg=7.0), png_of(window), tmp_path / "snapshot.png")
     drop(window, tmp_path / "snapshot.png")
-    assert window.store.state.field_deg == 7.0 and window.store.state.photo == "text"
+    assert window.store.state.optics.field_deg == 7.0 and window.store.state.photo.source == "text"
 
 
 def test_the_plan_is_told_behind_a_button_and_a_few_words_stand_under_the_controls(window, image_panel):
@@ -201,7 +202,7 @@ def test_another_photo_is_made_by_the_plan_there_is(window, image_panel, orders,
     )
     by_plan = replace(image_panel._answer, quality="planned", plan=plan)
     image_panel._on_answer(image_panel._asked, by_plan)
-    window.store.update(photo="siemens_star")
+    window.store.update(photo_source="siemens_star")
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
     assert image_panel._answer.plan is by_plan.plan and image_panel._answer.lattice is by_plan.lattice and not orders
     assert np.array_equal(image_panel._answer.before, scene_values("siemens_star", (ROWS, COLUMNS)))
@@ -234,7 +235,7 @@ def test_a_docked_panel_in_a_small_window_gives_the_picture_its_height(window, i
 
 def test_a_photo_of_other_proportions_is_cut_and_the_panel_says_where(window, image_panel, qtbot, tmp_path):
     write_photo(tmp_path / "wide.png", np.full((20, 60, 3), 0.5, np.float32))
-    window.store.update(photo=str(tmp_path / "wide.png"))
+    window.store.update(photo_source=str(tmp_path / "wide.png"))
     qtbot.waitUntil(lambda: not image_panel._stale(), timeout=30000)
     assert image_panel._answer.cut == Message("sides of the photo cut off")
     assert image_panel.headline.text().startswith("Sides of the photo cut off")

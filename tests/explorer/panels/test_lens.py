@@ -1,6 +1,5 @@
 """Field curves, chromatic shift, y–ȳ, first-order data and depth of field: what is painted against the physics."""
 
-from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -15,9 +14,9 @@ from p2sf_explorer.results.depth_of_field import axial_heights, depth_of_field, 
 from p2sf_explorer.results.field import field_curves
 from p2sf_explorer.results.first_order import first_order
 from p2sf_explorer.state.scales import told_apart
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 
-PAINTED = State(theme="light", method="seidel")
+PAINTED = new_state(theme="light", method="seidel")
 
 
 def opened(window, tab, **changes):
@@ -46,7 +45,7 @@ def test_focal_surfaces_move_with_the_sensor(window):
 
 @pytest.mark.parametrize(("lens", "word"), [("double_gauss_28", "barrel"), ("telephoto", "pincushion")])
 def test_distortion_bends_the_grid_the_way_its_sign_says(lens, word):
-    view = field_curves(live(replace(with_lens(PAINTED, lens), method="seidel")))
+    view = field_curves(live(changed(with_lens(PAINTED, lens), method="seidel")))
     corner, own = np.nanmax(np.hypot(*view.bent.T)), np.nanmax(np.hypot(*view.straight.T))
     share = view.heights.distortion[np.isfinite(view.heights.distortion)][-1]
     assert (share < 0) == (word == "barrel")
@@ -135,7 +134,7 @@ def test_the_curve_of_blur_crosses_the_tolerated_one_where_the_shade_ends(window
 def test_the_plot_shows_what_there_is_of_both_curves(changes):
     """Neither curve leaves the plot at once nor lies flat on its floor, though the sensor is far from any focus."""
     for name in shipped_lenses():
-        found = live(replace(with_lens(PAINTED, name), method="seidel", **changes), "preview")
+        found = live(changed(with_lens(PAINTED, name), method="seidel", **changes), "preview")
         view = depth_of_field(found)
         top = highest(view)
         for blur in (view.paraxial, view.real):
@@ -151,7 +150,7 @@ def test_ticks_of_depths_that_are_near_one_another_have_the_digits_to_tell_them_
 @pytest.mark.parametrize("blur", [30.0, 500.0, 2000.0, 10000.0])
 def test_what_is_called_sharp_is_what_the_blur_at_each_depth_says(lens, blur):
     """Against the blur itself, from next to the lens to 10 km; 2 mm is all depths of the reverse telephoto."""
-    state = replace(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
+    state = changed(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
     found = live(state, "preview")
     answer, depths = depth_of_field(found), np.geomspace(1e-3, 1e7, 400)
     sharp = 2e3 * np.abs(axial_heights(found.setup, depths)) <= blur
@@ -174,18 +173,18 @@ def test_a_typed_blur_widens_what_is_sharp_and_nonsense_is_refused(window, qtbot
     panel.blur.edit.selectAll()
     qtbot.keyClicks(panel.blur.edit, "0.1 mm")
     qtbot.keyClick(panel.blur.edit, Qt.Key.Key_Return)
-    assert window.store.state.blur_um == 100.0
+    assert window.store.state.display.blur_um == 100.0
     after = window.live.views["depth_of_field"].sharp_mm
     assert after[0] < before[0] and after[1] > before[1]
     panel.blur.edit.selectAll()
     qtbot.keyClicks(panel.blur.edit, "wide")
     qtbot.keyClick(panel.blur.edit, Qt.Key.Key_Return)
-    assert "tolerated blur" in window.banner.text.text() and window.store.state.blur_um == 100.0
+    assert "tolerated blur" in window.banner.text.text() and window.store.state.display.blur_um == 100.0
 
 
 @pytest.mark.parametrize("lens", ["relay", "eye_navarro", "periskop", "fast_gauss_f14"])
 def test_every_kind_of_lens_has_an_answer(lens):
-    answer = live(replace(with_lens(PAINTED, lens), method="seidel"), "preview")
+    answer = live(changed(with_lens(PAINTED, lens), method="seidel"), "preview")
     assert np.isfinite(field_curves(answer).real.sagittal[0])
     found = depth_of_field(answer)
     assert found.sharp_mm is None or found.sharp_mm[0] < found.sharp_mm[1]

@@ -14,7 +14,8 @@ from p2sf.paraxial.pupils import f_number
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute.editing import deleted, edited_state, inserted, with_stop, with_value
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription
-from p2sf_explorer.state.state import State, state_from_json, state_to_json
+from p2sf_explorer.state.state import State, new_state
+from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.widgets.surface_table import KEYS
 from tests.explorer.shell.test_window import changed, pictures
 
@@ -188,7 +189,7 @@ def test_a_stop_moved_and_back_keeps_its_rim():
 
 
 def test_a_glass_without_this_wavelength_is_refused():
-    state = State(wavelength_nm=2200.0, lens="plano_convex")
+    state = new_state(wavelength_nm=2200.0, lens="plano_convex")
     with pytest.raises(GlassError, match="2200 nm"):
         edited_state(state, with_value(load("plano_convex"), 1, "medium", "nd 1.5 vd 60"))
 
@@ -227,11 +228,11 @@ def test_save_as_writes_the_edited_lens(window, table, typed, qtbot, tmp_path, m
     qtbot.mouseClick(table.buttons["_save"], Qt.MouseButton.LeftButton)
     assert load_lens(path).surfaces[0].radius == pytest.approx(57, rel=1e-12)  # .zmx holds the curvature
     assert window.top.edited.isVisible() == (ending != ".toml")
-    assert (window.store.state.lens == str(path)) == (ending == ".toml")
+    assert (window.store.state.optics.lens == str(path)) == (ending == ".toml")
 
 
 def test_back_to_file_drops_the_edits(window, table, typed, qtbot):
     typed(0, "radius", "57")
     qtbot.mouseClick(table.buttons["_revert"], Qt.MouseButton.LeftButton)
-    assert window.store.state.lens_text is None
+    assert window.store.state.optics.lens_text is None
     assert not table.buttons["_revert"].isEnabled()

@@ -1,16 +1,14 @@
 """The MTF as painted, straight lines between its frequencies, against the transform itself and a closed form."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from p2sf.psf.metrics import diffraction_mtf, mtf
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.results.mtf import contrast
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 
-ALONE = State(method="seidel", theme="light", free_pupil=True)
+ALONE = new_state(method="seidel", theme="light", free_pupil=True)
 
 
 def between(frequency_per_mm: np.ndarray) -> np.ndarray:
@@ -19,7 +17,7 @@ def between(frequency_per_mm: np.ndarray) -> np.ndarray:
 
 
 def test_a_perfect_lens_has_the_closed_form_between_the_samples():
-    answer = live(replace(ALONE, added_waves=(1e-9, 0.0, 0.0, 0.0, 0.0, 0.0)))
+    answer = live(changed(ALONE, added_waves=(1e-9, 0.0, 0.0, 0.0, 0.0, 0.0)))
     found, source = contrast(answer), answer.setup.source
     asked = between(found.frequency_per_mm)
     exact = diffraction_mtf(asked, float(answer.setup.coefficients.na), source.wavelength_um)
@@ -30,7 +28,7 @@ def test_a_perfect_lens_has_the_closed_form_between_the_samples():
 
 @pytest.mark.parametrize("waves", [(0.0, 0.0, 0.0, 0.0, 6.0, 0.0), (4.0, 6.0, 3.0, 0.0, 0.0, 0.0)])
 def test_what_is_painted_between_the_frequencies_is_the_transform(waves):
-    answer = live(replace(ALONE, added_waves=waves))
+    answer = live(changed(ALONE, added_waves=waves))
     found = contrast(answer)
     asked = between(found.frequency_per_mm)
     exact = mtf(answer.psf, asked)

@@ -1,31 +1,29 @@
 """The perfect lens and the pixels beside the picture."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.results.pixels import airy_share, beside, over_pixels, pixel_weights
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 
-FIRST = State(method="seidel", theme="light")
+FIRST = new_state(method="seidel", theme="light")
 
 
 def test_without_aberrations_this_lens_is_the_perfect_one():
-    view = beside(live(replace(FIRST, free_pupil=True)))
+    view = beside(live(changed(FIRST, free_pupil=True)))
     assert view.real == pytest.approx(view.perfect, abs=2e-3)  # the settled sum keeps 1e-4 of the whole
 
 
 def test_pixels_share_the_light_out_without_loss():
-    answer = live(replace(FIRST, f_number=8.0))
+    answer = live(changed(FIRST, f_number=8.0))
     for pixel in (1.0, 3.3, 50.0, 1000.0):
         assert over_pixels(answer.psf, pixel).sum() == pytest.approx(1, abs=1e-9)
 
 
 def test_a_pixel_of_one_sample_is_the_sample_and_a_sensor_of_one_pixel_sees_all():
-    answer = live(replace(FIRST, f_number=8.0))
+    answer = live(changed(FIRST, f_number=8.0))
     same = over_pixels(answer.psf, answer.psf.pixel_um)
     n = answer.psf.values.shape[0]
     middle = same.shape[0] // 2
@@ -53,7 +51,7 @@ def test_the_panel_shows_the_pixel_that_is_typed(window, qtbot):
     panel.pixel.edit.selectAll()
     qtbot.keyClicks(panel.pixel.edit, "2")
     qtbot.keyClick(panel.pixel.edit, Qt.Key.Key_Return)
-    assert window.store.state.pixel_um == 2.0
+    assert window.store.state.display.pixel_um == 2.0
     fine = panel.maps[2].indices.shape
     window.store.update(pixel_um=4.0)
     assert panel.maps[2].indices.shape[0] < fine[0]

@@ -92,8 +92,8 @@ def test_pointing_is_no_step_of_undo(window, panel, qtbot):
 def test_dragging_the_source_still_works_beside_the_light(window, panel, qtbot):
     chart = window.panels["layout"].chart
     place = QPointF(*(float(v) for v in chart.to_pixels(*chart.handle.place(chart, chart.live)))).toPoint()
-    field = window.store.state.field_deg
+    field = window.store.state.optics.field_deg
     qtbot.mousePress(chart, Qt.MouseButton.LeftButton, pos=place)
     qtbot.mouseMove(chart, place + QPoint(0, 12))
     qtbot.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=place + QPoint(0, 12))
-    assert window.store.state.field_deg != field
+    assert window.store.state.optics.field_deg != field

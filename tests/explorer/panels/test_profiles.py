@@ -8,10 +8,10 @@ from scipy.special import j0, j1
 
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.results.profiles import airy_curves, profiles
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 
-FIRST = State(method="seidel", theme="light")
-PERFECT = replace(FIRST, free_pupil=True)
+FIRST = new_state(method="seidel", theme="light")
+PERFECT = changed(FIRST, free_pupil=True)
 
 
 def test_the_airy_pattern_and_its_energy_are_bessels():
@@ -44,7 +44,7 @@ def test_four_fifths_of_a_perfect_lens_light_lie_inside_the_first_ring(window):
 
 @pytest.mark.parametrize(("method", "lens"), [("seidel", "double_gauss_28"), ("fitted", "double_gauss_28")])
 def test_fine_sections_go_through_the_samples_of_the_picture(method, lens):
-    answer = live(replace(FIRST, method=method, f_number=8.0, field_deg=7.0, lens=lens))
+    answer = live(changed(FIRST, method=method, f_number=8.0, field_deg=7.0, lens=lens))
     view, psf = profiles(answer), answer.psf
     assert view.position_um.size > 3 * psf.values.shape[-1]
     rows = psf.values.shape[0] // 2
@@ -77,7 +77,7 @@ def test_defocus_spreads_the_energy(window):
 
 
 def test_where_rays_are_clipped_the_samples_are_shown():
-    answer = live(replace(FIRST, method="traced", field_deg=14.0, f_number=5.6, clip=True), "preview")
+    answer = live(changed(FIRST, method="traced", field_deg=14.0, f_number=5.6, clip=True), "preview")
     answer = replace(answer, quality="settled")
     view = profiles(answer)
     middle = answer.psf.values[answer.psf.values.shape[0] // 2]

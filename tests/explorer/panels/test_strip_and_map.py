@@ -12,11 +12,11 @@ from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.panels.field_map import FieldMapPanel
 from p2sf_explorer.results import field_map, through_focus
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.what_if import UNTOUCHED
 
-FIRST = State(method="seidel", theme="light")
-PURE = replace(FIRST, free_pupil=True)
+FIRST = new_state(method="seidel", theme="light")
+PURE = changed(FIRST, free_pupil=True)
 
 
 @pytest.fixture
@@ -51,13 +51,13 @@ def test_the_brightest_picture_is_at_the_medial_focus(strip):
 
 def test_lines_stand_across_each_other_at_the_two_foci():
     """At the tangential focus the light is a line along x, at the sagittal one along y (Welford 1986, §8.4)."""
-    state = replace(FIRST, f_number=11.0, field_deg=14.0)
+    state = changed(FIRST, f_number=11.0, field_deg=14.0)
     first = live(state)
     c = paraxial_setup(state).own
     places = through_focus.seidel_foci(c)
     shapes = []
     for place in (places.tangential, places.sagittal):
-        psf = in_window(replace(optics(state), sensor_shift_um=1e3 * float(place)), (64, 1.0), True)
+        psf = in_window(changed(optics(state), sensor_shift_um=1e3 * float(place)), (64, 1.0), True)
         x, y = psf.values.sum(0), psf.values.sum(1)
         shapes.append((x @ psf.x_um**2) / (y @ psf.y_um**2))
     assert first.method == "seidel" and shapes[0] > 1 > shapes[1]
@@ -79,8 +79,8 @@ def test_dragging_the_sensor_moves_the_slider_and_leaves_the_strip(window, strip
     qtbot.mouseMove(chart, goal.toPoint())
     assert window.live.quality == "preview"
     qtbot.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=goal.toPoint())
-    assert window.store.state.sensor_shift_um == pytest.approx(asked.shifts_um[3], abs=2 * chart.per_pixel())
-    assert strip.chart.sensor_um == window.store.state.sensor_shift_um
+    assert window.store.state.optics.sensor_shift_um == pytest.approx(asked.shifts_um[3], abs=2 * chart.per_pixel())
+    assert strip.chart.sensor_um == window.store.state.optics.sensor_shift_um
     assert window.live.quality == "settled" and window.store.can_undo
     filled(strip, qtbot)
     assert strip.asking.asked == asked, "the strip does not move with the sensor"
@@ -102,17 +102,17 @@ def test_where_the_sensor_does_not_focus_there_is_a_sentence_and_no_strip(window
 def test_arrow_keys_move_the_sensor(window, strip, qtbot):
     strip.chart.setFocus()
     qtbot.keyClick(strip.chart, Qt.Key.Key_Left)
-    assert window.store.state.sensor_shift_um < 0
+    assert window.store.state.optics.sensor_shift_um < 0
 
 
 def test_defocus_alone_is_symmetric_about_focus():
     """Pure defocus: the picture at +Δz is that at −Δz (the kernel depends on Wd²)."""
-    lens = replace(with_lens(FIRST, "achromat_f6"), method="seidel", field_deg=0.0, muted=("w40",), f_number=12.0)
+    lens = changed(with_lens(FIRST, "achromat_f6"), method="seidel", field_deg=0.0, muted=("w40",), f_number=12.0)
     question = through_focus.strip(live(lens))
     found, told = worked(question, through_focus)
     shifts = np.array(question.shifts_um)
     centre = float(through_focus.seidel_foci(paraxial_setup(question.state).coefficients).sagittal) * 1e3
-    pair = [in_window(replace(question.state, sensor_shift_um=centre + d), (32, 1.0), True).values for d in (60, -60)]
+    pair = [in_window(changed(question.state, sensor_shift_um=centre + d), (32, 1.0), True).values for d in (60, -60)]
     assert pair[0] == pytest.approx(pair[1], abs=1e-6)  # the preview's float32
     assert shifts[0] < centre < shifts[-1] and told[-1] <= 1 and np.isfinite(found.light).all()
 
@@ -139,7 +139,7 @@ def test_a_click_on_the_map_goes_to_that_field(window, qtbot):
     panel.chart.grab()
     corner = panel.chart.tiles[-1]
     qtbot.mouseClick(panel.chart, Qt.MouseButton.LeftButton, pos=panel.chart.room(corner).center().toPoint())
-    assert window.store.state.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
+    assert window.store.state.optics.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
     assert panel.asking.asked == panel.found[0], "and the map stays as it is"
 
 
@@ -157,16 +157,16 @@ def test_arrow_keys_choose_a_picture_of_the_map_and_enter_goes_to_its_field(wind
     for _ in range(9):  # from the middle to the rim, and no farther
         qtbot.keyClick(chart, Qt.Key.Key_Right)
     assert chart.fields_deg[chart.choice.number] == pytest.approx(chart.fields_deg[17]), "the end of the middle row"
-    assert window.store.state.field_deg == 0.0, "choosing alone moves nothing"
+    assert window.store.state.optics.field_deg == 0.0, "choosing alone moves nothing"
     before = chart.grab().toImage()
     qtbot.keyClick(chart, Qt.Key.Key_Down)
     assert chart.grab().toImage() != before, "the frame is seen to move"
     qtbot.keyClick(chart, Qt.Key.Key_Return)
-    assert window.store.state.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
+    assert window.store.state.optics.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
 
 
 def test_coma_points_away_from_the_axis_at_every_place():
-    question = field_map.field_map(live(replace(FIRST, solo=("w31",), f_number=4.0)))
+    question = field_map.field_map(live(changed(FIRST, solo=("w31",), f_number=4.0)))
     found, told = worked(question, field_map)
     where = field_map.places()
     axis = np.arange(question.window[0]) - question.window[0] // 2
@@ -193,12 +193,12 @@ def test_an_earlier_picture_is_marked_until_its_own_is_there(window, qtbot, key)
 
 def test_the_top_of_the_map_is_the_field_that_lands_there():
     """A relay images upright: what lands above the axis comes from the other side than in a camera."""
-    state = replace(with_lens(FIRST, "relay"), method="seidel", solo=("w31",), depth_mm=96.0, focus_mm=96.0)
+    state = changed(with_lens(FIRST, "relay"), method="seidel", solo=("w31",), depth_mm=96.0, focus_mm=96.0)
     first = live(state, "preview")
     question = replace(field_map.field_map(first), window=(24, first.airy_radius_um / 3))
     lands = {}
     for side in (1, -1):
-        one = replace(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
+        one = changed(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
         values = in_window(one, question.window, True).values
         lands[float(paraxial_setup(one).coefficients.image_height) > 0] = values / values.max()
     shown = field_map.picture_at(question, 1.0)
@@ -209,9 +209,9 @@ def test_the_top_of_the_map_is_the_field_that_lands_there():
 @pytest.mark.parametrize(("lens", "field", "up"), [("", 5.0, 1), ("", -5.0, -1), ("relay", 0.2, -1), ("", 0.0, 0)])
 def test_the_arrow_points_to_where_farther_fields_land(window, lens, field, up):
     state = with_lens(window.store.state, lens) if lens else window.store.state
-    window.store.replace(replace(state, field_deg=field))
+    window.store.replace(changed(state, field_deg=field))
     near, far = (
-        float(paraxial_setup(replace(state, field_deg=part * field)).coefficients.image_height) for part in (1, 1.1)
+        float(paraxial_setup(changed(state, field_deg=part * field)).coefficients.image_height) for part in (1, 1.1)
     )
     panel = window.panels["psf"]
     tip = panel.arrow.data()[1][1]
@@ -236,8 +236,8 @@ def test_hidden_strip_and_map_ask_nothing(window, strip, qtbot):
 )
 def test_what_auto_chose_for_one_point_does_not_make_the_pictures_of_all(ask, points):
     """Six coefficients do near the axis and where all is blurred, and miss elsewhere: `auto` changes its mind."""
-    state = replace(FIRST, method="auto", field_deg=2.0, f_number=5.6)
-    answers = [live(replace(state, **point)) for point in points]
+    state = changed(FIRST, method="auto", field_deg=2.0, f_number=5.6)
+    answers = [live(changed(state, **point)) for point in points]
     assert {answer.method for answer in answers} == {"seidel", "fitted"}
     first, second = map(ask, answers)
     assert first == second and not first.six
@@ -245,7 +245,7 @@ def test_what_auto_chose_for_one_point_does_not_make_the_pictures_of_all(ask, po
 
 @pytest.mark.parametrize("lens", ["relay", "eye_navarro", "landscape"])
 def test_other_lenses_have_a_strip_with_their_foci_inside(lens):
-    state = replace(with_lens(FIRST, lens), method="seidel")
+    state = changed(with_lens(FIRST, lens), method="seidel")
     question = through_focus.strip(live(state, "preview"))
     sagittal, tangential, best = through_focus.foci(question)
     assert question.shifts_um[0] <= min(sagittal, tangential, best)

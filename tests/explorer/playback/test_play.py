@@ -15,25 +15,25 @@ from p2sf_explorer.playback.filming import frame_of
 from p2sf_explorer.playback.play_bar import seconds
 from p2sf_explorer.playback.sweep import changes, present, sweep
 from p2sf_explorer.state.limits import PLAYABLE
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.coefficient_mixer import NAMES
 
 
 @pytest.mark.parametrize("key", PLAYABLE[1:])
 def test_every_slider_can_be_swept_from_end_to_end_and_back(key):
-    state = State(play=key, play_seconds=2.0)
+    state = new_state(playback_slider=key, playback_seconds=2.0)
     way = sweep(state)
     assert (way.at(0.0), way.at(2.0), way.at(4.0)) == approx((way.first, way.last, way.first))
     assert way.at(1.0) == approx(way.at(3.0))
     for part in (0.0, 0.3, 1.0):
         assert way.part(way.value(part)) == approx(part)
-    assert present(State(**{"play": key, **changes(state, way.value(0.25))})) == approx(way.value(0.25))
+    assert present(new_state(**{"playback_slider": key, **changes(state, way.value(0.25))})) == approx(way.value(0.25))
 
 
 def test_half_way_is_even_in_what_the_slider_is_even_in():
-    assert sweep(State(play="depth_mm", play_range=(500.0, inf))).value(0.5) == approx(1000.0)
-    assert sweep(State(play="f_number", play_range=(2.0, 8.0))).value(0.5) == approx(4.0)
-    assert sweep(State(play="field_deg", play_range=(2.0, 8.0))).value(0.5) == approx(5.0)
+    assert sweep(new_state(playback_slider="depth_mm", playback_range=(500.0, inf))).value(0.5) == approx(1000.0)
+    assert sweep(new_state(playback_slider="f_number", playback_range=(2.0, 8.0))).value(0.5) == approx(4.0)
+    assert sweep(new_state(playback_slider="field_deg", playback_range=(2.0, 8.0))).value(0.5) == approx(5.0)
 
 
 @pytest.mark.parametrize("text", ["4", "4 s", "4.0s"])
@@ -86,7 +86,7 @@ def test_a_cancelled_film_leaves_nothing_and_an_old_one_stays(tmp_path, ending):
 
 @pytest.mark.parametrize("name", ["way.avi", "no/way.gif"])
 def test_a_film_that_cannot_be_written_is_a_sentence(window, tmp_path, name):
-    window.store.update(play="field_deg")
+    window.store.update(playback_slider="field_deg")
     assert not window.play.film(str(tmp_path / name))
     assert window.banner.isVisible()
     assert not window.play.filming.busy
@@ -94,9 +94,9 @@ def test_a_film_that_cannot_be_written_is_a_sentence(window, tmp_path, name):
 
 def test_space_plays_the_focused_slider_as_one_step_of_undo(window, qtbot):
     slider = window.controls.rows["field_deg"].slider
-    window.store.update(play="field_deg", play_range=(2.0, 14.0), play_seconds=0.5)
+    window.store.update(playback_slider="field_deg", playback_range=(2.0, 14.0), playback_seconds=0.5)
     before, seen = window.store.state, []
-    window.store.changed.connect(lambda state: seen.append((state.field_deg, window.store.moving)))
+    window.store.changed.connect(lambda state: seen.append((state.optics.field_deg, window.store.moving)))
     slider.setFocus()
     qtbot.keyClick(slider, Qt.Key.Key_Space)
     assert window.play.player.playing
@@ -111,7 +111,7 @@ def test_space_plays_the_focused_slider_as_one_step_of_undo(window, qtbot):
 
 
 def test_undo_and_a_hand_on_the_slider_pause(window, qtbot, drag):
-    window.store.update(play="field_deg", play_range=(2.0, 14.0))
+    window.store.update(playback_slider="field_deg", playback_range=(2.0, 14.0))
     window.play.toggle()
     window.play.player.step()
     window.store.undo()
@@ -121,7 +121,7 @@ def test_undo_and_a_hand_on_the_slider_pause(window, qtbot, drag):
     drag(window.controls.rows["field_deg"].slider, 0.9)
     assert not window.play.player.playing
     window.store.undo()
-    assert window.store.state.field_deg < 15  # where playing had brought it: the hand's way is one step
+    assert window.store.state.optics.field_deg < 15  # where playing had brought it: the hand's way is one step
 
 
 def test_space_on_the_desk_plays_the_waves_of_its_row(window, qtbot):
@@ -131,20 +131,20 @@ def test_space_on_the_desk_plays_the_waves_of_its_row(window, qtbot):
     qtbot.keyClick(desk, Qt.Key.Key_Space)
     window.play.player.step()
     window.play.player.pause()
-    assert window.store.state.play == "added_w31"
+    assert window.store.state.playback.slider == "added_w31"
     assert NAMES["w31"] in window.play.key.currentText()
-    assert any(window.store.state.added_waves) or present(window.store.state) == approx(0.0, abs=0.2)
+    assert any(window.store.state.what_if.added_waves) or present(window.store.state) == approx(0.0, abs=0.2)
 
 
 def test_the_bar_sets_range_and_speed_and_refuses_in_a_sentence(window, qtbot):
     bar = window.play
-    window.store.update(play="f_number")
+    window.store.update(playback_slider="f_number")
     assert bar.isVisible()
     for edit, text in ((bar.first, "f/2.8"), (bar.last, "16"), (bar.seconds, "2 s")):
         edit.selectAll()
         qtbot.keyClicks(edit, text)
         qtbot.keyClick(edit, Qt.Key.Key_Return)
-    assert (window.store.state.play_range, window.store.state.play_seconds) == ((2.8, 16.0), 2.0)
+    assert (window.store.state.playback.range, window.store.state.playback.seconds) == ((2.8, 16.0), 2.0)
     bar.last.selectAll()
     qtbot.keyClicks(bar.last, "wide")
     qtbot.keyClick(bar.last, Qt.Key.Key_Return)
@@ -155,7 +155,7 @@ def test_the_bar_sets_range_and_speed_and_refuses_in_a_sentence(window, qtbot):
 
 
 def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qtbot, tmp_path):
-    window.store.update(play="added_wd", play_range=(0.0, 1.0), play_seconds=0.25, free_pupil=True)
+    window.store.update(playback_slider="added_wd", playback_range=(0.0, 1.0), playback_seconds=0.25, free_pupil=True)
     state = window.store.state
     bar, path = window.play, tmp_path / "way.png"
     bar.subject.setCurrentIndex(bar.subject.findData("psf"))
@@ -197,11 +197,11 @@ def part_of(path, widget, chart) -> np.ndarray:
 
 def test_what_changes_while_a_film_is_made_is_not_in_it(window, qtbot, tmp_path):
     """Undo takes the sweep out of the state, and another depth comes in: the film is the same to the pixel."""
-    sweeping = dict(play="added_wd", play_range=(0.0, 1.0), play_seconds=0.25, free_pupil=True)
+    sweeping = dict(playback_slider="added_wd", playback_range=(0.0, 1.0), playback_seconds=0.25, free_pupil=True)
 
     def meddle():
         window.store.undo()
-        assert not window.store.state.play
+        assert not window.store.state.playback.slider
         window.store.update(wavelength_nm=450.0, free_pupil=True)
 
     for name, meanwhile in (("calm", lambda: None), ("busy", meddle)):
@@ -209,7 +209,7 @@ def test_what_changes_while_a_film_is_made_is_not_in_it(window, qtbot, tmp_path)
         window.store.update(wavelength_nm=587.5618, **sweeping)
         assert "3 frames" in filmed(window, qtbot, tmp_path / f"{name}.png", "psf", meanwhile)
     assert window.live.state == window.store.state
-    assert window.store.state.wavelength_nm == 450.0
+    assert window.store.state.optics.wavelength_nm == 450.0
     chart = window.panels["psf"].map.chart
     for number in (1, 2, 3):
         both = [part_of(tmp_path / f"{name}_{number:04d}.png", window.panels["psf"].widget, chart)
@@ -219,7 +219,7 @@ def test_what_changes_while_a_film_is_made_is_not_in_it(window, qtbot, tmp_path)
 
 @pytest.mark.parametrize(("tab", "chart"), [("through_focus", "chart"), ("colour", "picture")])
 def test_a_film_waits_for_the_panels_that_fill_in_the_background(window, qtbot, tmp_path, tab, chart):
-    window.store.update(tab=tab, play="f_number", play_range=(4.0, 8.0), play_seconds=0.2)
+    window.store.update(tab=tab, playback_slider="f_number", playback_range=(4.0, 8.0), playback_seconds=0.2)
     panel = window.panels[tab]
     assert "2 frames" in filmed(window, qtbot, tmp_path / "way.png", "tabs")
     for number, f_number in enumerate((4.0, 8.0), 1):
@@ -235,7 +235,7 @@ def frame_pixels(widget) -> np.ndarray:
 
 
 def test_a_film_can_be_cancelled(window, qtbot, tmp_path):
-    window.store.update(play="field_deg", play_seconds=60.0)
+    window.store.update(playback_slider="field_deg", playback_seconds=60.0)
     with qtbot.waitSignal(window.play.filming.ended, timeout=20000) as told:
         assert window.play.film(str(tmp_path / "way.gif"))
         with qtbot.waitSignal(window.play.filming.progressed):

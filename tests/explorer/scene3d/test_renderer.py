@@ -13,17 +13,17 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.camera import CAMERA, Camera
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.store.store import Store
 from tests.long.crash import small_disk
 
-FIRST = State(method="seidel", theme="light")
+FIRST = new_state(method="seidel", theme="light")
 MAPS = "CET-D1A", "inferno"
 SIDE = Camera(turn=0.0, tilt=0.0)
 
 
 def scene_at(**changes):
-    return scene(live(replace(FIRST, **changes), "preview"))
+    return scene(live(changed(FIRST, **changes), "preview"))
 
 
 @pytest.fixture(scope="module")
@@ -128,11 +128,11 @@ def test_the_panel_opens_turns_and_keeps_its_eye_in_the_state(panel, qtbot, tmp_
     first, store = panel.view.image.copy(), panel.view._store
     panel.view.setFocus()
     qtbot.keyClick(panel.view, Qt.Key.Key_Left)
-    assert store.state.eye_turn_deg == CAMERA.turn - 5
+    assert store.state.camera.turn_deg == CAMERA.turn - 5
     qtbot.mousePress(panel.view, Qt.MouseButton.LeftButton, pos=QPoint(100, 100))
     qtbot.mouseMove(panel.view, QPoint(130, 120))
     qtbot.mouseRelease(panel.view, Qt.MouseButton.LeftButton, pos=QPoint(130, 120))
-    assert store.state.eye_tilt_deg == pytest.approx(CAMERA.tilt + 8)
+    assert store.state.camera.tilt_deg == pytest.approx(CAMERA.tilt + 8)
     panel.show(answer(store.state))
     qtbot.waitUntil(lambda: panel.view.image is not None)
     assert panel.view.image != first

@@ -1,7 +1,5 @@
 """The set-up in space as numbers: volumes, areas, and light that goes where the lens sends it."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.scene3d.meshes import RINGS, STEPS, area, element, elements, plate, revolved, ring, volume
 from p2sf_explorer.scene3d.scene import scene
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 from tests.support.interpreter import loaded_by
 
 LENSES = ("double_gauss_28", "cooke_triplet", "eye_navarro", "achromat_f6")
@@ -71,7 +69,7 @@ def test_glass_is_where_the_lens_has_it(name):
 
 @pytest.mark.parametrize("name", LENSES)
 def test_rays_meet_every_surface_and_end_at_the_image(name):
-    answer = live(replace(default_state(name), method="seidel"), "preview")
+    answer = live(changed(default_state(name), method="seidel"), "preview")
     shown, lens = scene(answer), answer.setup.lens
     for number, (surface, vertex) in enumerate(zip(lens.surfaces, vertices(lens), strict=False), 1):
         x, y, z = shown.rays[:, number].T
@@ -87,7 +85,7 @@ def test_rays_meet_every_surface_and_end_at_the_image(name):
 @pytest.mark.parametrize("shift_um", [-300.0, 300.0])
 def test_the_wavefront_is_a_sphere_about_the_image_that_defocus_bends(shift_um):
     """A sensor moved away by Δz: W = NA²Δz/2λ > 0 at the rim, so the rim runs ahead and the front is more curved."""
-    state = State(method="seidel", field_deg=0.0, f_number=16.0, sensor_shift_um=shift_um)
+    state = new_state(method="seidel", field_deg=0.0, f_number=16.0, sensor_shift_um=shift_um)
     shown = scene(live(state, "preview"))
     away = np.linalg.norm(shown.front.mesh.points - shown.rays[0, -1], axis=1)
     wave_mm = 1e-3 * 0.5875618
@@ -97,7 +95,7 @@ def test_the_wavefront_is_a_sphere_about_the_image_that_defocus_bends(shift_um):
 
 
 def test_the_relief_stands_on_the_image_point_and_peaks_where_the_psf_does():
-    answer = live(State(method="seidel", field_deg=0.0, f_number=11.0, psf_scale="linear"), "preview")
+    answer = live(new_state(method="seidel", field_deg=0.0, f_number=11.0, psf_scale="linear"), "preview")
     shown = scene(answer)
     highest = shown.psf_surface.mesh.points[shown.psf_surface.values.argmax()]
     assert highest[:2] == pytest.approx(shown.rays[0, -1, :2], abs=1e-9)
@@ -130,6 +128,6 @@ def test_revolving_about_a_hole_needs_no_axis():
 def test_a_sensor_that_touches_the_glass_or_stands_in_it_has_a_wavefront_too(sensor_mm):
     """Found by random hands: the wavefront was drawn between last glass and sensor, where there was no room."""
     lens = with_sensor(find_lens("double_gauss_28"), sensor_mm)
-    found = scene(live(replace(default_state("double_gauss_28"), lens_text=lens_to_toml(lens))))
+    found = scene(live(changed(default_state("double_gauss_28"), lens_text=lens_to_toml(lens))))
     assert found.front.factor > 0 and np.isfinite(found.front.mesh.points).all()
     assert np.ptp(found.front.mesh.points, axis=0).max() > 0.01

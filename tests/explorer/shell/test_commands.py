@@ -54,11 +54,11 @@ def test_typing_and_enter_do_what_is_found(window, qtbot):
     qtbot.keyClicks(palette.sought, "cooke")
     assert "Cooke triplet" in palette.found.item(0).text()
     qtbot.keyClick(palette.sought, Qt.Key.Key_Return)
-    assert window.store.state.lens == "cooke_triplet" and not palette.isVisible()
+    assert window.store.state.optics.lens == "cooke_triplet" and not palette.isVisible()
     window.commands.find()
     qtbot.keyClicks(palette.sought, "panel mtf")
     qtbot.keyClick(palette.sought, Qt.Key.Key_Return)
-    assert window.store.state.tab == "mtf"
+    assert window.store.state.display.tab == "mtf"
 
 
 def test_arrows_choose_and_escape_goes_back(window, qtbot):
@@ -94,9 +94,9 @@ def test_stop_and_clip_tell_the_store_and_follow_it(window, qtbot):
     row = window.controls.stopping
     row.stop.setCurrentIndex(row.stop.findData("auto"))
     row.stop.activated.emit(row.stop.currentIndex())
-    assert window.store.state.stop == "auto"
+    assert window.store.state.optics.stop == "auto"
     qtbot.mouseClick(row.clip, Qt.MouseButton.LeftButton, pos=QPoint(8, row.clip.height() // 2))
-    assert window.store.state.clip
+    assert window.store.state.optics.clip
     window.store.undo()
     window.store.undo()
     assert not row.clip.isChecked() and row.stop.currentData() == "file"
@@ -112,7 +112,7 @@ def test_a_held_arrow_key_is_one_step_of_undo(window, qtbot):
     assert window.live.quality == "preview"
     qtbot.keyRelease(slider, Qt.Key.Key_Right)
     assert window.live.quality == "settled"
-    assert window.store.state.field_deg > first.field_deg + 0.5
+    assert window.store.state.optics.field_deg > first.optics.field_deg + 0.5
     window.store.undo()
     assert window.store.state == first
 

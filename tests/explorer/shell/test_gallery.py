@@ -2,17 +2,17 @@ from PySide6.QtGui import QImage
 
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.gallery import picture, states
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 
 
 def test_every_tab_is_in_the_gallery_and_every_state_differs():
     shown = states()
-    assert {state.tab for state in shown.values()} >= {entry.key for entry in REGISTRY if entry.place != "main"}
+    assert {state.display.tab for state in shown.values()} >= {entry.key for entry in REGISTRY if entry.place != "main"}
     assert len(set(shown.values())) == len(shown)
 
 
 def test_a_picture_has_the_size_asked_for_and_more_than_one_colour(only_window, tmp_path):
-    picture(State(method="seidel", theme="dark"), (900, 640), tmp_path / "window.png", measured=False)
+    picture(new_state(method="seidel", theme="dark"), (900, 640), tmp_path / "window.png", measured=False)
     image = QImage(str(tmp_path / "window.png"))
     assert image.width() >= 900 and image.height() >= 640  # a layout may insist on more room
     assert len({image.pixel(x, y) for x in range(0, 900, 5) for y in range(100, 640, 5)}) > 100

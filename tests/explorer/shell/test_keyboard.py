@@ -40,7 +40,7 @@ def test_tab_reaches_everything_of_a_panel_and_comes_round(window, key, qtbot):
     window.open_panel(key)
     if key == "image":  # its buttons are for a picture
         qtbot.waitUntil(window.panels[key].save.isEnabled, timeout=30000)
-    window.store.update(play="field_deg")
+    window.store.update(playback_slider="field_deg")
     QApplication.processEvents()
     met, hoped = walked(window, Qt.Key.Key_Tab), wanted(window)
     assert len(hoped) > 40

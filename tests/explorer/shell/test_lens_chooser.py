@@ -8,7 +8,7 @@ from p2sf_explorer.compute.setup import shipped
 from p2sf_explorer.shell.lens_cards import lens_card, shown_title
 from p2sf_explorer.shell.lens_chooser import NAME
 from p2sf_explorer.shell.window import MainWindow
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, new_state
 
 
 @pytest.fixture
@@ -26,7 +26,7 @@ def index_of(gallery, name):
 
 def test_the_gallery_opens_on_the_present_lens_and_draws_what_is_in_sight(window, gallery, qtbot):
     assert gallery.isVisible()
-    assert gallery.list.currentIndex().data(NAME) == window.store.state.lens
+    assert gallery.list.currentIndex().data(NAME) == window.store.state.optics.lens
     assert gallery.list.model().rowCount() == len(shipped())
     qtbot.waitUntil(lambda: len(gallery.cards.known) >= 8, timeout=5000)
     before = gallery.list.viewport().grab().toImage()
@@ -39,7 +39,7 @@ def test_a_click_opens_a_lens_as_one_undo(window, gallery, qtbot):
     gallery.list.scrollTo(index)
     place = gallery.list.visualRect(index).center()
     qtbot.mouseClick(gallery.list.viewport(), Qt.MouseButton.LeftButton, pos=place)
-    assert window.live.state.lens == "cooke_triplet"
+    assert window.live.state.optics.lens == "cooke_triplet"
     assert not gallery.isVisible()
     window.store.undo()
     assert window.store.state == first
@@ -54,15 +54,15 @@ def test_keys_alone_choose_a_lens(window, qtbot):
     qtbot.keyClick(gallery.list, Qt.Key.Key_Right)
     wanted = gallery.list.currentIndex().data(NAME)
     qtbot.keyClick(gallery.list, Qt.Key.Key_Return)
-    assert window.live.state.lens == wanted == shipped()[1]
+    assert window.live.state.optics.lens == wanted == shipped()[1]
 
 
 def test_escape_leaves_the_lens(window, gallery, qtbot):
-    lens = window.store.state.lens
+    lens = window.store.state.optics.lens
     qtbot.keyClick(gallery.list, Qt.Key.Key_Right)
     qtbot.keyClick(gallery.list, Qt.Key.Key_Escape)
     assert not gallery.isVisible()
-    assert window.store.state.lens == lens
+    assert window.store.state.optics.lens == lens
 
 
 def test_letters_find_a_lens(window, gallery, qtbot):
@@ -71,7 +71,7 @@ def test_letters_find_a_lens(window, gallery, qtbot):
 
 
 def test_a_new_window_has_worked_out_no_card(qapp):
-    made = MainWindow(State(method="seidel", theme="light"), measured=False)
+    made = MainWindow(new_state(method="seidel", theme="light"), measured=False)
     made.show()
     QApplication.processEvents()
     assert made.top.lens.gallery is None
@@ -96,4 +96,4 @@ def test_a_lens_that_cannot_be_read_says_why(tmp_path):
 
 def test_the_bar_names_a_foreign_lens_by_its_own_title(window):
     assert shown_title(State()) == "Double Gauss, 28 degree field, f/3, 100 mm"
-    assert shown_title(State(lens="/nowhere/x.zmx")) == "/nowhere/x.zmx"
+    assert shown_title(new_state(lens="/nowhere/x.zmx")) == "/nowhere/x.zmx"

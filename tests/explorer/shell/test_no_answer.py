@@ -1,6 +1,5 @@
 """A setup without an answer: nothing of the one before may pass for it."""
 
-from dataclasses import replace
 from math import inf
 
 import pytest
@@ -13,15 +12,15 @@ from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.results.mtf import contrast
 from p2sf_explorer.shell.no_answer import NO_ANSWER, UNKNOWN
 from p2sf_explorer.shell.window import MAIN
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.widgets.copying import data_of
 
-TOO_FAR = replace(with_lens(State(theme="light"), "relay"), depth_mm=inf, field_deg=1.0)
+TOO_FAR = changed(with_lens(new_state(theme="light"), "relay"), depth_mm=inf, field_deg=1.0)
 
 
 @pytest.fixture
 def without(window):
-    window.store.replace(replace(with_lens(window.store.state, "double_gauss_28"), free_pupil=True))
+    window.store.replace(changed(with_lens(window.store.state, "double_gauss_28"), free_pupil=True))
     assert window.live.setup.focal_length_mm == pytest.approx(100, rel=0.02)
     window.store.replace(TOO_FAR)
     return window
@@ -88,7 +87,7 @@ def test_a_tab_that_has_nothing_to_show_covers_itself_alone(one_refusing):
     window, overlay = one_refusing, one_refusing.panels["mtf"].widget.overlay
     assert overlay.isVisible() and overlay.text == "The blur is too wide for a table; stop down"
     assert not any(window.panels[key].widget.overlay.isVisible() for key in MAIN)
-    assert window.live.state.field_deg == 7.0 and not window.banner.isVisible()
+    assert window.live.state.optics.field_deg == 7.0 and not window.banner.isVisible()
     assert UNKNOWN not in {str(value) for _, value, _ in window.controls.facts.rows}
 
 
@@ -99,8 +98,8 @@ def test_its_overlay_goes_with_the_next_answer(one_refusing, monkeypatch):
 
 
 def test_a_difference_is_as_it_was_where_a_side_has_nothing(window):
-    asked = replace(window.store.state, shown="difference", pinned=State(f_number=8.0, method="seidel"))
-    b_refuses = {"mtf": lambda live: refusing(live) if live.state.f_number == 8.0 else contrast(live)}
+    asked = changed(window.store.state, shown="difference", pinned=new_state(f_number=8.0, method="seidel"))
+    b_refuses = {"mtf": lambda live: refusing(live) if live.state.optics.f_number == 8.0 else contrast(live)}
     seen = answers(asked, "preview", b_refuses).seen
     assert str(seen.difference.why["mtf"]) == "This is A; B has none: the blur is too wide for a table; stop down"
     assert answers(asked, "preview", {"mtf": refusing}).seen.views["mtf"] == Refused(REASON)

@@ -36,8 +36,8 @@ def test_the_banner_says_infinity_as_a_sign(window):
 @pytest.mark.parametrize("name", shipped())
 def test_every_lens_opens_at_a_field_of_its_file(name):
     state = default_state(name)
-    assert 0 < state.field_deg <= max(map(abs, load(name).fields_deg))
-    assert state.depth_mm == np.inf or live(state, "preview").psf.method != "geometric"
+    assert 0 < state.optics.field_deg <= max(map(abs, load(name).fields_deg))
+    assert state.optics.depth_mm == np.inf or live(state, "preview").psf.method != "geometric"
 
 
 def test_the_relay_opens_with_an_object_its_glass_can_see(window):

@@ -14,7 +14,7 @@ from p2sf_explorer.__main__ import starting_state
 from p2sf_explorer.files.session import last_session, session_path
 from p2sf_explorer.files.session_keeper import SessionKeeper
 from p2sf_explorer.state.link import PREFIX, link, state_of_link
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, new_state
 from tests.explorer.state.test_state import STATES
 
 
@@ -27,10 +27,10 @@ def test_a_link_and_back_is_identical_and_url_safe(state):
 
 
 def test_a_link_is_short_and_survives_the_line_breaks_of_a_letter():
-    state = State(field_deg=7.5, muted=("w22",))
+    state = new_state(field_deg=7.5, muted=("w22",))
     text = link(state)
     assert len(text) < 120
-    assert len(link(State(field_deg=7.5, pinned=State(f_number=8.0)))) < 160
+    assert len(link(new_state(field_deg=7.5, pinned=new_state(f_number=8.0)))) < 160
     assert state_of_link(f" {text[:20]}\n  {text[20:]}\n") == state
     assert starting_state([text]) == state
 
@@ -46,7 +46,7 @@ def deflated(text: bytes) -> str:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (link(State(field_deg=3.0))[:-6], "cut off or changed"),
+        (link(new_state(field_deg=3.0))[:-6], "cut off or changed"),
         (PREFIX, "cut off or changed"),
         (PREFIX + "§§§", "cut off or changed"),
         (packed([]), "holds no state"),

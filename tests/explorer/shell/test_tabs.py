@@ -12,7 +12,8 @@ from p2sf_explorer.files.session import last_session
 from p2sf_explorer.files.session_keeper import SessionKeeper
 from p2sf_explorer.panels import GROUPS, REGISTRY
 from p2sf_explorer.shell.window import MainWindow
-from p2sf_explorer.state.state import State, state_from_json, state_to_json
+from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
 TABS = [entry for entry in REGISTRY if entry.place != "main"]
 
@@ -27,29 +28,29 @@ def shown(window) -> set[str]:
 def test_a_group_shows_its_own_tabs_and_no_other(window, qtbot, group):
     qtbot.mouseClick(window.tabs.buttons.named[group], Qt.MouseButton.LeftButton)
     assert shown(window) == {entry.key for entry in TABS if entry.group == group}
-    assert window.store.state.tab in shown(window)
-    assert window.tabs.current() == window.store.state.tab
+    assert window.store.state.display.tab in shown(window)
+    assert window.tabs.current() == window.store.state.display.tab
 
 
 def test_alt_and_a_number_opens_a_group(window, qtbot):
     qtbot.waitUntil(window.isActiveWindow)
     QTest.keyClick(window, Qt.Key.Key_4, Qt.KeyboardModifier.AltModifier)
     own = {entry.key for entry in TABS if entry.group == GROUPS[3]}
-    qtbot.waitUntil(lambda: window.store.state.tab in own)  # a shortcut holds its button down for a moment
+    qtbot.waitUntil(lambda: window.store.state.display.tab in own)  # a shortcut holds its button down for a moment
 
 
 def test_a_group_remembers_its_panel(window, qtbot):
     window.open_panel("ray_fan")
     window.open_panel("seidel")
     qtbot.mouseClick(window.tabs.buttons.named["Rays"], Qt.MouseButton.LeftButton)
-    assert window.store.state.tab == "ray_fan"
+    assert window.store.state.display.tab == "ray_fan"
 
 
 def test_the_menu_reaches_every_panel(window):
     for entry, action in zip(TABS, [a for a in window.tabs.menu.actions() if not a.isSeparator()], strict=True):
         assert action.text() in {each.title for each in TABS}, entry
     window.tabs.menu.actions()[-1].trigger()
-    assert window.store.state.tab == window.tabs.current()
+    assert window.store.state.display.tab == window.tabs.current()
 
 
 def test_the_tabs_of_each_group_fit_a_small_window(window):
@@ -66,7 +67,7 @@ def test_a_double_click_gives_a_tab_its_own_window_and_closing_gives_it_back(win
     bar = window.tabs.tabBar()
     place = next(k for k in range(window.tabs.count()) if window.tabs.widget(k).objectName() == "mtf")
     bar.tabBarDoubleClicked.emit(place)  # QTest's double click on a tab does not reach it offscreen
-    assert window.store.state.windows == ("mtf",)
+    assert window.store.state.display.windows == ("mtf",)
     own = window.floating.open["mtf"]
     window.open_panel("profiles")
     before = window.panels["mtf"].curves["tangential"].data()[1].copy()
@@ -74,7 +75,7 @@ def test_a_double_click_gives_a_tab_its_own_window_and_closing_gives_it_back(win
     assert own.isVisible() and window.panels["mtf"].widget.window() is own
     assert (window.panels["mtf"].curves["tangential"].data()[1] != before).any(), "it goes on following the sliders"
     own.close()
-    assert window.store.state.windows == () and not window.panels["mtf"].widget.isVisible(), "behind its tab"
+    assert window.store.state.display.windows == () and not window.panels["mtf"].widget.isVisible(), "behind its tab"
     window.open_panel("mtf")
     assert window.panels["mtf"].widget.isVisible() and window.panels["mtf"].widget.window() is window
     window.store.undo()
@@ -93,7 +94,7 @@ def test_the_button_says_whether_it_pops_a_panel_out_or_puts_it_back(window, qtb
     assert "back under its tab" in window.tabs.apart.toolTip()
     qtbot.mouseClick(window.tabs.apart, Qt.MouseButton.LeftButton)
     assert [*told, window.tabs.apart.text()] == ["Pop out", "Put back", "Pop out", "Pop out"]
-    assert not window.store.state.windows
+    assert not window.store.state.display.windows
 
 
 def test_only_what_is_on_show_is_styled_and_the_rest_when_it_comes_up(window):
@@ -128,7 +129,7 @@ def test_keys_go_on_to_the_panel_that_comes_to_the_front_by_itself(window):
 
 
 def test_a_panel_behind_its_tab_goes_with_its_window(qapp):
-    made = MainWindow(State(method="seidel", theme="light", tab="mtf"), measured=False)
+    made = MainWindow(new_state(method="seidel", theme="light", tab="mtf"), measured=False)
     made.open_panel("profiles")
     behind = made.panels["mtf"].widget
     made.close()
@@ -141,9 +142,9 @@ def test_a_panel_behind_its_tab_goes_with_its_window(qapp):
 def test_a_key_puts_the_panel_into_its_own_window_and_back(window, qtbot):
     qtbot.waitUntil(window.isActiveWindow)
     QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
-    assert window.store.state.windows == ("profiles",)
+    assert window.store.state.display.windows == ("profiles",)
     window.floating.toggle("profiles")
-    assert window.store.state.windows == () and window.panels["profiles"].widget.window() is window
+    assert window.store.state.display.windows == () and window.panels["profiles"].widget.window() is window
 
 
 def test_a_tab_behind_is_not_computed(window):
@@ -152,10 +153,10 @@ def test_a_tab_behind_is_not_computed(window):
 
 
 def test_windows_go_into_the_state_file_and_back():
-    state = State(windows=("mtf", "spot"))
+    state = new_state(windows=("mtf", "spot"))
     assert state_from_json(state_to_json(state)) == state
     with pytest.raises(P2SFError, match="windows must be a list"):
-        State(windows=(3,))
+        new_state(windows=(3,))
 
 
 @pytest.mark.parametrize("key", ["layout", "pupil", "psf", "coefficients"])
@@ -163,15 +164,15 @@ def test_a_panel_of_the_grid_leaves_its_place_and_comes_back_to_it(window, qtbot
     card = window.panels[key].widget
     grid = [home.geometry() for home in window.homes.values()][:4]
     QTest.mouseDClick(card, Qt.MouseButton.LeftButton, pos=QPoint(30, 12))
-    assert window.store.state.windows == (key,) and card.window() is window.floating.open[key]
+    assert window.store.state.display.windows == (key,) and card.window() is window.floating.open[key]
     assert window.homes[key].findChild(QLabel, "muted").isVisible()
     window.store.update(field_deg=4.0)
-    assert window.live.state.field_deg == 4.0
+    assert window.live.state.optics.field_deg == 4.0
     own = window.floating.open[key]
     own.activateWindow()
     qtbot.waitUntil(own.isActiveWindow)
     qtbot.keyClick(own, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
-    qtbot.waitUntil(lambda: window.store.state.windows == ())
+    qtbot.waitUntil(lambda: window.store.state.display.windows == ())
     assert card.window() is window and card.isVisible()
     assert [home.geometry() for home in window.homes.values()][:4] == grid
 
@@ -181,7 +182,7 @@ def test_a_tab_dragged_off_the_bar_has_its_own_window(window):
     place = next(k for k in range(window.tabs.count()) if window.tabs.widget(k).objectName() == "mtf")
     start = bar.tabRect(place).center()
     QTest.mousePress(bar, Qt.MouseButton.LeftButton, pos=start)
-    assert window.store.state.tab == "mtf"
+    assert window.store.state.display.tab == "mtf"
     for down in (20, 60, 90):  # the first is still on the bar, the last one drag
         move = QMouseEvent(
             QEvent.Type.MouseMove,
@@ -192,7 +193,7 @@ def test_a_tab_dragged_off_the_bar_has_its_own_window(window):
             Qt.KeyboardModifier.NoModifier,
         )
         QApplication.sendEvent(bar, move)
-        assert window.store.state.windows == (() if down == 20 else ("mtf",))
+        assert window.store.state.display.windows == (() if down == 20 else ("mtf",))
     QTest.mouseRelease(bar, Qt.MouseButton.LeftButton, pos=start)
     window.floating.open["mtf"].close()
 
@@ -208,7 +209,7 @@ def test_own_windows_stand_where_they_stood_when_opened_again_and_at_the_next_st
     keeping.keep()
     window.floating.open["mtf"].resize(800, 600)
     state, geometry = last_session()
-    assert state.windows == ("mtf",)
+    assert state.display.windows == ("mtf",)
     again = SessionKeeper(window, window.store, window.stack, lambda: window.floating.open, geometry)
     assert window.floating.open["mtf"].size() == QSize(433, 377)
     for filtering in (keeping, again):

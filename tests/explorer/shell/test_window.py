@@ -64,25 +64,25 @@ def test_a_drag_is_one_undo(window, drag, qtbot):
     qtbot.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert window.store.state == first
     qtbot.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
-    assert window.store.state.field_deg > 15
+    assert window.store.state.optics.field_deg > 15
 
 
 @pytest.mark.parametrize(
     ("key", "sign"), [(Qt.Key.Key_Right, 1), (Qt.Key.Key_Left, -1), (Qt.Key.Key_PageUp, 1), (Qt.Key.Key_PageDown, -1)]
 )
 def test_arrow_and_page_keys_move_the_field(window, qtbot, key, sign):
-    before = window.store.state.field_deg
+    before = window.store.state.optics.field_deg
     slider = window.controls.rows["field_deg"].slider
     slider.setFocus()
     qtbot.keyClick(slider, key)
-    assert sign * (window.store.state.field_deg - before) > 0
+    assert sign * (window.store.state.optics.field_deg - before) > 0
 
 
 def test_double_click_resets(window, drag, qtbot):
     slider = window.controls.rows["wavelength_nm"].slider
     drag(slider, 0.1)
     qtbot.mouseDClick(slider, Qt.MouseButton.LeftButton, pos=QPoint(40, 11))
-    assert window.store.state.wavelength_nm == pytest.approx(587.5618)
+    assert window.store.state.optics.wavelength_nm == pytest.approx(587.5618)
 
 
 def test_typing_a_distance(window, qtbot):
@@ -90,7 +90,7 @@ def test_typing_a_distance(window, qtbot):
     edit.selectAll()
     qtbot.keyClicks(edit, "2 m")
     qtbot.keyClick(edit, Qt.Key.Key_Return)
-    assert window.store.state.depth_mm == 2000
+    assert window.store.state.optics.depth_mm == 2000
     assert edit.text() == "2.000 m"
 
 
@@ -116,7 +116,7 @@ def test_a_wavelength_outside_the_glass_is_refused_and_the_picture_stays(window)
 def test_the_infinity_button(window, qtbot):
     window.store.update(depth_mm=2000.0)
     qtbot.mouseClick(window.controls.rows["depth_mm"].buttons[0], Qt.MouseButton.LeftButton)
-    assert window.store.state.depth_mm == inf
+    assert window.store.state.optics.depth_mm == inf
 
 
 def test_focus_follows_the_source(window):
@@ -130,7 +130,7 @@ def test_focus_follows_the_source(window):
 
 def test_autofocus_finds_the_smallest_rms(window, qtbot):
     qtbot.mouseClick(window.controls.focus_button, Qt.MouseButton.LeftButton)
-    best, shift = window.live.pupil.rms, window.store.state.sensor_shift_um
+    best, shift = window.live.pupil.rms, window.store.state.optics.sensor_shift_um
     for step in (-5.0, 5.0):
         window.store.update(sensor_shift_um=shift + step)
         assert window.live.pupil.rms > best
@@ -147,9 +147,9 @@ def test_dragging_the_source_turns_the_field(window, qtbot):
     for part in (0.3, 0.7, 1.0):
         qtbot.mouseMove(chart, at(part))
     qtbot.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=at(1.0))
-    assert 0 < window.store.state.field_deg < 6
+    assert 0 < window.store.state.optics.field_deg < 6
     window.store.undo()
-    assert window.store.state.field_deg == 10.0
+    assert window.store.state.optics.field_deg == 10.0
 
 
 def test_the_arrow_of_a_positive_field_points_up_and_coma_follows_the_sign(window):
@@ -185,7 +185,7 @@ def test_light_and_dark(window):
 @pytest.mark.parametrize("name", ["cooke_triplet", "eye_navarro", "relay", "landscape"])
 def test_every_kind_of_lens_opens(window, name):
     assert window.commands.open_lens(name)
-    assert window.live.state.lens == name
+    assert window.live.state.optics.lens == name
     assert not window.banner.isVisible()
 
 
@@ -205,7 +205,7 @@ def test_a_lens_file_dropped_on_the_window_opens(window, tmp_path):
     buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
     event = QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, buttons, keys)
     window.dropEvent(event)
-    assert window.live.state.lens == str(path)
+    assert window.live.state.optics.lens == str(path)
 
 
 def test_what_no_workshop_could_make_is_told_with_the_warnings(window):

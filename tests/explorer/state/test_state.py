@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.state.state import CHOICES, LINKABLE, SCHEMA, State, read_state, state_from_json, state_to_json
+from p2sf_explorer.state.state import CHOICES, LINKABLE, State, new_state
+from p2sf_explorer.state.state_files import SCHEMA, read_state, state_from_json, state_to_json
 from p2sf_explorer.state.terms import TERMS
 
 finite = {"allow_nan": False, "allow_infinity": False}
@@ -37,15 +38,15 @@ ALONE = dict(
     solo=some_of(TERMS),
     free_pupil=st.booleans(),
     linked=some_of(LINKABLE),
-    play_seconds=st.floats(0.1, 600, **finite),
+    playback_seconds=st.floats(0.1, 600, **finite),
     **{name: st.sampled_from(values) for name, values in CHOICES.items() if name != "shown"},
 )
-PLAYED = st.builds(dict, play=st.just("depth_mm"), play_range=st.none() | st.just((500.0, inf)))
-PLAYED |= st.builds(dict, play=st.just("added_w31"), play_range=st.tuples(WAVES, WAVES))
+PLAYED = st.builds(dict, playback_slider=st.just("depth_mm"), playback_range=st.none() | st.just((500.0, inf)))
+PLAYED |= st.builds(dict, playback_slider=st.just("added_w31"), playback_range=st.tuples(WAVES, WAVES))
 STATES = st.builds(
-    lambda alone, other, played, shown: State(**alone, **played, pinned=other, shown=shown if other else "a"),
+    lambda alone, other, played, shown: new_state(**alone, **played, pinned=other, shown=shown if other else "a"),
     st.builds(dict, **ALONE),
-    st.none() | st.builds(State, **ALONE),
+    st.none() | st.builds(new_state, **ALONE),
     PLAYED,
     st.sampled_from(CHOICES["shown"]),
 )
@@ -58,7 +59,7 @@ def test_json_and_back_is_identical(state):
 
 def test_infinity_is_plain_json():
     text = state_to_json(State())
-    assert json.loads(text, parse_constant=pytest.fail)["state"]["depth_mm"] == "inf"
+    assert json.loads(text, parse_constant=pytest.fail)["state"]["optics"]["depth_mm"] == "inf"
 
 
 @pytest.mark.parametrize(
@@ -71,23 +72,23 @@ def test_infinity_is_plain_json():
         ({"method": "magic"}, 'method is "magic"; choose one of auto'),
         ({"lens": ""}, "names no lens"),
         ({"lens_text": 3}, "edited lens is not text"),
-        ({"clip": "yes"}, "clip must be true or false"),
+        ({"clip": "yes"}, "clip is 'yes'; give true or false"),
         ({"added_waves": (1.0,)}, "give 6 numbers, for w40"),
         ({"added_waves": (float("nan"), 0.0, 0.0, 0.0, 0.0, 0.0)}, "added to w40 is nan λ"),
         ({"muted": ("w31", "w40")}, "each once and in this order"),
         ({"solo": ("piston",)}, "list some of w40"),
         ({"free_pupil": 1}, "free_pupil is 1"),
-        ({"pinned": State(pinned=State())}, "nothing pinned in it"),
+        ({"pinned": new_state(pinned=State())}, "nothing pinned in it"),
         ({"shown": "b"}, "nothing is pinned as B"),
         ({"linked": ("theme",)}, "linked is"),
-        ({"play": "theme"}, "name a slider"),
-        ({"play": "depth_mm", "play_range": (-1.0, inf)}, "source depth is -1 mm"),
-        ({"play_seconds": 0.0}, "duration of a sweep is 0 s"),
+        ({"playback_slider": "theme"}, "name a slider"),
+        ({"playback_slider": "depth_mm", "playback_range": (-1.0, inf)}, "source depth is -1 mm"),
+        ({"playback_seconds": 0.0}, "duration of a sweep is 0 s"),
     ],
 )
 def test_a_value_that_cannot_be_is_a_sentence(changes, words):
     with pytest.raises(P2SFError, match=words.replace("(", r"\(")):
-        State(**changes)
+        new_state(**changes)
 
 
 @pytest.mark.parametrize(

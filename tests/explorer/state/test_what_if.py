@@ -1,7 +1,6 @@
 """What if a coefficient were another: laws of the altered six, textbook pictures, the desk under a person's hands."""
 
 import pickle
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,13 +15,13 @@ from p2sf_explorer.compute.reference import measure
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.panels import REGISTRY, view_of
 from p2sf_explorer.scene3d.scene import scene
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed, entry, new_state
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, is_altered, of_preset, toggled, with_added
 from p2sf_explorer.widgets.coefficient_mixer import NUMBER, waves
 from tests.support.waves import rms
 
-FIELD = State(method="fitted", field_deg=7.0)
+FIELD = new_state(method="fitted", field_deg=7.0)
 
 
 def six(state) -> dict[str, float]:
@@ -32,26 +31,26 @@ def six(state) -> dict[str, float]:
 
 @pytest.mark.parametrize("term", TERMS)
 def test_added_waves_go_on_top_of_one_coefficient_and_no_other(term):
-    own, added = six(FIELD), six(replace(FIELD, added_waves=with_added(FIELD, term, 1.25)))
+    own, added = six(FIELD), six(changed(FIELD, added_waves=with_added(FIELD, term, 1.25)))
     assert added == pytest.approx(own | {term: own[term] + 1.25}, abs=1e-12)
 
 
 def test_a_muted_term_is_zero_and_a_solo_one_alone():
     own = six(FIELD)
-    assert six(replace(FIELD, muted=("w22",))) == own | {"w22": 0.0}
-    assert six(replace(FIELD, solo=("w31", "w22"))) == dict.fromkeys(TERMS, 0.0) | {k: own[k] for k in ("w31", "w22")}
-    assert set(six(replace(FIELD, solo=("w31",), muted=("w31",))).values()) == {0.0}
+    assert six(changed(FIELD, muted=("w22",))) == own | {"w22": 0.0}
+    assert six(changed(FIELD, solo=("w31", "w22"))) == dict.fromkeys(TERMS, 0.0) | {k: own[k] for k in ("w31", "w22")}
+    assert set(six(changed(FIELD, solo=("w31",), muted=("w31",))).values()) == {0.0}
 
 
 def test_a_free_pupil_knows_no_lens():
-    state = replace(FIELD, free_pupil=True, added_waves=(1.0, 0.5, 0.0, 0.0, -1.0, 0.0))
-    assert tuple(six(state).values()) == state.added_waves
-    assert six(replace(state, field_deg=2.0, lens="cooke_triplet")) == six(state)
+    state = changed(FIELD, free_pupil=True, added_waves=(1.0, 0.5, 0.0, 0.0, -1.0, 0.0))
+    assert tuple(six(state).values()) == state.what_if.added_waves
+    assert six(changed(state, field_deg=2.0, lens="cooke_triplet")) == six(state)
 
 
 @pytest.mark.parametrize("changes", [{"added_waves": (0.0, 0.5, 0.0, 0.0, 0.0, 0.0)}, {"muted": ("w40",)}])
 def test_the_picture_is_of_the_altered_six_whatever_the_method(changes):
-    live = compute.live(replace(FIELD, **changes))
+    live = compute.live(changed(FIELD, **changes))
     expected = seidel_psf(live.setup.coefficients, *live.psf.values.shape[:1], live.psf.pixel_um, "settled")
     assert live.psf.method == "seidel"
     assert np.array_equal(live.psf.values, expected.values)
@@ -70,7 +69,7 @@ OF_THE_LENS = {"lens", "first_order", "ybar", "import"}  # data of the lens: nob
 
 
 def test_the_warning_names_every_tab_that_does_not_follow():
-    own, other = (compute.live(State(method="seidel", added_waves=(w, w, 0.0, 0.0, w, 0.0))) for w in (0.0, 0.5))
+    own, other = (compute.live(new_state(method="seidel", added_waves=(w, w, 0.0, 0.0, w, 0.0))) for w in (0.0, 0.5))
     views = {entry.key: view_of(entry) for entry in REGISTRY if view_of(entry)}
     still = {key for key, view in views.items() if pickle.dumps(view(own)) == pickle.dumps(view(other))}
     assert still - OF_THE_LENS == set(NAMED)
@@ -79,14 +78,14 @@ def test_the_warning_names_every_tab_that_does_not_follow():
 
 def test_the_wavefront_in_space_is_the_altered_one():
     """A free pupil with W31 alone: ½ λ ahead at the rim towards the field, ½ λ behind on the other side."""
-    state = State(free_pupil=True, added_waves=with_added(State(), "w31", 0.5))
+    state = new_state(free_pupil=True, added_waves=with_added(State(), "w31", 0.5))
     waves = scene(compute.live(state, "preview")).front.waves
     assert (waves.max(), waves.min()) == pytest.approx((0.5, -0.5))
 
 
 def psf_of(words: str):
     preset = next(preset for preset in PRESETS if preset.title.startswith(words))
-    return compute.live(State(**of_preset(preset))).psf
+    return compute.live(new_state(**of_preset(preset))).psf
 
 
 def test_one_wave_of_defocus_is_dark_on_the_axis():
@@ -117,7 +116,7 @@ def test_coma_moves_the_peak_along_the_field_and_keeps_left_and_right_alike():
 
 
 def test_best_focus_of_spherical_has_a_sixteenth_of_the_variance():
-    shown = [State(**of_preset(p)) for p in PRESETS if p.title.startswith("Spherical, 1 λ")]
+    shown = [new_state(**of_preset(p)) for p in PRESETS if p.title.startswith("Spherical, 1 λ")]
     paraxial, best, marginal = (float(rms(paraxial_setup(state).coefficients)) for state in shown)
     assert best == pytest.approx(paraxial / 4)  # 4/45 against 1/180 waves² (Mahajan 1991, table 2-1)
     assert marginal == pytest.approx(paraxial)
@@ -126,12 +125,12 @@ def test_best_focus_of_spherical_has_a_sixteenth_of_the_variance():
 @pytest.mark.parametrize("changes", [{"free_pupil": True}, {"muted": ("wd",)}, {"solo": ("w40",)}])
 def test_autofocus_refuses_where_the_sensor_moves_nothing(changes):
     with pytest.raises(GeometryError, match="does not focus"):
-        best_shift_um(State(**changes))
+        best_shift_um(new_state(**changes))
 
 
 def test_autofocus_of_altered_coefficients_balances_them():
-    state = State(muted=("w31", "w22", "w20"), field_deg=5.0)
-    best = paraxial_setup(replace(state, sensor_shift_um=best_shift_um(state))).coefficients
+    state = new_state(muted=("w31", "w22", "w20"), field_deg=5.0)
+    best = paraxial_setup(changed(state, sensor_shift_um=best_shift_um(state))).coefficients
     assert float(best.wd) == pytest.approx(-float(best.w40), abs=0.02)  # the shift is rounded to a nanometre
 
 
@@ -156,7 +155,7 @@ def test_dragging_a_slider_adds_waves_and_is_one_undo(window, desk, qtbot):
         qtbot.mouseMove(desk, at(desk, "w31", part))
         assert window.live.quality == "preview"
     qtbot.mouseRelease(desk, Qt.MouseButton.LeftButton, pos=at(desk, "w31", 0.3))
-    added = window.store.state.added_waves[TERMS.index("w31")]
+    added = window.store.state.what_if.added_waves[TERMS.index("w31")]
     assert added == pytest.approx(0.3 * desk.limit, abs=desk.limit / 40)  # a pixel of some 120 of the travel
     assert desk.values["w31"] == pytest.approx(desk.own["w31"] + added)
     assert window.live.quality == "settled"
@@ -173,7 +172,7 @@ def test_dragging_a_slider_adds_waves_and_is_one_undo(window, desk, qtbot):
 def test_the_buttons_mute_and_solo(window, desk, qtbot, kind):
     place = desk.places.button(TERMS.index("w22"), kind).center().toPoint()
     qtbot.mouseClick(desk, Qt.MouseButton.LeftButton, pos=place)
-    assert getattr(window.store.state, kind) == ("w22",)
+    assert entry(window.store.state, kind) == ("w22",)
     qtbot.mouseClick(desk, Qt.MouseButton.LeftButton, pos=place)
     assert not is_altered(window.store.state)
 
@@ -183,10 +182,10 @@ def test_the_keyboard_reaches_every_row(window, desk, qtbot):
     desk.choose(0)
     for row, term in enumerate(TERMS):
         qtbot.keyClick(desk, Qt.Key.Key_Right)
-        assert window.store.state.added_waves[row] > 0
+        assert window.store.state.what_if.added_waves[row] > 0
         qtbot.keyClick(desk, Qt.Key.Key_Delete)
         qtbot.keyClick(desk, Qt.Key.Key_M)
-        assert window.store.state.muted == (term,)
+        assert window.store.state.what_if.muted == (term,)
         qtbot.keyClick(desk, Qt.Key.Key_M)
         qtbot.keyClick(desk, Qt.Key.Key_Down)
     assert not is_altered(window.store.state)
@@ -213,7 +212,7 @@ def test_presets_and_reset(window, qtbot):
         action.trigger()
         assert panel.bars.values == pytest.approx(dict.fromkeys(TERMS, 0.0) | preset.waves)
     qtbot.mouseClick(panel.reset, Qt.MouseButton.LeftButton)
-    assert {name: getattr(window.store.state, name) for name in UNTOUCHED} == UNTOUCHED
+    assert {name: entry(window.store.state, name) for name in UNTOUCHED} == UNTOUCHED
     assert not panel.reset.isEnabled()
 
 

@@ -5,12 +5,12 @@ import pytest
 from p2sf.errors import GeometryError
 from p2sf_explorer.compute.editing import check_surface
 from p2sf_explorer.compute.setup import prescription
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import new_state
 
 
 def test_b_on_screen_is_not_edited_and_a_row_too_many_is_a_sentence(window):
     """B has more surfaces than A, and a lens without a picture leaves the table of the last one."""
-    window.store.update(lens="double_gauss_28", pinned=State(lens="wide_angle_35", theme="light"), shown="b")
+    window.store.update(lens="double_gauss_28", pinned=new_state(lens="wide_angle_35", theme="light"), shown="b")
     window.open_panel("lens")
     model = window.panels["lens"].model
     last = model.index(model.rowCount() - 1, 1)

@@ -19,7 +19,7 @@ def test_a_drag_is_one_step(qtbot):
     with store.drag():
         for angle in range(1, 6):
             store.update(field_deg=float(angle))
-    assert store.state.field_deg == 5.0
+    assert store.state.optics.field_deg == 5.0
     store.undo()
     assert store.state == State()
     assert not store.can_undo
@@ -65,19 +65,23 @@ def test_any_500_actions_undone_give_the_first_state_and_redone_the_last(qtbot, 
 def _what_if(store, chance):
     waves = tuple(chance.uniform(-3, 3) for _ in TERMS)
     term = chance.choice(TERMS)
-    kinds = {"added_waves": waves, "muted": toggled(store.state.muted, term), "solo": toggled(store.state.solo, term)}
+    kinds = {
+        "added_waves": waves,
+        "muted": toggled(store.state.what_if.muted, term),
+        "solo": toggled(store.state.what_if.solo, term),
+    }
     name = chance.choice([*kinds, "free_pupil", "preset", "reset"])
     if name in kinds:
         store.update(**{name: kinds[name]})
     elif name == "free_pupil":
-        store.update(free_pupil=not store.state.free_pupil)
+        store.update(free_pupil=not store.state.what_if.free_pupil)
     else:
         store.update(**(of_preset(chance.choice(PRESETS)) if name == "preset" else UNTOUCHED))
 
 
 def _compare(store, chance):
     state = store.state
-    if not state.pinned:
+    if not state.compare.pinned:
         store.replace(pin(state))
         return
     what = chance.choice(["unpin", "swap", "shown", "link"])
@@ -90,8 +94,8 @@ def _compare(store, chance):
 
 
 def _play(store, chance):
-    store.update(play=chance.choice(PLAYABLE), play_range=None, play_seconds=chance.uniform(1, 9))
-    if store.state.play:
+    store.update(playback_slider=chance.choice(PLAYABLE), playback_range=None, playback_seconds=chance.uniform(1, 9))
+    if store.state.playback.slider:
         with store.drag():
             for part in (0.2, 0.6):
                 store.update(**changes(store.state, sweep(store.state).value(part)))
@@ -133,4 +137,4 @@ def test_after_a_thousand_steps_the_oldest_is_forgotten(qtbot):
     while store.can_undo:
         store.undo()
         taken += 1
-    assert taken == MOST_STEPS and store.state.field_deg == pytest.approx(0.06)
+    assert taken == MOST_STEPS and store.state.optics.field_deg == pytest.approx(0.06)

@@ -14,7 +14,7 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.shell.report import SHARES, fields, write_report
 from p2sf_explorer.state.pinning import pin
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.widgets.copying import copy_menu, data_of, table
 from tests.long.crash import small_disk
 
@@ -134,7 +134,7 @@ def test_the_picture_on_the_clipboard_is_the_panel(window, qtbot):
 
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_the_report_is_one_page_of_a4_with_drawing_numbers_and_pictures(qapp, tmp_path, language):
-    state = State(method="seidel", f_number=8.0)
+    state = new_state(method="seidel", f_number=8.0)
     set_language(language)
     try:
         write_report(state, str(tmp_path / "page.pdf"))
@@ -159,18 +159,18 @@ def inflated(stream: bytes) -> bytes:
 
 
 def test_the_report_shows_the_field_from_the_axis_to_the_lens_files_widest():
-    shown = [state.field_deg for state in fields(State())]
+    shown = [state.optics.field_deg for state in fields(State())]
     assert shown == pytest.approx([0.0, 4.9, 9.8, 14.0])
 
 
 def test_a_report_that_cannot_be_written_is_a_sentence(qapp, tmp_path):
     with pytest.raises(P2SFError, match="cannot be written"):
-        write_report(State(method="seidel", f_number=8.0), str(tmp_path / "no" / "page.pdf"))
+        write_report(new_state(method="seidel", f_number=8.0), str(tmp_path / "no" / "page.pdf"))
 
 
 def test_a_report_on_a_full_disk_is_a_sentence_and_the_old_one_stays(qapp, tmp_path):
     old = tmp_path / "page.pdf"
     old.write_bytes(b"old")
     with small_disk(2000), pytest.raises(P2SFError, match="cannot be written"):
-        write_report(State(method="seidel", f_number=8.0), str(old))
+        write_report(new_state(method="seidel", f_number=8.0), str(old))
     assert (list(tmp_path.iterdir()), old.read_bytes()) == ([old], b"old")

@@ -7,18 +7,18 @@ from p2sf.paraxial.first_order import image_distance
 from p2sf_explorer.compute.quantities import BEYOND, FOCUS
 from p2sf_explorer.compute.ranges import file_focus
 from p2sf_explorer.compute.setup import load, paraxial_setup, ranges
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, new_state
 
 
 def shown(state: State) -> str:
-    return FOCUS.write(FOCUS.shown(state, ranges(load(state.lens))))
+    return FOCUS.write(FOCUS.shown(state, ranges(load(state.optics.lens))))
 
 
 def test_a_sensor_nearer_than_the_image_of_infinity_does_not_read_as_focused_there():
-    own, far = State(lens="cooke_triplet"), State(lens="cooke_triplet", focus_mm=float("inf"))
+    own, far = new_state(lens="cooke_triplet"), new_state(lens="cooke_triplet", focus_mm=float("inf"))
     assert paraxial_setup(own).lens.sensor_mm < paraxial_setup(far).lens.sensor_mm - 0.1
     assert (shown(own), shown(far)) == (BEYOND, "∞")
-    assert shown(State(lens="double_gauss_28")) == "∞"  # its sensor is 1 µm off, as six digits have it
+    assert shown(new_state(lens="double_gauss_28")) == "∞"  # its sensor is 1 µm off, as six digits have it
 
 
 def test_the_virtual_object_of_such_a_sensor_is_imaged_on_it():

@@ -19,11 +19,11 @@ from p2sf_explorer.compute.deferred_sums import KEPT, MOST_NODES, SumCache, SumR
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.pinning import optics
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed, new_state
 from tests.explorer.conftest import FIRST
 
-CORNER = replace(with_lens(State(theme="light"), "double_gauss_28"), method="traced", field_deg=14.0, clip=True)
-WIDE = replace(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_um=60.0)
+CORNER = changed(with_lens(new_state(theme="light"), "double_gauss_28"), method="traced", field_deg=14.0, clip=True)
+WIDE = changed(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_um=60.0)
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def window(window):
 @contextmanager
 def noted(patch, gate: Event | None = None):
     """Note in which threads waves are summed one by one; each sum waits at the gate, and gives any picture."""
-    found, ready = [], live(State(method="seidel")).psf
+    found, ready = [], live(new_state(method="seidel")).psf
 
     def call(lens, source, pixels, pixel_um, *arguments, **words):
         found.append(get_ident())
@@ -54,8 +54,8 @@ def test_a_slow_sum_is_never_made_by_the_thread_that_paints(window, qtbot, monke
     """The picture that stands in says what follows."""
     with noted(monkeypatch) as threads:
         window.store.replace(state)
-        assert window.live.pending and window.live.psf.method != state.method
-        assert str(window.live.why) == f"{state.method} follows: its sum of waves takes a moment"
+        assert window.live.pending and window.live.psf.method != state.optics.method
+        assert str(window.live.why) == f"{state.optics.method} follows: its sum of waves takes a moment"
         qtbot.waitUntil(lambda: window.live.pending is None, timeout=20_000)
         assert threads and get_ident() not in threads
     assert window.live.psf.method == "traced"
@@ -78,7 +78,7 @@ def test_what_stands_in_has_the_size_of_what_follows():
 def test_a_sum_nobody_waits_for_any_more_is_not_shown(window, qtbot, monkeypatch):
     gate = Event()
     with noted(monkeypatch, gate):
-        window.store.replace(replace(WIDE, field_deg=12.0))
+        window.store.replace(changed(WIDE, field_deg=12.0))
         first = window.live.pending
         window.store.update(field_deg=13.0)
         second = window.live.pending
@@ -115,7 +115,7 @@ def test_a_failure_nobody_waits_for_is_not_told(window):
 
 def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch):
     """There and back at once: the first sum is stopped while its like waits behind it."""
-    gate, ready, sums = Event(), live(State(method="seidel")).psf, []
+    gate, ready, sums = Event(), live(new_state(method="seidel")).psf, []
 
     def stoppable(pending, cancelled):
         gate.wait(20)
@@ -137,7 +137,7 @@ def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch)
 
 def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
     """B's answer is kept while A moves, yet not the one that stood in for it."""
-    ready, sums = live(State(method="seidel")).psf, []
+    ready, sums = live(new_state(method="seidel")).psf, []
 
     def counted(pending, cancelled):
         sums.append(pending)
@@ -146,7 +146,7 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
         return replace(ready, method="huygens", values=values, pixel_um=pending.window[1])
 
     monkeypatch.setattr(settling, "by_rays", counted)
-    window.store.replace(replace(FIRST, pinned=State(**optics(WIDE))))
+    window.store.replace(changed(FIRST, pinned=optics(WIDE)))
     assert window._answers.pending == window._answers.b.pending is not None
     qtbot.waitUntil(lambda: not (window.settling.worker.busy or window._answers.pending), timeout=20_000)
     assert window._answers.b.psf.method == "huygens" and len(sums) == 1
@@ -157,13 +157,13 @@ def test_what_is_summed_at_once_is_small(method):
     """The estimate of nodes before any is traced keeps what it promises, to a factor of 2 in a corner's slope."""
     for name in ("fast_gauss_f14", "telephoto", "landscape"):
         for shift in (0.0, 100.0, 300.0, 900.0):
-            state = replace(with_lens(State(), name), method=method, sensor_shift_um=shift)
+            state = changed(with_lens(State(), name), method=method, sensor_shift_um=shift)
             answer = live(state, cache=SumCache())
             assert answer.pending or answer.psf.rays <= 2 * MOST_NODES[method]
 
 
 def test_the_latest_sums_are_kept_and_no_more():
-    cache, psf = SumCache(), live(State(method="seidel"), "preview").psf
+    cache, psf = SumCache(), live(new_state(method="seidel"), "preview").psf
     asks = [SumRequest(None, None, "traced", (8, float(number)), 0.99, False) for number in range(KEPT + 2)]
     for each in asks:
         cache.keep(each, psf)
@@ -183,7 +183,7 @@ def test_what_moves_where_rims_clip_resembles_the_exact_picture():
 
 def test_a_slow_method_of_every_lens_has_something_that_stands_in():
     for name in shipped_lenses():
-        state = replace(with_lens(State(), name), method="traced", clip=True)
+        state = changed(with_lens(State(), name), method="traced", clip=True)
         answer = live(state, cache=SumCache())
         assert answer.pending or answer.psf.method == "geometric"
         assert np.isfinite(answer.psf.values).all() and answer.psf.values.sum() == pytest.approx(1.0)
@@ -191,7 +191,7 @@ def test_a_slow_method_of_every_lens_has_something_that_stands_in():
 
 def test_a_window_for_a_wide_picture_shows_a_small_one_as_rays():
     """Beside a B that is blurred over millimetres a sum of waves would be of thousands of rows."""
-    sharp = replace(FIRST, field_deg=0.0)
+    sharp = changed(FIRST, field_deg=0.0)
     assert live(sharp, at_least_um=100.0).psf.method == "seidel"
     for quality in ("preview", "settled"):
         wide = live(sharp, quality, at_least_um=20_000.0).psf

@@ -1,6 +1,5 @@
 """The background measure: R² against the Huygens sum arrives by itself, and every method's is in order."""
 
-from dataclasses import replace
 from threading import Event
 
 import pytest
@@ -12,14 +11,14 @@ from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.panels.accuracy import anchors
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.scales import written_r_squared
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.workers.live_accuracy import fits
 
 
 @pytest.fixture
 def measured(qapp, qtbot):
     configure_plots()
-    made = MainWindow(State(method="seidel", theme="light", field_deg=0.0, f_number=8.0, tab="accuracy"))
+    made = MainWindow(new_state(method="seidel", theme="light", field_deg=0.0, f_number=8.0, tab="accuracy"))
     made.show()
     yield made
     made.close()
@@ -41,14 +40,14 @@ def test_the_panel_in_a_window_of_its_own_is_told_whatever_tab_is_in_front(measu
     measured.store.update(tab="mtf", windows=("accuracy",), field_deg=1.0)
     message = measured.panels["accuracy"].message
     qtbot.waitUntil(lambda: "vs Huygens" in message.text() and "earlier" not in message.text(), timeout=30000)
-    assert measured.measuring._last.live.state.field_deg == 1.0 and measured.measuring._last.results
+    assert measured.measuring._last.live.state.optics.field_deg == 1.0 and measured.measuring._last.results
 
 
 def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
     """The six coefficients ask for a wider window than the rays do; measured there they would have another figure."""
     found = {}
     for method in ("seidel", "fitted"):
-        shown = live(State(method=method, field_deg=10.0, wavelength_nm=656.3, f_number=4.0))
+        shown = live(new_state(method=method, field_deg=10.0, wavelength_nm=656.3, f_number=4.0))
         accuracy = measure(shown, True, Event(), lambda part: None)
         results = {method.method: method.r_squared for method in accuracy.results}
         assert accuracy.r_squared == pytest.approx(results[method], abs=1e-12)
@@ -79,11 +78,11 @@ def test_a_lesson_claims_what_the_panel_says(measured, qtbot):
 )
 def test_a_figure_answers_for_its_own_picture_only(changes, wide):
     """R² compares two pictures: other rays cut, another window or method or point, and it is another number."""
-    state = State(method="seidel", field_deg=2.0, f_number=8.0)
+    state = new_state(method="seidel", field_deg=2.0, f_number=8.0)
     shown = live(state)
     known = Accuracy(shown, shown.psf, shown.psf, 0.9)
-    assert fits(known, live(replace(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
-    assert not fits(known, live(replace(state, **changes), at_least_um=wide), False)
+    assert fits(known, live(changed(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
+    assert not fits(known, live(changed(state, **changes), at_least_um=wide), False)
 
 
 def test_the_names_of_the_methods_stay_inside_and_take_different_sides(qapp):
