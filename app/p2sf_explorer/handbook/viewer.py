@@ -39,6 +39,7 @@ class Handbook(QDialog):
         self.setObjectName("window")
         self.setWindowTitle(tr("Handbook"))
         self._theme, self._page = theme, ""
+        self.shown = "", ""  # the page and the number of the section it was opened at
         self.contents, self.text = QTreeWidget(self), QTextBrowser(self)
         self.contents.setHeaderHidden(True)
         self.contents.setAccessibleName(tr("Contents"))
@@ -64,12 +65,15 @@ class Handbook(QDialog):
     def show_section(self, name: str = "theory", number: str = "") -> None:
         """Open a page, at the section of this number where one is given."""
         found = next((heading.text for heading in headings(page(name)) if number and heading.number == number), "")
+        self.shown = name, number
         self.show()
         self.raise_()
         self._open(name, found)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
+        if theme == self._theme:
+            return
         self._theme, name, self._page = theme, self._page, ""
         if name:
             self._open(name, "")

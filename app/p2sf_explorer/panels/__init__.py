@@ -56,12 +56,14 @@ class PreparingPanel(Panel, Protocol):
 class PanelEntry:
     """One registered panel: ``panel`` is its module:class, ``view`` the module:function of its view, if it has one.
 
-    ``place`` is "main" or "tab", ``group`` the one of `GROUPS` among whose tabs it stands.
+    ``handbook`` is the section of the theory it leads to, ``place`` is "main" or "tab", ``group`` the one of `GROUPS`
+    among whose tabs it stands.
     """
 
     key: str
     title: str
     panel: str
+    handbook: str
     place: str = "tab"
     view: str = ""
     group: str = "Tools"
@@ -70,43 +72,53 @@ class PanelEntry:
 GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
 
 
-def tab(group: str, key: str, title: str, panel: str, view: str = "") -> PanelEntry:
+def tab(group: str, key: str, title: str, handbook: str, panel: str, view: str = "") -> PanelEntry:
     """Return the entry of a tab; panel and view are module:name in their folders."""
-    return PanelEntry(
-        key, title, f"p2sf_explorer.panels.{panel}", "tab", view and f"p2sf_explorer.results.{view}", group
-    )
+    view = view and f"p2sf_explorer.results.{view}"
+    return PanelEntry(key, title, f"p2sf_explorer.panels.{panel}", handbook, "tab", view, group)
 
 
 REGISTRY = (
-    PanelEntry("layout", "Layout", "p2sf_explorer.panels.layout:LayoutPanel", "main"),
-    PanelEntry("pupil", "Pupil", "p2sf_explorer.panels.pupil:PupilPanel", "main"),
-    PanelEntry("psf", "PSF", "p2sf_explorer.panels.psf:PsfPanel", "main"),
-    PanelEntry("coefficients", "Coefficients", "p2sf_explorer.panels.coefficients:CoefficientsPanel", "main"),
-    tab("PSF", "profiles", "Profiles", "profiles:ProfilesPanel", "profiles:profiles"),
-    tab("PSF", "mtf", "MTF", "mtf:MtfPanel", "mtf:contrast"),
-    tab("PSF", "through_focus", "Through focus", "through_focus:ThroughFocusPanel", "through_focus:strip"),
-    tab("PSF", "field_map", "Field map", "field_map:FieldMapPanel", "field_map:field_map"),
-    tab("PSF", "beside", "Perfect lens", "pixels:BesidePanel", "pixels:beside"),
-    tab("PSF", "colour", "Colour", "colour:ColourPanel", "colour:question"),
-    tab("Rays", "spot", "Spot", "spot:SpotPanel", "rays:spots"),
-    tab("Rays", "ray_fan", "Ray fan", "fans:RayFanPanel", "rays:ray_errors"),
-    tab("Rays", "opd_fan", "OPD fan", "fans:OpdFanPanel", "rays:path_errors"),
-    tab("Aberrations", "seidel", "Seidel per surface", "seidel:SeidelPanel", "seidel:per_surface"),
-    tab("Aberrations", "field", "Field curves", "field:FieldPanel", "field:field_curves"),
-    tab("Aberrations", "chromatic", "Chromatic shift", "chromatic:ChromaticPanel", "chromatic:chromatic"),
-    tab("Lens", "lens", "Table", "lens_table:LensTablePanel", "lens_table:rows"),
-    tab("Lens", "first_order", "First order", "first_order:FirstOrderPanel", "first_order:first_order"),
-    tab("Lens", "ybar", "y–ȳ", "ybar:YBarPanel", "ybar:ybar"),
+    PanelEntry("layout", "Layout", "p2sf_explorer.panels.layout:LayoutPanel", "2.2", "main"),
+    PanelEntry("pupil", "Pupil", "p2sf_explorer.panels.pupil:PupilPanel", "3.1", "main"),
+    PanelEntry("psf", "PSF", "p2sf_explorer.panels.psf:PsfPanel", "4.1", "main"),
+    PanelEntry("coefficients", "Coefficients", "p2sf_explorer.panels.coefficients:CoefficientsPanel", "3.2", "main"),
+    tab("PSF", "profiles", "Profiles", "6.3", "profiles:ProfilesPanel", "profiles:profiles"),
+    tab("PSF", "mtf", "MTF", "6.3", "mtf:MtfPanel", "mtf:contrast"),
+    tab("PSF", "through_focus", "Through focus", "3.3", "through_focus:ThroughFocusPanel", "through_focus:strip"),
+    tab("PSF", "field_map", "Field map", "1.3", "field_map:FieldMapPanel", "field_map:field_map"),
+    tab("PSF", "beside", "Perfect lens", "9.2", "pixels:BesidePanel", "pixels:beside"),
+    tab("PSF", "colour", "Colour", "9.1", "colour:ColourPanel", "colour:question"),
+    tab("Rays", "spot", "Spot", "8.3", "spot:SpotPanel", "rays:spots"),
+    tab("Rays", "ray_fan", "Ray fan", "8.3", "fans:RayFanPanel", "rays:ray_errors"),
+    tab("Rays", "opd_fan", "OPD fan", "4.3", "fans:OpdFanPanel", "rays:path_errors"),
+    tab("Aberrations", "seidel", "Seidel per surface", "3.2", "seidel:SeidelPanel", "seidel:per_surface"),
+    tab("Aberrations", "field", "Field curves", "8.3", "field:FieldPanel", "field:field_curves"),
+    tab("Aberrations", "chromatic", "Chromatic shift", "8.3", "chromatic:ChromaticPanel", "chromatic:chromatic"),
+    tab("Lens", "lens", "Table", "1.1", "lens_table:LensTablePanel", "lens_table:rows"),
+    tab("Lens", "first_order", "First order", "2.1", "first_order:FirstOrderPanel", "first_order:first_order"),
+    tab("Lens", "ybar", "y–ȳ", "8.4", "ybar:YBarPanel", "ybar:ybar"),
     tab(
-        "Lens", "depth_of_field", "Depth of field", "depth_of_field:DepthOfFieldPanel", "depth_of_field:depth_of_field"
+        "Lens",
+        "depth_of_field",
+        "Depth of field",
+        "10.3",
+        "depth_of_field:DepthOfFieldPanel",
+        "depth_of_field:depth_of_field",
     ),
     PanelEntry(
-        "solid", "3D", "p2sf_explorer.panels.solid:SolidPanel", "tab", "p2sf_explorer.scene3d.scene:scene", "Lens"
+        "solid",
+        "3D",
+        "p2sf_explorer.panels.solid:SolidPanel",
+        "8.1",
+        "tab",
+        "p2sf_explorer.scene3d.scene:scene",
+        "Lens",
     ),
-    tab("Lens", "import", "Import", "import_report:ImportReportPanel", "import_report:report"),
-    tab("Tools", "image", "Image", "image:ImagePanel", "image:question"),
-    tab("Tools", "database", "Database", "database:DatabasePanel", "database:question"),
-    tab("Tools", "accuracy", "Accuracy", "accuracy:AccuracyPanel"),
+    tab("Lens", "import", "Import", "1.1", "import_report:ImportReportPanel", "import_report:report"),
+    tab("Tools", "image", "Image", "10.1", "image:ImagePanel", "image:question"),
+    tab("Tools", "database", "Database", "7.1", "database:DatabasePanel", "database:question"),
+    tab("Tools", "accuracy", "Accuracy", "6.1", "accuracy:AccuracyPanel"),
 )
 
 

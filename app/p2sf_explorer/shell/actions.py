@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf_explorer.charts.theme import tokens
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import with_lens
@@ -18,6 +19,7 @@ from p2sf_explorer.files.opening import KINDS, Refusal, opened, refusal
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.saving import ask_save_lens
 from p2sf_explorer.files.snapshot import DATA_ENDINGS, side_car, write_data, write_picture, write_state
+from p2sf_explorer.handbook.viewer import Handbook
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.bars import TopBar
@@ -61,6 +63,7 @@ class Actions(QObject):
         self._window, self._store, self._top, self._panels = window, store, top, panels
         self.commands: list[Command] = []
         self.palette: Palette | None = None
+        self.handbook: Handbook | None = None
         for command in self._first():
             self.add(command)
         top.lens_chosen.connect(self.open_lens)
@@ -69,7 +72,7 @@ class Actions(QObject):
         top.help_asked.connect(self.help)
         top.set_snapshot_menu(self._menu())
         self._list_recent()
-        listed = ("Find a command…", "Report: one page as PDF…", "Shortcuts")
+        listed = ("Find a command…", "Report: one page as PDF…", "Shortcuts", "Theory: conventions, formulas, sources")
         fill(top.more.menu(), store, tuple(c for c in self.commands if c.title in listed))
 
     def _first(self) -> tuple[Command, ...]:
@@ -89,6 +92,7 @@ class Actions(QObject):
             Command("Pop out", self._panels.detach, ("Ctrl+D",), "Panel"),
             Command("Find a command…", self.find, ("Ctrl+K",)),
             Command("Shortcuts", self.help, ("F1", "?")),
+            Command("Theory: conventions, formulas, sources", self.theory, ("Shift+F1",)),
             Command("Close the window", self._window.close, ("Ctrl+Q",)),
         )
 
@@ -169,6 +173,15 @@ class Actions(QObject):
         page = self._window.findChild(HelpPage) or HelpPage(help_text(tuple(self.commands)), self._window)
         page.show()
         page.raise_()
+
+    def theory(self, panel: str = "") -> None:
+        """Open the handbook, at the section of a panel where one is named."""
+        display = self._store.state.display
+        theme = tokens(display.theme, display.colours)
+        self.handbook = self.handbook or Handbook(theme, self._window)
+        self.handbook.restyle(theme)
+        section = next((entry.handbook for entry in REGISTRY if entry.key == panel), "")
+        self.handbook.show_section("theory", section)
 
     def find(self) -> None:
         """Open the command palette."""

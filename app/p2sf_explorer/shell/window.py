@@ -283,6 +283,7 @@ class MainWindow(QMainWindow):
     def _build(self, key: str) -> None:
         self.panels[key] = made = build(ENTRIES[key], self.store)
         made.widget.apart_asked.connect(partial(self.floating.toggle, key))
+        made.widget.theory_asked.connect(lambda: self.commands.theory(key))
         self.floating.place(key, made.widget)
 
     def _on_tab(self) -> None:

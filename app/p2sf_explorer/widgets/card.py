@@ -33,10 +33,12 @@ LIST_AIR = 24  # pixels beside the longest line of an open list
 class Card(QFrame):
     """A titled frame; ``readout`` is a line of numbers at the right of the title.
 
-    ``apart_asked``: the panel is to have a window of its own, or to come back from it.
+    ``apart_asked``: the panel is to have a window of its own, or to come back from it. ``theory_asked``: the handbook is
+    to open at the panel's section.
     """
 
     apart_asked = Signal()
+    theory_asked = Signal()
 
     def __init__(self, title: str, tip: str = "", parent: QWidget | None = None):
         super().__init__(parent)
@@ -84,6 +86,7 @@ class Card(QFrame):
         """Offer the panel's picture, its data, and a window of its own."""
         menu = copy_menu(self)
         menu.addSeparator()
+        menu.addAction(tr("Theory of this panel"), self.theory_asked.emit)
         menu.addAction(tr("In its own window, or back") + "\tCtrl+D", self.apart_asked.emit)
         menu.popup(event.globalPos())
 

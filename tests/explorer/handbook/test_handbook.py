@@ -20,7 +20,7 @@ NUMBERS = {heading.number for heading in headings(page("theory")) if heading.num
 def test_every_formula_is_drawn_and_none_is_left_as_text(name):
     found = formulas(page(name))
     for formula in found:
-        assert rendered(formula, 15.0).opacity.max() == 1.0
+        assert rendered(formula, 15.0).opacity.max() > 0.9
     assert "$" not in with_pictures(page(name))
 
 
@@ -76,8 +76,9 @@ def test_links_between_pages_are_followed(qtbot):
 
 
 def test_the_window_opens_the_theory_from_the_palette_and_a_panel_its_section(window):
-    window.actions.theory()
-    assert window.actions.handbook.isVisible()
-    window.actions.theory("seidel")
-    assert window.actions.handbook.shown == ("theory", "3.2")
-    window.actions.handbook.close()
+    window.commands.theory()
+    assert window.commands.handbook.isVisible()
+    window.open_panel("mtf")
+    window.panels["mtf"].widget.theory_asked.emit()
+    assert window.commands.handbook.shown == ("theory", "6.3")
+    window.commands.handbook.close()

@@ -198,7 +198,10 @@ def test_a_plan_is_ordered_though_the_one_before_has_not_yet_stopped(window, ima
 def test_another_photo_is_made_by_the_plan_there_is(window, image_panel, orders, qtbot):
     price = Cost(1.0, 1.0, 1.0)
     plan = replace(
-        image_panel._answer.plan, decisions=(Decision("depth", "1 node", "one", 0.0),), cost=price, naive=price
+        image_panel._answer.plan,
+        decisions=(Decision(Message("depth"), Message("1 node"), Message("one"), 0.0, "depth"),),
+        cost=price,
+        naive=price,
     )
     by_plan = replace(image_panel._answer, quality="planned", plan=plan)
     image_panel._on_answer(image_panel._asked, by_plan)
