@@ -23,10 +23,12 @@ from p2sf_explorer.i18n.language import texts
 UNREACHED = ("p2sf.cli", "p2sf.studies", "p2sf.database_files", "p2sf.interchange")  # by any window
 FIELD, LETTERS = re.compile(r"\{[^{}]*\}"), re.compile(r"[^\W\d_]{2}")
 ERROR = "P2SFError"
+LESSONS = Path(p2sf_explorer.__file__).parent / "lessons"
 # Fields of dataclasses that are translated where they are shown.
 SHOWN = {
     "Command": ("title", "group"),
     "PanelEntry": ("title", "group"),
+    "Parameter": ("control",),
     "Preset": ("title", "shows"),
     "Quantity": ("title", "tip"),
 }
@@ -37,7 +39,7 @@ Parameter = tuple[str, int | None]
 
 @dataclass
 class Module:
-    """One source file: its constants, what it imports as (module, name), its functions, and its classes' bases."""
+    """One source file: its constants, and what it imports as (module, name), a whole module as (module, "")."""
 
     name: str
     tree: ast.Module
@@ -80,9 +82,9 @@ def needed() -> frozenset[str]:
 
 @cache
 def _lens_texts() -> frozenset[str]:
-    """Return titles and characters of the shipped lenses."""
+    """Return titles and characters of the shipped lenses and of those of lessons."""
     found: set[str] = set()
-    for path in lenses_folder().glob("*.toml"):
+    for path in (*lenses_folder().glob("*.toml"), *LESSONS.glob("*.toml")):
         lens = tomllib.loads(path.read_text(encoding="utf-8"))
         found |= {str(lens[key]) for key in ("title", "character") if key in lens}
     return frozenset(found)
@@ -107,6 +109,8 @@ def _module(name: str, tree: ast.Module) -> Module:
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and node.module and not node.level:
             made.imports |= {alias.asname or alias.name: (node.module, alias.name) for alias in node.names}
+        elif isinstance(node, ast.Import):
+            made.imports |= {alias.asname or alias.name: (alias.name, "") for alias in node.names}
     for node in tree.body:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
             made.constants[node.targets[0].id] = node.value
@@ -172,7 +176,7 @@ class _Sources:
                     yield from ((named[name], item) for name, item in shown if name in named)
 
     def _called(self, call: ast.Call, module: Module) -> list[Function]:
-        """Return the functions that a call may mean: a method of another object only where its name is the only one."""
+        """Return the functions that a call may mean: those of the method's name where the object is not known."""
         if isinstance(call.func, ast.Name):
             where, name = module.imports.get(call.func.id, (module.name, call.func.id))
             known = self.by_name.get(name, [])
@@ -180,9 +184,12 @@ class _Sources:
         if not isinstance(call.func, ast.Attribute):
             return []
         known = self.by_name.get(call.func.attr, [])
-        own = isinstance(call.func.value, ast.Name) and call.func.value.id in ("self", "cls", "super")
+        owner = call.func.value.id if isinstance(call.func.value, ast.Name) else ""
+        if owner in module.imports and not module.imports[owner][1]:
+            return []  # a function of a library
+        own = owner in ("self", "cls", "super")
         here = [function for function in known if function.module == module.name]
-        return here if own and here else known if len(known) == 1 else []
+        return here if own and here else known
 
 
 def _functions(module: Module) -> Iterator[Function]:
