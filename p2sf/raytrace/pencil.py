@@ -218,7 +218,9 @@ def spot(lens: Lens, source: Source | Sources, rings: int = 8, aim: str = "parax
     rays = pencil(lens, source, xi, eta, aim, clip)
     x, y = rays.dx * UM_PER_MM, rays.dy * UM_PER_MM
     if not rays.passed.any():
-        raise GeometryError("no ray reaches the sensor; choose a smaller field or leave clip off")
+        raise GeometryError(
+            "no ray reaches the sensor; choose a smaller field or leave {parameter} off", parameter="clip"
+        )
     centre_x, centre_y = _mean(x), _mean(y)
     square = np.nanmean((x - centre_x) ** 2 + (y - centre_y) ** 2, axis=-1)
     return Spot(x, y, np.sqrt(square), centre_y[..., 0])

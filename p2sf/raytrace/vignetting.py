@@ -24,7 +24,7 @@ SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/
 BISECTIONS = 36  # the pupil radius to 2e-11
 CORNER_BISECTIONS = 26  # a corner's direction to 2e-10
 FEWEST_PER_ARC = 6
-CLIPPED = "the rims clip every ray of this field; leave clip off or reduce the field"
+CLIPPED = "the rims clip every ray of this field; leave {parameter} off or reduce the field"
 LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduce the field"
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
@@ -89,10 +89,13 @@ def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, aim, clip).passed
     if not passed.any():
-        raise GeometryError(CLIPPED if clip else LOST)
+        raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
     centre = float(eta[passed].mean())
     if not pencil(lens, source, [0.0], [centre], aim, clip).passed.all():
-        raise GeometryError("the clear part of the pupil has no clear centre; leave clip off or reduce the field")
+        raise GeometryError(
+            "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",
+            parameter="clip",
+        )
     theta = (np.arange(SCAN) + 0.5) * (np.pi / SCAN)
     rim = _edge(lens, source, aim, clip, centre, theta)[1]
     change = np.flatnonzero(np.diff(rim))
