@@ -124,6 +124,7 @@
 <message><source>Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
 <message><source>Depth: distance from the source to the first vertex. The slider is even in vergence, 1/depth.</source><translation>Objektabstand: von der Quelle bis zum ersten Scheitel. Der Regler ist gleichmäßig in der Vergenz, 1/Abstand.</translation></message>
 <message><source>Depths</source><translation>Abstände</translation></message>
+<message><source>Deutsch</source><translation>Deutsch</translation></message>
 <message><source>Diffraction-limited: RMS {rms:.3f} λ</source><translation>Beugungsbegrenzt: RMS {rms:.3f} λ</translation></message>
 <message><source>Dismiss</source><translation>Ausblenden</translation></message>
 <message><source>Distance to the next vertex, mm; the last one to the sensor.</source><translation>Abstand zum nächsten Scheitel, mm; der letzte zum Sensor.</translation></message>
@@ -326,6 +327,7 @@
 <message><source>RMS in x</source><translation>RMS in x</translation></message>
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
+<message><source>RMS {r} λ</source><translation>RMS {r} λ</translation></message>
 <message><source>RMS {r} λ · PV {p} λ</source><translation>RMS {r} λ · PV {p} λ</translation></message>
 <message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
 <message><source>Radius, mm</source><translation>Radius, mm</translation></message>
@@ -344,6 +346,11 @@
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
 <message><source>R² {r} vs Huygens</source><translation>R² {r} gegen Huygens</translation></message>
+<message><source>R² ≥ 0.9</source><translation>R² ≥ 0,9</translation></message>
+<message><source>R² ≥ 0.95</source><translation>R² ≥ 0,95</translation></message>
+<message><source>R² ≥ 0.99</source><translation>R² ≥ 0,99</translation></message>
+<message><source>R² ≥ 0.999</source><translation>R² ≥ 0,999</translation></message>
+<message><source>R² ≥ 0.9999</source><translation>R² ≥ 0,9999</translation></message>
 <message><source>R² ≥ {value:g}</source><translation>R² ≥ {value:g}</translation></message>
 <message><source>Sampling</source><translation>Abtastung</translation></message>
 <message><source>Save a film</source><translation>Film speichern</translation></message>
@@ -491,6 +498,16 @@
 <message><source>W modulo 1, waves</source><translation>W modulo 1, Wellen</translation></message>
 <message><source>W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm</source><translation>W × {front} längs der Strahlen · PSF × {psf} breit, Höhe: {scale} · {wavelength} nm</translation></message>
 <message><source>W, waves</source><translation>W, Wellen</translation></message>
+<message><source>W11 added</source><translation>W11 hinzu</translation></message>
+<message><source>W11 distortion</source><translation>W11 Verzeichnung</translation></message>
+<message><source>W20 added</source><translation>W20 hinzu</translation></message>
+<message><source>W20 field curvature</source><translation>W20 Bildfeldwölbung</translation></message>
+<message><source>W22 added</source><translation>W22 hinzu</translation></message>
+<message><source>W22 astigmatism</source><translation>W22 Astigmatismus</translation></message>
+<message><source>W31 added</source><translation>W31 hinzu</translation></message>
+<message><source>W31 coma</source><translation>W31 Koma</translation></message>
+<message><source>W40 added</source><translation>W40 hinzu</translation></message>
+<message><source>W40 spherical aberration</source><translation>W40 sphärische Aberration</translation></message>
 <message><source>Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's.</source><translation>Wellenfront W über die Pupille: um wie viele Wellen der optische Weg eines Strahls kürzer als der des Hauptstrahls ist.</translation></message>
 <message><source>Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves.</source><translation>Wellenfrontkoeffizienten: der Höchstwert jedes Glieds von W(ρ, θ) an diesem Feld, in Wellen.</translation></message>
 <message><source>Wavelength</source><translation>Wellenlänge</translation></message>
@@ -501,6 +518,7 @@
 <message><source>Wd = −W22/2: a cross</source><translation>Wd = −W22/2: ein Kreuz</translation></message>
 <message><source>Wd = −W22: a line across the field</source><translation>Wd = −W22: eine Linie quer zum Feld</translation></message>
 <message><source>Wd = −W40 leaves a sixteenth of the variance</source><translation>Wd = −W40 lässt ein Sechzehntel der Varianz</translation></message>
+<message><source>Wd added</source><translation>Wd hinzu</translation></message>
 <message><source>Wd defocus</source><translation>Wd Defokus</translation></message>
 <message><source>Wd is muted</source><translation>Wd ist stumm</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
