@@ -23,10 +23,17 @@ BROKEN = "SURF 0\n  DISZ INFINITY\nSURF 1\n  STOP\n  CURV abc\n"
         "Save the sweep as a film…",  # a command
         "coma",  # of a loop over a constant
         "Lens",  # a group of panels
+        "a radius of 0 with an index is a plane",  # a method of another object, its name used elsewhere
+        "Azimuth",  # the control of a parameter
+        "Front-stop landscape singlet",  # a lesson's lens
     ],
 )
 def test_texts_are_found_however_they_are_handed_on(text):
     assert text in needed()
+
+
+def test_what_a_function_of_a_library_is_given_needs_no_german():
+    assert "cut off or too large" not in needed()  # of zlib.error
 
 
 def test_every_text_of_the_sources_has_german():

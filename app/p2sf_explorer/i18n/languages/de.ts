@@ -1015,8 +1015,8 @@
 <message><source>surface {surface}: {name} differs between x and y; only round lenses are read</source><translation>Fläche {surface}: {name} unterscheidet sich zwischen x und y; nur runde Objektive werden gelesen</translation></message>
 <message><source>surface {surface}: {name} is {found}; write a number</source><translation>Fläche {surface}: {name} ist {found}; eine Zahl schreiben</translation></message>
 <message><source>surfaces in the order of the light</source><translation>Flächen in der Reihenfolge des Lichts</translation></message>
-<message><source>surfaces {first} and {second} both are stops; keep one</source><translation>die Flächen {first} und {second} sind beide Blenden; eines behalten</translation></message>
-<message><source>surfaces {first} and {second} both are the stop; keep one</source><translation>die Flächen {first} und {second} sind beide die Blende; eines behalten</translation></message>
+<message><source>surfaces {first} and {second} both are stops; keep one</source><translation>die Flächen {first} und {second} sind beide Blenden; eine behalten</translation></message>
+<message><source>surfaces {first} and {second} both are the stop; keep one</source><translation>die Flächen {first} und {second} sind beide die Blende; eine behalten</translation></message>
 <message><source>surfaces {first} to {last}, n = {index}</source><translation>Flächen {first} bis {last}, n = {index}</translation></message>
 <message><source>surround "{surround}" is unknown; choose {choices}</source><translation>das Umfeld "{surround}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>table 1 of the paper</source><translation>Tabelle 1 des Aufsatzes</translation></message>
@@ -1165,7 +1165,7 @@
 <message><source>there is no frame to write; choose a longer sweep</source><translation>es gibt kein Bild zu schreiben; einen längeren Durchlauf wählen</translation></message>
 <message><source>there is no link to paste; copy one that begins with p2sf:</source><translation>kein Link zum Einfügen da; einen kopieren, der mit p2sf: beginnt</translation></message>
 <message><source>there is no picture yet; save it when it is on screen</source><translation>es gibt noch kein Bild; speichern, wenn es zu sehen ist</translation></message>
-<message><source>there is no readable state in this picture or PSF; open a snapshot, written by the window with Ctrl+E, or with the Image panel open drop a photo</source><translation>in diesem Bild oder dieser PSF ist kein lesbarer Zustand; einen Schnappschuss öffnen, den das Fenster mit Strg+E schreibt, oder bei offenem Feld Bild ein Foto ablegen</translation></message>
+<message><source>there is no readable state in this picture or PSF; open a snapshot, written by the window with Ctrl+E, or with the Image panel open drop a photo</source><translation>in diesem Bild oder dieser PSF ist kein lesbarer Zustand; einen Schnappschuss öffnen, den das Fenster mit Strg+E schreibt, oder bei offener Ansicht „Bild“ ein Foto ablegen</translation></message>
 <message><source>there is no step; begin one with a line such as ## A point becomes a patch</source><translation>es gibt keinen Schritt; einen mit einer Zeile beginnen wie ## Aus einem Punkt wird ein Fleck</translation></message>
 <message><source>there is no such file; check the path</source><translation>eine solche Datei gibt es nicht; den Pfad prüfen</translation></message>
 <message><source>there is no surface {number} in a lens of {count}; choose its row again</source><translation>eine Fläche {number} gibt es in einem Objektiv von {count} nicht; die Zeile noch einmal wählen</translation></message>
@@ -1225,7 +1225,7 @@
 <message><source>what-if: altered by hand</source><translation>von Hand geändert</translation></message>
 <message><source>what-if: coefficients altered by hand</source><translation>Was wäre wenn: Koeffizienten von Hand geändert</translation></message>
 <message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
-<message><source>which P2SF does not trace</source><translation>das P2SF nicht rechnet</translation></message>
+<message><source>which P2SF does not trace</source><translation>den P2SF nicht rechnet</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
 <message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
 <message><source>working</source><translation>in Arbeit</translation></message>
@@ -1383,7 +1383,7 @@
 <message><source>{surface} is a mirror; only refracting lenses are read</source><translation>{surface} ist ein Spiegel; nur brechende Objektive werden gelesen</translation></message>
 <message><source>{surface} {reason} ({command}); only centred refracting lenses are read</source><translation>{surface} {reason} ({command}); nur zentrierte brechende Objektive werden gelesen</translation></message>
 <message><source>{surface}: glass "{name}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it</source><translation>{surface}: das Glas "{name}" ist weder ein Name noch ein sechsstelliger Code wie 517642 oder 517.642; berichtigen</translation></message>
-<message><source>{surface}: radius {radius:g} differs from the lens data's; correct one</source><translation>{surface}: der Radius {radius:g} weicht von dem der Linsendaten ab; eines berichtigen</translation></message>
+<message><source>{surface}: radius {radius:g} differs from the lens data's; correct one</source><translation>{surface}: der Radius {radius:g} weicht von dem der Linsendaten ab; einen berichtigen</translation></message>
 <message><source>{table} has "{key}", which means nothing here; it takes {keys}</source><translation>{table}: "{key}" bedeutet hier nichts; möglich sind {keys}</translation></message>
 <message><source>{there} of words, and the lesson has {count}; say each in its place</source><translation>{there} mit Worten, und die Lektion hat {count}; jeden an seiner Stelle sagen</translation></message>
 <message><source>{value:.1f} nm</source><translation>{value:.1f} nm</translation></message>
