@@ -33,8 +33,8 @@ LIST_AIR = 24  # pixels beside the longest line of an open list
 class Card(QFrame):
     """A titled frame; ``readout`` is a line of numbers at the right of the title.
 
-    ``apart_asked``: the panel is to have a window of its own, or to come back from it. ``theory_asked``: the handbook is
-    to open at the panel's section.
+    ``apart_asked``: the panel is to have a window of its own, or to come back from it. ``theory_asked``: the handbook
+    is to open at the panel's section.
     """
 
     apart_asked = Signal()
