@@ -454,6 +454,8 @@
 <message><source>The window began with this lesson, so there is nothing to put back: its lens stays</source><translation>Das Fenster begann mit dieser Lektion, also gibt es nichts zurückzuholen: ihr Objektiv bleibt</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Theory</source><translation>Theorie</translation></message>
+<message><source>Theory of this panel</source><translation>Theorie zu dieser Ansicht</translation></message>
+<message><source>Theory: conventions, formulas, sources</source><translation>Theorie: Konventionen, Formeln, Quellen</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
 <message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
 <message><source>This is A: a spot is places of rays, not amounts; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
@@ -748,7 +750,6 @@
 <message><source>found</source><translation>gefunden</translation></message>
 <message><source>free pupil</source><translation>freie Pupille</translation></message>
 <message><source>free some space or choose another disk</source><translation>Platz schaffen oder einen anderen Datenträger wählen</translation></message>
-<message><source>free_pupil is {value}; give true or false</source><translation>free_pupil ist {value}; true oder false angeben</translation></message>
 <message><source>from</source><translation>von</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
 <message><source>geometric: ray density, no diffraction; {percent:.0f} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts der Pupille im Bild</translation></message>
@@ -1101,7 +1102,7 @@
 <message><source>the lens states no semi-diameters, so nothing can be clipped; add them or leave clip off</source><translation>das Objektiv nennt keine Halbmesser, also lässt sich nichts beschneiden; diese hinzufügen oder den Randbeschnitt auslassen</translation></message>
 <message><source>the lens's own</source><translation>die des Objektivs</translation></message>
 <message><source>the line has over {count} characters; this is no lens file</source><translation>die Zeile hat über {count} Zeichen; das ist keine Objektivdatei</translation></message>
-<message><source>the link has version {found}; this program reads version {version}</source><translation>der Link hat Version {found}; dieses Programm liest Version {version}</translation></message>
+<message><source>the link</source><translation>der Link</translation></message>
 <message><source>the link holds no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
 <message><source>the link is cut off or changed; copy all of it again, from p2sf: to its last letter</source><translation>der Link ist abgeschnitten oder verändert; noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
@@ -1141,8 +1142,8 @@
 <message><source>the state has an unknown entry "{entry}"; known are {known}</source><translation>der Zustand hat einen unbekannten Eintrag "{entry}"; bekannt sind {known}</translation></message>
 <message><source>the state inside {name}</source><translation>der Zustand in {name}</translation></message>
 <message><source>the state names no lens; give the name of a shipped lens or a path</source><translation>der Zustand nennt kein Objektiv; den Namen eines mitgelieferten Objektivs oder einen Pfad angeben</translation></message>
-<message><source>the state's clip must be true or false, and its tab a panel's name; correct them</source><translation>clip muss im Zustand true oder false sein und tab der Name einer Ansicht; berichtigen</translation></message>
 <message><source>the state's edited lens is not text; leave lens_text out to take the lens as its file has it</source><translation>das bearbeitete Objektiv des Zustands ist kein Text; lens_text weglassen, um das Objektiv zu nehmen, wie es in der Datei steht</translation></message>
+<message><source>the state's group "{group}" is no table; save it again from the explorer</source><translation>die Gruppe "{group}" des Zustands ist keine Tabelle; im Explorer neu speichern</translation></message>
 <message><source>the state's lists are nested too deep; save it again from the explorer</source><translation>die Listen des Zustands sind zu tief verschachtelt; im Explorer neu speichern</translation></message>
 <message><source>the state's windows must be a list of panels' names; correct it or leave it out</source><translation>die Fenster des Zustands müssen eine Liste von Ansichten sein; berichtigen oder weglassen</translation></message>
 <message><source>the stop changes with depth or wavelength; a database holds one stop, choose it</source><translation>die Blende wechselt mit Abstand oder Wellenlänge; eine Datenbank enthält eine Blende, diese wählen</translation></message>
@@ -1396,7 +1397,7 @@
 <message><source>{waves:.0f} nm</source><translation>{waves:.0f} nm</translation></message>
 <message><source>{what} "{word}" is not a number; correct it</source><translation>{what} "{word}" ist keine Zahl; berichtigen</translation></message>
 <message><source>{what} "{word}" is not a whole number; correct it</source><translation>{what} "{word}" ist keine ganze Zahl; berichtigen</translation></message>
-<message><source>{where} has version {found}; this program reads version {version}</source><translation>{where} hat Version {found}; dieses Programm liest Version {version}</translation></message>
+<message><source>{where} has version {found}; this program reads versions up to {version:d}</source><translation>{where} hat Version {found}; dieses Programm liest Versionen bis {version:d}</translation></message>
 <message><source>{where} is nested too deep or holds too long a number; save it again</source><translation>{where} ist zu tief verschachtelt oder enthält eine zu lange Zahl; neu speichern</translation></message>
 <message><source>{where} is not a state of the explorer; give a .json the explorer has written</source><translation>{where} ist kein Zustand des Explorers; ein .json angeben, das der Explorer geschrieben hat</translation></message>
 <message><source>{where}, line {line}: not JSON ({why}); correct it or save it again</source><translation>{where}, Zeile {line}: kein JSON ({why}); berichtigen oder neu speichern</translation></message>
