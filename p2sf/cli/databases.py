@@ -50,7 +50,7 @@ class Nodes:
 
 
 @dataclass(frozen=True)
-class Camera:
+class CameraOptions:
     """How the camera is set; as the lens file has it when not given.
 
     Attributes
@@ -116,7 +116,7 @@ def build(
     *,
     output: Annotated[Path, Parameter(["--output", "-o"], negative="", help="File to write: .npz, a stack .zarr.")],
     nodes: Annotated[Nodes, Parameter(name="*")] = Nodes(),
-    camera: Annotated[Camera, Parameter(name="*")] = Camera(),
+    camera: Annotated[CameraOptions, Parameter(name="*")] = CameraOptions(),
     kind: Annotated[Kind, Parameter(name="*")] = Kind(),
     as_json: Json = False,
 ) -> None:

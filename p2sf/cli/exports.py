@@ -15,7 +15,7 @@ ENDINGS = {"iset": (".mat",), "fits": (".fits", ".fit", ".fts"), "tiff": (".tif"
 
 
 @dataclass(frozen=True)
-class Rendered:
+class RenderedOptions:
     """How a .npz is rendered; a stack is exported as it is.
 
     Attributes
@@ -42,7 +42,7 @@ def export(
     *,
     to: Literal["iset", "fits", "tiff", "csv"],
     output: Annotated[Path | None, Parameter(["--output", "-o"], negative="", help="File to write.")] = None,
-    picture: Annotated[Rendered, Parameter(name="*")] = Rendered(),
+    picture: Annotated[RenderedOptions, Parameter(name="*")] = RenderedOptions(),
     as_json: Json = False,
 ) -> None:
     """Write a database (.npz) or stack (.zarr) as ISETCam optics, FITS, an ImageJ TIFF, or a table."""
@@ -55,32 +55,32 @@ def export(
         print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
 
 
-def _iset(file: Path, target: Path, picture: Rendered) -> None:
+def _iset(file: Path, target: Path, picture: RenderedOptions) -> None:
     from p2sf.interchange import IsetOptions, open_stored, write_iset
 
     options = IsetOptions(picture.depth_mm, picture.pixels or IsetOptions().pixels, picture.pixel_um)
     write_iset(open_stored(file), target, options)
 
 
-def _fits(file: Path, target: Path, picture: Rendered) -> None:
+def _fits(file: Path, target: Path, picture: RenderedOptions) -> None:
     from p2sf.interchange import open_cube, write_fits
 
     write_fits(open_cube(file, _sampling(picture)), target)
 
 
-def _tiff(file: Path, target: Path, picture: Rendered) -> None:
+def _tiff(file: Path, target: Path, picture: RenderedOptions) -> None:
     from p2sf.interchange import open_cube, write_tiff
 
     write_tiff(open_cube(file, _sampling(picture)), target)
 
 
-def _csv(file: Path, target: Path, picture: Rendered) -> None:
+def _csv(file: Path, target: Path, picture: RenderedOptions) -> None:
     from p2sf.interchange import open_stored, write_csv
 
     write_csv(open_stored(file), target)
 
 
-def _sampling(picture: Rendered) -> Sampling:
+def _sampling(picture: RenderedOptions) -> Sampling:
     return Sampling(picture.pixels or Sampling().pixels, picture.pixel_um)
 
 

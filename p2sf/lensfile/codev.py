@@ -62,7 +62,7 @@ def note(notes: Notebook, name: str, words: tuple[str, ...], surface: int | None
 
 
 @dataclass(frozen=True)
-class Command:
+class CodeVCommand:
     """One command: its name in capitals, its words without quotation marks, and the line it starts on."""
 
     name: str
@@ -70,7 +70,7 @@ class Command:
     line: int
 
 
-def commands(source: LensText) -> Iterator[Command]:
+def commands(source: LensText) -> Iterator[CodeVCommand]:
     """Yield the commands of a file; comments are dropped, continued lines joined, quotation marks respected."""
     pending, start = "", 0
     for line, text in enumerate(source.lines, 1):
@@ -83,7 +83,7 @@ def commands(source: LensText) -> Iterator[Command]:
         for part in re.findall(r"(?:'[^']*'|\"[^\"]*\"|[^;'\"]|['\"])+", pending):
             found = re.findall(r"'[^']*'|\"[^\"]*\"|\S+", part)
             if found:
-                yield Command(
+                yield CodeVCommand(
                     found[0].upper(),
                     tuple(word.strip("'\"") if word[0] in "'\"" else word for word in found[1:]),
                     start,
@@ -115,7 +115,7 @@ ORDERS = {letter: 4 + 2 * place for place, letter in enumerate("ABCDEFGHJ")}
 
 
 @dataclass
-class Reading:
+class CodeVReading:
     """What has been read so far; surface 0 is the object."""
 
     source: LensText
@@ -130,7 +130,7 @@ class Reading:
     private_nm: list[float] | None = None
     in_private: bool = False
 
-    def number(self, command: Command, place: int, what: Message, default: float | None = None) -> float:
+    def number(self, command: CodeVCommand, place: int, what: Message, default: float | None = None) -> float:
         """Return the number at a place of a command; LensFileError where it is missing without a ``default``."""
         if place >= len(command.words):
             if default is not None:
@@ -140,7 +140,7 @@ class Reading:
             )
         return number(command.words[place], what, self.source, command.line)
 
-    def numbers(self, command: Command, what: Message) -> list[float]:
+    def numbers(self, command: CodeVCommand, what: Message) -> list[float]:
         """Return all numbers of a command."""
         return [number(word, what, self.source, command.line) for word in command.words[:1000]]
 
@@ -150,7 +150,7 @@ def curved(value: float, is_radius: bool) -> float:
     return (1 / value if value else 0.0) if is_radius else value
 
 
-def distance(reading: Reading, value: float, surface: RawSurface, line: int) -> float:
+def distance(reading: CodeVReading, value: float, surface: RawSurface, line: int) -> float:
     """Return a thickness; the object may be infinitely far, no other surface; LensFileError."""
     if abs(value) < FAR:
         return value
@@ -159,7 +159,7 @@ def distance(reading: Reading, value: float, surface: RawSurface, line: int) -> 
     raise reading.source.error("{surface} has an infinite thickness; give a finite one", line, surface=surface.name)
 
 
-def read_glass(reading: Reading, command: Command, surface: RawSurface) -> None:
+def read_glass(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     """Read a glass: NAME_MAKER, a private name, nnnvvv, or nnn.vvv; REFL is a mirror."""
     word = command.words[0] if command.words else ""
     if word.upper() in ("REFL", "REFR", "AIR", ""):
@@ -185,7 +185,7 @@ def read_glass(reading: Reading, command: Command, surface: RawSurface) -> None:
     surface.glass = RawGlass(name, (maker.upper(),) if maker else (), line=command.line)
 
 
-def read_private(reading: Reading, command: Command) -> None:
+def read_private(reading: CodeVReading, command: CodeVCommand) -> None:
     """Read one line of a private catalogue: PWL and wavelengths in nm, or 'NAME' and an index for each."""
     reading.in_private = True
     if command.name == "PWL":
@@ -214,19 +214,19 @@ def read_private(reading: Reading, command: Command) -> None:
     )
 
 
-def _set_private(reading: Reading, command: Command) -> None:
+def _set_private(reading: CodeVReading, command: CodeVCommand) -> None:
     reading.in_private = command.name.startswith("PRV")
 
 
-def _radius_mode(reading: Reading, command: Command) -> None:
+def _radius_mode(reading: CodeVReading, command: CodeVCommand) -> None:
     reading.radii = not command.words or command.words[0].upper().startswith("Y")
 
 
-def _title(reading: Reading, command: Command) -> None:
+def _title(reading: CodeVReading, command: CodeVCommand) -> None:
     reading.raw.title = " ".join(command.words)[:200]
 
 
-def _unit(reading: Reading, command: Command) -> None:
+def _unit(reading: CodeVReading, command: CodeVCommand) -> None:
     unit = command.words[0].upper() if command.words else ""
     if unit not in UNITS_MM:
         raise reading.source.error(
@@ -235,56 +235,56 @@ def _unit(reading: Reading, command: Command) -> None:
     reading.raw.unit_mm = UNITS_MM[unit]
 
 
-def _aperture(reading: Reading, command: Command) -> None:
+def _aperture(reading: CodeVReading, command: CodeVCommand) -> None:
     reading.raw.aperture = (APERTURES[command.name[:3]], reading.number(command, 0, Message("aperture")))
     reading.raw.aperture_line = command.line
 
 
-def _wavelengths(reading: Reading, command: Command) -> None:
+def _wavelengths(reading: CodeVReading, command: CodeVCommand) -> None:
     values = reading.numbers(command, Message("wavelength"))
     if not all(50 <= value <= 50_000 for value in values):
         raise reading.source.error("a wavelength is not light; give nanometres", command.line)
     reading.raw.wavelengths_um, reading.raw.wavelength_line = [value / NM_PER_UM for value in values], command.line
 
 
-def _reference(reading: Reading, command: Command) -> None:
+def _reference(reading: CodeVReading, command: CodeVCommand) -> None:
     reading.raw.primary = int(reading.number(command, 0, Message("reference wavelength"))) - 1
 
 
-def _zoom(reading: Reading, command: Command) -> None:
+def _zoom(reading: CodeVReading, command: CodeVCommand) -> None:
     reading.notes.add("caution", "the file holds several zoom positions; the first, as its surfaces show it, is read")
 
 
-def _set(name: str, what: Message) -> Callable[[Reading, Command, RawSurface], None]:
+def _set(name: str, what: Message) -> Callable[[CodeVReading, CodeVCommand, RawSurface], None]:
     """Return a reader that sets one number of a surface."""
 
-    def read(reading: Reading, command: Command, surface: RawSurface) -> None:
+    def read(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
         setattr(surface, name, reading.number(command, 0, what))
 
     return read
 
 
-def _stop(reading: Reading, command: Command, surface: RawSurface) -> None:
+def _stop(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     reading.raw.stop = surface.number
 
 
-def _label(reading: Reading, command: Command, surface: RawSurface) -> None:
+def _label(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     surface.label = " ".join(command.words)[:60]
 
 
-def _radius(reading: Reading, command: Command, surface: RawSurface) -> None:
+def _radius(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     surface.curvature = curved(reading.number(command, 0, Message("radius")), command.name.startswith("RD"))
 
 
-def _thickness(reading: Reading, command: Command, surface: RawSurface) -> None:
+def _thickness(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     surface.thickness = distance(reading, reading.number(command, 0, Message("thickness")), surface, command.line)
 
 
-def _coefficient(reading: Reading, command: Command, surface: RawSurface) -> None:
+def _coefficient(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     surface.aspheric[ORDERS[command.name]] = reading.number(command, 0, Message("aspheric coefficient"))
 
 
-def _rim(reading: Reading, command: Command, surface: RawSurface) -> None:
+def _rim(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     """Read CIR radius; an edge is not a clear rim, obscurations and holes are noted and left out."""
     kind = next((word.upper() for word in command.words if word.upper() in ("EDG", "OBS", "HOL")), "")
     if kind in ("OBS", "HOL"):
@@ -325,7 +325,7 @@ def read_codev(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
     Refused by surface number and name: reflections, tilts and decentres, diffractive, toric and other
     surfaces that are not spheres, conics or even aspheres.
     """
-    reading = Reading(source, notes)
+    reading = CodeVReading(source, notes)
     for command in commands(source):
         _run(reading, command)
     _finish(reading)
@@ -333,7 +333,7 @@ def read_codev(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
     return assemble(reading.raw, GlassSources(sources.catalogues, private, sources.accept_substitutes), notes, source)
 
 
-def _run(reading: Reading, command: Command) -> None:
+def _run(reading: CodeVReading, command: CodeVCommand) -> None:
     if reading.in_private and command.name != "END":
         read_private(reading, command)
     elif re.fullmatch(r"S(O|I|S|\d+)?", command.name):
@@ -342,7 +342,7 @@ def _run(reading: Reading, command: Command) -> None:
         _dispatch(reading, command, command.name if command.name in ONE_LETTER else command.name[:3])
 
 
-def _dispatch(reading: Reading, command: Command, name: str) -> None:
+def _dispatch(reading: CodeVReading, command: CodeVCommand, name: str) -> None:
     command, surface = _addressed(reading, command)
     if name in REFUSED:
         _refuse_unless_zero(reading, command, surface, REFUSED[name])
@@ -361,15 +361,15 @@ def _dispatch(reading: Reading, command: Command, name: str) -> None:
         note(reading.notes, name, command.words, surface.number if surface else None, command.line)
 
 
-def _addressed(reading: Reading, command: Command) -> tuple[Command, RawSurface | None]:
+def _addressed(reading: CodeVReading, command: CodeVCommand) -> tuple[CodeVCommand, RawSurface | None]:
     """Return the command without its surface qualifier (S3, SI, SO), and the surface it applies to."""
     if command.words and re.fullmatch(r"S(O|I|S|\d+)", command.words[0], re.I):
         surface = _named(reading, command.words[0][1:].upper(), command)
-        return Command(command.name, command.words[1:], command.line), surface
+        return CodeVCommand(command.name, command.words[1:], command.line), surface
     return command, reading.current
 
 
-def _named(reading: Reading, name: str, command: Command) -> RawSurface | None:
+def _named(reading: CodeVReading, name: str, command: CodeVCommand) -> RawSurface | None:
     if name in ("I", "S"):
         return reading.image if name == "I" else reading.current
     place = 0 if name == "O" else int(name[:6])
@@ -383,7 +383,9 @@ def _named(reading: Reading, name: str, command: Command) -> RawSurface | None:
     return reading.surfaces[place]
 
 
-def _refuse_unless_zero(reading: Reading, command: Command, surface: RawSurface | None, reason: Message) -> None:
+def _refuse_unless_zero(
+    reading: CodeVReading, command: CodeVCommand, surface: RawSurface | None, reason: Message
+) -> None:
     """Raise LensFileError for a tilt, a decentre or a grating; one whose numbers are all zero does nothing."""
     if command.words and all(re.fullmatch(r"[+-]?0*\.?0*([eE][+-]?\d+)?", word) and word for word in command.words):
         return
@@ -399,7 +401,7 @@ def _refuse_unless_zero(reading: Reading, command: Command, surface: RawSurface 
     )
 
 
-def _surface(reading: Reading, command: Command) -> None:
+def _surface(reading: CodeVReading, command: CodeVCommand) -> None:
     """Read S radius thickness glass; SO is the object, SI the image, S3 the third surface."""
     name = command.name[1:]
     if name == "I":
@@ -423,10 +425,10 @@ def _surface(reading: Reading, command: Command) -> None:
     surface.curvature = curved(reading.number(command, 0, Message("radius"), 0.0), reading.radii)
     surface.thickness = distance(reading, reading.number(command, 1, Message("thickness"), 0.0), surface, command.line)
     for word in command.words[2:]:
-        read_glass(reading, Command("GLA", (word,), command.line), surface)
+        read_glass(reading, CodeVCommand("GLA", (word,), command.line), surface)
 
 
-def _finish(reading: Reading) -> None:
+def _finish(reading: CodeVReading) -> None:
     """Complete the raw lens once all commands are read."""
     raw = reading.raw
     first, *raw.surfaces = reading.surfaces
@@ -447,7 +449,7 @@ def _finish(reading: Reading) -> None:
     _gather_fields(reading)
 
 
-def _gather_fields(reading: Reading) -> None:
+def _gather_fields(reading: CodeVReading) -> None:
     kinds = dict.fromkeys(name[1:] for name in reading.fields)
     if not kinds:
         return

@@ -24,7 +24,7 @@ FIELD_FRACTIONS = (0.0, 0.7, 1.0)
 
 
 @dataclass
-class Reading:
+class BenchReading:
     """What has been read so far; ``rows`` maps the file's own surface numbers to surfaces."""
 
     source: LensText
@@ -39,7 +39,7 @@ class Reading:
 
 def read_optical_bench(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of an Optical Bench text, of a zoom its first position; LensFileError with its line."""
-    reading = Reading(source, notes, sources)
+    reading = BenchReading(source, notes, sources)
     for line, text in enumerate(source.lines, 1):
         words = _cells(text)
         if words[0].startswith("["):
@@ -59,29 +59,29 @@ def _cells(text: str) -> list[str]:
     return [*words[:3], "", *words[3:]] if surface and len(words) <= 4 else words
 
 
-def _skip(reading: Reading, words: list[str], line: int) -> None:
+def _skip(reading: BenchReading, words: list[str], line: int) -> None:
     """Ignore a row of a section that does not describe the lens."""
 
 
-def _describe(reading: Reading, words: list[str], line: int) -> None:
+def _describe(reading: BenchReading, words: list[str], line: int) -> None:
     if words[0].lower() == "title":
         reading.raw.title = " ".join(words[1:]).strip()[:200]
 
 
-def _constant(reading: Reading, words: list[str], line: int) -> None:
+def _constant(reading: BenchReading, words: list[str], line: int) -> None:
     reading.constants.add(words[0].lower())
     if words[0].lower() == "asphericaloddcount":
         raise reading.source.error("the aspheres have odd powers (AsphericalOddCount); only even ones are read", line)
 
 
-def _variable(reading: Reading, words: list[str], line: int) -> None:
+def _variable(reading: BenchReading, words: list[str], line: int) -> None:
     values = [word for word in words[1:] if word]
     reading.variables[words[0].lower()] = (values[0] if values else "", line)
     if len(set(values)) > 1:
         reading.notes.add("caution", "the file holds several positions (zoom or focus); the first column is read")
 
 
-def _value(reading: Reading, name: str) -> float | None:
+def _value(reading: BenchReading, name: str) -> float | None:
     """Return a variable's first value, None where there is none or it is infinite or undefined."""
     word, line = reading.variables.get(name, ("", 0))
     if not word or word.lower() in ("undefined", "infinity", "inf"):
@@ -89,7 +89,7 @@ def _value(reading: Reading, name: str) -> float | None:
     return number(word, name, reading.source, line)
 
 
-def _surface(reading: Reading, words: list[str], line: int) -> None:
+def _surface(reading: BenchReading, words: list[str], line: int) -> None:
     if len(words) < 3:
         raise reading.source.error("a row of lens data needs number, radius and distance; complete it", line)
     surface = RawSurface(len(reading.raw.surfaces) + 1, line, words[0])
@@ -116,7 +116,7 @@ def _surface(reading: Reading, words: list[str], line: int) -> None:
     reading.rows[words[0]] = surface
 
 
-def _distance(reading: Reading, word: str, line: int) -> float:
+def _distance(reading: BenchReading, word: str, line: int) -> float:
     if not re.match(r"[A-Za-z]", word):
         return number(word, Message("distance"), reading.source, line) if word else 0.0
     value = _value(reading, word.lower())
@@ -127,7 +127,7 @@ def _distance(reading: Reading, word: str, line: int) -> float:
     return value
 
 
-def _glass(reading: Reading, words: list[str], surface: RawSurface, line: int) -> RawGlass | None:
+def _glass(reading: BenchReading, words: list[str], surface: RawSurface, line: int) -> RawGlass | None:
     """Return the medium: the named glass if it is found exactly, else nd and vd of the same row."""
     if not words[3]:
         return None
@@ -157,7 +157,7 @@ def _exactly(glass: RawGlass, sources: GlassSources) -> Resolution | None:
         return None
 
 
-def _asphere(reading: Reading, words: list[str], line: int) -> None:
+def _asphere(reading: BenchReading, words: list[str], line: int) -> None:
     surface = reading.rows.get(words[0])
     if surface is None:
         raise reading.source.error(
@@ -179,7 +179,7 @@ def _asphere(reading: Reading, words: list[str], line: int) -> None:
     surface.aspheric = dict(zip(range(first, 42, 2), values[2:], strict=False))
 
 
-def _finish(reading: Reading) -> None:
+def _finish(reading: BenchReading) -> None:
     raw = reading.raw
     raw.object_distance = _value(reading, "d0") or inf
     if not abs(raw.object_distance) < FAR:

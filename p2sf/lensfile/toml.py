@@ -35,7 +35,7 @@ from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGl
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface
 from p2sf.lensfile.agf import FormulaGlass
 from p2sf.lensfile.storage import read_text, write_text
-from p2sf.lensfile.toml_table import Rule, Table, find_line, shown
+from p2sf.lensfile.toml_table import Constraint, Table, find_line, shown
 from p2sf.messages import Message
 
 
@@ -126,13 +126,13 @@ TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_m
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric")
 
-RADIUS = Rule(lambda x: x == x and x != 0, Message("write a number that is not 0, inf for a plane"))
-THICKNESS = Rule(isfinite, Message("write the distance to the next surface as a number"))
-RIM = Rule(lambda x: x > 0, Message("write a positive number"))
-FINITE = Rule(isfinite, Message("write a finite number"))
-OPENING = Rule(lambda x: 0 < x < inf, Message("write a positive number"))
-FIELD = Rule(lambda x: abs(x) < 90, Message("write an angle in degrees below 90"))
-WAVELENGTH = Rule(lambda x: 50 <= x <= 50_000, Message("write a wavelength in nanometres, 50 to 50000"))
+RADIUS = Constraint(lambda x: x == x and x != 0, Message("write a number that is not 0, inf for a plane"))
+THICKNESS = Constraint(isfinite, Message("write the distance to the next surface as a number"))
+RIM = Constraint(lambda x: x > 0, Message("write a positive number"))
+FINITE = Constraint(isfinite, Message("write a finite number"))
+OPENING = Constraint(lambda x: 0 < x < inf, Message("write a positive number"))
+FIELD = Constraint(lambda x: abs(x) < 90, Message("write an angle in degrees below 90"))
+WAVELENGTH = Constraint(lambda x: 50 <= x <= 50_000, Message("write a wavelength in nanometres, 50 to 50000"))
 
 
 def read_toml(path: str | os.PathLike) -> Lens:

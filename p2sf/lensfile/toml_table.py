@@ -55,7 +55,7 @@ NUMBER = r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?|[-+]?inf"
 
 
 @dataclass(frozen=True)
-class Rule:
+class Constraint:
     """What a number must be: a test, and the remedy for a number that fails it."""
 
     holds: Callable[[float], bool]
@@ -99,7 +99,7 @@ class Table:
             self.fail("{name} is {found}; write a text in quotation marks", key, name=key, found=shown(value))
         return value
 
-    def number(self, key: str, rule: Rule, default: float | None = None) -> float:
+    def number(self, key: str, rule: Constraint, default: float | None = None) -> float:
         """Return a number that keeps the rule; without a default the key must be there."""
         if key not in self.values and default is not None:
             return default
@@ -107,7 +107,7 @@ class Table:
             self.fail("{name} is missing; {remedy}", name=key, remedy=rule.remedy)
         return self._checked(key, self.values[key], rule)
 
-    def numbers(self, key: str, rule: Rule, default: tuple[float, ...]) -> tuple[float, ...]:
+    def numbers(self, key: str, rule: Constraint, default: tuple[float, ...]) -> tuple[float, ...]:
         """Return a list of numbers that keep the rule."""
         value = self.values.get(key, default)
         if not isinstance(value, list | tuple):
@@ -128,7 +128,7 @@ class Table:
         except GlassError as error:
             self.fail(error.message, key)
 
-    def _checked(self, key: str, value: object, rule: Rule) -> float:
+    def _checked(self, key: str, value: object, rule: Constraint) -> float:
         number = as_float(value)
         if not rule.holds(number):
             remedy = quoted_number(value) or rule.remedy

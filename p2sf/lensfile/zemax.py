@@ -97,7 +97,7 @@ PLACEHOLDERS = ((1.5, 40.0), (0.0, 0.0))
 
 
 @dataclass
-class Reading:
+class ZemaxReading:
     """What has been read so far; surface 0 is the object, the last one the image."""
 
     source: LensText
@@ -133,14 +133,14 @@ class Reading:
         raise self.source.error(template, self.line, surface=self.surface.name, **values)
 
 
-def _mode(reading: Reading, words: list[str]) -> None:
+def _mode(reading: ZemaxReading, words: list[str]) -> None:
     if len(words) > 1 and words[1].upper() != "SEQ":
         raise reading.source.error(
             "mode {mode} is not sequential; export the sequential lens", reading.line, mode=words[1]
         )
 
 
-def _unit(reading: Reading, words: list[str]) -> None:
+def _unit(reading: ZemaxReading, words: list[str]) -> None:
     unit = words[1].upper() if len(words) > 1 else ""
     if unit not in UNITS_MM:
         raise reading.source.error(
@@ -149,7 +149,7 @@ def _unit(reading: Reading, words: list[str]) -> None:
     reading.raw.unit_mm = UNITS_MM[unit]
 
 
-def _aperture(reading: Reading, words: list[str]) -> None:
+def _aperture(reading: ZemaxReading, words: list[str]) -> None:
     kind = APERTURES[words[0].upper()]
     reading.raw.aperture_line = reading.line
     if kind == "stop_semi_diameter":
@@ -162,7 +162,7 @@ def _aperture(reading: Reading, words: list[str]) -> None:
         reading.raw.aperture = (kind, value)
 
 
-def _field_type(reading: Reading, words: list[str]) -> None:
+def _field_type(reading: ZemaxReading, words: list[str]) -> None:
     kind = whole(words[1] if len(words) > 1 else "", Message("field type"), reading.source, reading.line)
     if kind not in range(len(FIELD_KINDS)):
         raise reading.source.error(
@@ -180,7 +180,7 @@ def _field_type(reading: Reading, words: list[str]) -> None:
     reading.wavelength_count = max(0, int(reading.number(words, 4, Message("number of wavelengths"), 0.0))) or None
 
 
-def _fields(reading: Reading, words: list[str]) -> None:
+def _fields(reading: ZemaxReading, words: list[str]) -> None:
     values = [number(word, Message("field"), reading.source, reading.line) for word in words[1:]]
     if words[0][0].upper() == "X":
         reading.x_fields = values
@@ -188,19 +188,19 @@ def _fields(reading: Reading, words: list[str]) -> None:
         reading.y_fields = values
 
 
-def _wavelength(reading: Reading, words: list[str]) -> None:
+def _wavelength(reading: ZemaxReading, words: list[str]) -> None:
     place = whole(words[1] if len(words) > 1 else "", Message("wavelength number"), reading.source, reading.line)
     if place == len(reading.raw.wavelengths_um) + 1:
         _add_wavelength(reading, reading.number(words, 2, Message("wavelength")))
 
 
-def _wavelengths(reading: Reading, words: list[str]) -> None:
+def _wavelengths(reading: ZemaxReading, words: list[str]) -> None:
     reading.raw.wavelengths_um = []
     for place in range(1, len(words)):
         _add_wavelength(reading, reading.number(words, place, Message("wavelength")))
 
 
-def _add_wavelength(reading: Reading, value: float) -> None:
+def _add_wavelength(reading: ZemaxReading, value: float) -> None:
     if not 0.05 <= value <= 50:
         raise reading.source.error(
             "wavelength {wavelength:g} µm is not light; give micrometres", reading.line, wavelength=value
@@ -209,17 +209,17 @@ def _add_wavelength(reading: Reading, value: float) -> None:
     reading.raw.wavelength_line = reading.line
 
 
-def _primary(reading: Reading, words: list[str]) -> None:
+def _primary(reading: ZemaxReading, words: list[str]) -> None:
     reading.raw.primary = (
         whole(words[1] if len(words) > 1 else "", Message("primary wavelength"), reading.source, reading.line) - 1
     )
 
 
-def _glass_catalogues(reading: Reading, words: list[str]) -> None:
+def _glass_catalogues(reading: ZemaxReading, words: list[str]) -> None:
     reading.catalogues = tuple(word.upper() for word in words[1:])
 
 
-def _configurations(reading: Reading, words: list[str]) -> None:
+def _configurations(reading: ZemaxReading, words: list[str]) -> None:
     count, current = (int(reading.number(words, place, Message("configuration"), 1.0)) for place in (1, 2))
     if count > 1:
         reading.notes.add(
@@ -232,7 +232,7 @@ def _configurations(reading: Reading, words: list[str]) -> None:
         )
 
 
-def begin_surface(reading: Reading, words: list[str]) -> None:
+def begin_surface(reading: ZemaxReading, words: list[str]) -> None:
     """Begin surface SURF n, which must be the next one; LensFileError."""
     count = whole(words[1] if len(words) > 1 else "", Message("surface number"), reading.source, reading.line)
     if count != len(reading.surfaces):
@@ -245,7 +245,7 @@ def begin_surface(reading: Reading, words: list[str]) -> None:
     reading.surfaces.append(RawSurface(count, reading.line))
 
 
-def _type(reading: Reading, words: list[str]) -> None:
+def _type(reading: ZemaxReading, words: list[str]) -> None:
     reading.kinds[reading.surface.number] = kind = words[1].upper() if len(words) > 1 else ""
     if kind not in ("STANDARD", "EVENASPH", "COORDBRK"):
         reading.refuse(
@@ -255,11 +255,11 @@ def _type(reading: Reading, words: list[str]) -> None:
         )
 
 
-def _curvature(reading: Reading, words: list[str]) -> None:
+def _curvature(reading: ZemaxReading, words: list[str]) -> None:
     reading.surface.curvature = reading.number(words, 1, Message("curvature"))
 
 
-def _thickness(reading: Reading, words: list[str]) -> None:
+def _thickness(reading: ZemaxReading, words: list[str]) -> None:
     infinite = len(words) > 1 and words[1].upper() in ("INFINITY", "INF", "-INFINITY")
     value = inf if infinite else reading.number(words, 1, Message("thickness"))
     if reading.surface.number and not abs(value) < FAR:
@@ -267,25 +267,25 @@ def _thickness(reading: Reading, words: list[str]) -> None:
     reading.surface.thickness = value
 
 
-def _conic(reading: Reading, words: list[str]) -> None:
+def _conic(reading: ZemaxReading, words: list[str]) -> None:
     reading.surface.conic = reading.number(words, 1, Message("conic constant"))
 
 
-def _parameter(reading: Reading, words: list[str]) -> None:
+def _parameter(reading: ZemaxReading, words: list[str]) -> None:
     place = whole(words[1] if len(words) > 1 else "", Message("parameter number"), reading.source, reading.line)
     reading.parameters.setdefault(reading.surface.number, {})[place] = reading.number(words, 2, Message("parameter"))
 
 
-def _stop(reading: Reading, words: list[str]) -> None:
+def _stop(reading: ZemaxReading, words: list[str]) -> None:
     reading.raw.stop = reading.surface.number
 
 
-def _semi_diameter(reading: Reading, words: list[str]) -> None:
+def _semi_diameter(reading: ZemaxReading, words: list[str]) -> None:
     value = reading.number(words, 1, Message("semi-diameter"))
     reading.surface.semi_diameter = value if value > 0 else inf
 
 
-def _clear_rim(reading: Reading, words: list[str]) -> None:
+def _clear_rim(reading: ZemaxReading, words: list[str]) -> None:
     """Read CLAP inner outer: the outer radius is the rim; an inner one, a central obscuration, is noted."""
     if reading.number(words, 1, Message("inner radius"), 0.0) > 0:
         reading.notes.add("caution", "its central hole is open here", reading.surface.number, reading.line)
@@ -293,7 +293,7 @@ def _clear_rim(reading: Reading, words: list[str]) -> None:
     reading.surface.semi_diameter = outer if outer > 0 else reading.surface.semi_diameter
 
 
-def _obscuration(reading: Reading, words: list[str]) -> None:
+def _obscuration(reading: ZemaxReading, words: list[str]) -> None:
     reading.notes.add(
         "caution",
         "its obscuration is left out, so the picture shows the full aperture",
@@ -302,7 +302,7 @@ def _obscuration(reading: Reading, words: list[str]) -> None:
     )
 
 
-def _decentred_rim(reading: Reading, words: list[str]) -> None:
+def _decentred_rim(reading: ZemaxReading, words: list[str]) -> None:
     offset = [reading.number(words, place, Message("rim offset"), 0.0) for place in (1, 2)]
     if any(offset):
         reading.refuse(
@@ -310,7 +310,7 @@ def _decentred_rim(reading: Reading, words: list[str]) -> None:
         )
 
 
-def _glass(reading: Reading, words: list[str]) -> None:
+def _glass(reading: ZemaxReading, words: list[str]) -> None:
     """Read GLAS name mode pickup nd vd …; mode 1 to 3 with the name ___BLANK is a model glass."""
     name = words[1] if len(words) > 1 else ""
     if name.upper() == "MIRROR":
@@ -366,7 +366,7 @@ def read_zemax(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
     Refused by surface number and name: mirrors, gratings, coordinate breaks, toroids, gradients,
     non-sequential parts, black boxes, decentred or non-circular clear rims, and any unknown type.
     """
-    reading = Reading(source, notes)
+    reading = ZemaxReading(source, notes)
     for reading.line, text in enumerate(source.lines, 1):
         words = text.split()
         if words:
@@ -375,7 +375,7 @@ def read_zemax(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
     return assemble(reading.raw, sources, notes, source)
 
 
-def _read_line(reading: Reading, words: list[str], text: str) -> None:
+def _read_line(reading: ZemaxReading, words: list[str], text: str) -> None:
     keyword = words[0].upper()
     if keyword == "SURF":
         begin_surface(reading, words)
@@ -391,7 +391,7 @@ def _read_line(reading: Reading, words: list[str], text: str) -> None:
         note(reading.notes, words, reading.surface.number if reading.surfaces else None, reading.line)
 
 
-def _finish(reading: Reading) -> None:
+def _finish(reading: ZemaxReading) -> None:
     """Complete the raw lens once all lines are read."""
     raw = reading.raw
     if len(reading.surfaces) < 3:
@@ -422,7 +422,7 @@ def _finish(reading: Reading) -> None:
     raw.fields = list(zip(*padded, strict=True))
 
 
-def _shape(reading: Reading, surface: RawSurface) -> None:
+def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
     """Give an even asphere its terms; LensFileError for a coordinate break that is not all zeros."""
     parameters = reading.parameters.get(surface.number, {})
     kind = reading.kinds.get(surface.number, "STANDARD")

@@ -112,7 +112,7 @@ def _settle(
         rays += _nodes(counts)
         reached = _distance(before.values, found.values)
         if reached <= tolerance or _nodes(_raised(counts)) > MOST_NODES:
-            watch.done()
+            watch.finish()
             return found, counts, reached, rays
         before = found
         watch.expect(_nodes(_raised(counts)))
@@ -244,7 +244,7 @@ class _Watch:
         if self.progress and self.expected:
             self.progress(min(self.finished / self.expected, 0.99))
 
-    def done(self) -> None:
+    def finish(self) -> None:
         """Report that all is done."""
         if self.progress:
             self.progress(1.0)

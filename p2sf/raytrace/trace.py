@@ -162,5 +162,8 @@ def lens_rims(lens: Lens, keep_stop: bool = True) -> np.ndarray:
     stop = lens.stop_surface or named_stop(lens)
     rims = rim_radii(lens, stop, stop_rim(lens) if keep_stop else np.inf) * (1 + RIM_TIE)
     if not np.isfinite(rims).any():
-        raise GeometryError("the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off", parameter="clip")
+        raise GeometryError(
+            "the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off",
+            parameter="clip",
+        )
     return rims

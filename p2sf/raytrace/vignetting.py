@@ -30,7 +30,7 @@ GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same 
 
 
 @dataclass(frozen=True)
-class Outline:
+class ClearPart:
     """The clear part of the pupil: its centre on the η axis, and the corners' angles from +η, 0 and π included."""
 
     centre: float
@@ -84,7 +84,7 @@ def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.
 
 
 @lru_cache(maxsize=16)
-def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True) -> Outline:
+def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True) -> ClearPart:
     """Return centre and corners of the clear part of the pupil. Raises GeometryError when no part is clear."""
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, aim, clip).passed
@@ -104,7 +104,7 @@ def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True
         middle = (low + high) / 2
         same = _edge(lens, source, aim, clip, centre, middle)[1] == first
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return Outline(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
+    return ClearPart(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
 
 
 def _edge(

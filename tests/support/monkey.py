@@ -83,13 +83,13 @@ class Person:
     def first_in_space(self, loaded: bool) -> bool:
         """Return whether the event loaded what draws the lens in space, or asked it for its first picture."""
         solid = self.window.panels.get("solid")
-        first = not self.drawn and solid is not None and solid.stage is not None and solid.widget.isVisible()
+        first = not self.drawn and solid is not None and solid.renderer is not None and solid.widget.isVisible()
         self.drawn = self.drawn or first
         return first or (SPACE in sys.modules and not loaded)
 
     def quiet(self) -> None:
         """Let the background finish, so that two looks at the memory see the same."""
-        workers = self.window.measuring.worker, self.window.settling.worker
+        workers = self.window.measuring.worker, self.window.deferred.worker
         for worker in workers:
             worker.cancel()
         for _ in range(1000):

@@ -19,7 +19,7 @@ RADIUS_PX, NEAR_PX = 7.5, 13.0
 TIP = "The source: drag it to change field and, at a finite distance, depth."
 
 
-class Drawn(Protocol):
+class DrawnSetup(Protocol):
     """What the layout needs of an answer; a set-up without a picture has it too."""
 
     @property
@@ -45,7 +45,7 @@ class SourceHandle:
         self._store = store
         self._held = False
 
-    def place(self, chart: Chart, shown: Drawn) -> tuple[float, float]:
+    def place(self, chart: Chart, shown: DrawnSetup) -> tuple[float, float]:
         """Return z and y of the ring in mm: of the source, or of the point where its chief ray leaves the picture."""
         (left, _), (low, high) = chart.ranges()
         pixel, layout = chart.per_pixel(), shown.layout
@@ -54,11 +54,11 @@ class SourceHandle:
         z = max(z, _leaves(layout, low + 26 * pixel, high - 10 * pixel))
         return z, layout.slope * (z - layout.entrance_z)
 
-    def pixel(self, chart: Chart, shown: Drawn) -> QPointF:
+    def pixel(self, chart: Chart, shown: DrawnSetup) -> QPointF:
         """Return the ring's place in pixels."""
         return QPointF(*(float(v) for v in chart.to_pixels(*self.place(chart, shown))))
 
-    def paint(self, painter: QPainter, chart: Chart, shown: Drawn) -> None:
+    def paint(self, painter: QPainter, chart: Chart, shown: DrawnSetup) -> None:
         """Paint the ring and the source's distance."""
         at, theme = self.pixel(chart, shown), chart.theme
         painter.setPen(QPen(QColor(theme.chief), 2))
@@ -68,12 +68,12 @@ class SourceHandle:
         rect = QRectF(at.x() - 40, at.y() + RADIUS_PX + 2, 80, 14)
         write(painter, rect, written_distance(shown.state.optics.depth_mm))
 
-    def near(self, chart: Chart, shown: Drawn, point: QPointF) -> bool:
+    def near(self, chart: Chart, shown: DrawnSetup, point: QPointF) -> bool:
         """Return whether a pixel is close enough to the ring to take hold of it."""
         apart = point - self.pixel(chart, shown)
         return apart.x() ** 2 + apart.y() ** 2 < NEAR_PX**2
 
-    def press(self, chart: Chart, shown: Drawn, point: QPointF) -> None:
+    def press(self, chart: Chart, shown: DrawnSetup, point: QPointF) -> None:
         """Take hold."""
         if self.near(chart, shown, point):
             self._held = True
@@ -85,7 +85,7 @@ class SourceHandle:
             self._held = False
             self._store.end()
 
-    def move(self, chart: Chart, shown: Drawn, point: QPointF) -> None:
+    def move(self, chart: Chart, shown: DrawnSetup, point: QPointF) -> None:
         """Follow the pointer while held."""
         if not self._held:
             return

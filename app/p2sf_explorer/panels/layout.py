@@ -14,7 +14,7 @@ from p2sf_explorer.compute.layout import Drawing, Outline
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.layout_view.marks import ROW_PX, paint_marks
 from p2sf_explorer.layout_view.source_point import TIP as TIP_OF_SOURCE
-from p2sf_explorer.layout_view.source_point import Drawn, SourceHandle
+from p2sf_explorer.layout_view.source_point import DrawnSetup, SourceHandle
 from p2sf_explorer.layout_view.surface_highlight import SurfaceHighlight
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.store.store import Store
@@ -44,7 +44,7 @@ class LayoutPanel:
         """Return the source's handle."""
         return self.chart.handle
 
-    def show(self, live: Drawn) -> None:
+    def show(self, live: DrawnSetup) -> None:
         """Paint the lens if it has changed, rays and marks always."""
         self.chart.show_live(live)
 
@@ -65,11 +65,11 @@ class LayoutChart(Chart):
             curve.name = tr(WORDS[kind])
         self.handle = SourceHandle(store)
         self.highlight = SurfaceHighlight(store, self)
-        self.live: Drawn | None = None
+        self.live: DrawnSetup | None = None
         self._drawn: tuple[Drawing, float] | None = None  # and half the height of the sensor, mm
         self.setMouseTracking(True)
 
-    def show_live(self, live: Drawn) -> None:
+    def show_live(self, live: DrawnSetup) -> None:
         """Show an answer."""
         self.live, layout = live, live.layout
         before, self._drawn = self._drawn, (layout.drawing, layout.sensor_half)

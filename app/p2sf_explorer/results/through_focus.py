@@ -62,13 +62,13 @@ def strip(live: Live) -> Strip | Message:
         return error.message
     state = changed(optics(live.state), sensor_shift_um=0.0)
     setup = paraxial_setup(state)
-    low, high, half = reach(setup)
+    low, high, half = shift_range(setup)
     shifts = tuple(np.linspace(low, high, COUNT[live.quality]).tolist())
     pixels = PIXELS[live.quality]
     return Strip(state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), everywhere_by_coefficients(live))
 
 
-def reach(setup: ParaxialSetup) -> tuple[float, float, float]:
+def shift_range(setup: ParaxialSetup) -> tuple[float, float, float]:
     """Return the shifts to show, µm, around sensor and foci, and half the width of a window that holds the blur, µm."""
     c = setup.coefficients
     na, index = float(c.na), float(c.image_index)

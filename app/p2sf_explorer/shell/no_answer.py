@@ -13,7 +13,7 @@ UNKNOWN = "–"
 
 
 @dataclass(frozen=True)
-class Drawn:
+class SetupDrawing:
     """The part of an answer that the layout panel needs."""
 
     state: State
@@ -21,10 +21,10 @@ class Drawn:
     layout: Layout
 
 
-def drawn(state: State) -> Drawn | None:
+def drawn(state: State) -> SetupDrawing | None:
     """Return the lens, its rays and marks for a state without a picture; None where these cannot be computed either."""
     try:
         found = paraxial_setup(state)
-        return Drawn(state, found, layout(found))
+        return SetupDrawing(state, found, layout(found))
     except P2SFError:
         return None

@@ -101,7 +101,7 @@ class MainWindow(QMainWindow):
     def _make_helpers(self, measured: bool) -> None:
         """Make what works for the window in the background, and the commands."""
         self.measuring = LiveAccuracy(self._panel("psf", PsfPanel).show_badge, self._accuracy_panel, self, measured)
-        self.settling = DeferredWorker(self.store, self.refresh, self)
+        self.deferred = DeferredWorker(self.store, self.refresh, self)
         self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
         self.lesson_room = LessonRoom(self.middle, self.main_row, self.column, self.controls.rows)
@@ -181,7 +181,7 @@ class MainWindow(QMainWindow):
         for key in self._visible():
             paint(self.panels[key], key, live)
         self.status.show_live(live, self.frame_ms)
-        self.settling.watch(state, self._answers.pending)
+        self.deferred.watch(state, self._answers.pending)
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._painted(begun))
 
@@ -191,7 +191,7 @@ class MainWindow(QMainWindow):
         if self.live and self._answers and self._answers.a.state == state:
             return  # only the lens file has changed, and is perhaps half written: the picture stays
         self.live = None
-        self.settling.watch(state, None)
+        self.deferred.watch(state, None)
         self.measuring.watch(None)
         self.controls.show_none()
         self.status.show_none(why)
@@ -204,7 +204,7 @@ class MainWindow(QMainWindow):
     def _answer(self, state: State) -> Answers:
         """Return the settled answers, or while a slider moves previews by the methods that ``auto`` had chosen."""
         quality = "preview" if self.store.moving else "settled"
-        return answers(state, quality, self._wanted(), self._answers, self.settling.cache)
+        return answers(state, quality, self._wanted(), self._answers, self.deferred.cache)
 
     def refuse(self, why: Message | P2SFError) -> None:
         """Say in the banner why something cannot be done; the last picture stays."""
@@ -223,7 +223,7 @@ class MainWindow(QMainWindow):
         """Return whether anything is still computed in the background."""
         panels = self.panels.values()
         workers = [worker for panel in panels for worker in panel.widget.findChildren(LatestWins)]
-        own = self.measuring.worker, self.settling.worker
+        own = self.measuring.worker, self.deferred.worker
         preparing = any(isinstance(panel, PreparingPanel) and panel.busy for panel in panels)
         return preparing or any(worker.busy for worker in (*workers, *own))
 
@@ -315,7 +315,7 @@ class MainWindow(QMainWindow):
         """End the background work with the window."""
         self.play.stop()
         self.measuring.stop()
-        self.settling.stop()
+        self.deferred.stop()
         self.memory_trim.stop()
         self.floating.stop()
         for panel in self.panels.values():

@@ -240,7 +240,7 @@ class Playback:
 
 
 @dataclass(frozen=True)
-class Photo:
+class PhotoView:
     """The picture before the lens: ``source`` is a chart's name or a file; ``pixel_um`` None shows the whole field."""
 
     PREFIX: ClassVar[str] = "photo_"
@@ -293,7 +293,7 @@ class State:
     display: Display = Display()
     compare: Compare = field(default_factory=Compare)  # whose check needs this class
     playback: Playback = Playback()
-    photo: Photo = Photo()
+    photo: PhotoView = PhotoView()
     lesson: LessonPlace = LessonPlace()
     camera: Cameras = Cameras()
 

@@ -29,7 +29,7 @@ LETTERS = (("muted", "M", "warning"), ("solo", "S", "accent"))
 
 
 @dataclass(frozen=True)
-class Places:
+class MixerPlaces:
     """The mixer's geometry for a size in pixels; rows in the order of `p2sf_explorer.state.terms.TERMS`."""
 
     width: float
@@ -83,7 +83,7 @@ def clamped(value: float, limit: float) -> float:
     return max(-1.0, min(1.0, value / limit))
 
 
-def paint_scale(painter: QPainter, places: Places, theme: Tokens, limit: float) -> None:
+def paint_scale(painter: QPainter, places: MixerPlaces, theme: Tokens, limit: float) -> None:
     """Paint five lines and their numbers."""
     (left, right), bottom = places.ends, places.height - SCALE_HEIGHT
     for part in (-1.0, -0.5, 0.0, 0.5, 1.0):
@@ -96,7 +96,7 @@ def paint_scale(painter: QPainter, places: Places, theme: Tokens, limit: float) 
             write(painter, QRectF(x - 40, bottom + 2, 80, 16), text)
 
 
-def paint_names(painter: QPainter, places: Places, theme: Tokens, number: int) -> None:
+def paint_names(painter: QPainter, places: MixerPlaces, theme: Tokens, number: int) -> None:
     """Paint a row's symbol and its name."""
     row, name = places.row(number), TERMS[number]
     two = row.height() >= 25
@@ -110,7 +110,9 @@ def paint_names(painter: QPainter, places: Places, theme: Tokens, number: int) -
         write(painter, QRectF(0, row.center().y(), 66, 13), words, -1, 11 if fits else 10)
 
 
-def paint_slider(painter: QPainter, places: Places, theme: Tokens, number: int, part: float, focused: bool) -> None:
+def paint_slider(
+    painter: QPainter, places: MixerPlaces, theme: Tokens, number: int, part: float, focused: bool
+) -> None:
     """Paint a row's slider: groove, added waves, handle."""
     handle, zero = places.handle(number, part), places.handle(number, 0.0)
     left, right = places.ends
@@ -138,7 +140,7 @@ def paint_button(painter: QPainter, room: QRectF, theme: Tokens, letter: str, co
     write(painter, room, letter, 0)
 
 
-def paint_value(painter: QPainter, places: Places, theme: Tokens, number: int, part: float, words: str) -> None:
+def paint_value(painter: QPainter, places: MixerPlaces, theme: Tokens, number: int, part: float, words: str) -> None:
     """Paint a row's bar and number; that of W11 pale, since it only moves the image."""
     colour = QColor(theme.positive if part >= 0 else theme.negative)
     colour.setAlpha(110 if TERMS[number] == "w11" else 255)
@@ -229,9 +231,9 @@ class Mixer(QWidget):
         return QSize(260, 220)
 
     @property
-    def places(self) -> Places:
+    def places(self) -> MixerPlaces:
         """Return the geometry of the present size."""
-        return Places(self.width(), self.height())
+        return MixerPlaces(self.width(), self.height())
 
     def rows_of_data(self) -> list[list[str]]:
         """Return the coefficients as they count, the lens's own, and the added waves, in waves, for the clipboard."""

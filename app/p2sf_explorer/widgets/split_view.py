@@ -20,7 +20,7 @@ NARROWEST = 0.7  # least width of a detail over its height
 
 
 @dataclass(frozen=True)
-class Places:
+class SplitPlaces:
     """Rectangles of the picture, the PSF, and, if there is room, the enlarged details before and after the lens."""
 
     picture: QRectF
@@ -28,19 +28,19 @@ class Places:
     details: tuple[QRectF, ...]
 
 
-def places(width: float, height: float, rows: int, columns: int) -> Places:
+def places(width: float, height: float, rows: int, columns: int) -> SplitPlaces:
     """Return the places in a panel of this size: beside the picture a square for the PSF, and details in the rest."""
     scale = min(width / columns, height / rows)
     picture = QRectF(0, (height - scale * rows) / 2, scale * columns, scale * rows)
     side = picture.height()
     left = width - picture.width() - side - GAP
     if left < 0:
-        return Places(picture, overlaid(picture), ())
+        return SplitPlaces(picture, overlaid(picture), ())
     count = min(2, int(left // (NARROWEST * side + GAP)))
     wide = min(left / max(count, 1) - GAP, side * columns / DETAIL_ROWS)
     lefts = (picture.right() + GAP + k * (wide + GAP) for k in range(count))
     details = tuple(QRectF(at, picture.top(), wide, side) for at in lefts)
-    return Places(picture, QRectF((details or (picture,))[-1].right() + GAP, picture.top(), side, side), details)
+    return SplitPlaces(picture, QRectF((details or (picture,))[-1].right() + GAP, picture.top(), side, side), details)
 
 
 def overlaid(picture: QRectF) -> QRectF:
@@ -125,7 +125,7 @@ class SplitView(QWidget):
         self._theme = theme
         self.update()
 
-    def places(self) -> Places:
+    def places(self) -> SplitPlaces:
         """Return the places in the present size."""
         return places(self.width(), self.height(), *self.after.shape)
 
@@ -171,7 +171,7 @@ class SplitView(QWidget):
                 continue
             _label(painter, QRectF(left, area.bottom() - 24, wide, 18), name)
 
-    def _paint_place(self, painter: QPainter, places: Places) -> None:
+    def _paint_place(self, painter: QPainter, places: SplitPlaces) -> None:
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)  # a sensor's pixels are squares
         part = close_up(self.place, self.after.shape, (places.details or (places.psf,))[0])
         shown = ((self.before, self.names[0]), (self.after, self.names[1]))[2 - len(places.details) :]

@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtWidgets import QApplication
 
 import p2sf_explorer.compute.deferred_sums as wavesums
-import p2sf_explorer.workers.deferred as settling
+import p2sf_explorer.workers.deferred as deferred
 from p2sf.errors import Cancelled, GeometryError
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.messages import Message
@@ -28,7 +28,7 @@ WIDE = changed(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_
 
 @pytest.fixture
 def window(window):
-    window.settling.cache = SumCache()
+    window.deferred.cache = SumCache()
     return window
 
 
@@ -84,7 +84,7 @@ def test_a_sum_nobody_waits_for_any_more_is_not_shown(window, qtbot, monkeypatch
         second = window.live.pending
         gate.set()
         qtbot.waitUntil(lambda: window.live.pending is None, timeout=20_000)
-        assert first != second and window.settling.cache.get(second)
+        assert first != second and window.deferred.cache.get(second)
         with noted(monkeypatch) as threads:
             window.store.update(psf_scale="log")
             QApplication.processEvents()
@@ -97,19 +97,19 @@ def test_a_sum_that_fails_says_so_and_nobody_waits_for_it(window, qtbot, monkeyp
     def fail(pending, cancelled):
         raise GeometryError("no ray passes; stop down.")
 
-    monkeypatch.setattr(settling, "by_rays", fail)
+    monkeypatch.setattr(deferred, "by_rays", fail)
     window.store.replace(WIDE)
-    with qtbot.waitSignal(window.settling.worker.failed):
+    with qtbot.waitSignal(window.deferred.worker.failed):
         assert window.live.pending
     assert window.banner.isVisible() and "stop down" in window.banner.text.text()
     monkeypatch.undo()
     window.store.update(psf_scale="log")
-    assert window.live.pending is None and not window.settling.worker.busy, "it would fail again"
+    assert window.live.pending is None and not window.deferred.worker.busy, "it would fail again"
     assert window.live.psf.method != "huygens" and window.live.why == Message("no ray passes; stop down.")
 
 
 def test_a_failure_nobody_waits_for_is_not_told(window):
-    window.settling.worker.failed.emit(live(CORNER, cache=SumCache()).pending, Message("nothing to say."))
+    window.deferred.worker.failed.emit(live(CORNER, cache=SumCache()).pending, Message("nothing to say."))
     assert not window.banner.isVisible()
 
 
@@ -125,7 +125,7 @@ def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch)
         return replace(ready, method="huygens", pixel_um=pending.window[1])
 
     said = []
-    monkeypatch.setattr(settling, "by_rays", stoppable)
+    monkeypatch.setattr(deferred, "by_rays", stoppable)
     monkeypatch.setattr(window, "refuse", said.append)
     window.store.replace(WIDE)
     window.store.update(field_deg=13.0)
@@ -145,10 +145,10 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
         values = np.full((pending.window[0],) * 2, pending.window[0] ** -2.0, np.float32)
         return replace(ready, method="huygens", values=values, pixel_um=pending.window[1])
 
-    monkeypatch.setattr(settling, "by_rays", counted)
+    monkeypatch.setattr(deferred, "by_rays", counted)
     window.store.replace(changed(FIRST, pinned=optics(WIDE)))
     assert window._answers.pending == window._answers.b.pending is not None
-    qtbot.waitUntil(lambda: not (window.settling.worker.busy or window._answers.pending), timeout=20_000)
+    qtbot.waitUntil(lambda: not (window.deferred.worker.busy or window._answers.pending), timeout=20_000)
     assert window._answers.b.psf.method == "huygens" and len(sums) == 1
 
 
