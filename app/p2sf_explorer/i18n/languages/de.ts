@@ -1099,7 +1099,7 @@
 <message><source>the lens has no wavelengths; give at least one</source><translation>das Objektiv hat keine Wellenlängen; mindestens eine angeben</translation></message>
 <message><source>the lens itself</source><translation>ganz vorn am Objektiv</translation></message>
 <message><source>the lens names no stop surface and no semi-diameters; state one of them</source><translation>das Objektiv nennt weder Blendenfläche noch Halbmesser; eines davon angeben</translation></message>
-<message><source>the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off</source><translation>das Objektiv nennt keine Halbmesser, also lässt sich nichts beschneiden; diese hinzufügen oder den Randbeschnitt auslassen</translation></message>
+<message><source>the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off</source><translation>das Objektiv nennt keine Halbmesser, also lässt sich nichts beschneiden; diese hinzufügen oder {parameter} auslassen</translation></message>
 <message><source>the lens's own</source><translation>die des Objektivs</translation></message>
 <message><source>the line has over {count} characters; this is no lens file</source><translation>die Zeile hat über {count} Zeichen; das ist keine Objektivdatei</translation></message>
 <message><source>the link</source><translation>der Link</translation></message>
