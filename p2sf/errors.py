@@ -29,7 +29,7 @@ class GeometryError(P2SFError):
 
 
 class SamplingError(P2SFError):
-    """A grid that cannot carry the asked PSF."""
+    """The sampling grid is too coarse or too large."""
 
 
 class RequestError(P2SFError):
@@ -37,7 +37,7 @@ class RequestError(P2SFError):
 
 
 class ExportError(P2SFError):
-    """A result that cannot be written to, or read back from, the file asked for."""
+    """A file that cannot be written or read."""
 
 
 class Cancelled(P2SFError):
@@ -67,4 +67,4 @@ class LensFileError(P2SFError):
 
 
 class DatabaseError(P2SFError):
-    """A database or stack that cannot be built, read, or asked what it was asked."""
+    """A database that cannot be built or read, or does not cover the request."""

@@ -1,4 +1,4 @@
-"""Databases as files."""
+"""Coefficient databases (npz) and PSF stacks (Zarr) on disk, with a record of how they were made."""
 
 from p2sf.database_files.npz import (
     database_bytes,

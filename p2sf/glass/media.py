@@ -20,7 +20,7 @@ Range = tuple[float, float] | None
 
 @runtime_checkable
 class Medium(Protocol):
-    """What every medium has."""
+    """Interface of all refractive media."""
 
     @property
     def label(self) -> str:

@@ -1,4 +1,4 @@
-"""Databases and stacks in the formats of other programs."""
+"""Export of databases and PSF stacks to other programs: FITS, TIFF, CSV tables, ISETCam."""
 
 from p2sf.interchange.coefficient_table import write_csv
 from p2sf.interchange.fits import write_fits

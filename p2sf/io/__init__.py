@@ -1,1 +1,1 @@
-"""Readers and writers of PSFs and photos, and the plot of a PSF."""
+"""Single PSFs and photos as files: npz, FITS, TIFF, CSV and PNG, read and written, and plots of a PSF."""

@@ -32,7 +32,7 @@ def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
         image.header[f"CDELT{axis}"] = (psf.pixel_um, "pitch")
         image.header[f"CUNIT{axis}"] = "um"
     image.header["BUNIT"] = ("fraction", "of the light in the window, per pixel")
-    image.header["METHOD"] = (psf.method, "rung of the accuracy ladder")
+    image.header["METHOD"] = (psf.method, "method of computing the PSF")
     image.header["CREATOR"] = f"p2sf {__version__}"
     image.header[META] = json.dumps({**plain(meta), "psf": facts(psf)})
     content = io.BytesIO()  # astropy refuses a handle that was opened to create a file

@@ -50,7 +50,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
 
 
 def _located(make: Callable[[], Lens], raw: RawLens, source: LensText, line: int | None) -> Lens:
-    """Return what ``make`` makes; an error gets the line of the surface it names, else ``line``, else the last."""
+    """Call ``make`` and attach a line number to its errors."""
     try:
         return make()
     except (GeometryError, GlassError) as failure:

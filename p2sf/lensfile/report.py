@@ -44,7 +44,7 @@ class Note:
 
 @dataclass(frozen=True)
 class ImportReport:
-    """What a user should know about one import, in the order of the file."""
+    """Notes on one imported file, in file order."""
 
     path: str
     format: str

@@ -56,7 +56,7 @@ NUMBER = r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?|[-+]?inf"
 
 @dataclass(frozen=True)
 class Constraint:
-    """What a number must be: a test, and the remedy for a number that fails it."""
+    """A constraint on a number and the hint shown when it is violated."""
 
     holds: Callable[[float], bool]
     remedy: Message

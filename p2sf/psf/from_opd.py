@@ -1,4 +1,4 @@
-"""The PSF of anybody's wavefront array, such as an interferometer or another program gives."""
+"""The PSF of a measured or imported wavefront map."""
 
 from time import perf_counter
 

@@ -1,4 +1,4 @@
-"""What covers a panel while there is no answer: a sentence, over the earlier picture shining faintly through."""
+"""A message over a dimmed panel that has no current result."""
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette
@@ -11,7 +11,7 @@ MARGIN = 12
 
 
 class Overlay(QWidget):
-    """Covers its parent below the title line; what lies beneath still takes the mouse, since it may be the remedy."""
+    """Does not block the mouse: the controls beneath may fix the problem."""
 
     def __init__(self, parent: QWidget):
         super().__init__(parent)

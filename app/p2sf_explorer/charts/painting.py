@@ -16,7 +16,7 @@ DIGIT = re.compile(r"\d")
 
 @lru_cache(maxsize=8)
 def small_font(size: int = 11) -> QFont:
-    """Return the font of ticks and labels; one for everybody, so it is not to be changed."""
+    """Return the font of ticks and labels. Shared; do not modify."""
     font = QFont()
     font.setPixelSize(size)
     return font

@@ -219,7 +219,7 @@ class SurfaceView(QWidget):
         self.turned.emit(camera.turn, max(0.0, camera.tilt))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Take hold of the surface."""
+        """Start dragging."""
         if event.button() == Qt.MouseButton.LeftButton:
             self._held = event.position(), self.camera
             self.taken.emit()
@@ -232,7 +232,7 @@ class SurfaceView(QWidget):
             self._turn(turned(camera, -DEG_PER_PX * moved.x(), DEG_PER_PX * moved.y()))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """Let go."""
+        """Stop dragging."""
         if self._held:
             self._held = None
             self.released.emit()

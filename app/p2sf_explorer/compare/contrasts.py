@@ -1,4 +1,4 @@
-"""In what A and B differ. No Qt in here."""
+"""The settings that differ between A and B. No Qt in here."""
 
 from collections.abc import Callable
 from math import isclose

@@ -47,7 +47,7 @@ def _first_of(faults: tuple[Message, ...]) -> Iterator[Message]:
     if faults:
         yield Message("{fault}.", fault=faults[0])
     if len(faults) > 1:
-        yield Message("This lens has {count} such oddities; p2sf info lists them all.", count=len(faults))
+        yield Message("This lens has {count} such faults; p2sf info lists them all.", count=len(faults))
 
 
 def _narrower_rim(setup: ParaxialSetup) -> Message | None:

@@ -1,4 +1,4 @@
-"""The languages of the window: one Qt .ts file each in this folder, as Qt Linguist writes them; English needs none.
+"""The languages of the window: one Qt Linguist .ts file each in ``languages/``; English needs none.
 
 To add a language, copy ``de.ts``, name it after the language and translate it;
 ``python -m p2sf_explorer.i18n.extract LANGUAGE`` lists what is missing.

@@ -74,13 +74,13 @@ class SourceHandle:
         return apart.x() ** 2 + apart.y() ** 2 < NEAR_PX**2
 
     def press(self, chart: Chart, shown: DrawnSetup, point: QPointF) -> None:
-        """Take hold."""
+        """Start dragging."""
         if self.near(chart, shown, point):
             self._held = True
             self._store.begin()
 
     def release(self) -> None:
-        """Let go."""
+        """Stop dragging."""
         if self._held:
             self._held = False
             self._store.end()

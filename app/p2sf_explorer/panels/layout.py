@@ -152,7 +152,7 @@ class LayoutChart(Chart):
         return ""
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Take hold of the source."""
+        """Start dragging the source."""
         if event.button() == Qt.MouseButton.LeftButton and self.live:
             self.handle.press(self, self.live, event.position())
 
@@ -170,7 +170,7 @@ class LayoutChart(Chart):
         self.highlight.leave()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """Let go of the source."""
+        """Stop dragging the source."""
         self.handle.release()
 
 

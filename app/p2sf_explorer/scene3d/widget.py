@@ -127,7 +127,7 @@ class SceneView(QWidget):
         self._forget()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Take hold of the scene."""
+        """Start dragging."""
         if event.button() == Qt.MouseButton.LeftButton:
             self._held = event.position(), self._camera
 
@@ -140,7 +140,7 @@ class SceneView(QWidget):
             self._forget()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """Let go; the state keeps the camera."""
+        """Stop dragging; the state keeps the camera."""
         if self._held:
             self._keep(self._camera)
 

@@ -55,7 +55,7 @@ class Tabs(QTabWidget):
         self._show_group()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Give a tab that is dragged off the bar a window of its own."""
+        """Detach a tab that is dragged off the bar."""
         if not isinstance(event, QMouseEvent):
             return super().eventFilter(watched, event)
         if event.type() == QEvent.Type.MouseMove and event.buttons() & Qt.MouseButton.LeftButton:

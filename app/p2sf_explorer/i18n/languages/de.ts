@@ -472,7 +472,7 @@
 <message><source>This is A: the diagram's points are surfaces, and those of B are others.</source><translation>Dies ist A: die Punkte des Diagramms sind Flächen, und die von B sind andere.</translation></message>
 <message><source>This is A: two lenses drawn to scale have no difference that could be drawn.</source><translation>Dies ist A: zwei maßstäblich gezeichnete Objektive haben keine Differenz, die sich zeichnen ließe.</translation></message>
 <message><source>This is A; B has none: {why}</source><translation>Dies ist A; B hat keines: {why}</translation></message>
-<message><source>This lens has {count} such oddities; p2sf info lists them all.</source><translation>Dieses Objektiv hat {count} solche Ungereimtheiten; p2sf info zählt sie alle auf.</translation></message>
+<message><source>This lens has {count} such faults; p2sf info lists them all.</source><translation>Dieses Objektiv hat {count} solche Fehler; p2sf info zählt sie alle auf.</translation></message>
 <message><source>This lesson has not been translated and stands here as it was written</source><translation>Diese Lektion ist nicht übersetzt und steht hier, wie sie geschrieben wurde</translation></message>
 <message><source>This panel has no numbers</source><translation>Diese Ansicht hat keine Zahlen</translation></message>
 <message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Diese Ansicht steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
