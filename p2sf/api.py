@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
-from p2sf.errors import RequestError
+from p2sf.errors import ExportError, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Alternatives
+from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.notebook import html_table
+from p2sf.parameters import check_angle
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.request import Request, StopChoice, set_up, set_up_source
+from p2sf.request import Request, StopChoice, check_lens, set_up, set_up_source
 
 if TYPE_CHECKING:
     from p2sf.database.render import Database
@@ -52,9 +53,8 @@ def load_lens(name_or_path: Path) -> Lens:
     Raises
     ------
     LensFileError
-        For a name that is neither shipped nor a file, and for a file that cannot be read; says which line.
-    GlassError
-        For a glass that no catalogue has.
+        For a name that is neither shipped nor a file, for a file that cannot be read, and for a glass that no catalogue
+        has; says which line.
 
     Examples
     --------
@@ -216,9 +216,11 @@ def choose_method(
     Raises
     ------
     RequestError
-        For a tolerance that is not below 1.
+        For a value that cannot be, and for a tolerance that is not below 1.
     GeometryError
-        Where the chief ray does not reach the sensor.
+        Where this lens forms no image of this source, or the chief ray does not reach the sensor.
+    GlassError
+        For a wavelength outside the data of a glass.
 
     Examples
     --------
@@ -258,7 +260,7 @@ def tradeoff(
     depths_mm: Sequence[float] = (inf,),
     wavelengths_nm: Sequence[float] | None = None,
     *,
-    methods: Sequence[str] = ("gaussian", "seidel", "fitted", "traced", "huygens"),
+    methods: str | Sequence[str] = ("gaussian", "seidel", "fitted", "traced", "huygens"),
     pixels: int = 64,
     pixel_um: float | None = None,
 ) -> TradeoffTable:
@@ -272,8 +274,8 @@ def tradeoff(
         Field angles, degrees, and wavelengths, nm; the fields and the middle wavelength of the lens if not given.
     depths_mm : sequence of float
         Object distances from the first vertex, mm.
-    methods : sequence of str
-        Which methods are measured.
+    methods : str or sequence of str
+        Which methods are measured, or which one.
     pixels : int
         Samples along each side of the compared window.
     pixel_um : float, optional
@@ -286,7 +288,7 @@ def tradeoff(
 
     Raises
     ------
-    GeometryError, GlassError, SamplingError
+    RequestError, GeometryError, GlassError, SamplingError
         As for `render`.
 
     Examples
@@ -298,7 +300,12 @@ def tradeoff(
     """
     from p2sf.studies import tradeoff as study
 
-    return TradeoffTable(study.tradeoff(lens, fields_deg, depths_mm, wavelengths_nm, methods, pixels, pixel_um))
+    check_lens(lens)
+    fields = None if fields_deg is None else tuple(fields_deg)
+    for angle in fields or ():
+        check_angle("fields_deg", angle)
+    methods = (methods,) if isinstance(methods, str) else methods
+    return TradeoffTable(study.tradeoff(lens, fields, depths_mm, wavelengths_nm, methods, pixels, pixel_um))
 
 
 def build_database(
@@ -346,7 +353,7 @@ def build_database(
     RequestError, GeometryError, GlassError
         As for `render`.
     ExportError
-        For a place that cannot be written.
+        For a name that does not end in .npz, and for a place that cannot be written.
 
     Examples
     --------
@@ -359,10 +366,22 @@ def build_database(
     from p2sf.database.space import Space
     from p2sf.database_files import Stored, provenance, save_database
 
+    if path is not None:
+        _check_database_path(path)
+    if method == "fitted" and interpolant != "exact":
+        raise RequestError(
+            "{parameter} is {value}, which is for {method} seidel; leave it out",
+            parameter="interpolant",
+            value=interpolant,
+            method=ParameterName("method"),
+        )
+    fields = np.asarray(fields_deg, dtype=float)
+    for angle in fields.ravel().tolist():
+        check_angle("fields_deg", angle)
     request = Request(focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop)
     setup = set_up(lens, request)
-    slopes = slope_from_degrees(np.asarray(fields_deg, dtype=float))
-    space = Space(np.asarray(depths_mm, dtype=float), slopes, np.asarray(wavelengths_nm, dtype=float) / NM_PER_UM)
+    depths = np.asarray(depths_mm, dtype=float)
+    space = Space(depths, slope_from_degrees(fields), np.asarray(wavelengths_nm, dtype=float) / NM_PER_UM)
     if method == "fitted":
         from p2sf.database.fitted_build import build_fitted
 
@@ -381,6 +400,21 @@ def build_database(
     if path is not None:
         save_database(database, setup.lens, path, setup.stop)
     return Stored(database, provenance(database, setup.lens, setup.stop))
+
+
+def _check_database_path(path: Path) -> None:
+    """Raise ExportError for a place that no database can be written to."""
+    from p2sf.files.writing import check_place
+
+    if os.path.splitext(path)[1].lower() != ".npz":
+        raise ExportError(
+            "{parameter} is {path}; {wanted}, choose a name that ends in {ending}",
+            parameter="path",
+            path=str(path),
+            wanted=Message("a database is a .npz file"),
+            ending=".npz",
+        )
+    check_place(path)
 
 
 def open_database(path: Path) -> "Stored":
@@ -443,6 +477,7 @@ def plan(lens: Lens, scene: "Scene | Path", check: Callable[[], None] | None = N
     >>> p2sf.plan(p2sf.load_lens("double_gauss_28"), scene).meets
     True
     """
+    check_lens(lens)
     from p2sf.scene import Scene, read_scene
     from p2sf.scene import plan as cheapest_plan
 

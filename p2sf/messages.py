@@ -78,7 +78,7 @@ class Message:
         return isinstance(other, Message) and (self.template, self.values) == (other.template, other.values)
 
     def __hash__(self) -> int:
-        return hash((self.template, str(self)))
+        return hash(self.template)  # equal values, such as 1 and 1.0, may read differently
 
 
 class _Filling(Formatter):

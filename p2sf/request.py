@@ -7,7 +7,9 @@ from dataclasses import dataclass, replace
 from math import inf, isfinite, isinf
 from typing import Literal
 
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, is_number, slope_from_degrees
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Aperture, Lens, indices, with_f_number, with_sensor
 from p2sf.lens.source import Source
@@ -99,11 +101,18 @@ def set_up(lens: Lens, request: Request) -> Setup:
     Raises RequestError for a value that cannot be, GeometryError for one this lens cannot take, and
     GlassError for a wavelength outside its glasses.
     """
+    check_lens(lens)
     wavelength = wavelength_um(lens, request)
     indices(lens, wavelength)
     placed = with_sensor(_opened(lens, request.f_number), sensor_position(lens, request))
     used, stop = _stopped(placed, request, wavelength)
     return with_field(Setup(used, Source(request.depth_mm, 0.0, wavelength), stop, lens), request)
+
+
+def check_lens(lens: object) -> None:
+    """Raise RequestError for what is no lens, such as the name of one."""
+    if not isinstance(lens, Lens):
+        raise RequestError("the lens is {value}; give what p2sf.load_lens returns", value=f"{lens!r:.60}")
 
 
 def with_field(setup: Setup, request: Request) -> Setup:
@@ -125,6 +134,12 @@ def set_up_source(
     stop: StopChoice = "file",
 ) -> Setup:
     """Return the setup of a source that is known already; parameters of the camera and errors as `Request` has them."""
+    for value in (source.depth_mm, source.field_slope, source.wavelength_um, source.azimuth_deg):
+        if not is_number(value):
+            raise RequestError(
+                "the source has values of shape {shape}, which are many sources; give one after the other",
+                shape=str(np.shape(value)),
+            )
     request = Request(
         depth_mm=source.depth_mm,
         field_deg=source.field_deg,

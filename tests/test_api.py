@@ -3,6 +3,7 @@
 import doctest
 import inspect
 from dataclasses import replace
+from io import BytesIO
 from math import hypot, inf, nan
 
 import numpy as np
@@ -12,6 +13,7 @@ import p2sf
 from p2sf import api
 from p2sf.conventions import centred_axis, slope_from_degrees
 from p2sf.errors import RequestError, SamplingError
+from p2sf.io import psf_plot
 from p2sf.lens.lens import with_sensor
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import coefficients
@@ -86,6 +88,8 @@ def test_a_source_beside_the_plane_of_the_field_keeps_its_direction():
     [
         ({"depth_mm": -5}, "depth_mm is -5 mm; give a positive number, inf allowed"),
         ({"depth_mm": nan}, "depth_mm is nan mm"),
+        ({"depth_mm": None}, "depth_mm is None; give a distance, inf for infinity"),
+        ({"field_deg": "ten"}, "field_deg is 'ten'; give one angle"),
         ({"field_slope": inf}, "field_slope is inf; give a finite number"),
         ({"field_deg": 95}, "field_deg is 95°, and no ray"),
         ({"field_deg": (3, nan)}, "field_deg is nan°"),
@@ -143,6 +147,75 @@ def test_a_database_is_built_written_opened_and_asked(tmp_path, method):
         assert "∞" in database._repr_html_()
 
 
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: p2sf.tradeoff(LENS, [0, 175]), "fields_deg is 175°, and no ray"),
+        (lambda: p2sf.build_database(LENS, [inf], [0, 175], [550]), "fields_deg is 175°, and no ray"),
+        (lambda: p2sf.tradeoff(LENS, [0], pixels=0), "a PSF of 0 samples; give a whole number"),
+        (lambda: p2sf.tradeoff(LENS, [0], pixel_um=0), "a pixel of 0 µm; give a positive number"),
+        (lambda: p2sf.render(LENS, p2sf.Source(field_slope=np.array([0.0, 0.1]))), r"of shape \(2,\), which are many"),
+        (lambda: p2sf.coefficients(LENS, p2sf.Source(np.array([500.0]))), "give one after the other"),
+        (lambda: p2sf.choose_method(LENS, p2sf.Source(wavelength_um=np.array([0.5, 0.6]))), "give one after the other"),
+        (lambda: p2sf.render("double_gauss_28"), "the lens is 'double_gauss_28'; give what p2sf.load_lens returns"),
+        (lambda: p2sf.build_database("dg", [inf], [0], [550]), "p2sf.load_lens"),
+        (lambda: p2sf.tradeoff("dg"), "p2sf.load_lens"),
+        (lambda: p2sf.plan("dg", "s.toml"), "p2sf.load_lens"),
+        (lambda: p2sf.build_database(LENS, [inf], [0], [550], path="dg.zarr"), "path is dg.zarr; a database is a .npz"),
+        (lambda: p2sf.build_database(LENS, [inf], [0], [550], path="none/dg.npz"), "none"),
+        (
+            lambda: p2sf.build_database(LENS, [inf], [0], [550], method="fitted", interpolant="linear"),
+            "interpolant is linear, which is for method seidel",
+        ),
+    ],
+)
+def test_what_cannot_be_is_one_sentence_before_the_work(call, words):
+    with pytest.raises(p2sf.P2SFError, match=words):
+        call()
+
+
+@pytest.mark.parametrize("method", ["auto", *methods.METHODS])
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"pixels": 0}, "a PSF of 0 samples"),
+        ({"pixels": 16.0}, "a PSF of 16.0 samples"),
+        ({"pixel_um": 0.0}, "a pixel of 0.0 µm"),
+        ({"pixel_um": nan}, "a pixel of nan µm"),
+        ({"pixel_um": inf}, "a pixel of inf µm"),
+        ({"quality": "best"}, 'quality "best" is unknown'),
+        ({"tolerance": nan}, "a tolerance of nan"),
+        ({"tolerance": 1}, "a tolerance of 1; give the R² to hold, below 1"),
+        ({"tolerance": -inf}, "a tolerance of -inf"),
+    ],
+)
+def test_every_method_refuses_the_same_samples_qualities_and_tolerances(method, options, words):
+    with pytest.raises((RequestError, SamplingError), match=words):
+        p2sf.render(LENS, method=method, **options)
+
+
+@pytest.mark.parametrize("angle", [np.float32(10), np.int64(10), np.array(10.0)])
+def test_a_numpy_scalar_is_one_angle(angle):
+    assert p2sf.Source(field_deg=angle) == p2sf.Source(field_deg=10)
+
+
+def test_only_public_names_are_listed():
+    assert set(p2sf.__all__) == {name for name in dir(p2sf) if not (name.startswith("__") and name.endswith("__"))}
+
+
+def test_psfs_compare_by_identity():
+    one, other = (p2sf.render(LENS, method="seidel", pixels=8) for _ in range(2))
+    assert one == one and one != other and len({one, other}) == 2
+
+
+def test_a_turned_psf_is_drawn_along_its_field(monkeypatch):
+    drawn = []
+    monkeypatch.setattr(psf_plot, "_write_png", lambda figure, *_: drawn.append(figure.axes[0].get_xlabel()))
+    for field in (5, (3, 4)):
+        p2sf.draw_psf(BytesIO(), p2sf.render(LENS, p2sf.Source(field_deg=field), "seidel", pixels=8))
+    assert drawn == ["x on the sensor, µm", "across the field, µm"]
+
+
 def test_a_method_no_database_has_is_refused():
     with pytest.raises(RequestError, match='method is "traced"; choose seidel or fitted'):
         p2sf.build_database(LENS, [inf], [0], [550], method="traced")
@@ -156,10 +229,11 @@ def test_a_scene_is_planned_from_a_file_and_formed(tmp_path):
     planned = p2sf.plan(LENS, tmp_path / "s.toml")
     formed = p2sf.form_image(planned, np.ones((6, 8, 1)), np.full((6, 8), 1e6), method="lowrank")
     assert formed.shape == (6, 8, 1) and np.allclose(formed, 1, atol=0.1)
+    assert repr(planned).startswith("<Plan double_gauss_28: 6 × 8 pixels, 1 channels, predicted error 0.")
 
 
 def test_what_was_measured_prints_as_a_table():
-    rows = p2sf.tradeoff(p2sf.load_lens("landscape"), [0.0], methods=["seidel"], pixels=16)
+    rows = p2sf.tradeoff(p2sf.load_lens("landscape"), [0.0], methods="seidel", pixels=16)
     head, *lines = repr(rows).splitlines()
     assert head.startswith("method") and [line.split()[0] for line in lines] == ["seidel", "seidel"]
     assert rows._repr_html_().count("<tr>") == 3

@@ -85,3 +85,8 @@ def test_errors_travel_between_processes(error):
 
 def test_equal_messages_are_one_key():
     assert len({Message("a {b:g}", b=1.0), Message("a {b:g}", b=1.0), Message("a {b:g}", b=2.0)}) == 2
+
+
+def test_messages_of_equal_values_are_one_key_however_they_read():
+    whole, real = Message("{a}", a=1), Message("{a}", a=1.0)
+    assert whole == real and hash(whole) == hash(real) and str(whole) != str(real)

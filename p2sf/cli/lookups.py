@@ -55,9 +55,9 @@ def shifted(database: "Database", shift_um: float) -> "Database":
         return database
     if not isinstance(database, ExactDatabase):
         raise RequestError(
-            "{parameter} needs the exact interpolant and this is {interpolant}; leave it out",
+            "{parameter} needs a seidel database of the exact interpolant, and this one is {kind}; leave it out",
             parameter="sensor_shift_um",
-            interpolant=database.interpolant,
+            kind="fitted" if database.interpolant == "exact" else database.interpolant,
         )
     return database.with_sensor(database.sensor_mm + shift_um / UM_PER_MM)
 

@@ -29,7 +29,8 @@ def draw_psf(handle: BinaryIO, psf: Psf, title: str = "", metadata: dict | None 
     axes = figure.add_subplot()
     root = PowerNorm(0.5, vmin=0, vmax=1)
     picture = axes.imshow(relative(psf.values), extent=edges_um(psf), origin="lower", cmap="magma", norm=root)
-    axes.set(xlabel="x on the sensor, µm", ylabel="y on the sensor, µm")
+    x, y = ("across the field", "along the field") if psf.azimuth_deg else ("x on the sensor", "y on the sensor")
+    axes.set(xlabel=f"{x}, µm", ylabel=f"{y}, µm")
     axes.set_title(title, fontsize=9, loc="left")
     figure.colorbar(
         picture, ax=axes, ticks=[0, 0.01, 0.1, 0.25, 0.5, 1], label="intensity / peak (square-root colours)"

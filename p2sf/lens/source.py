@@ -62,6 +62,8 @@ class Source:
         wavelength_nm: float | None = None,
         azimuth_deg: float = 0.0,
     ):
+        if depth_mm is None:
+            raise RequestError("{parameter} is None; give a distance, inf for infinity", parameter="depth_mm")
         if field_deg is not None:
             _check_once("field_deg", "field_slope", field_slope)
             field_slope, azimuth_deg = _direction(field_deg, azimuth_deg)
@@ -115,18 +117,18 @@ def _check_once(name: str, other: str, value: object) -> None:
 
 def _direction(field_deg: float | tuple[float, float], azimuth_deg: float) -> tuple[float, float]:
     """Return the radial field slope of an angle, or of angles (x, y), and the azimuth in degrees."""
-    if isinstance(field_deg, float | int):
-        check_angle("field_deg", field_deg)
-        return float(slope_from_degrees(field_deg)), azimuth_deg
-    if np.shape(field_deg) != (2,):
+    given = np.asarray(field_deg)
+    if given.shape not in ((), (2,)) or given.dtype.kind not in "biuf":
         raise RequestError(
             "{parameter} is {value}; give one angle in degrees, or two, x and y",
             parameter="field_deg",
             value=f"{field_deg!r:.40}",
         )
-    for angle in field_deg:
+    angles = given.ravel().tolist()
+    for angle in angles:
         check_angle("field_deg", angle)
-    x, y = (float(slope_from_degrees(angle)) for angle in field_deg)
+    *beside, y = (float(slope_from_degrees(angle)) for angle in angles)
+    x = beside[0] if beside else 0.0
     if x == 0:
         return y, azimuth_deg
     if azimuth_deg:

@@ -14,11 +14,12 @@ See handbook 5.6.
 """
 
 from dataclasses import dataclass, replace
+from math import inf
 from time import perf_counter
 
 import numpy as np
 
-from p2sf.errors import GeometryError, RequestError, SamplingError
+from p2sf.errors import GeometryError, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
@@ -28,7 +29,7 @@ from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import Filling, huygens_psf
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import UNKNOWN_QUALITY, seidel_psf, suitable_pixel_um
+from p2sf.psf.seidel import check_quality, check_samples, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays
@@ -110,8 +111,7 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
     Raises GeometryError where the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
     """
-    if not tolerance < 1:
-        raise RequestError("a tolerance of {tolerance:g}; give the R² to hold, below 1", tolerance=tolerance)
+    _check_tolerance(tolerance)
     allowed = 1 - tolerance
     xi, eta, weight = level_rays(QUICK_LEVELS[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
@@ -132,6 +132,11 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
         if fitted <= allowed:
             return replace(tried, method="fitted", predicted_error=fitted, numbers=level.numbers, fitted_error=fitted)
     return _by_rays(replace(tried, fitted_error=fitted), TRACED_ERROR)
+
+
+def _check_tolerance(tolerance: float) -> None:
+    if not -inf < tolerance < 1:
+        raise RequestError("a tolerance of {tolerance:g}; give the R² to hold, below 1", tolerance=tolerance)
 
 
 def _by_rays(tried: Choice, error: float) -> Choice:
@@ -173,8 +178,12 @@ def render(
 
     Without ``pixel_um`` the pitch is that at which the six coefficients show the whole PSF. A fit takes as many numbers
     as ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters; where a rim does clip, methods
-    that describe the whole pupil refuse it. Raises P2SFError: for an unknown method, no image, no rays.
+    that describe the whole pupil refuse it. Raises P2SFError: for an unknown method, no image, no rays, for
+    samples, a quality or a tolerance that cannot be.
     """
+    check_samples(pixels, pixel_um)
+    check_quality(quality)
+    _check_tolerance(tolerance)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     if pixel_um is None:
         pixel_um = float(suitable_pixel_um(c, pixels))
@@ -196,8 +205,6 @@ def render(
 def _by_tracing(
     lens: Lens, source: Source, method: str, window: tuple[int, float], quality: str, filling: Filling
 ) -> Psf:
-    if quality not in ("settled", "preview"):
-        raise SamplingError(UNKNOWN_QUALITY, quality=quality)
     if method == "traced":
         return traced_psf(lens, source, *window, quality, filling)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None

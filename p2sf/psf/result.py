@@ -10,7 +10,7 @@ from p2sf.messages import Message
 UNSTATED = Message("")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Psf:
     """A point spread function, or a stack of them, and how it was computed.
 

@@ -22,7 +22,6 @@ WINDOW_AIRY_RADII = 5
 LARGEST_SAMPLES = 2**28  # of all PSFs of a call: 2 GiB of float64
 FFT_RADIUS = {"preview": 64, "settled": 256}  # pupil radius in FFT samples: its rim is only second-order accurate
 LARGEST_FFT = 4096
-UNKNOWN_QUALITY = 'quality "{quality}" is unknown; choose "settled" or "preview"'
 
 
 def seidel_psf(
@@ -174,8 +173,7 @@ def check_image(coefficients: Coefficients) -> None:
 
 def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None) -> float:
     """Return the pitch in µm, chosen if None; SamplingError for a window that cannot be computed."""
-    if isinstance(pixels, bool) or not isinstance(pixels, int | np.integer) or pixels < 1:
-        raise SamplingError("a PSF of {pixels} samples; give a whole number from 1", pixels=pixels)
+    check_samples(pixels, pixel_um)
     count = np.broadcast(*vars(coefficients).values()).size * int(pixels) ** 2
     if count > LARGEST_SAMPLES:
         raise SamplingError(
@@ -187,13 +185,24 @@ def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None
         if not count:
             raise SamplingError("a stack of no PSFs has no width of its own; give the pixel in µm")
         return float(np.max(suitable_pixel_um(coefficients, pixels)))
-    if not (isfinite(pixel_um) and pixel_um > 0):
-        raise SamplingError("a pixel of {pixel_um} µm; give a positive number", pixel_um=pixel_um)
     return float(pixel_um)
 
 
-def _check_options(quality: str, sampling: str) -> None:
+def check_samples(pixels: int, pixel_um: float | None) -> None:
+    """Raise SamplingError for a count or a pitch that no samples can have; a pitch of None passes."""
+    if isinstance(pixels, bool) or not isinstance(pixels, int | np.integer) or pixels < 1:
+        raise SamplingError("a PSF of {pixels} samples; give a whole number from 1", pixels=pixels)
+    if pixel_um is not None and not (isfinite(pixel_um) and pixel_um > 0):
+        raise SamplingError("a pixel of {pixel_um} µm; give a positive number", pixel_um=pixel_um)
+
+
+def check_quality(quality: str) -> None:
+    """Raise SamplingError for a quality that is none."""
     if quality not in ("settled", "preview"):
-        raise SamplingError(UNKNOWN_QUALITY, quality=quality)
+        raise SamplingError('quality "{quality}" is unknown; choose "settled" or "preview"', quality=quality)
+
+
+def _check_options(quality: str, sampling: str) -> None:
+    check_quality(quality)
     if sampling not in ("mdft", "fft"):
         raise SamplingError('sampling "{sampling}" is unknown; choose "mdft" or "fft"', sampling=sampling)

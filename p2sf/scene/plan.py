@@ -67,6 +67,13 @@ class Plan:
     naive: Cost
     pupil_nodes: PupilNodes | None = None
 
+    def __repr__(self) -> str:
+        sensor, allowed = self.scene.sensor, self.scene.relative_tolerance
+        picture = f"{sensor.rows} × {sensor.columns} pixels, {len(self.colours)} channels"
+        return (
+            f"<Plan {self.lens.name}: {picture}, predicted error {self.predicted_error:.2g} of {allowed:.2g} allowed>"
+        )
+
     @property
     def meets(self) -> bool:
         """Return whether the predicted error stays within the tolerance."""

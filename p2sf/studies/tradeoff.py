@@ -20,7 +20,7 @@ from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import METHODS, render
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.psf.seidel import check_samples, suitable_pixel_um
 
 PIXELS = 64
 REPEATS = 9
@@ -58,8 +58,9 @@ def tradeoff(
 
     By default the fields are those of the lens file and the wavelength is its reference. `seidel`, `fitted` and
     `traced` have a second row for their preview. Unless ``pixel_um`` is given, the window is the one that shows the
-    whole PSF of the six coefficients.
+    whole PSF of the six coefficients. Raises SamplingError for samples that cannot be.
     """
+    check_samples(pixels, pixel_um)
     fields = lens.fields_deg if fields_deg is None else fields_deg
     waves = (lens.reference_wavelength_um * NM_PER_UM,) if wavelengths_nm is None else wavelengths_nm
     rows: list[MethodCost] = []

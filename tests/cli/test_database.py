@@ -146,13 +146,14 @@ def test_spans():
         span("a:b:3", "x")
 
 
-def test_a_fitted_database_is_built_and_rendered(said, tmp_path):
+def test_a_fitted_database_is_built_and_rendered(said, refused, tmp_path):
     path = tmp_path / "fitted.npz"
     grid = ("--depths-mm", "5000:inf:3", "--fields-deg", "10:14:3", "--wavelengths-nm", "540:560:3")
     answer = json.loads(said("database", "build", "cooke_triplet", *grid, "--method", "fitted", "-o", path, "--json"))
     assert answer["errors_waves"]["phase"] < 1e-3
     shown = json.loads(said("psf", path, "--field-deg", 12, "--wavelength-nm", 550, "--pixels", 16, "--json"))
     assert shown["method"] == "fitted"
+    assert "and this one is fitted; leave it out" in refused("psf", path, "--sensor-shift-um", 10)
     assert shown["rays"] == 0
 
 

@@ -549,6 +549,7 @@
 <message><source>a blur of {size} pixels with {samples} samples each needs a {side}² transform; bring the depths nearer to focus, stop down, or ask for larger pixels</source><translation>eine Unschärfe von {size} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²; die Abstände dem Fokus nähern, abblenden oder größere Pixel verlangen</translation></message>
 <message><source>a chart of {columns} × {rows} pixels; give {least} to {most} each way</source><translation>eine Tafel von {columns} × {rows} Pixeln; {least} bis {most} je Richtung angeben</translation></message>
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
+<message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
 <message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
 <message><source>a glass needs a name and a formula number (NM name formula …); complete it</source><translation>ein Glas braucht Namen und Formelnummer (NM Name Formel …); ergänzen</translation></message>
@@ -1097,6 +1098,7 @@
 <message><source>the lens has no surfaces; give at least one</source><translation>das Objektiv hat keine Flächen; mindestens eine angeben</translation></message>
 <message><source>the lens has no surfaces; write a [[surface]] for each</source><translation>das Objektiv hat keine Flächen; für jede ein [[surface]] schreiben</translation></message>
 <message><source>the lens has no wavelengths; give at least one</source><translation>das Objektiv hat keine Wellenlängen; mindestens eine angeben</translation></message>
+<message><source>the lens is {value}; give what p2sf.load_lens returns</source><translation>das Objektiv ist {value}; angeben, was p2sf.load_lens liefert</translation></message>
 <message><source>the lens itself</source><translation>ganz vorn am Objektiv</translation></message>
 <message><source>the lens names no stop surface and no semi-diameters; state one of them</source><translation>das Objektiv nennt weder Blendenfläche noch Halbmesser; eines davon angeben</translation></message>
 <message><source>the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off</source><translation>das Objektiv nennt keine Halbmesser, also lässt sich nichts beschneiden; diese hinzufügen oder {parameter} auslassen</translation></message>
@@ -1132,6 +1134,7 @@
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
 <message><source>the shipped lenses are missing; install p2sf again</source><translation>die mitgelieferten Objektive fehlen; p2sf neu installieren</translation></message>
 <message><source>the six Seidel coefficients keep the pixels' error here</source><translation>die sechs Seidel-Koeffizienten halten hier den Fehler der Pixel ein</translation></message>
+<message><source>the source has values of shape {shape}, which are many sources; give one after the other</source><translation>die Quelle hat Werte der Form {shape}, das sind viele Quellen; eine nach der anderen angeben</translation></message>
 <message><source>the source is on the axis: no chief ray, so the diagram is a line</source><translation>die Quelle liegt auf der Achse: kein Hauptstrahl, das Diagramm ist also eine Linie</translation></message>
 <message><source>the spectral lines are {given:g} nm; give wavelengths from {least:g} to {most:g} nm, as in lines:486,588,656</source><translation>die Spektrallinien sind {given:g} nm; Wellenlängen von {least:g} bis {most:g} nm angeben, wie in lines:486,588,656</translation></message>
 <message><source>the spectrum "{kind}" is unknown; choose {examples}</source><translation>das Spektrum "{kind}" ist unbekannt; {examples} wählen</translation></message>
@@ -1318,6 +1321,8 @@
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose {choices}</source><translation>{parameter} ist "{value}"; {choices} wählen</translation></message>
+<message><source>{parameter} is None; give a distance, inf for infinity</source><translation>{parameter} ist None; einen Abstand angeben, inf für unendlich</translation></message>
+<message><source>{parameter} is {path}; {wanted}, choose a name that ends in {ending}</source><translation>{parameter} ist {path}; {wanted}, einen Namen wählen, der auf {ending} endet</translation></message>
 <message><source>{parameter} is {value:g} mm, but an object at infinity has no height; give {depth} as well, or the field as an angle or an image height</source><translation>{parameter} ist {value:g} mm, aber ein Objekt im Unendlichen hat keine Höhe; auch {depth} angeben oder das Feld als Winkel oder Bildhöhe</translation></message>
 <message><source>{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind the lens; give a distance whose image is real, as a rule a longer one</source><translation>{parameter}: {value:g} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv; einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
 <message><source>{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into it; give a smaller shift</source><translation>{parameter} ist {value:g} µm, was den Sensor von {place:g} mm hinter dem Objektiv in dieses hinein schiebt; einen kleineren Versatz angeben</translation></message>
@@ -1326,6 +1331,7 @@
 <message><source>{parameter} is {value:g}{unit}; give a positive finite number</source><translation>{parameter}: {value:g}{unit}; eine positive endliche Zahl angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a positive number, inf allowed</source><translation>{parameter}: {value:g}{unit}; eine positive Zahl angeben, ∞ erlaubt</translation></message>
 <message><source>{parameter} is {value:g}°, and no ray at 90° or more from the axis enters a lens; give an angle between −90 and 90°, both ends left out</source><translation>{parameter} ist {value:g}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein; einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>
+<message><source>{parameter} is {value}, which is for {method} seidel; leave it out</source><translation>{parameter} ist {value}, was für {method} seidel gilt; weglassen</translation></message>
 <message><source>{parameter} is {value}; give a whole number from 1 on</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
