@@ -185,7 +185,7 @@ def test_what_cannot_be_is_one_sentence_before_the_work(call, words):
         ({"pixel_um": inf}, "a pixel of inf µm"),
         ({"quality": "best"}, 'quality "best" is unknown'),
         ({"tolerance": nan}, "a tolerance of nan"),
-        ({"tolerance": 1}, "a tolerance of 1; give the R² to hold, below 1"),
+        ({"tolerance": 1.5}, "a tolerance of 1.5; give the R² to hold, below 1"),
         ({"tolerance": -inf}, "a tolerance of -inf"),
     ],
 )

@@ -36,6 +36,7 @@ from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 
+BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be asked of a choice
 METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
 # Measured: at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, 8 in those that show its core.
@@ -111,7 +112,7 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
     Raises GeometryError where the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
     """
-    _check_tolerance(tolerance)
+    _check_tolerance(tolerance, BELOW_ONE)
     allowed = 1 - tolerance
     xi, eta, weight = level_rays(QUICK_LEVELS[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
@@ -134,8 +135,8 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     return _by_rays(replace(tried, fitted_error=fitted), TRACED_ERROR)
 
 
-def _check_tolerance(tolerance: float) -> None:
-    if not -inf < tolerance < 1:
+def _check_tolerance(tolerance: float, largest: float = 1.0) -> None:
+    if not -inf < tolerance <= largest:
         raise RequestError("a tolerance of {tolerance:g}; give the R² to hold, below 1", tolerance=tolerance)
 
 

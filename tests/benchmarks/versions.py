@@ -40,8 +40,8 @@ else:
     from p2sf_explorer.shell.window import MainWindow as Window
     from p2sf_explorer.state.state import new_state as fresh
 lens = find_lens("double_gauss_28")
-depths = 1 / np.linspace(1e-6, 1 / 500, 20)
-six = coefficients(lens, depths[:, None, None], np.linspace(0, 0.25, 20)[:, None], np.linspace(0.4, 0.7, 31))
+depths = 1 / np.linspace(1e-6, 1 / 5000, 20)
+six = coefficients(lens, depths[:, None, None], np.linspace(0, 0.1, 20)[:, None], np.linspace(0.4, 0.7, 31))
 app = QApplication([])
 app.setStyle("Fusion")
 configure_plots()
