@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, is_number, slope_from_degrees
-from p2sf.errors import RequestError
+from p2sf.errors import GlassError, RequestError
 from p2sf.lens.lens import Aperture, Lens, indices, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.messages import Message, ParameterName
@@ -103,10 +103,21 @@ def set_up(lens: Lens, request: Request) -> Setup:
     """
     check_lens(lens)
     wavelength = wavelength_um(lens, request)
-    indices(lens, wavelength)
+    try:
+        indices(lens, wavelength)
+    except GlassError as error:
+        raise _of_the_request(error, request) from None
     placed = with_sensor(_opened(lens, request.f_number), sensor_position(lens, request))
     used, stop = _stopped(placed, request, wavelength)
     return with_field(Setup(used, Source(request.depth_mm, 0.0, wavelength), stop, lens), request)
+
+
+def _of_the_request(error: GlassError, request: Request) -> GlassError:
+    """Return the error with the parameter's name where the request itself states the wavelength."""
+    message = error.message
+    if request.wavelength_nm is None or "quantity" not in message.values:
+        return error
+    return GlassError(Message(message.template, **message.values | {"quantity": ParameterName("wavelength_nm")}))
 
 
 def check_lens(lens: object) -> None:

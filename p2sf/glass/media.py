@@ -14,6 +14,7 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass.catalogue import CatalogueEntry, find_entry
 from p2sf.glass.dispersion import LINES_UM, Values, refractive_index
+from p2sf.messages import Message
 
 Range = tuple[float, float] | None
 
@@ -155,8 +156,9 @@ def checked_wavelength(medium: Medium, wavelength_um: ArrayLike) -> Values:
         return wavelength
     worst = longest if low <= shortest else shortest
     raise GlassError(
-        "wavelength {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; "
+        "{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; "
         "ask for a wavelength inside, or change the glass",
+        quantity=Message("wavelength"),
         wavelength=NM_PER_UM * worst,
         glass=medium.label,
         low=NM_PER_UM * low,

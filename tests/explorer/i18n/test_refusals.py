@@ -76,7 +76,7 @@ def test_a_broken_lens_file_is_refused_in_german(german_window, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ("psf double_gauss_28 --wavelength-nm 150.5", "150.5 nm"),
+        ("psf double_gauss_28 --wavelength-nm 150.5", "--wavelength-nm 150.5 nm is outside"),
         ("psf double_gauss_28 --field-deg 95.5", "--field-deg is 95.5°"),
         ("spot landscape --field-deg 30 --clip", "leave --clip off"),
         ("psf double_gauss_28 --focus-mm 10.5", "--focus-mm is 10.5 mm"),

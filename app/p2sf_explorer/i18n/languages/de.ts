@@ -1213,7 +1213,6 @@
 <message><source>vignetting factors, all of them 0</source><translation>Vignettierungsfaktoren, alle 0</translation></message>
 <message><source>wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>wavelength number</source><translation>Nummer der Wellenlänge</translation></message>
-<message><source>wavelength {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; ask for a wavelength inside, or change the glass</source><translation>die Wellenlänge {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
 <message><source>wavelength {wavelength:g} nm is outside the data of {glass} and left out</source><translation>die Wellenlänge {wavelength:g} nm liegt außerhalb der Daten von {glass} und ist weggelassen</translation></message>
 <message><source>wavelength {wavelength:g} nm is outside the data of {glass}, {low:g} to {high:g} nm; take it out or change the glass</source><translation>die Wellenlänge {wavelength:g} nm liegt außerhalb der Daten von {glass}, {low:g} bis {high:g} nm; herausnehmen oder das Glas wechseln</translation></message>
 <message><source>wavelength {wavelength:g} µm is not light; give micrometres</source><translation>die Wellenlänge {wavelength:g} µm ist kein Licht; Mikrometer angeben</translation></message>
@@ -1371,6 +1370,7 @@
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>
 <message><source>{pupil_samples} pupil samples are too few for {pixels} PSF samples by FFT; give an even number of at least {least}</source><translation>{pupil_samples} Pupillenproben sind zu wenige für {pixels} PSF-Proben mit der FFT; eine gerade Zahl ab {least} angeben</translation></message>
 <message><source>{quantity} is {value}{unit}; give a number from {low:g} to {high:g}{unit}</source><translation>{quantity} ist {value}{unit}; eine Zahl von {low:g} bis {high:g}{unit} angeben</translation></message>
+<message><source>{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; ask for a wavelength inside, or change the glass</source><translation>{quantity} {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
 <message><source>{radial} radii × {angular} directions; give at least 1 radius and an even count ≥ 2</source><translation>{radial} Radien × {angular} Richtungen; mindestens 1 Radius und eine gerade Anzahl ≥ 2 angeben</translation></message>
 <message><source>{radii} radii × {directions} directions</source><translation>{radii} Radien × {directions} Richtungen</translation></message>
 <message><source>{rounds} rounds of Richardson–Lucy; give at least 1</source><translation>{rounds} Runden Richardson–Lucy; mindestens 1 angeben</translation></message>
