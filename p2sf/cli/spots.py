@@ -11,6 +11,7 @@ from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whol
 from p2sf.cli.screen import heading, print_json, print_table, warn
 from p2sf.files.writing import write_beside, write_json
 from p2sf.io.record import describe
+from p2sf.lens.lens import with_aim
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import numerical_aperture
 from p2sf.psf.metrics import airy_radius_um
@@ -19,8 +20,8 @@ from p2sf.request import Setup, set_up
 MOST_RINGS = 200  # 120 601 rays
 
 Aim = Annotated[
-    Literal["paraxial", "real"],
-    Parameter(help="Fill the paraxial entrance pupil, or aim real rays so that the stop is filled."),
+    Literal["stop", "paraxial", "real"],
+    Parameter(help="Fill the real stop (real is its former name), or the paraxial entrance pupil."),
 ]
 Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
 Rings = Annotated[Whole, Parameter(help="Rings of rays over the pupil.")]
@@ -40,8 +41,8 @@ def spot(
     """Trace exact rays and show the spot they make on the sensor; write it as .csv, .json or .png."""
     check_whole("rings", rings, 1, MOST_RINGS)
     check_output(output, WRITERS)
-    setup = set_up(find_lens(lens), request)
-    points, figures = trace_spot(setup, rings, aim, clip)
+    setup = set_up(with_aim(find_lens(lens), "stop" if aim == "real" else aim), request)
+    points, figures = trace_spot(setup, rings, clip)
     if output:
         WRITERS[output.suffix.lower()](points, {**describe(setup), "spot": figures}, output)
     if as_json:
@@ -61,11 +62,11 @@ ROWS = (
 )
 
 
-def trace_spot(setup: Setup, rings: int, aim: str, clip: bool) -> tuple[np.ndarray, dict[str, Any]]:
+def trace_spot(setup: Setup, rings: int, clip: bool) -> tuple[np.ndarray, dict[str, Any]]:
     """Return the arriving rays' (x, y) in µm from the chief ray, shape (rays, 2), and the spot's figures."""
     from p2sf.raytrace import pencil as raytrace
 
-    found = raytrace.spot(setup.lens, setup.source, rings, aim, clip)
+    found = raytrace.spot(setup.lens, setup.source, rings, clip)
     all_points = np.stack([found.x_um, found.y_um], axis=-1)
     points = all_points[np.isfinite(all_points).all(axis=-1)]
     na = float(numerical_aperture(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop))

@@ -17,6 +17,8 @@ from p2sf.notebook import html_table
 SMALLEST_RADIUS_MM = 1e-30
 
 ApertureKind = Literal["stop_semi_diameter", "entrance_pupil_diameter", "f_number"]
+Aim = Literal["stop", "paraxial"]
+AIMS = ("stop", "paraxial")
 
 
 @dataclass(frozen=True)
@@ -83,11 +85,14 @@ class Lens:
         Field angles, degrees, and wavelengths, nm, that the lens is meant for; the middle wavelength is its reference.
     object_medium : Medium
         What the object stands in.
+    aim : str
+        How exact rays fill the pupil: "stop", evenly up to the rim of the real stop; "paraxial", evenly over the
+        paraxial entrance pupil.
 
     Raises
     ------
     GeometryError
-        For a surface, stop, aperture or wavelength that cannot be.
+        For a surface, stop, aperture, wavelength or aim that cannot be.
     """
 
     surfaces: tuple[Surface, ...]
@@ -101,6 +106,7 @@ class Lens:
     fields_deg: tuple[float, ...] = (0.0,)
     wavelengths_nm: tuple[float, ...] = (587.5618,)
     object_medium: Medium = AIR
+    aim: Aim = "paraxial"
 
     def __post_init__(self) -> None:
         _check_surfaces(self.surfaces)
@@ -115,6 +121,8 @@ class Lens:
             raise GeometryError(
                 "wavelengths are {wavelengths} nm; give positive numbers", wavelengths=self.wavelengths_nm
             )
+        if self.aim not in AIMS:
+            raise GeometryError('aim "{aim}" is unknown; choose "stop" or "paraxial"', aim=self.aim)
 
     def __hash__(self) -> int:
         return self._hash
@@ -172,6 +180,11 @@ def with_sensor(lens: Lens, sensor_mm: float) -> Lens:
 def with_f_number(lens: Lens, f_number: float) -> Lens:
     """Return the same lens with its stop set so that EFL/EPD is ``f_number`` at the reference wavelength."""
     return replace(lens, aperture=Aperture("f_number", float(f_number)))
+
+
+def with_aim(lens: Lens, aim: Aim) -> Lens:
+    """Return the same lens with its pupil filled as ``aim`` says; GeometryError for an unknown one."""
+    return lens if lens.aim == aim else replace(lens, aim=aim)
 
 
 def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:

@@ -235,7 +235,7 @@ def _aperture(top: Table, scale: float) -> Aperture:
     return Aperture(kind, table.number(kind, OPENING) * (1.0 if kind == "f_number" else scale))
 
 
-def _lens(top: Table, surfaces: tuple[Surface, ...], aperture: Aperture, texts: dict[str, str]) -> Lens:
+def _lens(top: Table, surfaces: tuple[Surface, ...], aperture: Aperture, texts: dict[str, Any]) -> Lens:
     stop = top.count("stop_surface")
     if stop is not None and not 1 <= stop <= len(surfaces):
         top.fail(

@@ -30,7 +30,6 @@ def fitted_psf(
     pixel_um: float,
     numbers: int | None = None,
     quality: str = "settled",
-    aim: str = "paraxial",
 ) -> Psf:
     """Return the PSF of the `fitted` method, with ``numbers`` coefficients or as many as the residual asks for.
 
@@ -39,7 +38,7 @@ def fitted_psf(
     Raises GeometryError where rays do not reach the sensor, SamplingError for a window no nodes can carry.
     """
     started = perf_counter()
-    return psf_of_fit(fit(lens, source, numbers, aim), source.wavelength_um, (pixels, pixel_um), quality, started)
+    return psf_of_fit(fit(lens, source, numbers), source.wavelength_um, (pixels, pixel_um), quality, started)
 
 
 def psf_of_fit(

@@ -39,17 +39,6 @@ Counts = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Filling:
-    """How rays fill the pupil: ``aim`` "paraxial" or "real" (`raytrace.aiming`), ``clip`` by clear semi-diameters."""
-
-    aim: str = "paraxial"
-    clip: bool = False
-
-
-PLAIN = Filling()
-
-
-@dataclass(frozen=True)
 class Field:
     """A summed field (y, x) in units of the unaberrated peak, ∫|field|²dx in µm² (None if unresolved), rays lost."""
 
@@ -66,7 +55,7 @@ def huygens_psf(
     tolerance: float | None = SETTLED_TOLERANCE,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
-    filling: Filling = PLAIN,
+    clip: bool = False,
 ) -> Psf:
     """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
 
@@ -79,36 +68,36 @@ def huygens_psf(
     started = perf_counter()
     window = pixels, pixel_um
     if tolerance is None:
-        found, counts = _once(lens, source, window, filling, _Watch(None, cancelled, live=True))
-        sampling = _sampling(counts, found, filling, Message("one pass in float32"))
+        found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, live=True))
+        sampling = _sampling(lens, counts, found, clip, Message("one pass in float32"))
         made = Origin("huygens", 0, _nodes(counts), sampling, started)
     else:
         watch = _Watch(progress, cancelled)
-        found, counts, reached, rays = _settle(lens, source, window, filling, tolerance, watch)
+        found, counts, reached, rays = _settle(lens, source, window, clip, tolerance, watch)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
-        sampling = _sampling(counts, found, filling, None if reached <= tolerance else short)
+        sampling = _sampling(lens, counts, found, clip, None if reached <= tolerance else short)
         made = Origin("huygens", 0, rays, sampling, started, reached)
     intensity = found.values.real**2 + found.values.imag**2
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, found.blur_um2, made)
 
 
-def _once(lens: Lens, source: Source, window: Window, filling: Filling, watch: "_Watch") -> tuple[Field, Counts]:
+def _once(lens: Lens, source: Source, window: Window, clip: bool, watch: "_Watch") -> tuple[Field, Counts]:
     """Return the field of one pass in float32: as many rays as a 128² grid, more where the blur needs more."""
-    needed = first_counts(lens, source, window, filling)
+    needed = first_counts(lens, source, window, clip)
     counts = LIVE if needed[0] <= LIVE[0] and needed[1] <= LIVE[1] else needed
-    return huygens_field(lens, source, counts, window, filling, watch), counts
+    return huygens_field(lens, source, counts, window, clip, watch), counts
 
 
 def _settle(
-    lens: Lens, source: Source, window: Window, filling: Filling, tolerance: float, watch: "_Watch"
+    lens: Lens, source: Source, window: Window, clip: bool, tolerance: float, watch: "_Watch"
 ) -> tuple[Field, Counts, float, int]:
     """Return (field, counts, agreement, rays traced) once two successive node counts agree."""
-    counts = first_counts(lens, source, window, filling)
+    counts = first_counts(lens, source, window, clip)
     watch.expect(_nodes(counts) + _nodes(_raised(counts)))
-    before, rays = huygens_field(lens, source, counts, window, filling, watch), _nodes(counts)
+    before, rays = huygens_field(lens, source, counts, window, clip, watch), _nodes(counts)
     while True:
         counts = _raised(counts)
-        found = huygens_field(lens, source, counts, window, filling, watch)
+        found = huygens_field(lens, source, counts, window, clip, watch)
         rays += _nodes(counts)
         reached = _distance(before.values, found.values)
         if reached <= tolerance or _nodes(_raised(counts)) > MOST_NODES:
@@ -133,13 +122,13 @@ def _distance(before: np.ndarray, after: np.ndarray) -> float:
     return float(np.linalg.norm(one - two) / np.linalg.norm(two))
 
 
-def first_counts(lens: Lens, source: Source, window: Window, filling: Filling) -> Counts:
+def first_counts(lens: Lens, source: Source, window: Window, clip: bool) -> Counts:
     """Return node counts that should carry the phase of a coarse pencil.
 
     Raises GeometryError where no ray passes, SamplingError where more than MOST_NODES nodes would be needed.
     """
     xi, eta = _probe()
-    rays = pencil(lens, source, xi, eta, filling.aim)
+    rays = pencil(lens, source, xi, eta)
     if not rays.passed.any():
         raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
     counts = counts_for(steepness(ray_data(rays), xi, eta), *window)
@@ -162,18 +151,16 @@ def _probe() -> tuple[np.ndarray, np.ndarray]:
     return np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
 
 
-def huygens_field(
-    lens: Lens, source: Source, counts: Counts, window: Window, filling: Filling, watch: "_Watch"
-) -> Field:
+def huygens_field(lens: Lens, source: Source, counts: Counts, window: Window, clip: bool, watch: "_Watch") -> Field:
     """Return the field of one set of nodes; over a grid of samples the sum is a matrix product."""
-    nodes = _nodes_of(lens, source, counts, filling)
-    blur = None if watch.live else pencil_blur(lens, source, nodes, filling.aim)
+    nodes = _nodes_of(lens, source, counts, clip)
+    blur = None if watch.live else pencil_blur(lens, source, nodes)
     axis, dtype = centred_axis(*window), np.float32 if watch.live else np.float64
     total: np.ndarray | float = 0.0
     lost, spread = 0, 0.0
     for first in range(0, nodes.xi.size, BLOCK):
         part = slice(first, first + BLOCK)
-        data, weight = _block(lens, source, nodes, part, filling.aim)
+        data, weight = _block(lens, source, nodes, part)
         lost += int((weight == 0).sum())
         spread = max(spread, float(np.hypot(data.fx, data.fy).max(initial=0)))
         amplitude = pupil_amplitude(weight, data.phase, dtype)
@@ -183,22 +170,22 @@ def huygens_field(
     return Field(np.asarray(total), blur if resolved(spread, window[1]) else None, lost)
 
 
-def _nodes_of(lens: Lens, source: Source, counts: Counts, filling: Filling) -> ClearNodes:
+def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNodes:
     """Return nodes up to where rays end: at the pupil's rim, at clear apertures, or where they miss a surface."""
-    if filling.clip or not all_reach(lens, source, filling.aim):
-        return clear_nodes(lens, source, counts, filling.aim, filling.clip)
+    if clip or not all_reach(lens, source):
+        return clear_nodes(lens, source, counts, clip)
     return whole_nodes(counts)
 
 
 @lru_cache(maxsize=16)
-def all_reach(lens: Lens, source: Source, aim: str = "paraxial") -> bool:
+def all_reach(lens: Lens, source: Source) -> bool:
     """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
     xi, eta = hexapolar(PROBE[0])
-    return bool(pencil(lens, source, xi, eta, aim).passed.all())
+    return bool(pencil(lens, source, xi, eta).passed.all())
 
 
-def _block(lens: Lens, source: Source, nodes: ClearNodes, part: slice, aim: str) -> tuple[RayData, np.ndarray]:
-    rays = pencil(lens, source, nodes.xi[part], nodes.eta[part], aim)
+def _block(lens: Lens, source: Source, nodes: ClearNodes, part: slice) -> tuple[RayData, np.ndarray]:
+    rays = pencil(lens, source, nodes.xi[part], nodes.eta[part])
     data, weight = ray_data(rays), nodes.weight[part]
     if rays.passed.all():
         return data, weight
@@ -206,12 +193,12 @@ def _block(lens: Lens, source: Source, nodes: ClearNodes, part: slice, aim: str)
     return RayData(*columns), np.where(rays.passed, weight, 0.0)
 
 
-def _sampling(counts: Counts, found: Field, filling: Filling, convergence: Message | None) -> Message:
+def _sampling(lens: Lens, counts: Counts, found: Field, clip: bool, convergence: Message | None) -> Message:
     """Return in words what was summed, and how it converged."""
     parts = [disc_words(counts)]
-    if filling.clip:
+    if clip:
         parts.append(Message("clipped by the clear semi-diameters"))
-    if filling.aim == "real":
+    if lens.aim == "stop":
         parts.append(Message("aimed at the real stop"))
     if found.lost:
         parts.append(Message("{lost} rays lost", lost=found.lost))

@@ -27,7 +27,7 @@ from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
-from p2sf.psf.huygens import Filling, huygens_psf
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_quality, check_samples, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import traced_psf
@@ -200,19 +200,17 @@ def render(
         started = perf_counter()
         found = fit(lens, source, numbers, residual_waves=residual_for(tolerance))
         return psf_of_fit(found, source.wavelength_um, (pixels, pixel_um), quality, started)
-    return _by_tracing(lens, source, method, (pixels, pixel_um), quality, Filling(clip=clip))
+    return _by_tracing(lens, source, method, (pixels, pixel_um), quality, clip)
 
 
-def _by_tracing(
-    lens: Lens, source: Source, method: str, window: tuple[int, float], quality: str, filling: Filling
-) -> Psf:
+def _by_tracing(lens: Lens, source: Source, method: str, window: tuple[int, float], quality: str, clip: bool) -> Psf:
     if method == "traced":
-        return traced_psf(lens, source, *window, quality, filling)
+        return traced_psf(lens, source, *window, quality, clip)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     if method == "huygens":
-        return huygens_psf(lens, source, *window, tolerance=tolerance, filling=filling)
+        return huygens_psf(lens, source, *window, tolerance=tolerance, clip=clip)
     if method == "gaussian":
-        return gaussian_psf(huygens_psf(lens, source, *window, tolerance=tolerance, filling=filling))
+        return gaussian_psf(huygens_psf(lens, source, *window, tolerance=tolerance, clip=clip))
     raise RequestError(
         'method "{method}" is unknown; choose {methods}', method=method, methods=Alternatives(("auto", *METHODS))
     )

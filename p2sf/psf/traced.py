@@ -17,7 +17,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.huygens import PLAIN, Filling, huygens_psf
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.plane_waves import Origin, psf_from_intensity, resolved
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import FrequencyRows, rows_for
@@ -38,7 +38,7 @@ def traced_psf(
     pixels: int,
     pixel_um: float,
     quality: str = "settled",
-    filling: Filling = PLAIN,
+    clip: bool = False,
     cancelled: Callable[[], bool] | None = None,
 ) -> Psf:
     """Return the PSF of exact rays, one pass: "settled" in float64, "preview" fewer rays in float32.
@@ -48,13 +48,13 @@ def traced_psf(
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
     started = perf_counter()
-    rows = None if filling.clip else _rows(lens, source, (pixels, pixel_um), quality, filling.aim)
+    rows = None if clip else _rows(lens, source, (pixels, pixel_um), quality)
     if rows is None:
         tolerance = FALLBACK_TOLERANCE if quality == "settled" else None
-        one_by_one = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, filling)
+        one_by_one = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, clip)
         return replace(one_by_one, method="traced")
     found, nodes = rows
-    phase, fx = exact_rows(lens, source, nodes, filling.aim)
+    phase, fx = exact_rows(lens, source, nodes)
     intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     sampling = Message("{nodes}, {precision}", nodes=nodes.words, precision=intensity.dtype.name)
@@ -65,34 +65,32 @@ def traced_psf(
 
 def in_rows(lens: Lens, source: Source) -> bool:
     """Return whether a fit puts the rays of the whole pupil in rows, so that `traced_psf` is fast."""
-    return _fit(lens, source, PLAIN.aim) is not None
+    return _fit(lens, source) is not None
 
 
 def _rows(
-    lens: Lens, source: Source, window: tuple[int, float], quality: str, aim: str
+    lens: Lens, source: Source, window: tuple[int, float], quality: str
 ) -> tuple[FittedPencil, FrequencyRows] | None:
-    found = _fit(lens, source, aim)
+    found = _fit(lens, source)
     nodes = None if found is None else rows_for(found, *window, quality)
     return None if found is None or nodes is None else (found, nodes)
 
 
 @lru_cache(maxsize=2)
-def _fit(lens: Lens, source: Source, aim: str) -> FittedPencil | None:
+def _fit(lens: Lens, source: Source) -> FittedPencil | None:
     """Return the fit that puts rays in rows; None where rays are lost, or no polynomial is accurate enough."""
     try:
-        found = fit(lens, source, FEWEST, aim)
+        found = fit(lens, source, FEWEST)
         if found.error_waves >= RESIDUAL_WAVES:
-            found = fit(lens, source, aim=aim, residual_waves=RESIDUAL_WAVES)
+            found = fit(lens, source, residual_waves=RESIDUAL_WAVES)
     except GeometryError:  # rays are lost
         return None
     return None if found.error_waves > RESIDUAL_WAVES else found
 
 
-def exact_rows(
-    lens: Lens, source: Source, nodes: FrequencyRows, aim: str = "paraxial"
-) -> tuple[np.ndarray, np.ndarray]:
+def exact_rows(lens: Lens, source: Source, nodes: FrequencyRows) -> tuple[np.ndarray, np.ndarray]:
     """Return exact phase (waves) and fx (cycles/µm) of rays through rows of nodes, (rows, columns)."""
-    rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel(), aim))
+    rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel()))
     miss = np.repeat(nodes.fy, nodes.xi.shape[1])
     miss -= rays.fy
     miss *= rays.y_um

@@ -122,20 +122,17 @@ def pupil_rays(
     source: Source | Sources,
     xi: ArrayLike,
     eta: ArrayLike,
-    aim: str = "paraxial",
     stop: Stop | None = None,
 ) -> PupilRays:
     """Return the rays of a source through points (ξ, η) of the pupil of unit radius, each (ray,).
 
-    ``aim="paraxial"`` fills the paraxial entrance pupil; ``aim="real"`` sends every ray through (ξ, η) of the stop.
+    ``lens.aim`` "paraxial" fills the paraxial entrance pupil, "stop" sends every ray through (ξ, η) of the stop.
     The axes of `Sources` come first. Raises GeometryError, GlassError.
     """
     enter = entrance(lens, source, stop)
     xi, eta = np.asarray(xi, dtype=float), np.asarray(eta, dtype=float)
-    if aim == "paraxial":
+    if lens.aim == "paraxial":
         return _through(enter, enter.radius * xi, enter.radius * eta)
-    if aim != "real":
-        raise GeometryError('aim "{aim}" is unknown; choose "paraxial" or "real"', aim=aim)
     return _aimed(lens, enter, xi, eta)
 
 

@@ -117,7 +117,6 @@ def fit(
     lens: Lens,
     source: Source,
     numbers: int | None = None,
-    aim: str = "paraxial",
     stop: Stop | None = None,
     residual_waves: float = RESIDUAL_WAVES,
 ) -> FittedPencil:
@@ -130,7 +129,7 @@ def fit(
         if numbers not in (None, level.numbers):
             continue
         if rays is None or sampling != (level.radii, level.directions):
-            rays, sampling = _trace(lens, source, level, aim, stop), (level.radii, level.directions)
+            rays, sampling = _trace(lens, source, level, stop), (level.radii, level.directions)
             traced += level.rays
         found = fit_rays(rays, level, traced)
         if numbers or found.error_waves < residual_waves:
@@ -141,9 +140,9 @@ def fit(
     return found
 
 
-def _trace(lens: Lens, source: Source, level: Level, aim: str, stop: Stop | None) -> RayData:
+def _trace(lens: Lens, source: Source, level: Level, stop: Stop | None) -> RayData:
     xi, eta, _ = level_rays(level)
-    rays = pencil(lens, source, xi, eta, aim, stop=stop)
+    rays = pencil(lens, source, xi, eta, stop=stop)
     if not rays.passed.all():
         lost = int((~rays.passed).sum())
         raise GeometryError(

@@ -87,7 +87,6 @@ def pencil(
     source: Source | Sources,
     xi: ArrayLike,
     eta: ArrayLike,
-    aim: str = "paraxial",
     clip: bool = False,
     stop: Stop | None = None,
 ) -> Pencil:
@@ -98,7 +97,7 @@ def pencil(
     """
     # The chief ray is traced as the last ray, together with the others.
     xi, eta = np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
-    rays = pupil_rays(lens, source, xi, eta, aim, stop)
+    rays = pupil_rays(lens, source, xi, eta, stop)
     beam = start(rays)
     beam.exempt = 1  # the chief ray is the origin of all differences, even where a rim would stop it
     run(lens, beam, rays.index, lens_rims(lens, keep_stop=False) if clip else None)
@@ -156,7 +155,6 @@ def displayed_opd(
     source: Source | Sources,
     xi: ArrayLike,
     eta: ArrayLike,
-    aim: str = "paraxial",
     stop: Stop | None = None,
 ) -> np.ndarray:
     """Return (OPL chief − OPL ray)/λ in waves at pupil points, on the sphere about the chief ray's sensor point.
@@ -164,7 +162,7 @@ def displayed_opd(
     The sphere passes through the chief ray's point in the paraxial exit-pupil plane; for a telecentric lens it is a
     plane. NaN for failed rays. For display only; diffraction integrals use `diffraction_phase`.
     """
-    rays = pencil(lens, source, xi, eta, aim, stop=stop)
+    rays = pencil(lens, source, xi, eta, stop=stop)
     return opd_on_sphere(rays, _exit_radius(lens, source, rays, stop))
 
 
@@ -198,24 +196,24 @@ def pupil_grid(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return protected(xi), protected(eta), protected(inside)
 
 
-def opd_map(lens: Lens, source: Source, count: int = 64, aim: str = "paraxial") -> np.ndarray:
+def opd_map(lens: Lens, source: Source, count: int = 64) -> np.ndarray:
     """Return the displayed OPD over the pupil, (count, count) waves, row = η, NaN outside; half the disc is traced."""
     xi, eta, inside = pupil_grid(count)
     right = slice(None), slice(count // 2, None)
     half = inside[right]
     values = np.full((count, count), np.nan)
-    values[right][half] = displayed_opd(lens, source, xi[right][half], eta[right][half], aim)
+    values[right][half] = displayed_opd(lens, source, xi[right][half], eta[right][half])
     values[:, : (count + 1) // 2] = values[:, : -((count + 1) // 2) - 1 : -1]
     return values
 
 
-def spot(lens: Lens, source: Source | Sources, rings: int = 8, aim: str = "paraxial", clip: bool = False) -> Spot:
+def spot(lens: Lens, source: Source | Sources, rings: int = 8, clip: bool = False) -> Spot:
     """Return the spot diagram of ``rings`` hexapolar rings, and its RMS radius about the centroid; µm.
 
     Raises GeometryError where no ray reaches the sensor.
     """
     xi, eta = hexapolar(rings)
-    rays = pencil(lens, source, xi, eta, aim, clip)
+    rays = pencil(lens, source, xi, eta, clip)
     x, y = rays.dx * UM_PER_MM, rays.dy * UM_PER_MM
     if not rays.passed.any():
         raise GeometryError(
@@ -239,20 +237,20 @@ def hexapolar(rings: int) -> tuple[np.ndarray, np.ndarray]:
     return radius * np.sin(angle), radius * np.cos(angle)
 
 
-def ray_fan(lens: Lens, source: Source, count: int = 65, aim: str = "paraxial") -> Fan:
+def ray_fan(lens: Lens, source: Source, count: int = 65) -> Fan:
     """Return the transverse ray errors at the sensor along η (their y) and along ξ (their x); µm."""
-    line, tangential, sagittal = _two_lines(lens, source, count, aim)
+    line, tangential, sagittal = _two_lines(lens, source, count)
     return Fan(line, tangential.dy * UM_PER_MM, sagittal.dx * UM_PER_MM, "µm")
 
 
-def opd_fan(lens: Lens, source: Source, count: int = 65, aim: str = "paraxial") -> Fan:
+def opd_fan(lens: Lens, source: Source, count: int = 65) -> Fan:
     """Return the displayed OPD along η and along ξ; waves."""
-    line, tangential, sagittal = _two_lines(lens, source, count, aim)
+    line, tangential, sagittal = _two_lines(lens, source, count)
     along, across = (opd_on_sphere(rays, _exit_radius(lens, source, rays)) for rays in (tangential, sagittal))
     return Fan(line, along, across, "waves")
 
 
-def _two_lines(lens: Lens, source: Source, count: int, aim: str) -> tuple[np.ndarray, Pencil, Pencil]:
+def _two_lines(lens: Lens, source: Source, count: int) -> tuple[np.ndarray, Pencil, Pencil]:
     """Return ``count`` points from −1 to 1, and the pencils through those points of η and of ξ."""
     line, zero = np.linspace(-1, 1, count), np.zeros(count)
-    return line, pencil(lens, source, zero, line, aim), pencil(lens, source, line, zero, aim)
+    return line, pencil(lens, source, zero, line), pencil(lens, source, line, zero)

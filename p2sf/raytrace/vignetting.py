@@ -53,17 +53,15 @@ def whole_nodes(counts: tuple[int, int]) -> ClearNodes:
     return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
 
 
-def clear_nodes(
-    lens: Lens, source: Source, counts: tuple[int, int], aim: str = "paraxial", clip: bool = True
-) -> ClearNodes:
+def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool = True) -> ClearNodes:
     """Return nodes over the clear part of the pupil, about as dense as ``counts`` are over the whole.
 
     Without ``clip`` the clear part ends where rays miss a surface or are totally reflected, not at rims.
     Raises GeometryError when no part is clear.
     """
-    shape = outline(lens, source, aim, clip)
+    shape = outline(lens, source, clip)
     theta, share = _directions(shape.corners, counts[1])
-    radius, _ = _edge(lens, source, aim, clip, shape.centre, theta)
+    radius, _ = _edge(lens, source, clip, shape.centre, theta)
     square, weight = gauss_legendre(counts[0])
     rho = np.sqrt((1 + square) / 2)[:, None] * radius
     # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half and divided by the whole pupil's area π.
@@ -84,51 +82,49 @@ def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.
 
 
 @lru_cache(maxsize=16)
-def outline(lens: Lens, source: Source, aim: str = "paraxial", clip: bool = True) -> ClearPart:
+def outline(lens: Lens, source: Source, clip: bool = True) -> ClearPart:
     """Return centre and corners of the clear part of the pupil. Raises GeometryError when no part is clear."""
     xi, eta = hexapolar(SEARCH_RINGS)
-    passed = pencil(lens, source, xi, eta, aim, clip).passed
+    passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():
         raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
     centre = float(eta[passed].mean())
-    if not pencil(lens, source, [0.0], [centre], aim, clip).passed.all():
+    if not pencil(lens, source, [0.0], [centre], clip).passed.all():
         raise GeometryError(
             "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",
             parameter="clip",
         )
     theta = (np.arange(SCAN) + 0.5) * (np.pi / SCAN)
-    rim = _edge(lens, source, aim, clip, centre, theta)[1]
+    rim = _edge(lens, source, clip, centre, theta)[1]
     change = np.flatnonzero(np.diff(rim))
     low, high, first = theta[change], theta[change + 1], rim[change]
     for _ in range(CORNER_BISECTIONS if change.size else 0):
         middle = (low + high) / 2
-        same = _edge(lens, source, aim, clip, centre, middle)[1] == first
+        same = _edge(lens, source, clip, centre, middle)[1] == first
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return ClearPart(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
 
 
-def _edge(
-    lens: Lens, source: Source, aim: str, clip: bool, centre: float, theta: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _edge(lens: Lens, source: Source, clip: bool, centre: float, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the clear radius along each angle, and the surface that ends it (0: the pupil's own rim)."""
     sine, cosine = np.sin(theta), np.cos(theta)
     # The unit circle seen from the centre: |centre + r·direction| = 1.
     outer = np.sqrt(1 - (centre * sine) ** 2) - centre * cosine
-    rays = pencil(lens, source, outer * sine, centre + outer * cosine, aim, clip)
+    rays = pencil(lens, source, outer * sine, centre + outer * cosine, clip)
     whole, rim = rays.passed, rays.failed_surface.copy()
     low, high = np.zeros_like(outer), outer.copy()
     for _ in range(0 if whole.all() else BISECTIONS):
         middle = (low + high) / 2
-        rays = pencil(lens, source, middle * sine, centre + middle * cosine, aim, clip)
+        rays = pencil(lens, source, middle * sine, centre + middle * cosine, clip)
         low, high = np.where(rays.passed, middle, low), np.where(rays.passed, high, middle)
         rim = np.where(rays.passed, rim, rays.failed_surface)
     return np.where(whole, outer, low), np.where(whole, 0, rim)
 
 
-def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, aim: str) -> float | None:
+def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes) -> float | None:
     """Return ∫|field|²dx in µm² by Parseval from the fitted pupil map; None where lost rays prevent a fit."""
     try:
-        found = fit(lens, source, aim=aim)
+        found = fit(lens, source)
     except GeometryError:
         return None
     if nodes.share == 1.0:

@@ -12,14 +12,14 @@ from p2sf.errors import ExportError, GeometryError, LensFileError, RequestError,
 from p2sf.glass.media import ConstantIndex, catalogue_glass
 from p2sf.io.photo_files import read_photo
 from p2sf.io.psf_files import read_psf
-from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.lens import Aperture, Lens, Surface, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.writing import SILICA_LABEL, write_lens
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
-from p2sf.raytrace.pencil import pencil, pupil_rays, spot
+from p2sf.raytrace.pencil import pencil, spot
 from p2sf.scene import Sensor, read_scene
 from tests.support.lens_files import read, read_file
 from tests.support.simple_lenses import twice_telecentric
@@ -50,8 +50,8 @@ def test_no_cone_of_light_leaves_an_object_in_the_entrance_pupil():
 
 
 def test_an_unknown_aim_is_answered_with_the_known_ones():
-    with pytest.raises(GeometryError, match='aim "sharp" is unknown; choose "paraxial" or "real"'):
-        pupil_rays(find_lens("tessar"), Source(inf, 0.0, 0.55), *ON_AXIS, aim="sharp")
+    with pytest.raises(GeometryError, match='aim "sharp" is unknown; choose "stop" or "paraxial"'):
+        with_aim(find_lens("tessar"), "sharp")
 
 
 def test_a_lens_without_rims_cannot_clip():

@@ -11,7 +11,7 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
-from p2sf.psf.huygens import Filling, first_counts, huygens_field, huygens_psf
+from p2sf.psf.huygens import first_counts, huygens_field, huygens_psf
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
@@ -58,7 +58,7 @@ def test_the_matrix_products_equal_the_double_loop():
         def advance(self, nodes):
             self.seen = nodes
 
-    field = huygens_field(lens, source, (20, 40), (16, pixel), Filling(), Watch()).values
+    field = huygens_field(lens, source, (20, 40), (16, pixel), False, Watch()).values
     assert np.max(np.abs(field - plain_sum(data, nodes.weight, axis, axis))) < 1e-12  # waves of 1e3 in float64
 
 
@@ -110,7 +110,7 @@ def test_a_pupil_that_no_rim_touches_is_not_clipped():
     narrow = replace(lens, aperture=Aperture("stop_semi_diameter", 4.0))
     clear = clear_nodes(narrow, source, (8, 16))
     assert clear.share == pytest.approx(1.0, abs=1e-12)
-    plain, clipped = (huygens_psf(narrow, source, 32, pixel, filling=Filling(clip=c)) for c in (False, True))
+    plain, clipped = (huygens_psf(narrow, source, 32, pixel, clip=c) for c in (False, True))
     assert r_squared(clipped.values, plain.values) > 1 - 1e-8
 
 
@@ -126,13 +126,13 @@ def test_clear_apertures_end_exactly_at_the_rims():
     row = huygens_rows("double_gauss_28")[0][0]
     small = replace(lens, aperture=Aperture("stop_semi_diameter", lens.aperture.value * radius))
     pixel = row["pixel_um"]
-    clipped = huygens_psf(cut, source, 32, pixel, filling=Filling(clip=True))
+    clipped = huygens_psf(cut, source, 32, pixel, clip=True)
     assert r_squared(clipped.values, huygens_psf(small, source, 32, pixel).values) > 1 - 1e-8
 
 
 def test_the_cats_eye_converges_and_loses_light():
     lens, source, pixel, _ = off_axis()
-    clipped = huygens_psf(lens, source, 32, pixel, filling=Filling(clip=True))
+    clipped = huygens_psf(lens, source, 32, pixel, clip=True)
     assert clipped.tolerance <= 1e-4
     share = clear_nodes(lens, source, (8, 64)).share
     assert len(outline(lens, source).corners) > 2
@@ -147,13 +147,13 @@ def test_a_pupil_that_is_clipped_altogether_is_refused():
     lens = double_gauss()
     surfaces = (replace(lens.surfaces[0], semi_diameter=0.1), *lens.surfaces[1:])
     with pytest.raises(GeometryError, match="rims clip every ray"):
-        huygens_psf(replace(lens, surfaces=surfaces), Source(inf, 0.3, 0.6562725), 32, 1.0, filling=Filling(clip=True))
+        huygens_psf(replace(lens, surfaces=surfaces), Source(inf, 0.3, 0.6562725), 32, 1.0, clip=True)
 
 
 def test_more_nodes_are_asked_for_a_wider_window_and_a_stronger_blur():
     lens, source, pixel, _ = off_axis()
-    near = first_counts(lens, source, (32, pixel), Filling())
-    wide = first_counts(lens, source, (256, pixel), Filling())
+    near = first_counts(lens, source, (32, pixel), False)
+    wide = first_counts(lens, source, (256, pixel), False)
     assert wide[0] > near[0] and wide[1] > near[1]
 
 

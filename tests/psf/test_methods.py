@@ -13,7 +13,7 @@ from p2sf.lens.lens import Aperture
 from p2sf.lens.source import Source
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared
-from p2sf.psf.huygens import Filling, huygens_psf
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import (
     METHODS,
     QUICK_LEVELS,
@@ -150,7 +150,7 @@ def test_clip_is_refused_by_methods_that_know_no_edge():
     choice = choose(lens, source, clip=True)
     assert 0 < choice.lost_rays < choice.tried_rays == 64
     auto = render(lens, source, "auto", 32, pixel, clip=True)
-    reference = huygens_psf(lens, source, 32, pixel, filling=Filling(clip=True))
+    reference = huygens_psf(lens, source, 32, pixel, clip=True)
     assert auto.method == "traced" and r_squared(auto.values, reference.values) > 0.99
 
 

@@ -7,7 +7,7 @@ from p2sf.conventions import centred_axis
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.fitted import fit, fitted_intensity, fitted_psf
-from p2sf.psf.huygens import Filling, huygens_psf
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.separable_sum import frequency_rows, rows_for, sum_across, sum_rows
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import disc_nodes
@@ -107,10 +107,10 @@ def test_rows_refuse_a_map_that_folds():
 
 def test_clipped_rays_take_the_references_nodes():
     lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
-    filling = Filling(clip=True)
+    clip = True
     traced, reference = (
-        traced_psf(lens, source, 32, pixel, "settled", filling),
-        huygens_psf(lens, source, 32, pixel, filling=filling),
+        traced_psf(lens, source, 32, pixel, "settled", clip),
+        huygens_psf(lens, source, 32, pixel, clip=clip),
     )
     assert r_squared(traced.values, reference.values) > 0.9999
 
@@ -119,7 +119,7 @@ def test_clipped_rays_take_the_references_nodes():
 def test_rays_one_by_one_can_be_stopped(quality):
     lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
     with pytest.raises(Cancelled):
-        traced_psf(lens, source, 32, pixel, quality, Filling(clip=True), cancelled=lambda: True)
+        traced_psf(lens, source, 32, pixel, quality, True, cancelled=lambda: True)
 
 
 def test_a_blur_beyond_all_nodes_is_refused_in_words():

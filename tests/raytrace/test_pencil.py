@@ -8,7 +8,7 @@ import pytest
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
+from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import numerical_aperture
@@ -84,9 +84,9 @@ def test_an_object_a_million_metres_away_loses_no_digit():
 
 
 def test_aimed_rays_fill_the_stop():
-    lens, (xi, eta) = double_gauss(), disc(60)
+    lens, (xi, eta) = with_aim(double_gauss(), "stop"), disc(60)
     for depth in (inf, 2000.0):
-        rays = pupil_rays(lens, Source(depth, np.tan(np.deg2rad(14)), 0.6562725), xi, eta, aim="real")
+        rays = pupil_rays(lens, Source(depth, np.tan(np.deg2rad(14)), 0.6562725), xi, eta)
         at_stop = trace(lens, rays.origins, rays.directions, 0.6562725).points[6]
         rim = lens.aperture.value
         assert np.max(np.abs(at_stop[:, 0] - rim * xi)) < 1e-9 and np.max(np.abs(at_stop[:, 1] - rim * eta)) < 1e-9
@@ -95,14 +95,14 @@ def test_aimed_rays_fill_the_stop():
 def test_aimed_and_paraxial_rays_agree_in_a_narrow_pencil():
     lens = replace(double_gauss(), aperture=Aperture("stop_semi_diameter", 1e-3))
     source, points = Source(inf, 1e-3, 0.6562725), disc(20)
-    plain, aimed = (pupil_rays(lens, source, *points, aim=aim) for aim in ("paraxial", "real"))
+    plain, aimed = (pupil_rays(with_aim(lens, aim), source, *points) for aim in ("paraxial", "stop"))
     assert np.max(np.hypot(plain.x - aimed.x, plain.y - aimed.y)) < 1e-3 * np.max(np.hypot(plain.x, plain.y))
 
 
 def test_a_pupil_point_of_a_relay_is_upside_down_in_its_stop():
     """The relay's entrance pupil is a real image of the stop: aimed rays keep to their side of the pupil, both ways."""
-    lens, (xi, eta) = prescription_lens("relay", 587.5618), (0.3, 0.5)
-    rays = pupil_rays(lens, Source(150.0, 0.0, 0.5875618), [xi], [eta], aim="real")
+    lens, (xi, eta) = with_aim(prescription_lens("relay", 587.5618), "stop"), (0.3, 0.5)
+    rays = pupil_rays(lens, Source(150.0, 0.0, 0.5875618), [xi], [eta])
     assert rays.x[0] > 0 and rays.y[0] > 0
     at_stop = trace(lens, rays.origins, rays.directions, 0.5875618).points[lens.stop_surface, 0, :2]
     # 1e-9 of the rim is a hundred times what the aiming stops at.
@@ -111,9 +111,9 @@ def test_a_pupil_point_of_a_relay_is_upside_down_in_its_stop():
 
 def test_rays_are_aimed_step_by_step_where_the_paraxial_pupil_is_no_start():
     """At 60° some aimed rays are lost when the search starts from the paraxial pupil, none by way of smaller fields."""
-    lens, angle = prescription_lens("asphere", 587.5618), 2 * np.pi * np.arange(12) / 12
+    lens, angle = with_aim(prescription_lens("asphere", 587.5618), "stop"), 2 * np.pi * np.arange(12) / 12
     xi, eta = np.sin(angle), np.cos(angle)
-    rays = pupil_rays(lens, Source(inf, np.tan(np.deg2rad(60)), 0.5875618), xi, eta, aim="real")
+    rays = pupil_rays(lens, Source(inf, np.tan(np.deg2rad(60)), 0.5875618), xi, eta)
     at_stop = trace(lens, rays.origins, rays.directions, 0.5875618).points[lens.stop_surface]
     wanted = lens.aperture.value * np.stack([xi, eta], -1)
     np.testing.assert_allclose(at_stop[:, :2], wanted, atol=1e-9)  # mm; the search stops at 1e-11 of the rim
@@ -121,23 +121,23 @@ def test_rays_are_aimed_step_by_step_where_the_paraxial_pupil_is_no_start():
 
 def test_a_ray_that_no_search_brings_onto_the_stop_is_nan_and_says_so():
     """At 40° through the meniscus many pupil points have no ray: not one may pass off as aimed."""
-    lens, wavelength = prescription_lens("landscape", 587.5618), 0.5875618
+    lens, wavelength = with_aim(prescription_lens("landscape", 587.5618), "stop"), 0.5875618
     angle = 2 * np.pi * np.arange(24) / 24
     source, xi, eta = Source(inf, np.tan(np.deg2rad(40)), wavelength), np.sin(angle), np.cos(angle)
-    rays = pupil_rays(lens, source, xi, eta, aim="real")
+    rays = pupil_rays(lens, source, xi, eta)
     aimed = np.isfinite(rays.x)
     assert 0 < aimed.sum() < 24
     at_stop = trace(lens, rays.origins, rays.directions, wavelength).points[lens.stop_surface, :, :2]
     wanted = lens.aperture.value * np.stack([xi, eta], -1)
     np.testing.assert_allclose(at_stop[aimed], wanted[aimed], atol=1e-9 * lens.aperture.value)
     with pytest.raises(GeometryError, match="chief ray could not be aimed at its place in the stop, surface"):
-        pencil(lens, replace(source, field_slope=np.tan(np.deg2rad(60))), xi, eta, aim="real")
+        pencil(lens, replace(source, field_slope=np.tan(np.deg2rad(60))), xi, eta)
 
 
 def test_a_pencil_says_which_of_its_rays_could_not_be_aimed():
-    lens, angle = prescription_lens("asphere", 587.5618), 2 * np.pi * np.arange(24) / 24
+    lens, angle = with_aim(prescription_lens("asphere", 587.5618), "stop"), 2 * np.pi * np.arange(24) / 24
     source = Source(inf, np.tan(np.deg2rad(70)), 0.5875618)
-    rays = pencil(lens, source, np.sin(angle), np.cos(angle), aim="real")
+    rays = pencil(lens, source, np.sin(angle), np.cos(angle))
     lost = rays.status == Status.UNAIMED
     assert 0 < lost.sum() < 24 and (rays.failed_surface[lost] == lens.stop_surface).all()
     assert np.isnan(rays.path[lost]).all() and np.isfinite(rays.path[rays.passed]).all()
@@ -145,11 +145,11 @@ def test_a_pencil_says_which_of_its_rays_could_not_be_aimed():
 
 def test_rays_found_directly_are_kept_when_others_are_lost():
     """Only the lost go by way of smaller fields, where others may go astray."""
-    lens, wavelength = prescription_lens("petzval", 587.5618), 0.5875618
+    lens, wavelength = with_aim(prescription_lens("petzval", 587.5618), "stop"), 0.5875618
     source = Source(inf, np.tan(np.deg2rad(20)), wavelength)
     angle = 2 * np.pi * np.arange(24) / 24
-    alone = [pupil_rays(lens, source, [np.sin(a)], [np.cos(a)], aim="real") for a in angle]
-    together = pupil_rays(lens, source, np.sin(angle), np.cos(angle), aim="real")
+    alone = [pupil_rays(lens, source, [np.sin(a)], [np.cos(a)]) for a in angle]
+    together = pupil_rays(lens, source, np.sin(angle), np.cos(angle))
     np.testing.assert_allclose(together.y, [one.y[0] for one in alone], atol=1e-9)
 
 

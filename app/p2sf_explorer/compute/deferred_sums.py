@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.huygens import Filling, all_reach, huygens_psf
+from p2sf.psf.huygens import all_reach, huygens_psf
 from p2sf.psf.plane_waves import counts_for
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import row_counts
@@ -64,11 +64,11 @@ def by_rays(request: SumRequest, quality: str = "settled", cancelled: Callable[[
 
     ``cancelled`` is polled between blocks of rays and ends the work with `Cancelled`. Raises P2SFError's kinds.
     """
-    lens, source, window, filling = request.lens, request.source, request.window, Filling(clip=request.clip)
+    lens, source, window = request.lens, request.source, request.window
     if request.method == "huygens":
-        return huygens_psf(lens, source, *window, None, cancelled=cancelled, filling=filling)
+        return huygens_psf(lens, source, *window, None, cancelled=cancelled, clip=request.clip)
     if request.method == "traced":
-        return traced_psf(lens, source, *window, quality, filling, cancelled)
+        return traced_psf(lens, source, *window, quality, cancelled=cancelled, clip=request.clip)
     from p2sf.psf.methods import render
 
     return render(lens, source, request.method, *window, quality, request.tolerance, request.clip)

@@ -7,7 +7,7 @@ from threading import Event
 
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
-from p2sf.psf.huygens import Filling, huygens_psf
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import PIXELS, window_um
@@ -61,7 +61,7 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
         REFERENCE_TOLERANCE,
         lambda part: progress(share * part),
         cancelled.is_set,
-        Filling(clip=live.state.optics.clip),
+        live.state.optics.clip,
     )
     shown = in_window(live, reference)
     results: tuple[MethodResult, ...] = ()

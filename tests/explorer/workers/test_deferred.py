@@ -14,7 +14,7 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.messages import Message
 from p2sf.psf.compare import r_squared
-from p2sf.psf.huygens import Filling, huygens_psf
+from p2sf.psf.huygens import huygens_psf
 from p2sf_explorer.compute.deferred_sums import KEPT, MOST_NODES, SumCache, SumRequest
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
@@ -176,7 +176,7 @@ def test_what_moves_where_rims_clip_resembles_the_exact_picture():
     seen = live(CORNER, "preview", cache=SumCache())
     assert seen.psf.method == "fitted" and "rims" in str(seen.psf.sampling)
     lens, source, window = seen.setup.lens, seen.setup.source, (64, seen.psf.pixel_um)
-    exact, whole = (huygens_psf(lens, source, *window, None, filling=Filling(clip=clip)) for clip in (True, False))
+    exact, whole = (huygens_psf(lens, source, *window, None, clip=clip) for clip in (True, False))
     alike, unlike = (r_squared(seen.psf.values, x.values) for x in (exact, whole))
     assert alike > 0.97 > unlike
 

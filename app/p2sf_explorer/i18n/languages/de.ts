@@ -585,7 +585,7 @@
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
 <message><source>a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben; 8 oder 16 wählen, oder Gleitkomma in einem .tif</translation></message>
 <message><source>agf_formula is {formula}; write a number from 1 to 13</source><translation>agf_formula ist {formula}; eine Zahl von 1 bis 13 schreiben</translation></message>
-<message><source>aim "{aim}" is unknown; choose "paraxial" or "real"</source><translation>die Ausrichtung "{aim}" ist unbekannt; "paraxial" oder "real" wählen</translation></message>
+<message><source>aim "{aim}" is unknown; choose "stop" or "paraxial"</source><translation>die Ausrichtung "{aim}" ist unbekannt; "stop" oder "paraxial" wählen</translation></message>
 <message><source>aimed at the real stop</source><translation>auf die wahre Blende gerichtet</translation></message>
 <message><source>air</source><translation>Luft</translation></message>
 <message><source>all panels</source><translation>alle Ansichten</translation></message>
