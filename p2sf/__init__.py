@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         plan,
         render,
         tradeoff,
+        zernike,
     )
     from p2sf.errors import P2SFError
     from p2sf.io.psf_plot import draw_psf
@@ -50,6 +51,7 @@ __all__ = [
     "psf_of_opd",
     "render",
     "tradeoff",
+    "zernike",
 ]
 _ELSEWHERE = {
     "Lens": "p2sf.lens.lens",

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from p2sf.database_files.provenance import Stored
     from p2sf.psf.methods import Choice
     from p2sf.psf.result import Psf
+    from p2sf.pupil.zernike_terms import ZernikeOrder
+    from p2sf.raytrace.zernike_fit import ZernikeFit
     from p2sf.scene.plan import Plan
     from p2sf.scene.scene import Scene
     from p2sf.studies.tradeoff import MethodCost
@@ -184,6 +186,58 @@ def coefficients(
     )
     place = source.depth_mm, source.field_slope, source.wavelength_um
     return seidel.coefficients(setup.lens, *place, setup.stop)
+
+
+def zernike(
+    lens: Lens,
+    source: Source = ON_AXIS,
+    basis: "ZernikeOrder" = "noll",
+    terms: int = 37,
+    *,
+    clip: bool = False,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+) -> "ZernikeFit":
+    """Decompose the exact wavefront of one source into Zernike terms, orthogonal over the pupil in force.
+
+    Parameters
+    ----------
+    lens, source, focus_mm, sensor_shift_um, f_number, stop
+        As for `render`.
+    basis : {"noll", "fringe"}
+        Noll's order with waves RMS, or the Fringe order of 37 terms with peak waves.
+    terms : int
+        How many terms, from the first.
+    clip : bool
+        Stop rays at every clear semi-diameter; the terms are then made orthogonal over what is left of the pupil.
+
+    Returns
+    -------
+    ZernikeFit
+        Per term its coefficient in waves and its share of the variance without piston and tilt; RMS and residual. The
+        wavefront is (optical path of the chief ray − that of the ray)/λ on the sphere about the chief ray's sensor
+        point.
+
+    Raises
+    ------
+    RequestError, GeometryError, GlassError
+        As for `render`.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> found = p2sf.zernike(p2sf.load_lens("telephoto"), p2sf.Source(field_deg=7))
+    >>> found.terms[6].name, round(float(found.waves[6]), 3), round(found.rms, 3)
+    ('coma', -0.068, 0.201)
+    """
+    from p2sf.raytrace.zernike_fit import zernike_fit
+
+    setup = set_up_source(
+        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop
+    )
+    return zernike_fit(setup.lens, setup.source, basis, terms, clip)
 
 
 def choose_method(

@@ -21,6 +21,7 @@ COMMANDS = {
     "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
     "psf": ("images:psf", "The point spread function of one source, to a file or in a few figures."),
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
+    "zernike": ("zernikes:zernike", "The exact wavefront as Zernike terms, in waves and shares of its variance."),
     "tradeoff": ("studies:tradeoff", "What every method costs in time and in error, measured."),
     "paper": ("studies:paper", "Redo the paper's two figures on this machine."),
     "plan": ("scenes:plan_command", "The least model that a scene requires, each decision explained."),

@@ -1319,6 +1319,7 @@
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
+<message><source>{parameter} is "{value}"; choose noll or fringe</source><translation>{parameter} ist "{value}"; noll oder fringe wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose {choices}</source><translation>{parameter} ist "{value}"; {choices} wählen</translation></message>
 <message><source>{parameter} is None; give a distance, inf for infinity</source><translation>{parameter} ist None; einen Abstand angeben, inf für unendlich</translation></message>
 <message><source>{parameter} is {path}; {wanted}, choose a name that ends in {ending}</source><translation>{parameter} ist {path}; {wanted}, einen Namen wählen, der auf {ending} endet</translation></message>
@@ -1332,6 +1333,7 @@
 <message><source>{parameter} is {value:g}°, and no ray at 90° or more from the axis enters a lens; give an angle between −90 and 90°, both ends left out</source><translation>{parameter} ist {value:g}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein; einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>
 <message><source>{parameter} is {value}, which is for {method} seidel; leave it out</source><translation>{parameter} ist {value}, was für {method} seidel gilt; weglassen</translation></message>
 <message><source>{parameter} is {value}; give a whole number from 1 on</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
+<message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>

@@ -1,0 +1,93 @@
+"""`p2sf zernike`: the exact wavefront as Zernike terms."""
+
+import csv
+import io
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
+from p2sf.cli.screen import Row, heading, print_json, print_table, warn
+from p2sf.cli.spots import Clip
+from p2sf.files.writing import write_beside
+from p2sf.lensfile.library import find_lens
+from p2sf.pupil.zernike_terms import ZernikeOrder
+from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, zernike_fit
+from p2sf.request import set_up
+
+Basis = Annotated[ZernikeOrder, Parameter(help="Noll's order, waves RMS, or the Fringe order, peak waves.")]
+Terms = Annotated[Whole, Parameter(help="How many terms, from the first.")]
+COLUMNS = ("term", "n", "m", "name", "waves", "share of variance")
+
+
+def zernike(
+    lens: LensName,
+    /,
+    *,
+    request: Asked = AS_IN_THE_FILE,
+    basis: Basis = "noll",
+    terms: Terms = USUAL_TERMS,
+    clip: Clip = False,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Decompose the exact wavefront of one source into Zernike terms; write them as .csv.
+
+    Shares are of the variance without piston and tilt, which do not blur. Where rims or lost rays leave part of the
+    pupil, the terms are made orthogonal over that part (Gram–Schmidt).
+    """
+    check_output(output, (".csv",))
+    setup = set_up(find_lens(lens), request)
+    found = zernike_fit(setup.lens, setup.source, basis, terms, clip)
+    if output:
+        write_csv(found, output)
+    if as_json:
+        file = None if output is None else str(output)
+        return print_json({"file": file, "aim": setup.lens.aim, **record(found)})
+    warn(setup.stop.warning)
+    rows: list[Row] = [(t["term"], t["n"], t["m"], t["name"], t["waves"], t["share"]) for t in record(found)["terms"]]
+    print_table(heading(setup), COLUMNS, rows)
+    figures = (
+        ("RMS without piston", found.rms, "waves"),
+        ("RMS without piston and tilt", found.rms_without_tilt, "waves"),
+        ("RMS of what these terms leave", found.residual, "waves"),
+        ("terms are orthogonal over", over(found), ""),
+    )
+    filled = {"stop": "the real stop", "paraxial": "the paraxial entrance pupil"}[setup.lens.aim]
+    return print_table(f"\nRays fill {filled}", ("wavefront", "value", "unit"), figures)
+
+
+def over(found: ZernikeFit) -> str:
+    """Return in words which part of the pupil the terms are orthogonal over."""
+    if found.clear == 1.0:
+        return "the whole pupil"
+    return f"the {100 * found.clear:.1f} % of the pupil that passes light (Gram–Schmidt)"
+
+
+def record(found: ZernikeFit) -> dict[str, Any]:
+    """Return the terms and the figures as JSON names them."""
+    rows = zip(found.terms, found.waves.tolist(), found.share.tolist(), strict=True)
+    return {
+        "basis": found.order,
+        "unit": "waves RMS" if found.order == "noll" else "waves peak",
+        "rms": found.rms,
+        "rms_without_tilt": found.rms_without_tilt,
+        "residual_rms": found.residual,
+        "clear_share_of_pupil": found.clear,
+        "gram_schmidt": found.clear < 1.0,
+        "rays": found.rays,
+        "terms": [
+            {"term": term.number, "n": term.n, "m": term.m, "name": term.name, "waves": waves, "share": share}
+            for term, waves, share in rows
+        ],
+    }
+
+
+def write_csv(found: ZernikeFit, output: Path) -> None:
+    """Write the terms, one row each, with m negative for sin |m|θ, θ from +x; ExportError."""
+    text = io.StringIO()
+    rows = csv.DictWriter(text, ("term", "n", "m", "name", "waves", "share"), lineterminator="\n")
+    rows.writeheader()
+    rows.writerows(record(found)["terms"])
+    write_beside(output, lambda handle: handle.write(text.getvalue().encode()))

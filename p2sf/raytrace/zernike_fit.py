@@ -1,0 +1,106 @@
+"""The exact wavefront of a source as a sum of terms that are orthogonal over the pupil in force (handbook 3.4).
+
+Over the whole disc these are Zernike's polynomials. Over the part that rims or lost rays leave clear they are the same
+polynomials made orthogonal there in turn, by Gram and Schmidt (Mahajan & Dai 2007). The mean squares then add up to the
+variance of the wavefront, whatever the pupil's shape.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
+from p2sf.raytrace.pencil import displayed_opd, pencil
+from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, whole_nodes
+
+COUNTS = 24, 64  # radii and directions: exact for terms up to degree 20 and a wavefront of degree 40
+USUAL_TERMS = 37
+RIM_RAYS = 65  # on the rim's right half, which is clipped first
+
+
+@dataclass(frozen=True)
+class ZernikeFit:
+    """A wavefront's terms over the pupil in force, each array (terms,); its light may fill part of the pupil only.
+
+    ``waves``: coefficients, waves RMS in Noll's order and peak waves in the Fringe order, as both are defined on the
+    disc. ``rms_waves``: each term's share of the RMS, with its sign. ``share``: of the variance without piston and
+    tilt, which do not blur; 0 for those two. ``rms``: of the wavefront without piston; ``rms_without_tilt`` without
+    tilt too; ``residual``: of what the terms leave. ``clear``: the part of the pupil's area that passes light; below 1
+    the terms are orthogonal over that part. ``rays``: how many were traced.
+    """
+
+    order: ZernikeOrder
+    terms: tuple[ZernikeTerm, ...]
+    waves: np.ndarray
+    rms_waves: np.ndarray
+    share: np.ndarray
+    rms: float
+    rms_without_tilt: float
+    residual: float
+    clear: float
+    rays: int
+
+
+def zernike_fit(
+    lens: Lens, source: Source, order: ZernikeOrder = "noll", count: int = USUAL_TERMS, clip: bool = False
+) -> ZernikeFit:
+    """Return the first ``count`` terms of the displayed OPD of exact rays; ``clip`` applies every clear semi-diameter.
+
+    Raises RequestError for an order or a count that does not exist, GeometryError where no part of the pupil is clear.
+    """
+    terms = zernike_terms(order, count)
+    nodes, waves = pupil_opd(lens, source, clip)
+    return decomposed(nodes, waves, order, terms)
+
+
+def pupil_opd(
+    lens: Lens, source: Source, clip: bool = False, counts: tuple[int, int] = COUNTS
+) -> tuple[ClearNodes, np.ndarray]:
+    """Return nodes over the clear part of the half disc ξ > 0 and the displayed OPD there, waves, (nodes,)."""
+    nodes = whole_nodes(counts)
+    turn = np.linspace(0, np.pi, RIM_RAYS)
+    tried = np.append(nodes.xi, np.sin(turn)), np.append(nodes.eta, np.cos(turn))
+    if not pencil(lens, source, *tried, clip).passed.all():
+        nodes = clear_nodes(lens, source, counts, clip)
+    return nodes, displayed_opd(lens, source, nodes.xi, nodes.eta)
+
+
+def decomposed(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:
+    """Return the terms of a wavefront that is even in ξ, given at nodes of the half disc, (nodes,) waves.
+
+    Terms that are odd in ξ are zero. Each of the others is made orthogonal to those before it, as a QR decomposition
+    of the terms at the weighted nodes does (Mahajan & Dai 2007, eq. 11); over the whole disc that changes nothing.
+    """
+    even = [number for number, term in enumerate(terms) if term.even]
+    root = np.sqrt(nodes.weight)
+    columns, lengths = np.linalg.qr((zernike_values(tuple(terms[k] for k in even), nodes.xi, nodes.eta) * root).T)
+    columns *= np.sign(np.diag(lengths))
+    found = np.zeros(len(terms))
+    found[even] = columns.T @ (root * waves)
+    rest = root * waves - columns @ found[even]
+    variance, blur = variances(nodes, waves)
+    still = np.array([term.n < 2 for term in terms])  # piston and tilt
+    scale = np.array([term.norm if order == "fringe" else 1.0 for term in terms])
+    return ZernikeFit(
+        order=order,
+        terms=terms,
+        waves=found * scale,
+        rms_waves=found,
+        share=np.where(still, 0.0, found**2) / (blur or 1.0),
+        rms=float(np.sqrt(variance)),
+        rms_without_tilt=float(np.sqrt(blur)),
+        residual=float(np.linalg.norm(rest)),
+        clear=nodes.share,
+        rays=nodes.xi.size,
+    )
+
+
+def variances(nodes: ClearNodes, waves: np.ndarray) -> tuple[float, float]:
+    """Return the variance of a wavefront even in ξ over its nodes, waves², and what is left of it without its tilt."""
+    height = nodes.eta - float(nodes.weight @ nodes.eta)
+    rest = waves - float(nodes.weight @ waves)
+    variance = float(nodes.weight @ rest**2)
+    tilt = float(nodes.weight @ (rest * height)) ** 2 / float(nodes.weight @ height**2)
+    return variance, max(variance - tilt, 0.0)
