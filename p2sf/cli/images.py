@@ -17,6 +17,7 @@ from p2sf.io.record import describe, facts
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.psf.metrics import centroid, radius_of_energy
+from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
 from p2sf.request import Request, Setup, set_up
 
@@ -78,6 +79,9 @@ class Picture:
 
 
 USUAL = Picture()
+METHOD = ParameterName("method")
+CAUTIOUS = Message("caution: above {limit:g}; choose {parameter} traced to be sure", limit=CAUTION, parameter=METHOD)
+NO_PREDICTION = Message("none: nothing was traced to tell")
 NO_STREHL = Message("not defined for a fitted shape")
 SpectrumName = Annotated[str | None, Parameter(help=f"Colour PSF of a point with this spectrum: {WORDS}.")]
 
@@ -160,6 +164,13 @@ def figures(result: Psf) -> dict[str, Any]:
     return {"centroid_um": [float(x), float(y)], "radius_50_um": half, "radius_80_um": most}
 
 
+def prediction(error: float | None) -> tuple[float | None, Message | str]:
+    """Return what a method is predicted to miss, and a note where that is much or unknown."""
+    if error is None:
+        return None, NO_PREDICTION
+    return error, CAUTIOUS if error > CAUTION else ""
+
+
 def summary(result: Psf, output: Path | None) -> list[Row]:
     """Return the rows that tell a person what was computed."""
     known, measured = facts(result), figures(result)
@@ -172,6 +183,7 @@ def summary(result: Psf, output: Path | None) -> list[Row]:
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
         ("radius of 50 % of the light in the picture", measured["radius_50_um"], "µm"),
         ("radius of 80 % of the light in the picture", measured["radius_80_um"], "µm"),
+        ("predicted 1 − R²", *prediction(result.predicted_error)),
         ("sampling", result.sampling, ""),
         ("numbers that describe it", result.numbers, ""),
         ("traced rays", result.rays, ""),

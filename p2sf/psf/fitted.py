@@ -11,6 +11,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
+from p2sf.psf.prediction import predicted_error
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
@@ -47,7 +48,8 @@ def psf_of_fit(
     """Return the PSF that a fit describes in a window (pixels, pixel_um); ``started`` is a `perf_counter` reading."""
     intensity, sampling = summed(found, *window, quality)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
-    made = Origin("fitted", found.numbers, found.rays, sampling, started, tolerance)
+    error = predicted_error(found.error_waves, "fitted")
+    made = Origin("fitted", found.numbers, found.rays, sampling, started, tolerance, error)
     blur = found.blur_um2 if resolved(found.steepness.spread, window[1]) else None
     return psf_from_intensity(intensity, window[1], wavelength_um, blur, made)
 

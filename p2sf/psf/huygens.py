@@ -19,6 +19,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
+from p2sf.psf.prediction import EDGE_ERROR
 from p2sf.psf.result import Psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
@@ -70,13 +71,14 @@ def huygens_psf(
     if tolerance is None:
         found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, live=True))
         sampling = _sampling(lens, counts, found, clip, Message("one pass in float32"))
-        made = Origin("huygens", 0, _nodes(counts), sampling, started)
+        error = EDGE_ERROR if clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
+        made = Origin("huygens", 0, _nodes(counts), sampling, started, None, error)
     else:
         watch = _Watch(progress, cancelled)
         found, counts, reached, rays = _settle(lens, source, window, clip, tolerance, watch)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
         sampling = _sampling(lens, counts, found, clip, None if reached <= tolerance else short)
-        made = Origin("huygens", 0, rays, sampling, started, reached)
+        made = Origin("huygens", 0, rays, sampling, started, reached, reached**2)
     intensity = found.values.real**2 + found.values.imag**2
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, found.blur_um2, made)
 

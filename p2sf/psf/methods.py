@@ -1,16 +1,6 @@
 """All methods behind one function, the error each is predicted to make, and the cheapest that is good enough.
 
-The prediction needs no reference. Where two descriptions of the same ray differ by a phase e(ray), the fields differ by
-2πe and 1 − R² is of the order (2πσ)², σ the RMS of e over the pupil. For a ray that lands at x,
-
-    e = Δw + Δf·x,
-
-Δw the difference of phase and Δf of spatial frequency: for `seidel` against the traced rays themselves (higher
-orders and the departure of the pupil map), for `fitted` on rays that took no part in the fit. Diffraction spreads a
-ray's light about x, by the Airy radius or by blur/√(Fresnel number), and Δf counts there too. How far 1 − R² can exceed
-(2πσ)² is measured over random lenses and sources by ``python -m tests.long.method_choice``; SAFETY covers that.
-
-See handbook 5.6.
+How the error is predicted is described in `prediction`. See handbook 5.6.
 """
 
 from dataclasses import dataclass, replace
@@ -19,30 +9,26 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.errors import GeometryError, RequestError
+from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.seidel import Coefficients, coefficients
-from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_quality, check_samples, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import RayData, ray_data, steepness
+from p2sf.raytrace.ray_field import ray_data, steepness
 
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be asked of a choice
 METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
-# Measured: at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, 8 in those that show its core.
-SAFETY = {"seidel": 5.0, "fitted": 8.0}
-TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
-EDGE_ERROR = 1e-4  # over a pupil that ends at rims or where rays are lost (`traced.FALLBACK_TOLERANCE`)
 
 
 @dataclass(frozen=True)
@@ -96,11 +82,6 @@ class Choice:
         )
 
 
-def predicted_error(sigma_waves: float, method: str) -> float:
-    """Return an upper bound of 1 − R² for an RMS phase error in waves."""
-    return SAFETY[method] * (2 * np.pi * sigma_waves) ** 2
-
-
 def residual_for(tolerance: float) -> float:
     """Return the RMS phase error in waves that keeps R² of a fit above ``tolerance``; at most RESIDUAL_WAVES."""
     return min(RESIDUAL_WAVES, float(np.sqrt(max(1 - tolerance, 0) / SAFETY["fitted"]) / (2 * np.pi)))
@@ -147,22 +128,18 @@ def _by_rays(tried: Choice, error: float) -> Choice:
     return replace(tried, method="huygens", predicted_error=SETTLED_TOLERANCE**2, numbers=0)
 
 
-def seidel_sigma(
-    c: Coefficients, rays: RayData, points: tuple[np.ndarray, np.ndarray, np.ndarray], spread: float
-) -> float:
-    """Return the RMS phase error of the six coefficients in waves, over the rays at ``points``.
-
-    ``points``: ξ, η and weights as from `raytrace.fit.level_rays`; ``spread``: how far diffraction spreads light, µm.
-    """
-    xi, eta, weight = points
-    # The field of the six coefficients is the conjugate of that of the rays: phase −W, frequency n'u'ξ/λ.
-    scale = float(c.reduced_slope) / float(c.wavelength_um)
-    miss_x, miss_y = rays.fx - scale * xi, rays.fy - scale * eta
-    error = rays.phase + wavefront(c, xi, eta) + miss_x * rays.x_um + miss_y * rays.y_um
-    own = slice(0, weight.size)
-    variance = weight @ (error[own] - weight @ error[own]) ** 2
-    departure = weight @ (miss_x[own] ** 2 + miss_y[own] ** 2)
-    return float(np.sqrt(variance + departure * spread**2))
+def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
+    """Return the predicted 1 − R² of six coefficients ``c``; infinite where rays are lost, which they cannot know."""
+    xi, eta, weight = level_rays(QUICK_LEVELS[0])
+    try:
+        rays = pencil(lens, source, xi, eta)
+    except GeometryError:  # not even the chief ray arrives
+        return inf
+    if not rays.passed.all():
+        return inf
+    data = ray_data(rays)
+    spread = steepness(data, xi, eta).light_um
+    return predicted_error(seidel_sigma(c, data, (xi, eta, weight), spread), "seidel")
 
 
 def render(
@@ -177,6 +154,7 @@ def render(
 ) -> Psf:
     """Return the PSF of one source by one method, or by the cheapest one that holds R² ≥ ``tolerance`` ("auto").
 
+    Where the chosen one needs more pupil samples than it can sum, "auto" falls back on the reference.
     Without ``pixel_um`` the pitch is that at which the six coefficients show the whole PSF. A fit takes as many numbers
     as ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters; where a rim does clip, methods
     that describe the whole pupil refuse it. Raises P2SFError: for an unknown method, no image, no rays, for
@@ -185,22 +163,42 @@ def render(
     check_samples(pixels, pixel_um)
     check_quality(quality)
     _check_tolerance(tolerance)
-    c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     if pixel_um is None:
+        c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         pixel_um = float(suitable_pixel_um(c, pixels))
-    numbers = None
-    if method == "auto":
-        choice = choose(lens, source, tolerance, clip)
-        method, numbers = choice.method, choice.numbers
+    window = pixels, pixel_um
+    if method != "auto":
+        return _by_method(lens, source, (method, None), window, quality, tolerance, clip)
+    choice = choose(lens, source, tolerance, clip)
+    try:
+        return _by_method(lens, source, (choice.method, choice.numbers), window, quality, tolerance, clip)
+    except SamplingError:  # rows of equal frequency need more nodes than the reference's rings do
+        if choice.method == "huygens":
+            raise
+        return _by_tracing(lens, source, "huygens", window, quality, clip)
+
+
+def _by_method(
+    lens: Lens,
+    source: Source,
+    choice: tuple[str, int | None],
+    window: tuple[int, float],
+    quality: str,
+    tolerance: float,
+    clip: bool,
+) -> Psf:
+    """Return the PSF of one method; a fit has so many numbers, or as many as ``tolerance`` asks for where None."""
+    method, numbers = choice
     if clip and method in ("seidel", "fitted"):
         _check_unclipped(lens, source, method)
     if method == "seidel":
-        return seidel_psf(c, pixels, pixel_um, quality)
+        c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+        return replace(seidel_psf(c, *window, quality), predicted_error=seidel_error(lens, source, c))
     if method == "fitted":
         started = perf_counter()
         found = fit(lens, source, numbers, residual_waves=residual_for(tolerance))
-        return psf_of_fit(found, source.wavelength_um, (pixels, pixel_um), quality, started)
-    return _by_tracing(lens, source, method, (pixels, pixel_um), quality, clip)
+        return psf_of_fit(found, source.wavelength_um, window, quality, started)
+    return _by_tracing(lens, source, method, window, quality, clip)
 
 
 def _by_tracing(lens: Lens, source: Source, method: str, window: tuple[int, float], quality: str, clip: bool) -> Psf:

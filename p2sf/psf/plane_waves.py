@@ -24,6 +24,7 @@ class Origin:
     sampling: Message
     started: float
     tolerance: float | None = None
+    predicted_error: float | None = None
 
 
 def pupil_amplitude(weight: np.ndarray, phase_waves: ArrayLike, dtype: DTypeLike = np.float64) -> np.ndarray:
@@ -72,6 +73,7 @@ def psf_from_intensity(
         sampling=made.sampling,
         seconds=perf_counter() - made.started,
         tolerance=made.tolerance,
+        predicted_error=made.predicted_error,
     )
 
 

@@ -41,6 +41,9 @@ class Psf:
         How long it took.
     tolerance : float or None
         Bound of the relative L2 error of the method's own sum in the window; None where it promises none.
+    predicted_error : float or None
+        Predicted 1 − R² of the method against the reference, at these settings: what its description of the pupil
+        misses, which ``tolerance`` does not contain. None where nothing was traced to tell.
     azimuth_deg : float
         Direction on the sensor of the picture's +y axis, degrees from the sensor's +y towards its +x.
     """
@@ -57,6 +60,7 @@ class Psf:
     seconds: float = 0.0
     tolerance: float | None = None
     azimuth_deg: float = 0.0
+    predicted_error: float | None = None
 
     @property
     def x_um(self) -> np.ndarray:

@@ -19,6 +19,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.plane_waves import Origin, psf_from_intensity, resolved
+from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import FrequencyRows, rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
@@ -52,13 +53,13 @@ def traced_psf(
     if rows is None:
         tolerance = FALLBACK_TOLERANCE if quality == "settled" else None
         one_by_one = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, clip)
-        return replace(one_by_one, method="traced")
+        return replace(one_by_one, method="traced", predicted_error=EDGE_ERROR)
     found, nodes = rows
     phase, fx = exact_rows(lens, source, nodes)
     intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     sampling = Message("{nodes}, {precision}", nodes=nodes.words, precision=intensity.dtype.name)
-    made = Origin("traced", 0, found.rays + nodes.xi.size, sampling, started, tolerance)
+    made = Origin("traced", 0, found.rays + nodes.xi.size, sampling, started, tolerance, TRACED_ERROR)
     blur = found.blur_um2 if resolved(found.steepness.spread, pixel_um) else None
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made)
 

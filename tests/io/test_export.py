@@ -14,6 +14,7 @@ from p2sf.errors import ExportError
 from p2sf.files.writing import check_place, plain, write_beside, write_json
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.io.psf_plot import edges_um, round_length
+from p2sf.io.record import facts, psf_from
 from p2sf.messages import Message
 from p2sf.psf.result import Psf
 
@@ -33,6 +34,7 @@ def blob(rows=24, columns=17) -> Psf:
         energy=0.99,
         numbers=6,
         sampling=Message("test"),
+        predicted_error=2.5e-3,
     )
 
 
@@ -42,9 +44,16 @@ def test_what_is_written_is_read_back(tmp_path, ending, tolerance):
     back, meta = read_psf(write_psf(psf, tmp_path / f"spot.{ending}", META))
     np.testing.assert_allclose(back.values, psf.values, rtol=tolerance)  # float32 rounds to 2^-24 = 6e-8
     assert (back.pixel_um, back.method, back.strehl, back.tolerance) == (psf.pixel_um, "seidel", 0.37, None)
+    assert back.predicted_error == 2.5e-3
     assert back.sampling == psf.sampling and meta["psf"]["sampling"] == "test"
     assert meta["setup"] == {"depth_mm": None, "field_deg": 14.0}
     assert os.listdir(tmp_path) == [f"spot.{ending}"]
+
+
+def test_a_file_from_before_errors_were_predicted_is_read():
+    known = facts(blob())
+    del known["predicted_error"]
+    assert psf_from(blob().values, known).predicted_error is None
 
 
 def test_npz_has_the_four_keys_and_the_axes(tmp_path):

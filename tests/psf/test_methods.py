@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, RequestError, SamplingError
-from p2sf.lens.lens import Aperture
+from p2sf.glass.media import ConstantIndex
+from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number, with_sensor
 from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
@@ -19,11 +22,10 @@ from p2sf.psf.methods import (
     QUICK_LEVELS,
     Choice,
     choose,
-    predicted_error,
     render,
     residual_for,
-    seidel_sigma,
 )
+from p2sf.psf.prediction import CAUTION, predicted_error, seidel_sigma
 from p2sf.raytrace.fit import level_rays
 from p2sf.raytrace.ray_field import RayData
 from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
@@ -139,6 +141,41 @@ def test_a_fit_takes_the_numbers_that_the_tolerance_asks_for():
     coarse, fine = (render(lens, source, "fitted", 32, pixel, tolerance=t) for t in (0.99, 0.9999))
     assert (coarse.numbers, fine.numbers) == (26, 46)
     assert predicted_error(residual_for(0.9999), "fitted") == pytest.approx(1e-4)
+
+
+def test_auto_falls_back_on_the_reference_where_rows_need_too_many_samples():
+    """On the axis rings need few directions, where rows need as many as columns: 2048 × 2304 of them here."""
+    pair = Surface(20.0, 4.0, ConstantIndex(1.5), conic=-3.0), Surface(-20.0, 10.0, conic=-2.0)
+    lens = Lens(pair, Aperture("stop_semi_diameter", 11.0), 1)
+    lens, source = with_sensor(lens, float(image_distance(lens, inf, 0.5876))), Source(inf, 0.0, 0.5876)
+    assert choose(lens, source).method == "traced"
+    with pytest.raises(SamplingError):
+        render(lens, source, "traced", 32, 0.3)
+    assert render(lens, source, "auto", 32, 0.3).method == "huygens"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_method_predicts_at_least_the_error_it_makes(method):
+    lens, source, pixel, _ = off_axis()
+    made, reference = render(lens, source, method, 64, pixel), huygens_psf(lens, source, 64, pixel)
+    assert made.predicted_error >= 1 - r_squared(made.values, reference.values) - 1e-12  # round-off of R²
+    assert method == "fitted" or (made.predicted_error > CAUTION) == (method in ("seidel", "gaussian"))
+
+
+def test_a_fit_that_fails_near_total_reflection_says_so():
+    """No polynomial follows a phase of unbounded slope; the sum of the fit itself is as exact as ever."""
+    lens = with_f_number(find_lens("tessar"), 150.0)
+    source = Source(inf, np.tan(np.deg2rad(37.3555)), 0.5876)
+    made = render(lens, source, "fitted", 64, 30.0)
+    reference = huygens_psf(lens, source, 64, 30.0, None)
+    assert 1 - r_squared(made.values, reference.values) > 1e-4 >= made.tolerance
+    assert made.predicted_error > CAUTION
+
+
+def test_six_coefficients_promise_nothing_where_rays_are_lost():
+    lens = with_f_number(find_lens("double_gauss_28"), 2.8)
+    source = Source(inf, np.tan(np.deg2rad(34.0)), 0.5876)
+    assert render(lens, source, "seidel", 32, 100.0).predicted_error == inf
 
 
 def test_clip_is_refused_by_methods_that_know_no_edge():

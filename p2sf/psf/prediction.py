@@ -1,0 +1,47 @@
+"""What error a method is predicted to make, without a reference (handbook 5.6).
+
+Where two descriptions of the same ray differ by a phase e(ray), the fields differ by 2πe and 1 − R² is of the order
+(2πσ)², σ the RMS of e over the pupil. For a ray that lands at x,
+
+    e = Δw + Δf·x,
+
+Δw the difference of phase and Δf of spatial frequency: for `seidel` against the traced rays themselves (higher
+orders and the departure of the pupil map), for `fitted` on rays that took no part in the fit. Diffraction spreads a
+ray's light about x, by the Airy radius or by blur/√(Fresnel number), and Δf counts there too. How far 1 − R² can exceed
+(2πσ)² is measured over random lenses and sources by ``python -m tests.long.method_choice``; SAFETY covers that.
+"""
+
+import numpy as np
+
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.raytrace.ray_field import RayData
+
+# Measured: at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, 8 in those that show its core.
+SAFETY = {"seidel": 5.0, "fitted": 8.0}
+TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
+EDGE_ERROR = 1e-4  # over a pupil that ends at rims or where rays are lost (`traced.FALLBACK_TOLERANCE`)
+CAUTION = 1e-3  # 1 − R² above which a predicted error is pointed out
+
+
+def predicted_error(sigma_waves: float, method: str) -> float:
+    """Return an upper bound of 1 − R² for an RMS phase error in waves."""
+    return SAFETY[method] * (2 * np.pi * sigma_waves) ** 2
+
+
+def seidel_sigma(
+    c: Coefficients, rays: RayData, points: tuple[np.ndarray, np.ndarray, np.ndarray], spread: float
+) -> float:
+    """Return the RMS phase error of the six coefficients in waves, over the rays at ``points``.
+
+    ``points``: ξ, η and weights as from `raytrace.fit.level_rays`; ``spread``: how far diffraction spreads light, µm.
+    """
+    xi, eta, weight = points
+    # The field of the six coefficients is the conjugate of that of the rays: phase −W, frequency n'u'ξ/λ.
+    scale = float(c.reduced_slope) / float(c.wavelength_um)
+    miss_x, miss_y = rays.fx - scale * xi, rays.fy - scale * eta
+    error = rays.phase + wavefront(c, xi, eta) + miss_x * rays.x_um + miss_y * rays.y_um
+    own = slice(0, weight.size)
+    variance = weight @ (error[own] - weight @ error[own]) ** 2
+    departure = weight @ (miss_x[own] ** 2 + miss_y[own] ** 2)
+    return float(np.sqrt(variance + departure * spread**2))
