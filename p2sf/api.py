@@ -20,7 +20,7 @@ from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.notebook import html_table
 from p2sf.parameters import check_angle
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.request import Request, StopChoice, check_lens, set_up, set_up_source
+from p2sf.request import AimChoice, Request, StopChoice, aimed, check_aim, check_lens, set_up, set_up_source
 
 if TYPE_CHECKING:
     from p2sf.database.render import Database
@@ -62,7 +62,7 @@ def load_lens(name_or_path: Path) -> Lens:
     --------
     >>> import p2sf
     >>> p2sf.load_lens("double_gauss_28")
-    <Lens double_gauss_28: 11 surfaces, stop_semi_diameter 10.5673>
+    <Lens double_gauss_28: 11 surfaces, stop_semi_diameter 10.5673, aim paraxial>
     """
     from p2sf.lensfile.library import find_lens
 
@@ -83,6 +83,7 @@ def render(
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
     stop: StopChoice = "file",
+    aim: AimChoice | None = None,
 ) -> "Psf":
     """Compute the point spread function of one source.
 
@@ -112,6 +113,9 @@ def render(
         Focal length over entrance-pupil diameter, instead of the lens's aperture.
     stop : {"file", "auto"}
         The stop that the lens names, or the narrowest rim at this depth.
+    aim : {"stop", "paraxial"}, optional
+        Fill the real stop with exact rays, or the paraxial entrance pupil; as the lens says (``Lens.aim``) when not
+        given. "real" is the former name of "stop".
 
     Returns
     -------
@@ -139,7 +143,7 @@ def render(
     from p2sf.psf import methods
 
     setup = set_up_source(
-        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop
+        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim
     )
     psf = methods.render(setup.lens, setup.source, method, pixels, pixel_um, quality, tolerance, clip)
     return replace(psf, azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf
@@ -153,12 +157,13 @@ def coefficients(
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
     stop: StopChoice = "file",
+    aim: AimChoice | None = None,
 ) -> Coefficients:
     """Compute the six wavefront coefficients of one source (Pieroni et al. 2015; Welford 1986, ch. 8).
 
     Parameters
     ----------
-    lens, source, focus_mm, sensor_shift_um, f_number, stop
+    lens, source, focus_mm, sensor_shift_um, f_number, stop, aim
         As for `render`.
 
     Returns
@@ -182,7 +187,7 @@ def coefficients(
     from p2sf.paraxial import seidel
 
     setup = set_up_source(
-        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop
+        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim
     )
     place = source.depth_mm, source.field_slope, source.wavelength_um
     return seidel.coefficients(setup.lens, *place, setup.stop)
@@ -199,12 +204,13 @@ def zernike(
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
     stop: StopChoice = "file",
+    aim: AimChoice | None = None,
 ) -> "ZernikeFit":
     """Decompose the exact wavefront of one source into Zernike terms, orthogonal over the pupil in force.
 
     Parameters
     ----------
-    lens, source, focus_mm, sensor_shift_um, f_number, stop
+    lens, source, focus_mm, sensor_shift_um, f_number, stop, aim
         As for `render`.
     basis : {"noll", "fringe"}
         Noll's order with waves RMS, or the Fringe order of 37 terms with peak waves.
@@ -235,7 +241,7 @@ def zernike(
     from p2sf.raytrace.zernike_fit import zernike_fit
 
     setup = set_up_source(
-        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop
+        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim
     )
     return zernike_fit(setup.lens, setup.source, basis, terms, clip)
 
@@ -250,12 +256,13 @@ def choose_method(
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
     stop: StopChoice = "file",
+    aim: AimChoice | None = None,
 ) -> "Choice":
     """Choose the cheapest method whose predicted R² is at least ``tolerance``, without computing the reference.
 
     Parameters
     ----------
-    lens, source, focus_mm, sensor_shift_um, f_number, stop
+    lens, source, focus_mm, sensor_shift_um, f_number, stop, aim
         As for `render`.
     tolerance : float
         Least R² against the exact reference, below 1, in a window that shows the whole PSF.
@@ -285,7 +292,7 @@ def choose_method(
     from p2sf.psf.methods import choose
 
     setup = set_up_source(
-        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop
+        lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim
     )
     return choose(setup.lens, source, tolerance, clip)
 
@@ -317,6 +324,7 @@ def tradeoff(
     methods: str | Sequence[str] = ("gaussian", "seidel", "fitted", "traced", "huygens"),
     pixels: int = 64,
     pixel_um: float | None = None,
+    aim: AimChoice | None = None,
 ) -> TradeoffTable:
     """Measure what each method costs in time and in error against the settled Huygens sum of exact rays.
 
@@ -334,6 +342,8 @@ def tradeoff(
         Samples along each side of the compared window.
     pixel_um : float, optional
         Their distance, µm; one that shows the whole PSF when not given.
+    aim : {"stop", "paraxial"}, optional
+        As for `render`.
 
     Returns
     -------
@@ -355,10 +365,12 @@ def tradeoff(
     from p2sf.studies import tradeoff as study
 
     check_lens(lens)
+    check_aim(aim)
     fields = None if fields_deg is None else tuple(fields_deg)
     for angle in fields or ():
         check_angle("fields_deg", angle)
     methods = (methods,) if isinstance(methods, str) else methods
+    lens = aimed(lens, aim)
     return TradeoffTable(study.tradeoff(lens, fields, depths_mm, wavelengths_nm, methods, pixels, pixel_um))
 
 
@@ -375,6 +387,7 @@ def build_database(
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
     stop: StopChoice = "file",
+    aim: AimChoice | None = None,
 ) -> "Stored":
     """Describe every PSF of a lens in a box of depth, field and wavelength by a few numbers.
 
@@ -391,7 +404,7 @@ def build_database(
         For "seidel": polynomials exact to round-off, the rule of Pieroni et al. 2015, table 1, or straight lines.
     path : str or path, optional
         Where the database is written as well, a file that ends in .npz.
-    focus_mm, sensor_shift_um, f_number, stop
+    focus_mm, sensor_shift_um, f_number, stop, aim
         As for `render`; a stop that is "auto" is that of an object at infinity.
 
     Returns
@@ -432,7 +445,7 @@ def build_database(
     fields = np.asarray(fields_deg, dtype=float)
     for angle in fields.ravel().tolist():
         check_angle("fields_deg", angle)
-    request = Request(focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop)
+    request = Request(focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim)
     setup = set_up(lens, request)
     depths = np.asarray(depths_mm, dtype=float)
     space = Space(depths, slope_from_degrees(fields), np.asarray(wavelengths_nm, dtype=float) / NM_PER_UM)

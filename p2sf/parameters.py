@@ -35,6 +35,7 @@ PARAMETERS = {
         Parameter("wavelength_um", "Wavelength", "µm"),
         Parameter("f_number", "f-number"),
         Parameter("stop", "Stop"),
+        Parameter("aim", "Rays fill"),
         Parameter("method", "Method"),
         Parameter("tolerance", "the tolerance"),
         Parameter("clip", "Clip at rims"),

@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, is_number, slope_from_degrees
 from p2sf.errors import GlassError, RequestError
-from p2sf.lens.lens import Aperture, Lens, indices, with_f_number, with_sensor
+from p2sf.lens.lens import Aperture, Lens, indices, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.messages import Message, ParameterName
 from p2sf.parameters import check_angle, check_finite, check_positive, unit_behind
@@ -26,6 +26,8 @@ from p2sf.paraxial.pupils import (
 )
 
 StopChoice = Literal["file", "auto"]
+AimChoice = Literal["stop", "paraxial", "real"]
+"""As `Lens.aim`; "real" is the former name of "stop"."""
 FIELDS = ("field_deg", "object_height_mm", "image_height_mm")
 
 
@@ -53,6 +55,8 @@ class Request:
         Focal length over entrance-pupil diameter, instead of the file's aperture.
     stop
         Take the stop from the file, or let the narrowest rim decide (auto).
+    aim
+        Fill the rim of the real stop with exact rays (its former name is real), or the paraxial entrance pupil.
     """
 
     depth_mm: float = inf
@@ -64,6 +68,7 @@ class Request:
     sensor_shift_um: float = 0.0
     f_number: float | None = None
     stop: StopChoice = "file"
+    aim: AimChoice | None = None
 
     def __post_init__(self) -> None:
         for name in ("depth_mm", "focus_mm"):
@@ -75,11 +80,12 @@ class Request:
         check_angle("field_deg", self.field_deg)
         _check_one_field(self)
         _check_stop(self.stop)
+        check_aim(self.aim)
 
 
 @dataclass(frozen=True)
 class Setup:
-    """A request made concrete: the lens with its sensor, aperture and stop as asked, and the source.
+    """A request made concrete: the lens with its sensor, aperture, stop and aim as asked, and the source.
 
     ``prescription`` is the lens as its file has it.
     """
@@ -107,7 +113,7 @@ def set_up(lens: Lens, request: Request) -> Setup:
         indices(lens, wavelength)
     except GlassError as error:
         raise _of_the_request(error, request) from None
-    placed = with_sensor(_opened(lens, request.f_number), sensor_position(lens, request))
+    placed = with_sensor(aimed(_opened(lens, request.f_number), request.aim), sensor_position(lens, request))
     used, stop = _stopped(placed, request, wavelength)
     return with_field(Setup(used, Source(request.depth_mm, 0.0, wavelength), stop, lens), request)
 
@@ -143,6 +149,7 @@ def set_up_source(
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
     stop: StopChoice = "file",
+    aim: AimChoice | None = None,
 ) -> Setup:
     """Return the setup of a source that is known already; parameters of the camera and errors as `Request` has them."""
     for value in (source.depth_mm, source.field_slope, source.wavelength_um, source.azimuth_deg):
@@ -159,6 +166,7 @@ def set_up_source(
         sensor_shift_um=sensor_shift_um,
         f_number=f_number,
         stop=stop,
+        aim=aim,
     )
     return replace(set_up(lens, request), source=source)  # to the last digit, which degrees and nanometres may round
 
@@ -235,6 +243,11 @@ def _opened(lens: Lens, f_number: float | None) -> Lens:
     return lens if f_number is None else with_f_number(lens, f_number)
 
 
+def aimed(lens: Lens, aim: AimChoice | None) -> Lens:
+    """Return the lens with its pupil filled as asked, as the lens says where nothing is."""
+    return lens if aim is None else with_aim(lens, "stop" if aim == "real" else aim)
+
+
 def _stopped(lens: Lens, request: Request, wavelength_um: float) -> tuple[Lens, Stop]:
     """Return the stop in use, and the lens naming it, so that every later step agrees on it."""
     stop = find_stop(lens, request.depth_mm, wavelength_um, request.stop)
@@ -269,3 +282,9 @@ def _check_one_field(request: Request) -> None:
 def _check_stop(stop: str) -> None:
     if stop not in ("file", "auto"):
         raise RequestError('{parameter} is "{value}"; choose file or auto', parameter="stop", value=stop)
+
+
+def check_aim(aim: str | None) -> None:
+    """Raise RequestError for a way to fill the pupil that there is not; None passes."""
+    if aim not in (None, "stop", "paraxial", "real"):
+        raise RequestError('{parameter} is "{value}"; choose stop or paraxial', parameter="aim", value=aim)

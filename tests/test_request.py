@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import AIMS, with_aim
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import f_number, find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
@@ -68,6 +69,15 @@ def test_an_f_number_opens_the_lens():
     assert float(f_number(asked(f_number=4.5).lens, 0.5875618)) == pytest.approx(4.5, rel=ROUND_OFF)
 
 
+def test_the_lens_says_how_rays_fill_its_pupil_unless_asked_otherwise():
+    for aim in AIMS:
+        own = with_aim(lens(), aim)
+        assert set_up(own, Request()).lens == own
+        for asked_for in AIMS:
+            assert set_up(own, Request(aim=asked_for)).lens == with_aim(own, asked_for)
+        assert set_up(own, Request(aim="real")).lens.aim == "stop"  # its former name
+
+
 def test_stop_auto_hands_on_a_lens_that_names_the_narrowest_rim():
     petzval = prescription_lens("petzval", 587.5618)
     near = next(d for d in (100.0, 200.0, 300.0, 500.0) if find_stop(petzval, d).warning)
@@ -94,6 +104,8 @@ BAD = [
     ({"field_deg": 3, "image_height_mm": 2}, "field_deg and image_height_mm"),
     ({"object_height_mm": 3}, "object_height_mm is 3 mm"),
     ({"stop": "open"}, 'stop is "open"'),
+    ({"aim": "high"}, 'aim is "high"; choose stop or paraxial'),
+    ({"aim": ""}, 'aim is ""'),
 ]
 
 

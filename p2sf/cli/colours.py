@@ -37,7 +37,8 @@ def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None,
     if output:
         write_colour_psf(found, output, describe(setup))
     if as_json:
-        return print_json({"file": None if output is None else str(output), "pixels": picture.pixels, **figures(found)})
+        about = {"file": None if output is None else str(output), "pixels": picture.pixels, "aim": setup.lens.aim}
+        return print_json({**about, **figures(found)})
     warn(setup.stop.warning)
     return print_table(heading(setup), ("colour point spread function", "value", "unit"), rows(found, output))
 

@@ -10,7 +10,7 @@ import numpy as np
 from cyclopts import App, Parameter
 
 from p2sf.cli.options import Json, LensName, Whole, check_samples
-from p2sf.cli.screen import Row, print_json, print_table, text
+from p2sf.cli.screen import FILLED, Row, print_json, print_table, text
 from p2sf.cli.spans import even_span, span
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import Space, depth_nodes
@@ -21,7 +21,7 @@ from p2sf.files.writing import check_place
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
-from p2sf.request import Request, Setup, StopChoice, set_up
+from p2sf.request import AimChoice, Request, Setup, StopChoice, set_up
 
 if TYPE_CHECKING:
     from p2sf.database import ExactDatabase, GridDatabase
@@ -63,12 +63,15 @@ class CameraOptions:
         Focal length over entrance-pupil diameter.
     stop
         Take the stop from the file, or let the narrowest rim for an object at infinity decide (auto).
+    aim
+        Fill the rim of the real stop with exact rays (its former name is real), or the paraxial entrance pupil.
     """
 
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
     f_number: float | None = None
     stop: StopChoice = "file"
+    aim: AimChoice | None = None
 
 
 @dataclass(frozen=True)
@@ -132,7 +135,13 @@ def build(
     else:
         save_database(database, setup.lens, output, setup.stop)
     size = sum(p.stat().st_size for p in (output.rglob("*") if output.is_dir() else [output]) if p.is_file())
-    about = {"file": str(output), "bytes": size, "nodes": database.space.shape, "build_seconds": seconds}
+    about = {
+        "file": str(output),
+        "aim": setup.lens.aim,
+        "bytes": size,
+        "nodes": database.space.shape,
+        "build_seconds": seconds,
+    }
     if as_json:
         return print_json({**about, "errors_waves": database.errors})
     rows: list[Row] = [("nodes, depth × field × wavelength", " × ".join(map(str, database.space.shape)), "")]
@@ -237,6 +246,7 @@ def about_rows(meta: dict[str, Any], held: dict[str, Any]) -> list[Row]:
         ("interpolant", meta["interpolant"], ""),
         ("nodes, depth × field × wavelength", " × ".join(map(str, meta["nodes"])), ""),
         *((name.split("_")[0], covers[name], name.split("_")[1]) for name in covers),
+        ("exact rays fill", FILLED[meta["aim"]], ""),
         ("sensor from the last vertex", meta["sensor_mm"], "mm"),
         ("glasses", ", ".join(glass["glass"] for glass in meta["glasses"]), ""),
         ("made with p2sf", meta["versions"]["p2sf"], ""),

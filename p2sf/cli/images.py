@@ -9,7 +9,7 @@ from cyclopts import Parameter
 from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_samples
-from p2sf.cli.screen import Row, heading, print_json, print_table
+from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table
 from p2sf.colour.spectrum import WORDS
 from p2sf.errors import RequestError, SamplingError
 from p2sf.io.psf_files import ENDINGS, write_psf
@@ -109,17 +109,19 @@ def psf(
                 path=lens,
             )
         result, about, title = looked_up(lens, request, picture.pixels, picture.pixel_um)
+        aim = about["setup"]["aim"]
     else:
         setup = set_up(find_lens(lens), request)
         if not as_json:
             caution(setup, picture.seidel and picture.sampling != "fft")
         result, about, title = render(setup, picture), describe(setup) if output else {}, heading(setup)
+        aim = setup.lens.aim
     if output:
         write_psf(result, output, about)
     if as_json:
         file = None if output is None else str(output)
-        return print_json({"file": file, "pixels": picture.pixels, **facts(result), **figures(result)})
-    return print_table(title, ("point spread function", "value", "unit"), summary(result, output))
+        return print_json({"file": file, "pixels": picture.pixels, "aim": aim, **facts(result), **figures(result)})
+    return print_table(title, ("point spread function", "value", "unit"), summary(result, aim, output))
 
 
 def _in_colour(
@@ -171,7 +173,7 @@ def prediction(error: float | None) -> tuple[float | None, Message | str]:
     return error, CAUTIOUS if error > CAUTION else ""
 
 
-def summary(result: Psf, output: Path | None) -> list[Row]:
+def summary(result: Psf, aim: str, output: Path | None) -> list[Row]:
     """Return the rows that tell a person what was computed."""
     known, measured = facts(result), figures(result)
     rows: list[Row] = [
@@ -187,6 +189,7 @@ def summary(result: Psf, output: Path | None) -> list[Row]:
         ("sampling", result.sampling, ""),
         ("numbers that describe it", result.numbers, ""),
         ("traced rays", result.rays, ""),
+        *([("exact rays fill", FILLED[aim], "")] if result.method != "seidel" else []),
         ("time", 1e3 * result.seconds, "ms"),
     ]
     return rows if output is None else [*rows, ("written to", str(output), "")]

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Database = ExactDatabase | GridDatabase | FittedDatabase
 
-FROM_THE_LENS = {"object_height_mm": None, "focus_mm": None, "f_number": None, "stop": "file"}
+FROM_THE_LENS = {"object_height_mm": None, "focus_mm": None, "f_number": None, "stop": "file", "aim": None}
 
 
 def is_database(name: str) -> bool:
@@ -95,6 +95,7 @@ def description(stored: Stored, source: Source) -> dict[str, Any]:
         "field_deg": float(degrees_from_slope(source.field_slope)),
         "wavelength_nm": source.wavelength_um * NM_PER_UM,
         "sensor_mm": meta["sensor_mm"],
+        "aim": meta["aim"],
     }
     lens = {key: value for key, value in meta["lens"].items() if key != "toml"}
     kept = {key: meta[key] for key in ("method", "interpolant", "errors_waves")}

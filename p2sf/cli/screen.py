@@ -12,6 +12,7 @@ from p2sf.messages import Message
 from p2sf.request import Setup
 
 Row = tuple[object, ...]
+FILLED = {"stop": "the real stop", "paraxial": "the paraxial entrance pupil"}  # by exact rays, `Lens.aim`
 WIDE = 240  # columns of a page that no terminal limits
 
 

@@ -2,16 +2,15 @@
 
 from math import inf
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
 
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_whole
-from p2sf.cli.screen import heading, print_json, print_table, warn
+from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
 from p2sf.files.writing import write_beside, write_json
 from p2sf.io.record import describe
-from p2sf.lens.lens import with_aim
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import numerical_aperture
 from p2sf.psf.metrics import airy_radius_um
@@ -19,10 +18,6 @@ from p2sf.request import Setup, set_up
 
 MOST_RINGS = 200  # 120 601 rays
 
-Aim = Annotated[
-    Literal["stop", "paraxial", "real"],
-    Parameter(help="Fill the real stop (real is its former name), or the paraxial entrance pupil."),
-]
 Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
 Rings = Annotated[Whole, Parameter(help="Rings of rays over the pupil.")]
 
@@ -33,7 +28,6 @@ def spot(
     *,
     request: Asked = AS_IN_THE_FILE,
     rings: Rings = 12,
-    aim: Aim = "paraxial",
     clip: Clip = False,
     output: Output = None,
     as_json: Json = False,
@@ -41,14 +35,16 @@ def spot(
     """Trace exact rays and show the spot they make on the sensor; write it as .csv, .json or .png."""
     check_whole("rings", rings, 1, MOST_RINGS)
     check_output(output, WRITERS)
-    setup = set_up(with_aim(find_lens(lens), "stop" if aim == "real" else aim), request)
+    setup = set_up(find_lens(lens), request)
     points, figures = trace_spot(setup, rings, clip)
     if output:
         WRITERS[output.suffix.lower()](points, {**describe(setup), "spot": figures}, output)
     if as_json:
-        return print_json({"file": None if output is None else str(output), **figures, "points_um": points.tolist()})
+        about = {"file": None if output is None else str(output), "aim": setup.lens.aim}
+        return print_json({**about, **figures, "points_um": points.tolist()})
     warn(setup.stop.warning)
     rows = [(name, figures[key], unit) for key, name, unit in ROWS]
+    rows.append(("rays fill", FILLED[setup.lens.aim], ""))
     return print_table(heading(setup), ("spot", "value", "unit"), rows)
 
 

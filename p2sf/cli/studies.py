@@ -12,7 +12,7 @@ from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import write_beside, write_json
 from p2sf.lensfile.library import find_lens
-from p2sf.request import Request, StopChoice, set_up
+from p2sf.request import AimChoice, Request, StopChoice, set_up
 
 if TYPE_CHECKING:
     from p2sf.studies.tradeoff import MethodCost
@@ -27,6 +27,10 @@ StopName = Annotated[
     StopChoice,
     Parameter(help="Take the stop from the file, or let the narrowest rim for the first depth decide (auto)."),
 ]
+AimName = Annotated[
+    AimChoice | None,
+    Parameter(help="Fill the real stop with exact rays (its former name is real), or the paraxial entrance pupil."),
+]
 Pixels = Annotated[Whole, Parameter(help="Samples along each side of the compared window.")]
 
 
@@ -38,6 +42,7 @@ def tradeoff(
     depths_mm: Depths = None,
     wavelengths_nm: Waves = None,
     stop: StopName = "file",
+    aim: AimName = None,
     pixels: Pixels = 64,
     output: Output = None,
     as_json: Json = False,
@@ -48,7 +53,7 @@ def tradeoff(
     check_output(output, WRITTEN)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     depths = depths_mm or [inf]
-    asked = set_up(find_lens(lens), Request(depth_mm=depths[0], stop=stop)).lens
+    asked = set_up(find_lens(lens), Request(depth_mm=depths[0], stop=stop, aim=aim)).lens
     rows = tradeoff.tradeoff(asked, fields_deg, depths, wavelengths_nm, pixels=pixels)
     head, *lines = tradeoff.table(rows)
     title = f"{asked.title or asked.name}: each method against the Huygens sum, {pixels} × {pixels} samples"

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
-from p2sf.cli.screen import Row, heading, print_json, print_table, warn
+from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.cli.spots import Clip
 from p2sf.files.writing import write_beside
 from p2sf.lensfile.library import find_lens
@@ -54,8 +54,7 @@ def zernike(
         ("RMS of what these terms leave", found.residual, "waves"),
         ("terms are orthogonal over", over(found), ""),
     )
-    filled = {"stop": "the real stop", "paraxial": "the paraxial entrance pupil"}[setup.lens.aim]
-    return print_table(f"\nRays fill {filled}", ("wavefront", "value", "unit"), figures)
+    return print_table(f"\nRays fill {FILLED[setup.lens.aim]}", ("wavefront", "value", "unit"), figures)
 
 
 def over(found: ZernikeFit) -> str:

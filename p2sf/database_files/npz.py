@@ -16,7 +16,7 @@ from p2sf.database.render import Database
 from p2sf.database_files.provenance import Stored, provenance
 from p2sf.database_files.sealed import opened, read_sealed, sealed, write_sealed
 from p2sf.errors import DatabaseError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import AIMS, Lens
 from p2sf.paraxial.pupils import Stop
 from p2sf.raytrace.fit import Level
 
@@ -61,8 +61,13 @@ def same_database(one: bytes, other: bytes) -> bool:
 
 def _content(raw: bytes) -> tuple[Arrays, Meta]:
     arrays = opened(raw, MARK, "the database")
-    meta = json.loads(str(arrays.pop(MARK)))
+    meta = _meta(arrays.pop(MARK))
     return arrays, {**meta, "versions": None}
+
+
+def _meta(mark: np.ndarray) -> Meta:
+    """Return what a file says about its database; one from before `Lens.aim` filled the paraxial entrance pupil."""
+    return {"aim": "paraxial", **json.loads(str(mark))}
 
 
 def _arrays(database: Database, lens: Lens, stop: Stop | None) -> Arrays:
@@ -76,7 +81,7 @@ def _arrays(database: Database, lens: Lens, stop: Stop | None) -> Arrays:
 
 def _stored(arrays: Arrays, name: str | PathLike[str]) -> Stored:
     try:
-        meta = json.loads(str(arrays[MARK]))
+        meta = _meta(arrays[MARK])
         if meta["schema"] > SCHEMA:
             raise DatabaseError(
                 "{name} has schema {schema}, newer than {newest}, the newest this P2SF reads; update P2SF",
@@ -84,6 +89,8 @@ def _stored(arrays: Arrays, name: str | PathLike[str]) -> Stored:
                 schema=meta["schema"],
                 newest=SCHEMA,
             )
+        if meta["aim"] not in AIMS:
+            raise KeyError(f"an aim that is one of {AIMS}")
         space = Space(arrays["depths_mm"], arrays["field_slopes"], arrays["wavelengths_um"])
         _, unpack = _KINDS[meta["kind"]]
         return Stored(unpack(space, arrays, meta), meta)

@@ -11,7 +11,7 @@ from p2sf.database.render import Database, database_psf
 from p2sf.files.writing import plain
 from p2sf.glass.media import Medium
 from p2sf.io.record import versions
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
 from p2sf.notebook import html_table
@@ -42,7 +42,7 @@ class Stored:
     @cached_property
     def lens(self) -> Lens:
         """Return the lens the database was built from; LensFileError or GlassError where it cannot be read."""
-        return parse_toml(self.meta["lens"]["toml"], self.meta["lens"]["name"])
+        return with_aim(parse_toml(self.meta["lens"]["toml"], self.meta["lens"]["name"]), self.meta["aim"])
 
     def coefficients(self, source: Source) -> Coefficients:
         """Return the six coefficients of one source, looked up; DatabaseError outside what is covered."""
@@ -60,8 +60,8 @@ class Stored:
 
     def __repr__(self) -> str:
         nodes = " × ".join(map(str, self.meta["nodes"]))
-        kind = f"{self.meta['method']}, {self.meta['interpolant']}"
-        return f"<PSF database of {self.meta['lens']['name']}: {kind}, {nodes} nodes (depth × field × wavelength)>"
+        kind, axes = f"{self.meta['method']}, {self.meta['interpolant']}", "(depth × field × wavelength)"
+        return f"<PSF database of {self.meta['lens']['name']}: {kind}, {nodes} nodes {axes}, aim {self.meta['aim']}>"
 
     def _repr_html_(self) -> str:
         covers = [(name, low, inf if high is None else high) for name, (low, high) in self.meta["covers"].items()]
@@ -87,6 +87,7 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
             "glasses": [{"glass": label, "data": source} for label, source in _glasses(lens)],
             "stop": {"surface": int(stop.surface), "semi_diameter_mm": float(stop.semi_diameter)},
             "sensor_mm": lens.sensor_mm,
+            "aim": lens.aim,
             "covers": {
                 "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],
                 "field_deg": [low, high],

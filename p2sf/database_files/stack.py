@@ -103,7 +103,9 @@ def _create_arrays(draft: Path, stored: Stored, raw: bytes, pixels: int, pixel_u
 
 
 def _attributes(stored: Stored, pixel_um: float) -> dict[str, Any]:
-    known = {key: stored.meta[key] for key in ("method", "interpolant", "lens", "glasses", "conventions", "versions")}
+    known = {
+        key: stored.meta[key] for key in ("method", "interpolant", "aim", "lens", "glasses", "conventions", "versions")
+    }
     units = {"psf": "fraction of the window's light per sample", "depth_mm": "mm, from the first vertex"}
     return {"p2sf_stack_schema": SCHEMA, "pixel_um": pixel_um, "units": units, **known}
 

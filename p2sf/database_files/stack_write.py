@@ -54,7 +54,8 @@ def write_stack(
     stack = open_stack(path, "r+")
     if stack.psf.shape[-1] != sampling.pixels or stack.pixel_um != pitch or not same_database(stack.raw, raw):
         raise DatabaseError(
-            "{path} holds a stack of another lens, nodes or samples; choose another name or delete it", path=str(path)
+            "{path} holds a stack of another lens, aim, nodes or samples; choose another name or delete it",
+            path=str(path),
         )
     with _disk_errors(path):
         for torn in Path(path).rglob(f"*{TEMPORARY}*"):

@@ -53,6 +53,7 @@ def keywords(cube: Cube) -> list[tuple[str, object, str]]:
         ("BUNIT", "fraction", "of the light in the window, per pixel"),
         *_axis_keywords(cube),
         ("INSTRUME", lens.name[:60], "lens"),
+        ("AIM", cube.stored.meta["aim"], "exact rays fill the stop/paraxial pupil"),
         ("METHOD", cube.stored.database.method, "method of computing the PSF"),
         ("LENSHASH", cube.stored.meta["lens"]["sha256_of_toml"], ""),  # SHA-256 fills the card
         ("CREATOR", f"p2sf {__version__}", "software"),

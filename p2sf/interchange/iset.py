@@ -75,6 +75,7 @@ def ray_trace(stored: Stored, options: IsetOptions = DEFAULT) -> dict:
         "name": lens.title or lens.name,
         "program": f"p2sf {__version__}",
         "lensFile": lens.name,
+        "aim": lens.aim,
         "objectDistance": depth,
         "maxfov": float(degrees_from_slope(slopes[-1])),
         "fov": float(degrees_from_slope(slopes[-1])),

@@ -19,6 +19,7 @@ def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
     import tifffile
 
     about = {"conventions": CONVENTIONS, "pixel_um": cube.pixel_um, "method": cube.stored.meta["method"]}
+    about["aim"] = cube.stored.meta["aim"]
     about["lens"] = cube.stored.meta["lens"]["name"]
     metadata = {
         "axes": "TZCYX",

@@ -41,6 +41,7 @@ def describe(setup: Setup) -> dict:
                 "stop_surface": setup.stop.surface,
                 "stop_semi_diameter_mm": setup.stop.semi_diameter,
                 "stop_chosen_by": setup.stop.chosen_by,
+                "aim": setup.lens.aim,
             },
             "units": UNITS,
             "conventions": CONVENTIONS,

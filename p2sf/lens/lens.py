@@ -19,6 +19,7 @@ SMALLEST_RADIUS_MM = 1e-30
 ApertureKind = Literal["stop_semi_diameter", "entrance_pupil_diameter", "f_number"]
 Aim = Literal["stop", "paraxial"]
 AIMS = ("stop", "paraxial")
+USUAL_AIM: Aim = "paraxial"
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,7 @@ class Lens:
     fields_deg: tuple[float, ...] = (0.0,)
     wavelengths_nm: tuple[float, ...] = (587.5618,)
     object_medium: Medium = AIR
-    aim: Aim = "paraxial"
+    aim: Aim = USUAL_AIM
 
     def __post_init__(self) -> None:
         _check_surfaces(self.surfaces)
@@ -129,7 +130,7 @@ class Lens:
 
     def __repr__(self) -> str:
         opened = f"{self.aperture.kind} {self.aperture.value:g}"
-        return f"<Lens {self.name}: {len(self.surfaces)} surfaces, {opened}>"
+        return f"<Lens {self.name}: {len(self.surfaces)} surfaces, {opened}, aim {self.aim}>"
 
     def _repr_html_(self) -> str:
         columns = ("surface", "radius, mm", "thickness, mm", "medium", "conic", "semi-diameter, mm")

@@ -11,7 +11,7 @@ from p2sf.scene.scene import RGB, Channel, Scene
 from p2sf.scene.sensor import Sensor
 
 KEYS = {
-    "": {"name", "tolerance", "measure", "focus_mm", "f_number", "sensor", "depth", "channel"},
+    "": {"name", "tolerance", "measure", "focus_mm", "f_number", "aim", "sensor", "depth", "channel"},
     "sensor": {"rows", "columns", "pixel_um", "centre_mm"},
     "depth": {"near_mm", "far_mm", "map"},
     "channel": {"name", "wavelengths_nm", "weights"},
@@ -56,7 +56,7 @@ def scene_from(table: dict, path: Path) -> Scene:
     if missing:
         raise RequestError("[sensor] lacks {missing}; add it", missing=tuple(sorted(missing)))
     far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", "inf")))
-    given: dict[str, Any] = {key: table[key] for key in ("name", "measure") if key in table}
+    given: dict[str, Any] = {key: table[key] for key in ("name", "measure", "aim") if key in table}
     given |= {key: _number(key, table[key]) for key in ("tolerance", "focus_mm", "f_number") if key in table}
     return Scene(
         Sensor(

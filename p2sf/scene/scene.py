@@ -8,7 +8,7 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
-from p2sf.request import Request, set_up
+from p2sf.request import AimChoice, Request, check_aim, set_up
 from p2sf.scene.sensor import Sensor
 
 TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil keep no less
@@ -59,7 +59,8 @@ class Scene:
 
     ``tolerance``: relative L2 error of a pixel's kernel, which bounds a white picture's; or with ``measure`` "r2"
     the least R². ``focus_mm`` puts the sensor at the paraxial image of that distance and ``f_number`` sets
-    the stop, None leaves both as the lens file has them. ``depth_map`` names a picture of depths in mm.
+    the stop, None leaves both as the lens file has them. ``aim`` is how exact rays fill the pupil, as `Request` has
+    it. ``depth_map`` names a picture of depths in mm.
     """
 
     sensor: Sensor
@@ -70,6 +71,7 @@ class Scene:
     measure: str = "relative"
     focus_mm: float | None = None
     f_number: float | None = None
+    aim: AimChoice | None = None
     depth_map: str | None = None
     name: str = "scene"
 
@@ -97,6 +99,7 @@ class Scene:
                 measure=self.measure,
                 least=TIGHTEST,
             )
+        check_aim(self.aim)
         if not self.channels:
             raise RequestError("the scene has no channel; give at least one")
 
@@ -112,7 +115,7 @@ class Scene:
 
     def camera(self, lens: Lens) -> Lens:
         """Return the lens with the scene's focus and f-number."""
-        return set_up(lens, Request(focus_mm=self.focus_mm, f_number=self.f_number)).lens
+        return set_up(lens, Request(focus_mm=self.focus_mm, f_number=self.f_number, aim=self.aim)).lens
 
 
 def depth_of(vergence_per_mm: float) -> float:

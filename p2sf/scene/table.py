@@ -28,6 +28,7 @@ def plan_sentences(planned: Plan) -> list[str]:
 def plan_facts(planned: Plan) -> dict:
     """Return the plan as JSON carries it."""
     return {
+        "aim": planned.lens.aim,
         "tolerance": planned.scene.relative_tolerance,
         "predicted_error": planned.predicted_error,
         "meets": planned.meets,

@@ -33,6 +33,7 @@ class MethodCost:
 
     method: str
     quality: str
+    aim: str
     depth_mm: float
     field_deg: float
     wavelength_nm: float
@@ -107,6 +108,7 @@ def _row(
     return MethodCost(
         method=method,
         quality=quality,
+        aim=lens.aim,
         depth_mm=depth_mm,
         field_deg=field_deg,
         wavelength_nm=wavelength_nm,

@@ -100,6 +100,25 @@ def test_focusing_removes_the_defocus_and_a_shift_brings_it_back(answer):
     assert moved["wd"] == pytest.approx(waves, rel=1e-9)
 
 
+CAMERA = ("info", "coefficients", "psf", "spot", "zernike", "tradeoff", "database build")
+
+
+@pytest.mark.parametrize("command", CAMERA)
+def test_every_command_that_sets_a_camera_takes_how_rays_fill_the_pupil(said, refused, command):
+    assert "--aim" in said(*command.split(), "--help")
+    output = ("-o", "a.npz") if "build" in command else ()
+    assert "--aim" in refused(*command.split(), "double_gauss_28", *output, "--aim", "high")
+
+
+def test_rays_fill_the_stop_or_the_paraxial_pupil_and_json_says_which(answer):
+    place = ("psf", "double_gauss_28", "--field-deg", 14, "--method", "traced", "--pixels", 32, "--pixel-um", 1)
+    stop, paraxial, former = (answer(*place, "--aim", aim) for aim in ("stop", "paraxial", "real"))
+    assert (stop["aim"], paraxial["aim"]) == ("stop", "paraxial")
+    assert former["strehl"] == stop["strehl"] != pytest.approx(paraxial["strehl"], rel=1e-3)
+    colour = ("--spectrum", "d65", "--pixels", 16, "--pixel-um", 2, "--aim")
+    assert answer("psf", "double_gauss_28", "--method", "seidel", *colour, "paraxial")["aim"] == "paraxial"
+
+
 def test_the_sensor_does_not_move_with_the_colour(answer):
     blue = answer("coefficients", "double_gauss_28", "--focus-mm", "inf", "--wavelength-nm", 486.1327)
     assert abs(blue["wd"]) > 0.5  # its image lies elsewhere than the reference wavelength's

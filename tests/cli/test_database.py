@@ -50,6 +50,22 @@ def test_info_says_where_it_comes_from(said, file):
     assert answer["schema"] == 1
 
 
+@pytest.mark.parametrize(("aim", "words"), [("stop", "the real stop"), ("paraxial", "the paraxial entrance pupil")])
+def test_how_rays_filled_the_pupil_is_kept_and_told(said, refused, tmp_path, aim, words):
+    path = tmp_path / "a.npz"
+    build = ("database", "build", "double_gauss_28", *GRID, "--aim", aim, "--json")
+    assert json.loads(said(*build, "-o", path))["aim"] == aim
+    assert load_database(path).lens.aim == json.loads(said("database", "info", path, "--json"))["aim"] == aim
+    assert words in said("database", "info", path)
+    point = ("--wavelength-nm", 550, "--pixels", 16, "--pixel-um", 20)
+    assert json.loads(said("psf", path, *point, "--json"))["aim"] == aim
+    said("psf", path, *point, "-o", tmp_path / "a.tiff")
+    assert read_psf(tmp_path / "a.tiff")[1]["setup"]["aim"] == aim
+    assert "--aim needs the lens" in refused("psf", path, "--aim", aim)
+    said("export", path, "--to", "csv", "-o", tmp_path / "a.csv")
+    assert f'"aim": "{aim}"' in (tmp_path / "a.csv").read_text(encoding="utf-8")
+
+
 def test_psf_from_a_database_is_the_psf_of_the_lens(said, file, tmp_path):
     point = ("--depth-mm", 3000, "--field-deg", 7, "--wavelength-nm", 550, "--pixels", 32, "--pixel-um", 20)
     said("psf", file, *point, "-o", tmp_path / "a.npz")

@@ -13,7 +13,7 @@ FIGURES = ["rms_um", "largest_um", "centroid_y_um", "airy_radius_um", "rays", "l
 
 def test_the_figures_are_those_of_the_points(answer):
     found = answer(*PLACE, "--rings", 6)
-    assert list(found) == ["file", *FIGURES, "points_um"]
+    assert list(found) == ["file", "aim", *FIGURES, "points_um"]
     points = np.array(found["points_um"])
     assert found["rays"] == len(points) == 1 + 3 * 6 * 7  # the centre and rings of 6, 12, … 36
     off_centre = points - points.mean(axis=0)
@@ -43,7 +43,10 @@ def test_vignetting_loses_rays(answer):
 
 
 def test_aiming_at_the_stop_changes_the_spot(answer):
-    assert answer(*PLACE, "--aim", "real")["rms_um"] != pytest.approx(answer(*PLACE)["rms_um"], rel=1e-3)
+    stop, paraxial = (answer(*PLACE, "--aim", aim) for aim in ("stop", "paraxial"))
+    assert (stop["aim"], paraxial["aim"]) == ("stop", "paraxial")
+    assert stop["rms_um"] != pytest.approx(paraxial["rms_um"], rel=1e-3)
+    assert answer(*PLACE, "--aim", "real") == stop  # its former name
 
 
 def test_files_hold_the_points(answer, tmp_path):

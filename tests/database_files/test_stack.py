@@ -18,6 +18,7 @@ from p2sf.database.render import Sampling, rendered
 from p2sf.database_files.stack import chunk_shape, open_stack, read_psfs
 from p2sf.database_files.stack_write import StackProgress, write_stack
 from p2sf.errors import DatabaseError
+from p2sf.lens.lens import with_aim
 from p2sf.lensfile.library import find_lens
 
 ROOT = Path(__file__).parents[2]
@@ -139,8 +140,15 @@ def test_a_full_disk_is_a_sentence_and_the_next_attempt_goes_on(stack, tmp_path,
 
 def test_another_stack_at_that_place_is_left_alone(stack):
     before = contents(stack.path)
-    for change in ((small(fields=4), SAMPLING), (small(), Sampling(16, 1.0)), (small(), Sampling(32, 0.9))):
-        with pytest.raises(DatabaseError, match="holds a stack of another lens, nodes or samples"):
+    database, lens = small()
+    other_pupil = database, with_aim(lens, "paraxial" if lens.aim == "stop" else "stop")
+    for change in (
+        (small(fields=4), SAMPLING),
+        (other_pupil, SAMPLING),
+        (small(), Sampling(16, 1.0)),
+        (small(), Sampling(32, 0.9)),
+    ):
+        with pytest.raises(DatabaseError, match="holds a stack of another lens, aim, nodes or samples"):
             write_stack(*change[0], stack.path, change[1])
     assert contents(stack.path) == before
 

@@ -91,6 +91,7 @@ def test_fits_is_verified_by_astropy(cube, lens, tmp_path):
         assert head["OVERSAMP"] == 1
         assert head["DIAM"] == pytest.approx(0.0333, rel=0.01)  # a 100 mm lens at f/3
         assert head["CRPIX2"] == 17
+        assert head["AIM"] == lens.aim
         assert file["DEPTH"].data["DEPTH"].tolist() == cube.depths_mm.tolist()
         assert file["WAVELENGTH"].columns["WAVELENGTH"].unit == "nm"
 
@@ -129,6 +130,7 @@ def test_tiff_is_an_imagej_hyperstack(cube, tmp_path):
         assert len(file.pages) == 45
         np.testing.assert_array_equal(file.asarray(), cube.values)
         metadata = file.imagej_metadata
+        assert json.loads(metadata["Info"])["aim"] == cube.stored.meta["aim"]
         assert (metadata["frames"], metadata["slices"], metadata["channels"]) == (3, 5, 3)
         assert metadata["unit"] == "um"
         assert metadata["Labels"][-1] == "depth inf mm, field 14 deg, 650 nm"

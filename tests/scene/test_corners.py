@@ -10,7 +10,9 @@ import tifffile
 from p2sf.cli import main
 from p2sf.errors import RequestError
 from p2sf.io.photo_files import read_photo, write_photo
-from p2sf.scene import Channel, Scene, Sensor
+from p2sf.lens.lens import AIMS, with_aim
+from p2sf.lensfile.library import find_lens
+from p2sf.scene import Channel, Scene, Sensor, read_scene
 from tests.cli.test_scene import SCENE
 
 SIMPLE = Scene(Sensor(40, 60, 60.0))
@@ -25,11 +27,23 @@ SIMPLE = Scene(Sensor(40, 60, 60.0))
         ({"tolerance": 1.0}, "the tolerance is 1; give a number between 0 and 1"),
         ({"tolerance": 1e-9}, "tighter than .* render single PSFs with method huygens"),
         ({"channels": ()}, "the scene has no channel"),
+        ({"aim": "high"}, 'aim is "high"; choose stop or paraxial'),
     ],
 )
 def test_a_scene_that_cannot_be_is_refused(change, words):
     with pytest.raises(RequestError, match=words):
         replace(SIMPLE, **change)
+
+
+@pytest.mark.parametrize(("line", "aim"), [("", None), ('aim = "paraxial"', "paraxial"), ('aim = "real"', "stop")])
+def test_a_scene_says_how_rays_fill_the_pupil_or_leaves_it_to_the_lens(tmp_path, line, aim):
+    (tmp_path / "scene.toml").write_text(line + SCENE)
+    scene, lens = read_scene(tmp_path / "scene.toml"), find_lens("double_gauss_28")
+    for own in AIMS:
+        assert scene.camera(with_aim(lens, own)).aim == (aim or own)
+    (tmp_path / "scene.toml").write_text('aim = "high"' + SCENE)
+    with pytest.raises(RequestError, match=r'scene\.toml: aim is "high"'):
+        read_scene(tmp_path / "scene.toml")
 
 
 @pytest.mark.parametrize(

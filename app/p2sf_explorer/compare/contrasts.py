@@ -12,11 +12,13 @@ from p2sf_explorer.state.what_if import is_altered
 
 LINK_WORDS = {quantity.key: quantity.title for quantity in QUANTITIES}
 LINK_WORDS |= {"method": "Method", "added_waves": "Added waves"}
+AIM_WORDS = {"stop": "the real stop", "paraxial": "the paraxial pupil"}
 SAME = 1e-9  # relative: below, two values differ by rounding
 OTHERS: tuple[tuple[str, str, Callable[[Any], Message]], ...] = (
     ("method", "Method", Message),
     ("tolerance", "Tolerance", lambda value: Message("R² ≥ {value:g}", value=value)),
     ("stop", "Stop", lambda value: Message("as in the file") if value == "file" else Message("found")),
+    ("aim", "Rays fill", lambda value: Message(AIM_WORDS[value])),
     ("clip", "Clip at rims", lambda value: Message("on") if value else Message("off")),
 )
 

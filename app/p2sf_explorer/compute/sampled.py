@@ -12,7 +12,7 @@ from p2sf_explorer.state.state import State
 
 OPTICS = (
     *("lens", "lens_text", "depth_mm", "focus_mm", "sensor_shift_um", "field_deg", "wavelength_nm", "f_number"),
-    *("stop", "clip", "added_waves", "muted", "solo", "free_pupil"),
+    *("stop", "aim", "clip", "added_waves", "muted", "solo", "free_pupil"),
 )
 
 

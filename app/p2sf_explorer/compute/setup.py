@@ -163,6 +163,7 @@ def _request(state: State, field_deg: float | None) -> Request:
         sensor_shift_um=state.optics.sensor_shift_um,
         f_number=state.optics.f_number,
         stop="auto" if state.optics.stop == "auto" else "file",
+        aim="paraxial" if state.optics.aim == "paraxial" else "stop",
     )
 
 

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
+from p2sf_explorer.compare.contrasts import AIM_WORDS
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, Scale, visible_colour
 from p2sf_explorer.compute.setup import Ranges, default_state, prescription, ranges
@@ -30,6 +31,10 @@ from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.widgets.value_edit import PlayButton, ValueEdit
 
 STOP_TIP = "Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|."
+AIM_TIP = (
+    "Rays fill: the real stop, as light does, or the paraxial entrance pupil, the usual choice of the paper and of "
+    "most programs. Off axis and in fast lenses the two differ."
+)
 CLIP_TIP = "Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis."
 CHOICES = (("file", "as in the file"), ("auto", "found"))
 
@@ -60,6 +65,26 @@ class StopRow(QWidget):
             self.clip.blockSignals(True)
             self.clip.setChecked(state.optics.clip)
             self.clip.blockSignals(False)
+
+
+class AimRow(QWidget):
+    """Chooser of how exact rays fill the pupil; it updates the store and follows the state."""
+
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        name = QLabel(tr("Rays fill"), self)
+        name.setToolTip(tr(AIM_TIP))
+        self.aim = chooser(tuple(AIM_WORDS.items()), AIM_TIP, self)
+        self.aim.activated.connect(lambda: store.update(aim=self.aim.currentData()))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(name)
+        row.addWidget(self.aim)
+        row.addStretch(1)
+
+    def show_state(self, state: State) -> None:
+        """Follow a state; no signal goes back."""
+        select(self.aim, state.optics.aim)
 
 
 WIDTH = 292
@@ -194,7 +219,7 @@ class Controls(QWidget):
         self.focus_button = QPushButton(tr("Autofocus: best RMS wavefront"), self)
         self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
         self.focus_button.clicked.connect(self.autofocus)
-        self.stopping = StopRow(store, self)
+        self.stopping, self.aiming = StopRow(store, self), AimRow(store, self)
         self.sentence, self.detail, self.facts = QLabel(self), QLabel(self), FactTable(self)
         self._lay_out()
 
@@ -207,6 +232,7 @@ class Controls(QWidget):
         for row in self.rows.values():
             column.addWidget(row)
         column.addWidget(self.stopping)
+        column.addWidget(self.aiming)
         column.addWidget(self.focus_button)
         column.addSpacing(4)
         column.addWidget(self.sentence)
@@ -236,6 +262,7 @@ class Controls(QWidget):
         for row in self.rows.values():
             row.show_state(state, limits)
         self.stopping.show_state(state)
+        self.aiming.show_state(state)
 
     def show_live(self, live: Live) -> None:
         """Show what follows from the state: heights, sensor position, the dominant term."""

@@ -2,11 +2,13 @@
 
 from math import inf
 
+from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
 from p2sf_explorer.state.terms import TERMS
 
 CHOICES = {
     "stop": ("file", "auto"),
+    "aim": AIMS,
     "method": ("auto", "seidel", "fitted", "traced", "huygens"),
     "psf_scale": ("linear", "sqrt", "log"),
     "psf_units": ("sum", "peak", "strehl"),

@@ -21,7 +21,7 @@ def is_link(text: str) -> bool:
 
 
 def link(state: State) -> str:
-    """Return the state as text: the entries that differ from the default, as deflated JSON in URL-safe base 64.
+    """Return the state as text: ``aim`` and what differs from the default, as deflated JSON in URL-safe base 64.
 
     The alphabet is that of RFC 4648, section 5, without padding.
     """
@@ -44,11 +44,12 @@ def state_of_link(text: str) -> State:
 
 
 def shortened(state: State) -> dict[str, dict[str, Any]]:
-    """Return the entries that differ from the first state, as plain JSON values, group by group."""
+    """Return ``aim`` and the entries that differ from the first state, as plain JSON values, group by group."""
     usual, short = state_to_dict(State()), {}
     for group, entries in state_to_dict(state).items():
-        if differing := {name: value for name, value in entries.items() if value != usual[group][name]}:
-            short[group] = differing
+        stated = {name: value for name, value in entries.items() if value != usual[group][name] or name == "aim"}
+        if stated:
+            short[group] = stated
     if state.compare.pinned:
         short["compare"]["pinned"] = shortened(state.compare.pinned)
     return short

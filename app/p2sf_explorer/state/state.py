@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import USUAL_AIM
 from p2sf.messages import Message
 from p2sf_explorer.state.limits import (
     CHOICES,
@@ -99,7 +100,7 @@ class Optics:
     """The lens, how it is set, the source, and the method; with `WhatIf` all that makes the picture.
 
     ``lens_text`` is the TOML text of a lens edited in the window, None while the lens is as ``lens`` names it.
-    ``focus_mm`` and ``f_number`` are None where the lens file's value holds.
+    ``focus_mm`` and ``f_number`` are None where the lens file's value holds. ``aim`` is that of `p2sf.lens.lens.Lens`.
     """
 
     lens: str = "double_gauss_28"
@@ -111,6 +112,7 @@ class Optics:
     wavelength_nm: float = 587.5618
     f_number: float | None = None
     stop: str = "file"
+    aim: str = USUAL_AIM
     clip: bool = False
     method: str = "auto"
     tolerance: float = 0.99

@@ -13,7 +13,8 @@ from p2sf_explorer.state.state import ENTRIES, FIRST, State
 
 SCHEMA = "p2sf-explorer-state"
 THE_STATE = Message("the state")
-VERSION = 2
+VERSION = 3  # 1 was one flat table, 2 had no aim
+BEFORE_AIM = {"optics": {"aim": "paraxial"}}  # what a state means that does not say how rays fill the pupil
 # Entries whose name version 0.1 (VERSION 1, one flat table) had otherwise.
 RENAMED = {
     "play": "playback_slider",
@@ -50,7 +51,7 @@ def _plain(value: Any) -> Any:
 def state_from_dict(values: dict[str, Any], version: int = VERSION) -> State:
     """Return the state of plain JSON values, defaults for what is absent; P2SFError for anything else.
 
-    ``version`` 1 is the flat table of version 0.1.
+    ``version`` 1 is the flat table of version 0.1. A state without ``aim`` is from before it, and paraxial.
     """
     try:
         return _state(_migrated(values) if version == 1 else values)
@@ -73,13 +74,14 @@ def _migrated(values: dict[str, Any]) -> dict[str, Any]:
 def _state(values: dict[str, Any]) -> State:
     known = tuple(field.name for field in fields(State))
     groups: dict[str, Any] = {}
-    for name, entries in values.items():
+    for name, entries in (BEFORE_AIM | values).items():
         if name not in known:
             raise _unknown(name, known)
         if not isinstance(entries, dict):
             raise P2SFError('the state\'s group "{group}" is no table; save it again from the explorer', group=name)
         default = getattr(FIRST, name)
         own = tuple(field.name for field in fields(default))
+        entries = BEFORE_AIM.get(name, {}) | entries
         for entry in entries:
             if entry not in own:
                 raise _unknown(entry, own)
@@ -147,7 +149,7 @@ def state_from_json(text: str, where: str | Message = THE_STATE) -> State:
 
 def check_version(found: object, where: str | Message) -> None:
     """Raise P2SFError for a version of states that this program does not read."""
-    if found not in (1, VERSION) or isinstance(found, bool):
+    if found not in range(1, VERSION + 1) or isinstance(found, bool):
         raise P2SFError(
             "{where} has version {found}; this program reads versions up to {version:d}",
             where=where,

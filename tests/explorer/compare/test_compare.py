@@ -5,6 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytest import approx
 
+from p2sf.lens.lens import AIMS
 from p2sf.lensfile.library import lenses_folder
 from p2sf.messages import Message
 from p2sf_explorer.compare.comparison import answers, resampled
@@ -88,6 +89,7 @@ def test_equal_setups_differ_nowhere():
 UNLIKE = {
     **{"lens": "achromat_f6", "lens_text": "as it is", "depth_mm": 900.0, "focus_mm": 900.0, "sensor_shift_um": 7.0},
     **{"field_deg": 5.0001, "wavelength_nm": 500.0, "f_number": 8.0, "stop": "auto", "clip": True, "method": "traced"},
+    **{"aim": next(aim for aim in AIMS if aim != A.optics.aim)},
     **{"tolerance": 0.9, "added_waves": (0.5, *(0.0,) * 5), "muted": ("w40",), "solo": ("w31",), "free_pupil": True},
 }
 

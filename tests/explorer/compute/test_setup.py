@@ -11,12 +11,14 @@ STATES = [
     new_state(field_deg=10.0),
     new_state(depth_mm=2000.0, field_deg=-3.0, focus_mm=900.0, sensor_shift_um=12.0, f_number=5.6, wavelength_nm=486.1),
     changed(with_lens(State(), "relay"), field_deg=1.5, stop="auto"),
+    new_state(aim="stop"),
+    new_state(aim="paraxial"),
 ]
 
 
-@pytest.mark.parametrize("state", STATES, ids=["as filed", "all of it", "relay"])
+@pytest.mark.parametrize("state", STATES, ids=["as filed", "all of it", "relay", "stop", "paraxial"])
 def test_the_setup_is_what_the_library_sets_up_for_the_same_request(state):
-    names = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number", "stop")
+    names = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number", "stop", "aim")
     expected = set_up(prescription(state), Request(**{name: entry(state, name) for name in names}))
     found = paraxial_setup(state)
     assert (found.lens, found.source) == (expected.lens, expected.source)

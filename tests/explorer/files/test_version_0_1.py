@@ -6,16 +6,21 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.lens.lens import AIMS
 from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.files import session
 from p2sf_explorer.files.opening import opened
 from p2sf_explorer.state.link import state_of_link
-from p2sf_explorer.state.state import ENTRIES, State, entry
+from p2sf_explorer.state.state import ENTRIES, State, changed, entry
 from p2sf_explorer.state.state_files import RENAMED, read_state
 from tests.support.reference import DATA
 
 FILES = DATA / "version_0_1"
 EXPECTED = json.loads((FILES / "expected.json").read_text(encoding="utf-8"))
+for state in EXPECTED.values():  # as version 0.1 wrote them, when rays always filled the paraxial pupil
+    for side in (state, state["pinned"] or {}):
+        side["aim"] = "paraxial"
 LINKS = json.loads((FILES / "links.json").read_text(encoding="utf-8"))
 SNAPSHOTS = sorted(FILES.glob("snapshot_*.*"))
 
@@ -43,7 +48,7 @@ def test_a_state_file_and_a_link_are_the_state_they_were(name):
 def test_every_entry_of_the_old_state_is_tried_away_from_its_default():
     usual = EXPECTED["plain"] | {"method": "auto"}
     tried = {name for state in EXPECTED.values() for name, value in state.items() if value != usual[name]}
-    assert tried == set(usual)
+    assert tried == set(usual) - {"aim"}  # which it did not know
 
 
 @pytest.mark.parametrize("path", SNAPSHOTS, ids=lambda path: path.name)
@@ -58,6 +63,22 @@ def test_the_picture_of_an_old_snapshot_is_the_same(name):
     with np.load(path) as arrays:
         stored = arrays["psf"]
     assert np.allclose(live(opened(State(), str(path))).psf.values, stored, rtol=0, atol=1e-12 * stored.max())
+
+
+@pytest.mark.parametrize("path", SNAPSHOTS, ids=lambda path: path.name)
+def test_rays_fill_the_paraxial_pupil_of_an_old_snapshot(path):
+    state = opened(State(), str(path))
+    assert paraxial_setup(state).lens.aim == "paraxial"
+    assert state.compare.pinned is None or paraxial_setup(state.compare.pinned).lens.aim == "paraxial"
+
+
+def test_the_exact_picture_of_an_old_state_is_that_of_the_paraxial_pupil():
+    """To rounding; the real stop makes another picture of the same state."""
+    state = changed(read_state(FILES / "moved.json"), method="traced")
+    pictures = {aim: live(changed(state, aim=aim)).psf.values for aim in AIMS}
+    peak = pictures["paraxial"].max()
+    assert np.array_equal(live(state).psf.values, pictures["paraxial"])
+    assert np.abs(pictures["stop"] - pictures["paraxial"]).max() > 1e-4 * peak
 
 
 def test_the_last_session_comes_back(monkeypatch):

@@ -90,8 +90,14 @@ def test_the_question_mark_lists_every_key(window, qtbot):
     assert not page.isVisible()
 
 
-def test_stop_and_clip_tell_the_store_and_follow_it(window, qtbot):
-    row = window.controls.stopping
+def test_stop_aim_and_clip_tell_the_store_and_follow_it(window, qtbot):
+    row, filled = window.controls.stopping, window.controls.aiming.aim
+    usual = window.store.state.optics.aim
+    filled.setCurrentIndex(1 - filled.currentIndex())
+    filled.activated.emit(filled.currentIndex())
+    assert window.store.state.optics.aim == window.live.setup.lens.aim == filled.currentData() != usual
+    window.store.undo()
+    assert filled.currentData() == window.live.setup.lens.aim == usual
     row.stop.setCurrentIndex(row.stop.findData("auto"))
     row.stop.activated.emit(row.stop.currentIndex())
     assert window.store.state.optics.stop == "auto"

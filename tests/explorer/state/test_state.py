@@ -10,8 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import AIMS
+from p2sf_explorer.state.link import shortened
 from p2sf_explorer.state.state import CHOICES, LINKABLE, State, new_state
-from p2sf_explorer.state.state_files import SCHEMA, read_state, state_from_json, state_to_json
+from p2sf_explorer.state.state_files import SCHEMA, read_state, state_from_json, state_to_dict, state_to_json
 from p2sf_explorer.state.terms import TERMS
 
 finite = {"allow_nan": False, "allow_infinity": False}
@@ -57,6 +59,24 @@ def test_json_and_back_is_identical(state):
     assert state_from_json(state_to_json(state, versions={"p2sf": "x"})) == state
 
 
+@pytest.mark.parametrize("version", [2, 3])
+def test_a_state_without_aim_fills_the_paraxial_pupil_as_before_there_was_one(version):
+    groups = {"optics": {"field_deg": 3.0}, "compare": {"pinned": {"what_if": {"free_pupil": True}}}}
+    for values in (groups, {}):
+        text = json.dumps({"schema": SCHEMA, "version": version, "state": values})
+        state = state_from_json(text)
+        assert state.optics.aim == "paraxial"
+        assert state.compare.pinned is None or state.compare.pinned.optics.aim == "paraxial"
+
+
+@pytest.mark.parametrize("aim", AIMS)
+def test_every_file_and_link_says_how_rays_fill_the_pupil(aim):
+    state = new_state(aim=aim, pinned=new_state(aim=aim))
+    written = state_to_dict(state), shortened(state)
+    for groups in written:
+        assert groups["optics"]["aim"] == groups["compare"]["pinned"]["optics"]["aim"] == aim
+
+
 def test_infinity_is_plain_json():
     text = state_to_json(State())
     assert json.loads(text, parse_constant=pytest.fail)["state"]["optics"]["depth_mm"] == "inf"
@@ -69,6 +89,8 @@ def test_infinity_is_plain_json():
         ({"depth_mm": float("nan")}, "source depth is nan mm"),
         ({"field_deg": 90.0}, "field angle is 90°"),
         ({"field_deg": "wide"}, "field angle is 'wide'"),
+        ({"aim": "high"}, 'aim is "high"; choose one of stop, paraxial'),
+        ({"aim": None}, 'aim is "None"; choose one of stop, paraxial'),
         ({"method": "magic"}, 'method is "magic"; choose one of auto'),
         ({"lens": ""}, "names no lens"),
         ({"lens_text": 3}, "edited lens is not text"),
