@@ -24,7 +24,7 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.zernike import basis, gradient, terms
-from p2sf.raytrace.fit import FittedPencil, Level, level_rays
+from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays
 from p2sf.raytrace.ray_field import Steepness
 
 
@@ -67,9 +67,11 @@ class FittedDatabase:
 
     def fit_at(self, source: Source) -> FittedPencil:
         """Return the fitted pencil of one source, looked up and not traced; DatabaseError outside the space."""
-        phase, fx, fy, _ = split(self.level, self.numbers_at(source))
+        phase, fx, fy, weight, _ = split(self.level, self.numbers_at(source))
         steep = steepness(self.level, phase, fx, fy)
-        return FittedPencil(self.level, phase, fx, fy, self.residual_waves, steep, blur_um2=np.nan, rays=0)
+        return FittedPencil(
+            self.level, phase, fx, fy, self.residual_waves, steep, blur_um2=np.nan, rays=0, weight=weight
+        )
 
     def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:
         """Return the PSF of one source, from looked-up numbers.
@@ -141,17 +143,20 @@ def powers(level: Level, source: Source) -> np.ndarray:
     even_phase = [m % 2 for _, m in terms(level.wave_order)]
     odd_map = [(m + 1) % 2 for _, m in terms(level.map_order, True)]
     even_map = [(m + 1) % 2 for _, m in terms(level.map_order)]
-    parity = np.array([*even_phase, *odd_map, *even_map, 1])
+    even_weight = [m % 2 for _, m in terms(level.map_order)] if level.weighted else []
+    parity = np.array([*even_phase, *odd_map, *even_map, *even_weight, 1])
     wavelength = np.full(parity.size, source.wavelength_um)
-    wavelength[-1] = 1.0
+    wavelength[-1 - len(even_weight) :] = 1.0
     scale: np.ndarray = np.where(parity == 1, source.field_slope, 1.0) / wavelength
     return scale
 
 
-def split(level: Level, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """Return phase, fx, fy and the chief ray's height from the numbers of one source."""
+def split(level: Level, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:
+    """Return phase, fx, fy, weight and the chief ray's height from the numbers of one source."""
     waves, odd = len(terms(level.wave_order)), len(terms(level.map_order, True))
-    return numbers[:waves], numbers[waves : waves + odd], numbers[waves + odd : -1], float(numbers[-1])
+    even = len(terms(level.map_order))
+    phase, fx, fy, weight = np.split(numbers[:-1], [waves, waves + odd, waves + odd + even])
+    return phase, fx, fy, weight if level.weighted else UNIFORM, float(numbers[-1])
 
 
 def steepness(level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> Steepness:

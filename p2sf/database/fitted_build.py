@@ -15,7 +15,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.pupil.zernike import terms
-from p2sf.raytrace.fit import LEVELS, FittedPencil, Level, fit, level_rays
+from p2sf.raytrace.fit import FittedPencil, Level, fit, level_rays
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
 
@@ -58,7 +58,7 @@ def build_fitted(
 def _level_for(lens: Lens, axes: Axes, stop: Stop) -> tuple[Level, float]:
     """Return the highest level that a corner of the space needs, and the largest residual at that level."""
     corners = [axes.source(place) for place in product(*([-1.0, 1.0] if spread else [0.0] for spread in axes.spread))]
-    level = max((fit(lens, corner, stop=stop).level for corner in corners), key=LEVELS.index)
+    level = max((fit(lens, corner, stop=stop).level for corner in corners), key=lambda level: level.numbers)
     return level, max(fit(lens, corner, level.numbers, stop=stop).residual_waves for corner in corners)
 
 
@@ -78,7 +78,8 @@ def _row(lens: Lens, source: Source, level: Level, stop: Stop) -> np.ndarray:
     """Return the numbers of one source, divided by `powers`."""
     found = fit(lens, source, level.numbers, stop=stop)
     chief = pencil(lens, source, np.zeros(1), np.zeros(1), stop=stop).chief_y
-    numbers = np.concatenate([found.phase, found.fx, found.fy, np.ravel(chief)])
+    weight = found.weight[: found.weight.size * level.weighted]
+    numbers = np.concatenate([found.phase, found.fx, found.fy, weight, np.ravel(chief)])
     scale = powers(level, source)
     row: np.ndarray = np.divide(numbers, scale, out=np.zeros_like(numbers), where=scale != 0)
     return row
@@ -100,7 +101,7 @@ def ray_error(
 ) -> float:
     """Return the RMS phase error in waves of looked-up numbers against the fit itself, where the rays land."""
     level = database.level
-    phase, fx, fy, _ = split(level, database.numbers_at(source))
+    phase, fx, fy, _, _ = split(level, database.numbers_at(source))
     difference = replace(direct, phase=phase - direct.phase, fx=fx - direct.fx, fy=fy - direct.fy)
     wave, across, along = difference.at(*level_rays(level)[:2])
     return float(np.sqrt(np.mean((wave + across * x_um + along * y_um) ** 2)))

@@ -125,14 +125,15 @@ def _unpack_grid(space: Space, arrays: Arrays, meta: Meta) -> GridDatabase:
 
 def _pack_fitted(database: FittedDatabase) -> tuple[Arrays, Meta]:
     arrays, numbers = _pack_exact(database.seidel)
-    level = [getattr(database.level, name) for name in LEVEL]
+    level = [getattr(database.level, name) for name in LEVEL] + [1] * database.level.weighted
     numbers = {**numbers, "level": level, "seidel_errors_waves": database.seidel.errors}
     return {**arrays, "fits": database.series}, {**numbers, "residual_waves": database.residual_waves}
 
 
 def _unpack_fitted(space: Space, arrays: Arrays, meta: Meta) -> FittedDatabase:
     numbers = meta["numbers"]
-    level = Level(*(int(count) for count in numbers["level"]))
+    wave_order, map_order, radii, directions, *weighted = (int(count) for count in numbers["level"])
+    level = Level(wave_order, map_order, radii, directions, bool(weighted and weighted[0]))
     fits = _shaped(arrays["fits"], (None, None, None, level.numbers + 1))
     seidel = _unpack_exact(space, arrays, {**meta, "errors_waves": numbers["seidel_errors_waves"]})
     return FittedDatabase(seidel, fits, level, meta["errors_waves"], numbers["residual_waves"])

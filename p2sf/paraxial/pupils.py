@@ -58,12 +58,16 @@ class Stop:
 
 @dataclass(frozen=True)
 class Pupils:
-    """Entrance and exit pupil, mm, positive to the right of the named vertex; infinite when telecentric."""
+    """Entrance and exit pupil, mm, positive to the right of the named vertex; infinite when telecentric.
+
+    ``upright``: −1 where the entrance pupil is an inverted image of the stop, as a relay's is, else 1.
+    """
 
     entrance_from_first: np.ndarray
     entrance_diameter: np.ndarray
     exit_from_last: np.ndarray
     exit_diameter: np.ndarray
+    upright: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -164,6 +168,7 @@ def pupils(lens: Lens, wavelength_um: FloatOrArray, stop: Stop | None = None) ->
             entrance_diameter=2 * stop.semi_diameter / np.abs(nu[0]),
             exit_from_last=crossing(rays.image_index, y[-1], nu[-1]),
             exit_diameter=2 * stop.semi_diameter / np.abs(nu[-1]),
+            upright=1.0 - 2.0 * (nu[0] < 0),
         )
 
 

@@ -74,7 +74,9 @@ def fitted_intensity(
     level = found.level
     even = _node_basis(max(level.wave_order, level.map_order), *counts, False)
     phase, fx, fy = found.on(even, _node_basis(level.map_order, *counts, True))
-    amplitude = pupil_amplitude(disc_nodes(*counts).weight, phase, dtype)
+    nodes = disc_nodes(*counts)
+    weight = nodes.weight * found.weight_at(nodes.xi, nodes.eta)
+    amplitude = pupil_amplitude(weight / (weight.sum() / nodes.weight.sum()), phase, dtype)
     axis = centred_axis(pixels, pixel_um)
     field = sum_plane_waves(amplitude, fx.astype(dtype), fy.astype(dtype), axis, axis)
     intensity: np.ndarray = field.real**2 + field.imag**2

@@ -159,17 +159,20 @@ def huygens_field(lens: Lens, source: Source, counts: Counts, window: Window, cl
     blur = None if watch.live else pencil_blur(lens, source, nodes)
     axis, dtype = centred_axis(*window), np.float32 if watch.live else np.float64
     total: np.ndarray | float = 0.0
-    lost, spread = 0, 0.0
+    lost, spread, area, light = 0, 0.0, 0.0, 0.0
     for first in range(0, nodes.xi.size, BLOCK):
         part = slice(first, first + BLOCK)
-        data, weight = _block(lens, source, nodes, part)
-        lost += int((weight == 0).sum())
+        data, share = _block(lens, source, nodes, part)
+        weight = share * data.weight
+        area, light = area + share.sum(), light + weight.sum()
+        lost += int((share == 0).sum())
         spread = max(spread, float(np.hypot(data.fx, data.fy).max(initial=0)))
         amplitude = pupil_amplitude(weight, data.phase, dtype)
         fx, fy = data.fx.astype(dtype), data.fy.astype(dtype)
         total = total + sum_plane_waves(amplitude, fx, fy, axis, axis)
         watch.advance(weight.size)
-    return Field(np.asarray(total), blur if resolved(spread, window[1]) else None, lost)
+    # Light over area is the mean weight, exactly 1 for an evenly filled pupil.
+    return Field(np.asarray(total) / (light / area), blur if resolved(spread, window[1]) else None, lost)
 
 
 def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNodes:

@@ -22,7 +22,7 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_quality, check_samples, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays
+from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data, steepness
 
@@ -36,7 +36,8 @@ class Choice:
     """The method to use, its predicted 1 − R², how many numbers it needs (0: rays), and what that was decided on.
 
     ``tried_rays`` were traced for the choice and ``lost_rays`` of them did not reach the sensor. ``allowed_error`` is
-    the 1 − R² asked for; ``seidel_error`` and ``fitted_error`` are predictions, None where none was made.
+    the 1 − R² asked for; ``seidel_error`` and ``fitted_error``, that of ``fitted_numbers``, are predictions, None where
+    none was made.
     """
 
     method: str
@@ -47,6 +48,7 @@ class Choice:
     allowed_error: float = 0.0
     seidel_error: float | None = None
     fitted_error: float | None = None
+    fitted_numbers: int = 0
 
     @property
     def reason(self) -> Message:
@@ -77,7 +79,7 @@ class Choice:
             )
         return Message(
             "{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only",
-            numbers=QUICK_LEVELS[-1].numbers,
+            numbers=self.fitted_numbers,
             error=self.fitted_error,
         )
 
@@ -108,12 +110,12 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
     if seidel <= allowed:
         return tried
-    for level in QUICK_LEVELS:
+    for level in levels(lens.aim)[: len(QUICK_LEVELS)]:
         found = fit_rays(data, level, level.rays, steep)
         fitted = predicted_error(found.error_waves, "fitted")
         if fitted <= allowed:
             return replace(tried, method="fitted", predicted_error=fitted, numbers=level.numbers, fitted_error=fitted)
-    return _by_rays(replace(tried, fitted_error=fitted), TRACED_ERROR)
+    return _by_rays(replace(tried, fitted_error=fitted, fitted_numbers=level.numbers), TRACED_ERROR)
 
 
 def _check_tolerance(tolerance: float, largest: float = 1.0) -> None:

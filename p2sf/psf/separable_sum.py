@@ -9,7 +9,7 @@ exact for any smooth fy that rises along the rim: the trapezoid in φ is Gauss�
 the pupil does not slow the convergence, and since a row shares fy the kernel in y acts once per row, not per node.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -39,6 +39,7 @@ SETTLED = 1e-5  # a last step this small leaves its square, 1e-10 of the pupil: 
 class FrequencyRows:
     """Nodes on ξ > 0, with weights that count the mirror images too: ``fy`` (rows,), the rest (rows, nodes).
 
+    The weights are areas times the light of unit area there, and sum to 1.
     The sum takes ``columns`` columns, those at ξ < 0 included. Functions along a row are smooth and even in ξ, so
     where a row has fewer nodes the polynomial through them gives the values at the other columns.
     """
@@ -48,6 +49,11 @@ class FrequencyRows:
     eta: np.ndarray
     weight: np.ndarray
     columns: int
+
+    def lit(self, light: np.ndarray) -> "FrequencyRows":
+        """Return the same nodes with weights times ``light``, (rows, nodes), again of unit sum."""
+        weight = self.weight * light
+        return replace(self, weight=weight / (weight.sum() / self.weight.sum()))
 
     @property
     def words(self) -> Message:
@@ -132,7 +138,8 @@ def frequency_rows(found: FittedPencil, rows: int, columns: int, nodes: int | No
         return None
     share = share * np.abs(rise)[:, None]
     share /= np.abs(slope)
-    return FrequencyRows(fy, xi, eta, share, columns)
+    even = FrequencyRows(fy, xi, eta, share, columns)
+    return even.lit(found.weight_at(xi, eta)) if found.level.weighted else even
 
 
 def _along_rim(form: list[list[float]], sine: np.ndarray, cosine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

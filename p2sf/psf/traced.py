@@ -23,12 +23,12 @@ from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import FrequencyRows, rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.fit import FittedPencil, fit, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
 
 # A fifth-order pupil map at least: terms of second order in its error are then below 1e-5 of R² on every stored row.
-FEWEST = 46
+FEWEST = 1  # of the levels, 46 numbers of an evenly filled pupil
 RESIDUAL_WAVES = 1e-3  # most that the error of the map times the blur may be: the PSF's error is second order in it
 FALLBACK_TOLERANCE = 3e-3  # relative L2 of node by node sums: R² to 1e-5
 
@@ -55,7 +55,7 @@ def traced_psf(
         one_by_one = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, clip)
         return replace(one_by_one, method="traced", predicted_error=EDGE_ERROR)
     found, nodes = rows
-    phase, fx = exact_rows(lens, source, nodes)
+    nodes, phase, fx = exact_rows(lens, source, found, nodes)
     intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     sampling = Message("{nodes}, {precision}", nodes=nodes.words, precision=intensity.dtype.name)
@@ -81,7 +81,7 @@ def _rows(
 def _fit(lens: Lens, source: Source) -> FittedPencil | None:
     """Return the fit that puts rays in rows; None where rays are lost, or no polynomial is accurate enough."""
     try:
-        found = fit(lens, source, FEWEST)
+        found = fit(lens, source, levels(lens.aim)[FEWEST].numbers)
         if found.error_waves >= RESIDUAL_WAVES:
             found = fit(lens, source, residual_waves=RESIDUAL_WAVES)
     except GeometryError:  # rays are lost
@@ -89,10 +89,15 @@ def _fit(lens: Lens, source: Source) -> FittedPencil | None:
     return None if found.error_waves > RESIDUAL_WAVES else found
 
 
-def exact_rows(lens: Lens, source: Source, nodes: FrequencyRows) -> tuple[np.ndarray, np.ndarray]:
-    """Return exact phase (waves) and fx (cycles/µm) of rays through rows of nodes, (rows, columns)."""
+def exact_rows(
+    lens: Lens, source: Source, found: FittedPencil, nodes: FrequencyRows
+) -> tuple[FrequencyRows, np.ndarray, np.ndarray]:
+    """Return the rows of a fit with exact weights, and exact phase (waves) and fx (cycles/µm), (rows, nodes)."""
+    shape = nodes.xi.shape
     rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel()))
-    miss = np.repeat(nodes.fy, nodes.xi.shape[1])
+    miss = np.repeat(nodes.fy, shape[1])
     miss -= rays.fy
     miss *= rays.y_um
-    return (rays.phase - miss).reshape(nodes.xi.shape), rays.fx.reshape(nodes.xi.shape)
+    if found.level.weighted:
+        nodes = nodes.lit(rays.weight.reshape(shape) / found.weight_at(nodes.xi, nodes.eta))
+    return nodes, (rays.phase - miss).reshape(shape), rays.fx.reshape(shape)

@@ -16,15 +16,22 @@ from p2sf.lens.lens import Lens, indices
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.zernike import basis_by_powers, columns, evaluate
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Index, launch, per_ray, run
 
 AIM_STEPS = 12
-AIM_RESIDUAL = 1e-11  # of the stop's rim: the path error is its square, far below any wavelength
-AIM_ACCEPTED = 1e-9  # of the rim: the rounding left where the search cannot reach the residual
+AIM_MOVE = 1e-6  # of the pupil's radius: a last Newton step this small leaves its square, far below 1e-9 of the rim
+DIFFERENCE = 1e-6  # of the pupil's radius: the determinant, and so the weight, is good to that
+ROUNDING_STEP = 1e-8  # of the distances in the lens, for pupils so small that the step would meet their rounding
 CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
+MAP_ORDER, MAP_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses; its 60 rays cost what ten would
+FEW = 24  # rays, for which the map costs more than the steps of Newton's method it saves
 
+Nodes: TypeAlias = np.ndarray  # (ray,)
 Point: TypeAlias = tuple[np.ndarray, np.ndarray]  # x and y, mm
+MapForm: TypeAlias = tuple[list[list[float]], list[list[float]]]  # polynomials as `zernike.evaluate` takes them
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +50,9 @@ class PupilRays:
     ``x``, ``y``: (…, ray) mm in that plane, which lies ``plane`` mm behind the first vertex. ``slope_x``, ``slope_y``:
     dx/dz, dy/dz. ``path``: optical path from the source, mm, less that to the pupil's centre; for a source at
     infinity, from the plane wavefront through that centre. ``index``: per medium, object space first.
-    ``stop_surface``: the stop at which rays were aimed, 0 if they were not; a ray that could not be aimed is NaN.
+    ``weight``: the light sent through unit area about (ξ, η), over that of the paraxial pupil's: the solid angle times
+    the square of the distance, for a source at infinity an area; 1 for the paraxial pupil itself. ``stop_surface``: the
+    stop at which rays were aimed, 0 if they were not; a ray that could not be aimed is NaN.
     """
 
     x: np.ndarray
@@ -53,6 +62,7 @@ class PupilRays:
     path: np.ndarray
     plane: np.ndarray
     index: Index
+    weight: FloatOrArray = 1.0
     stop_surface: int = 0
 
     @property
@@ -73,7 +83,8 @@ class Entrance:
     """The paraxial entrance pupil as a source sees it; every array ends in a ray axis of length one.
 
     ``plane`` mm from the first vertex, ``radius`` mm, ``reach`` = 1/(object to entrance pupil) per mm, ``slope`` of the
-    chief ray, ``exit_plane`` mm from the last vertex, ``index`` per medium, object space first.
+    chief ray, ``exit_plane`` mm from the last vertex, ``index`` per medium, object space first; ``upright`` is −1
+    where the pupil is an inverted image of the stop, else 1.
     """
 
     plane: np.ndarray
@@ -83,6 +94,7 @@ class Entrance:
     exit_plane: np.ndarray
     index: Index
     stop: Stop
+    upright: np.ndarray
 
 
 def entrance(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> Entrance:
@@ -101,7 +113,7 @@ def entrance(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> 
     radius = np.asarray(pupil.entrance_diameter) / 2
     values = (plane, radius, nearness / gap, np.asarray(source.field_slope), np.asarray(pupil.exit_from_last))
     plane, radius, reach, slope, exit_plane = (value[..., None] for value in values)
-    return Entrance(plane, radius, reach, slope, exit_plane, index, stop)
+    return Entrance(plane, radius, reach, slope, exit_plane, index, stop, np.asarray(pupil.upright)[..., None])
 
 
 def _first_order(lens: Lens, wavelength_um: FloatOrArray, stop: Stop | None) -> tuple[Pupils, Index, Stop]:
@@ -133,7 +145,7 @@ def pupil_rays(
     xi, eta = np.asarray(xi, dtype=float), np.asarray(eta, dtype=float)
     if lens.aim == "paraxial":
         return _through(enter, enter.radius * xi, enter.radius * eta)
-    return _aimed(lens, enter, xi, eta)
+    return _aimed(lens, source, enter, stop, xi, eta)
 
 
 def _through(enter: Entrance, x: np.ndarray, y: np.ndarray, slope: FloatOrArray | None = None) -> PupilRays:
@@ -158,46 +170,126 @@ def start(rays: PupilRays) -> Beam:
     return beam
 
 
-def _aimed(lens: Lens, enter: Entrance, xi: np.ndarray, eta: np.ndarray) -> PupilRays:
+def _aimed(
+    lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes
+) -> PupilRays:
     """Solve for entrance points whose real rays meet the stop at (ξ, η) of its rim; wide fields by continuation."""
-    rim, surface = float(np.max(enter.stop.semi_diameter)), int(np.max(enter.stop.surface))
-    # A ray close to the axis tells whether the entrance pupil is an upright or an inverted image of the stop.
-    thin = run(lens, start(_through(enter, 0 * xi, 0 * xi + 1e-6 * enter.radius, 0.0)), enter.index, last=surface)
-    goal = rim * np.sign(thin.y) * xi, rim * np.sign(thin.y) * eta
-    guess = enter.radius * xi + 0 * enter.slope, enter.radius * eta + 0 * enter.slope
-    (x, y), missed = _newton(lens, enter, goal, guess, 1.0)
-    if missed.any():
-        for part in CONTINUATION:
-            guess, still = _newton(lens, enter, goal, guess, part)
-        x, y = np.where(missed, guess[0], x), np.where(missed, guess[1], y)
-        missed &= still
-    aimed = _through(enter, np.where(missed, np.nan, x), np.where(missed, np.nan, y))
-    return replace(aimed, stop_surface=surface)
+    rim = float(np.max(enter.stop.semi_diameter))
+    goal = rim * enter.upright * xi, rim * enter.upright * eta
+    found = _newton(lens, enter, goal, _guess(lens, source, enter, stop, xi, eta))
+    if found.missed.any():
+        found = _by_continuation(lens, enter, goal, (enter.radius * xi, enter.radius * eta), found)
+    rays = _through(enter, *(np.where(found.missed, np.nan, v) for v in (found.x, found.y)))
+    area = (rim / enter.radius) ** 2 / found.gain
+    # dΩ = dx dy·cosθ/distance², with 1/cosθ = √(1 + slope²), which is also the distance over that along the axis.
+    oblique = (1 + enter.slope**2) / (1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
+    return replace(rays, weight=area * oblique**1.5, stop_surface=int(np.max(enter.stop.surface)))
 
 
-def _newton(lens: Lens, enter: Entrance, goal: Point, guess: Point, part: float) -> tuple[Point, np.ndarray]:
-    """Return the entrance points whose rays, at this part of the field slope, meet the stop at ``goal``.
+@dataclass(frozen=True, eq=False)
+class _Aim:
+    """Entrance points (…, ray), mm; ``gain`` = ∂(stop point)/∂(entrance point); which rays ``missed`` their goal."""
 
-    The second result flags the rays that miss the goal by more than AIM_ACCEPTED of the rim.
-    """
-    rim, surface = float(np.max(enter.stop.semi_diameter)), int(np.max(enter.stop.surface))
-    step = 1e-5 * float(np.max(enter.radius))
-    x, y = guess
+    x: np.ndarray
+    y: np.ndarray
+    gain: np.ndarray
+    missed: np.ndarray
+
+
+def _newton(lens: Lens, enter: Entrance, goal: Point, guess: Point, part: float = 1.0) -> _Aim:
+    """Return the entrance points whose rays, at this part of the field slope, meet the stop at ``goal``."""
+    radius, step = float(np.max(enter.radius)), _difference_mm(enter)
+    shape = np.broadcast_shapes(*map(np.shape, (*goal, *guess, enter.slope, enter.reach)))
+    x, y, goal_x, goal_y = (np.array(np.broadcast_to(v, shape)) for v in (*guess, *goal))
+    gain, missed = np.full(shape, np.nan), np.ones(shape, bool)
+    open_ = np.arange(shape[-1])
     for _ in range(AIM_STEPS):
-        trial = _through(enter, np.stack([x, x + step, x]), np.stack([y, y, y + step]), enter.slope * part)
-        beam = run(lens, start(trial), enter.index, last=surface)
-        miss = goal[0] - beam.x[0], goal[1] - beam.y[0]
-        far = np.hypot(*miss)
-        if not np.nanmax(far, initial=0.0) > AIM_RESIDUAL * rim:
+        here = x[..., open_], y[..., open_]
+        beam = _at_stop(lens, enter, _beside(*here, step), part)
+        miss = goal_x[..., open_] - beam.x[0], goal_y[..., open_] - beam.y[0]
+        move_x, move_y, area = _newton_step(beam, miss, step)
+        x[..., open_], y[..., open_], gain[..., open_] = here[0] + move_x, here[1] + move_y, area
+        far = np.hypot(move_x, move_y)
+        # A gain that is not positive belongs to another sheet, where rays of the pupil have crossed.
+        missed[..., open_] = ~((far <= AIM_MOVE * radius) & (area > 0))
+        keep = (far > AIM_MOVE * radius).any(tuple(range(far.ndim - 1)))
+        if not keep.any():
             break
-        move_x, move_y = _newton_step(beam, miss, step)
-        x, y = x + move_x, y + move_y
-    return (x, y), ~(far <= AIM_ACCEPTED * rim)
+        open_ = open_[keep]
+    return _Aim(x, y, gain, missed)
 
 
-def _newton_step(beam: Beam, miss: Point, step: float) -> Point:
-    """Return Newton's step from the landing points of a ray and its two neighbours ``step`` mm away."""
+def _by_continuation(lens: Lens, enter: Entrance, goal: Point, start_at: Point, found: _Aim) -> _Aim:
+    """Return ``found`` with the rays that missed aimed anew, by way of smaller fields."""
+    lost = np.flatnonzero(found.missed.any(tuple(range(found.missed.ndim - 1))))
+    some = goal[0][..., lost], goal[1][..., lost]
+    guess = start_at[0][..., lost], start_at[1][..., lost]
+    for part in CONTINUATION:
+        again = _newton(lens, enter, some, guess, part)
+        guess = again.x, again.y
+    better = found.missed[..., lost] & ~again.missed
+    columns = []
+    for old, new in zip(vars(found).values(), vars(again).values(), strict=True):
+        column = old.copy()
+        column[..., lost] = np.where(better, new, old[..., lost])
+        columns.append(column)
+    return _Aim(*columns)
+
+
+def _difference_mm(enter: Entrance) -> float:
+    """Return the step of the differences: far above the rounding of positions, far below where the map bends."""
+    return DIFFERENCE * float(np.max(enter.radius)) + ROUNDING_STEP * float(np.max(np.abs(enter.plane)))
+
+
+def _beside(x: np.ndarray, y: np.ndarray, step: float) -> Point:
+    """Return each point and its neighbours ``step`` mm away in x and in y, on a new first axis."""
+    return np.stack([x, x + step, x]), np.stack([y, y, y + step])
+
+
+def _at_stop(lens: Lens, enter: Entrance, points: Point, part: float = 1.0) -> Beam:
+    """Return the rays through points of the entrance-pupil plane where they meet the stop."""
+    rays = start(_through(enter, *points, enter.slope * part))
+    return run(lens, rays, enter.index, last=int(np.max(enter.stop.surface)))
+
+
+def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return Newton's step from the landing points of a ray and its two neighbours, and the determinant there."""
     a, c = (beam.x[1] - beam.x[0]) / step, (beam.y[1] - beam.y[0]) / step
     b, d = (beam.x[2] - beam.x[0]) / step, (beam.y[2] - beam.y[0]) / step
+    area: np.ndarray = a * d - b * c
     with np.errstate(invalid="ignore", divide="ignore"):
-        return (d * miss[0] - b * miss[1]) / (a * d - b * c), (a * miss[1] - c * miss[0]) / (a * d - b * c)
+        return (d * miss[0] - b * miss[1]) / area, (a * miss[1] - c * miss[0]) / area, area
+
+
+def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
+    """Return entrance points from which Newton's method starts: by the pupil map, or for few rays the paraxial ones."""
+    plain = enter.radius * xi, enter.radius * eta
+    if enter.slope.size > 1 or enter.reach.size > 1 or enter.radius.size > 1 or xi.size < FEW:
+        return plain
+    form = _pupil_map(lens, enter) if stop else _cached_map(lens, source)
+    if form is None:
+        return plain
+    square = xi * xi
+    return xi * evaluate(form[0], square, eta), evaluate(form[1], square, eta)
+
+
+@lru_cache(maxsize=64)
+def _cached_map(lens: Lens, source: Source) -> MapForm | None:
+    return _pupil_map(lens, entrance(lens, source))
+
+
+def _pupil_map(lens: Lens, enter: Entrance) -> MapForm | None:
+    """Return entrance points x/ξ and y (mm) as polynomials of the stop point, for `evaluate`; None if rays are lost.
+
+    Rays through the paraxial pupil land on the stop at scattered points; a least-squares fit over those gives the map
+    from the stop back to the pupil without a search.
+    """
+    nodes, rim = disc_nodes(*MAP_NODES), float(np.max(enter.stop.semi_diameter))
+    x, y = (float(enter.radius.item()) * v for v in (nodes.xi, nodes.eta))
+    beam = _at_stop(lens, enter, (x, y))
+    scale = float(enter.upright.item()) / rim
+    if not np.isfinite(beam.x + beam.y).all():
+        return None
+    even, odd = basis_by_powers(MAP_ORDER, *(scale * v.ravel() for v in (beam.x, beam.y)))
+    across, along = (np.linalg.lstsq(rows.T, v, rcond=None)[0] for rows, v in ((odd, x), (even, y)))
+    return columns(across, MAP_ORDER, odd=True), columns(along, MAP_ORDER)

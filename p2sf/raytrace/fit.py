@@ -1,19 +1,21 @@
-"""Phase and image-space direction cosines of a pencil as polynomials over the entrance pupil (handbook 5.3).
+"""Phase, image-space direction cosines and weight of a pencil as polynomials over the pupil (handbook 5.3).
 
 The diffraction integral is a Fourier transform over direction cosines; with W, Kx and Ky all given over the
 pupil disc it needs no edge and no Jacobian, the rays stay at fixed pupil points, and a fit is one small
-product with a least-squares inverse that never changes.
+product with a least-squares inverse that never changes. Rays that fill the real stop have uneven weights, which
+are a polynomial too.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.conventions import protected
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Aim, Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.quadrature import disc_nodes
@@ -34,18 +36,22 @@ Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η o
 
 @dataclass(frozen=True)
 class Level:
-    """The size of a fit: orders of W and of the maps, and the radii × directions of the rays it is made from."""
+    """The size of a fit: orders of W and of the maps, and the radii × directions of the rays it is made from.
+
+    ``weighted``: the rays have weights, a polynomial of the maps' order.
+    """
 
     wave_order: int
     map_order: int
     radii: int
     directions: int
+    weighted: bool = False
 
     @property
     def numbers(self) -> int:
         """Return how many coefficients the level has."""
-        maps = len(terms(self.map_order)) + len(terms(self.map_order, True))
-        return len(terms(self.wave_order)) + maps
+        even, odd = len(terms(self.map_order)), len(terms(self.map_order, True))
+        return len(terms(self.wave_order)) + even + odd + even * self.weighted
 
     @property
     def rays(self) -> int:
@@ -61,15 +67,22 @@ LEVELS = (
     Level(18, 13, 12, 20),
     Level(24, 18, 15, 26),
 )
+WEIGHTED = tuple(replace(level, weighted=True) for level in LEVELS)
+UNIFORM = protected(np.ones(1))  # the first polynomial is 1
+
+
+def levels(aim: Aim) -> tuple[Level, ...]:
+    """Return the sizes of fit for a pupil that is filled as `Lens.aim` says."""
+    return WEIGHTED if aim == "stop" else LEVELS
 
 
 @dataclass(frozen=True)
 class FittedPencil:
     """Coefficients of the orthonormal polynomials of `zernike`: phase in waves, fx and fy in cycles per µm.
 
-    ``phase`` and ``fy`` belong to the even terms, ``fx`` to the odd. ``residual_waves`` is the RMS error of the
-    phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm; ``rays`` counts all that were traced;
-    ``blur_um2`` is ∫|field|²dx at unit unaberrated peak.
+    ``phase``, ``fy`` and ``weight`` belong to the even terms, ``fx`` to the odd. ``residual_waves`` is the RMS error of
+    the phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm, ``weight_residual`` that of the
+    weight over its mean; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak.
     """
 
     level: Level
@@ -81,6 +94,8 @@ class FittedPencil:
     blur_um2: float
     rays: int
     map_residual: float = np.nan
+    weight: np.ndarray = field(default_factory=lambda: UNIFORM)
+    weight_residual: float = 0.0
 
     @property
     def numbers(self) -> int:
@@ -89,8 +104,12 @@ class FittedPencil:
 
     @property
     def error_waves(self) -> float:
-        """Return the RMS phase error over all the light: the map's error counts as far as diffraction spreads light."""
-        return float(np.hypot(self.residual_waves, self.map_residual * self.steepness.light_um))
+        """Return the RMS phase error over all the light: the map's error counts as far as diffraction spreads light.
+
+        An error of the amplitude changes the field as a phase of 1/2π of it does.
+        """
+        phase = np.hypot(self.residual_waves, self.map_residual * self.steepness.light_um)
+        return float(np.hypot(phase, self.weight_residual / (2 * np.pi)))
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return phase (waves), fx and fy (cycles/µm) at pupil points, each (points,)."""
@@ -106,6 +125,11 @@ class FittedPencil:
         square = xi * xi
         phase = evaluate(columns(self.phase, self.level.wave_order), square, eta)
         return phase, xi * evaluate(columns(self.fx, self.level.map_order, True), square, eta)
+
+    def weight_at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return the light of unit pupil area at points of any shape, as `Pencil.weight` has it: 1 for uniform ones."""
+        order = self.level.map_order if self.level.weighted else 0
+        return evaluate(columns(self.weight, order), xi * xi, eta)
 
     def jacobian(self, xi: ArrayLike, eta: ArrayLike) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (cycles/µm)²."""
@@ -125,7 +149,7 @@ def fit(
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
     traced, rays, sampling, found = 0, None, None, None
-    for level in LEVELS:
+    for level in levels(lens.aim):
         if numbers not in (None, level.numbers):
             continue
         if rays is None or sampling != (level.radii, level.directions):
@@ -135,7 +159,7 @@ def fit(
         if numbers or found.error_waves < residual_waves:
             return found
     if found is None:
-        offered = tuple(level.numbers for level in LEVELS)
+        offered = tuple(level.numbers for level in levels(lens.aim))
         raise GeometryError("no fit has {numbers} numbers; choose one of {offered}", numbers=numbers, offered=offered)
     return found
 
@@ -192,15 +216,22 @@ def fit_rays(rays: RayData, level: Level, traced: int, steep: Steepness | None =
         inverse @ column[:used]
         for inverse, column in ((project.phase, rays.phase), (project.fy, rays.fy), (project.fx, rays.fx))
     )
+    light, light_residual, share = UNIFORM, 0.0, np.ones(1)
+    if level.weighted:
+        light = project.fy @ rays.weight[:used]
+        mean = float(weight @ rays.weight[:used])
+        light_residual = _residual((light @ project.even[: light.size] - rays.weight) / mean, weight, light.size)
+        share = rays.weight[:used] / mean
     miss_x, miss_y = fx @ project.odd - rays.fx, fy @ project.even[: fy.size] - rays.fy
     # At a ray's landing point x the integrand's phase is w + f·x, so this is the error that matters there.
     error = phase @ project.even[: phase.size] - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
     residual = _residual(error, weight, phase.size)
     map_residual = np.sqrt(_residual(miss_x, weight, fx.size) ** 2 + _residual(miss_y, weight, fy.size) ** 2)
-    # Parseval: ∫|field|²dx is the area mean of 1/|∂(fx, fy)/∂(ξ, η)| over π.
-    blur = float(weight @ (1 / np.abs(_determinant(fx, fy, *_slope_basis(level)))) / np.pi)
+    # Parseval: ∫|field|²dx is the area mean of (relative weight)²/|∂(fx, fy)/∂(ξ, η)| over π.
+    blur = float(weight @ (share * share / np.abs(_determinant(fx, fy, *_slope_basis(level)))) / np.pi)
     steep = steep or steepness(rays, xi, eta)
-    return FittedPencil(level, phase, fx, fy, residual, steep, blur, traced, float(map_residual))
+    made = level, phase, fx, fy, residual, steep, blur, traced, float(map_residual)
+    return FittedPencil(*made, light, light_residual)
 
 
 def _residual(error: np.ndarray, weight: np.ndarray, unknowns: int) -> float:

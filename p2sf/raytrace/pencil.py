@@ -34,6 +34,7 @@ MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, all that a m
 class Pencil:
     """The rays of one source at the sensor plane, all relative to its chief ray; leading axes first, (…, ray).
 
+    ``weight``: the light of unit pupil area about each ray, as in `PupilRays`; means over the pupil divide by its sum.
     ``dx``, ``dy``: mm from the chief ray's sensor point. ``kx``, ``ky``, ``kz``: direction cosines in image space.
     ``path``: optical path to the sensor less the chief ray's, mm. ``status``, ``failed_surface``: as in `Trace`.
     Of the chief ray: ``chief_y`` mm on the sensor, ``chief_ky``, ``chief_kz``. ``index``: of image space.
@@ -41,6 +42,7 @@ class Pencil:
 
     xi: np.ndarray
     eta: np.ndarray
+    weight: np.ndarray
     dx: np.ndarray
     dy: np.ndarray
     kx: np.ndarray
@@ -104,17 +106,23 @@ def pencil(
     beam.path += rays.path
     if beam.status.any():
         _blank(beam)
-    return _relative_to_chief(beam, xi, eta, rays.index[-1], source.wavelength_um)
+    return _relative_to_chief(beam, rays.weight, xi, eta, rays.index[-1], source.wavelength_um)
 
 
 def _relative_to_chief(
-    beam: Beam, xi: np.ndarray, eta: np.ndarray, index: FloatOrArray, wavelength_um: FloatOrArray
+    beam: Beam,
+    weight: FloatOrArray,
+    xi: np.ndarray,
+    eta: np.ndarray,
+    index: FloatOrArray,
+    wavelength_um: FloatOrArray,
 ) -> Pencil:
     """Return a beam at the sensor as differences from its last ray, the chief ray."""
     chief_y = beam.y[..., -1:]
     return Pencil(
         xi=xi[:-1],
         eta=eta[:-1],
+        weight=np.broadcast_to(weight, beam.x.shape)[..., :-1],
         dx=beam.x[..., :-1],
         dy=beam.y[..., :-1] - chief_y,
         kx=beam.p[..., :-1] / index,

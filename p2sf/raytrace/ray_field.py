@@ -15,13 +15,14 @@ AIRY_RADIUS = 0.61  # over the largest spatial frequency
 
 @dataclass(frozen=True)
 class RayData:
-    """Per ray: phase (waves), f = n'(K − K chief)/λ (cycles/µm), landing point (µm)."""
+    """Per ray: phase (waves), f = n'(K − K chief)/λ (cycles/µm), landing point (µm), light per unit pupil area."""
 
     phase: np.ndarray
     fx: np.ndarray
     fy: np.ndarray
     x_um: np.ndarray
     y_um: np.ndarray
+    weight: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -46,10 +47,10 @@ class Steepness:
 
 
 def ray_data(rays: Pencil) -> RayData:
-    """Return phase, spatial frequencies and landing points of a traced pencil."""
+    """Return phase, spatial frequencies, landing points and weights of a traced pencil."""
     scale = rays.index / rays.wavelength_um
     fx, fy = rays.kx * scale, (rays.ky - rays.chief_ky) * scale
-    return RayData(diffraction_phase(rays), fx, fy, rays.dx * UM_PER_MM, rays.dy * UM_PER_MM)
+    return RayData(diffraction_phase(rays), fx, fy, rays.dx * UM_PER_MM, rays.dy * UM_PER_MM, rays.weight)
 
 
 def steepness(rays: RayData, xi: np.ndarray, eta: np.ndarray) -> Steepness:

@@ -122,11 +122,13 @@ def _edge(lens: Lens, source: Source, clip: bool, centre: float, theta: np.ndarr
 
 
 def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes) -> float | None:
-    """Return ∫|field|²dx in µm² by Parseval from the fitted pupil map; None where lost rays prevent a fit."""
+    """Return ∫|field|²dx in µm² at unit unaberrated peak, by Parseval from a fit; None where rays are lost."""
     try:
         found = fit(lens, source)
     except GeometryError:
         return None
     if nodes.share == 1.0:
         return found.blur_um2
-    return float(nodes.weight @ (1 / np.abs(found.jacobian(nodes.xi, nodes.eta))) / (np.pi * nodes.share))
+    light = found.weight_at(nodes.xi, nodes.eta)
+    light /= (nodes.weight * light).sum() / nodes.weight.sum()
+    return float(nodes.weight @ (light * light / np.abs(found.jacobian(nodes.xi, nodes.eta))) / (np.pi * nodes.share))

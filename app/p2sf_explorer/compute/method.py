@@ -11,7 +11,7 @@ from p2sf.psf.metrics import airy_radius_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import in_rows
-from p2sf.raytrace.fit import LEVELS, FittedPencil
+from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Pencil, pencil
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest, by_rays, row_nodes, slow, sum_request
 from p2sf_explorer.compute.preview import (
@@ -233,7 +233,7 @@ def reason(choice: "Choice", tolerance: float) -> Message:
             "fitted: {numbers} numbers from {rays} rays, predicted R² ≥ {r_squared}; the six Seidel coefficients "
             "would miss {tolerance:g}",
             numbers=choice.numbers,
-            rays=next(level.rays for level in LEVELS if level.numbers == choice.numbers),
+            rays=choice.tried_rays,
             r_squared=r_squared,
             tolerance=tolerance,
         )

@@ -14,7 +14,7 @@ from p2sf.psf.plane_waves import Origin, psf_from_intensity
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import rows_for
 from p2sf.pupil.zernike import basis
-from p2sf.raytrace.fit import LEVELS, FittedPencil, fit, fit_rays, level_rays
+from p2sf.raytrace.fit import LEVELS, FittedPencil, fit, fit_rays, level_rays, levels
 from p2sf.raytrace.pencil import Pencil, opd_on_sphere, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data
 from p2sf.raytrace.vignetting import CLIPPED
@@ -78,9 +78,10 @@ def best_fit(traced: Preview) -> FittedPencil:
     """Return the smallest fit of small error; more rays are traced only where the first do not suffice."""
     data, count = ray_data(traced.rays), level_rays(LEVEL)[0].size
     own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
-    fitted = fit_rays(own, LEVEL, count)
+    first, second = levels(traced.setup.lens.aim)[:2]
+    fitted = fit_rays(own, first, count)
     if fitted.error_waves > CLOSE:
-        fitted = fit_rays(own, LEVELS[1], count, fitted.steepness)
+        fitted = fit_rays(own, second, count, fitted.steepness)
     if fitted.error_waves <= NEAR:
         return fitted
     try:
