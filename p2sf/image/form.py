@@ -15,6 +15,7 @@ from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.overlap import overlap_add
 from p2sf.image.progress import Progress
 from p2sf.messages import Alternatives
+from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
 from p2sf.scene.plan import Plan
 
 METHODS = ("patches", "lowrank")
@@ -110,20 +111,25 @@ def _placed(planned: Plan, values: np.ndarray, vergence: float, how: Forming) ->
     if not how.geometry:
         return values
     sensor, seen = planned.scene.sensor, planned.sensor_map(vergence)
-    shade = illumination(planned.kernels(len(planned.colours) // 2, vergence), sensor, LIGHT_HEIGHTS[how.spline > 1])
+    shade = illumination(seen, sensor, LIGHT_HEIGHTS[how.spline > 1])
     lit: np.ndarray = distorted(values, seen, sensor, how.spline) * shade[..., None]
     return lit
 
 
-def plan_lattice(planned: Plan, vergence: float, watch: Progress | None = None) -> Lattice:
-    """Return the kernels of every channel on the plan's nodes at one depth."""
+def plan_lattice(
+    planned: Plan, vergence: float, watch: Progress | None = None, most_half: int = LARGEST_WINDOW
+) -> Lattice:
+    """Return the kernels of every channel on the plan's nodes at one depth.
+
+    None reaches farther than ``most_half`` pixels: what lands beyond is left out, and the rest has unit sum.
+    """
     sensor = planned.scene.sensor
     channels = [planned.kernels(number, vergence) for number in range(len(planned.colours))]
 
     def kernel_at(row: float, column: float) -> np.ndarray:
         x, y = float(sensor.x_mm(column)), float(sensor.y_mm(row))
         half = max(kernels.half_width(float(np.hypot(x, y))) for kernels in channels)
-        return np.stack([kernels.at(x, y, half) for kernels in channels])
+        return np.stack([kernels.at(x, y, min(half, most_half)) for kernels in channels])
 
     return build_lattice(kernel_at, (sensor.rows, sensor.columns), planned.counts, sensor.centred, watch)
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from p2sf.pixel_kernels import Kernels, SensorMap
+from p2sf.pixel_kernels import SensorMap
+from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.scene.sensor import Sensor
 
 VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is ignored
@@ -35,15 +36,20 @@ def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 
     return np.stack([*planes], axis=-1).astype(np.float32)
 
 
-def illumination(kernels: Kernels, sensor: Sensor, count: int = 9) -> np.ndarray:
-    """Return the irradiance of an even object over that on the axis, (rows, columns) float32.
+def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:
+    """Return the irradiance of an even object over that on the axis, (rows, columns) float32, from ``count`` heights.
 
-    It is the pencil's projected solid angle, ∫dKx dKy: cos⁴ for a pinhole, changed by pupil aberration otherwise.
-    No rim of a surface clips it.
+    Between these it is a polynomial of h², or where rims clip, which makes it bend, a monotone cubic.
     """
+    from scipy.interpolate import PchipInterpolator
+
     heights = np.linspace(*sensor.corners_mm(), count)
-    light = np.array([kernels.light(float(h)) for h in heights]) / kernels.light(0.0)
+    light = relative_illumination(seen, heights)
     x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
-    fit = np.polynomial.Polynomial.fit(heights**2, light, min(4, count - 1))
-    light_at: np.ndarray = fit(x * x + (y * y)[:, None])
+    square = x * x + (y * y)[:, None]
+    if seen.clip:
+        fit = PchipInterpolator(heights**2, light)
+    else:
+        fit = np.polynomial.Polynomial.fit(heights**2, light, min(4, count - 1))
+    light_at: np.ndarray = fit(square)
     return light_at.astype(np.float32)

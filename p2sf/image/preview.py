@@ -1,12 +1,18 @@
 """A coarse picture at once, while the planned one is computed."""
 
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 
-from p2sf.image.form import Forming, form_image
+from p2sf.errors import GeometryError
+from p2sf.image.form import Forming, form_image, plan_lattice
+from p2sf.image.lattice import Lattice
+from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
-from p2sf.pixel_kernels import Recipe
+from p2sf.pixel_kernels import RAYS, Kernels, Recipe
+from p2sf.pixel_kernels.frequency_grid import FrequencyPupil
+from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
 from p2sf.scene.bounds import check_colours
 from p2sf.scene.cost import Cost
 from p2sf.scene.plan import Plan
@@ -15,16 +21,19 @@ from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduced
 
 LONGEST = 320  # pixels along the preview's longer side
-COUNTS = 3, 3
 COARSE = Recipe("fitted", 26)
+BY_RAYS = Recipe(RAYS)
+MOST_RESIDUAL = 0.5  # waves RMS: a fit that leaves more says less of the blur than rays do
+# Kernels at how many places, by samples along the side of a wave sum's transform, and by pixels along that of rays'.
+WAVE_COUNTS = ((800, (3, 3)), (1200, (2, 2)))
+RAY_COUNTS = ((300, (3, 3)), (450, (2, 2)), (LARGEST_WINDOW, (1, 1)))
 UNKNOWN = Cost(0.0, 0.0, 0.0)
 
 
 def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None = None) -> np.ndarray:
     """Return a coarse picture of the scene's far end or one depth, (rows, columns, channels), at most 320 pixels long.
 
-    One wavelength a channel, 26 numbers a pencil, 3 × 3 nodes, pixels averaged in blocks. Unlike a plan's, its error
-    is not bounded.
+    As `preview_plan` has it, pixels averaged in blocks. Unlike a plan's, its error is not bounded.
     """
     camera = scene.camera(lens)
     check_colours(camera, scene)
@@ -32,17 +41,53 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
     coarse = replace(scene, sensor=_coarser(scene.sensor, times), depth_map=None)
     if depth_mm is not None:
         coarse = replace(coarse, near_mm=depth_mm, far_mm=depth_mm)
-    return form_image(preview_plan(camera, coarse), averaged(values, times), how=Forming(spline=1))
+    planned = preview_plan(camera, coarse)
+    lattice = preview_lattice(planned)
+    return form_image(planned, averaged(values, times), how=Forming(spline=1), lattice=lattice)
 
 
 def preview_plan(camera: Lens, scene: Scene) -> Plan:
-    """Return a plan without any measurement, whose error is unknown, of a lens already focused."""
+    """Return a plan without any measurement, whose error is unknown, of a lens already focused.
+
+    One wavelength a channel, 3 × 3 places or fewer where kernels are wide, 26 numbers a pencil; rays in place of waves
+    where the sum would take seconds, and where 26 numbers do not describe the pencil.
+    """
     colours = tuple(reduced(channel, 1) for channel in scene.channels)
     middle = colours[len(colours) // 2].wavelengths_um[0]
     edge = scene.sensor.corners_mm()[1]
     vergence = float(scene.vergences(2)[0])
-    zones = ((edge, COARSE),)
-    return Plan(camera, scene, middle, zones, colours, COUNTS, (vergence,), (), float("nan"), UNKNOWN, UNKNOWN)
+    zones, counts = ((edge, COARSE),), WAVE_COUNTS[0][1]
+    planned = Plan(camera, scene, middle, zones, colours, counts, (vergence,), (), float("nan"), UNKNOWN, UNKNOWN)
+    side = wave_side(planned)
+    for most, fewer in WAVE_COUNTS:
+        if side <= most:
+            return replace(planned, counts=fewer)
+    by_rays = replace(planned, zones=((edge, BY_RAYS),))
+    size = 2 * _middle_kernels(by_rays).half_width(edge) + 1
+    return replace(by_rays, counts=next((fewer for most, fewer in RAY_COUNTS if size <= most), (1, 1)))
+
+
+def wave_side(planned: Plan) -> float:
+    """Return the side in samples of a wave sum's transform in the corner, inf where a preview's fit does not hold."""
+    edge, kernels = planned.scene.sensor.corners_mm()[1], _middle_kernels(planned)
+    try:
+        light, _ = kernels.lights(edge)[0]
+    except GeometryError:  # rays are lost, or the pupil is too distorted for polynomials
+        return inf
+    if isinstance(light, FrequencyPupil) and light.residual_waves > MOST_RESIDUAL:
+        return inf
+    return (2 * kernels.half_width(edge) + 1) * samples_across(light, kernels.pixel_um)
+
+
+def preview_lattice(planned: Plan, watch: Progress | None = None) -> Lattice:
+    """Return the kernels of a preview's plan, none of which reaches farther than the picture."""
+    sensor = planned.scene.sensor
+    return plan_lattice(planned, planned.vergences[0], watch, max(sensor.rows, sensor.columns))
+
+
+def _middle_kernels(planned: Plan) -> Kernels:
+    """Return the kernels of the middle channel."""
+    return planned.kernels(len(planned.colours) // 2, planned.vergences[0])
 
 
 def _coarser(sensor: Sensor, times: int) -> Sensor:

@@ -1,8 +1,10 @@
 """The kernel of one spectral channel anywhere on the sensor: fits along a radius, rotated, summed over wavelength."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from math import atan2, hypot
+from typing import TypeAlias
 
 import numpy as np
 
@@ -11,13 +13,21 @@ from p2sf.errors import P2SFError
 from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, pupil_map, without
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import SensorMap
+
+RAYS = "rays"  # the method of a recipe whose kernels are densities of rays
+
+
+Light: TypeAlias = FrequencyPupil | RaySpread
+"""What describes the light of one point: a pupil whose waves are summed, or rays."""
 
 
 @dataclass(frozen=True)
 class Recipe:
     """How kernels are computed: method, its numbers (None: as the residual requires), samples per λ/(2NA), margin.
 
+    ``method``: "seidel" or "fitted", whose waves are summed, or "rays", to which the other numbers mean nothing.
     ``margin`` is a fraction of the window's half width, added on either side before the transform and cut off after
     it; ``drop_waves`` is the RMS phase that the omitted terms may have together.
     """
@@ -51,25 +61,25 @@ class Kernels:
     recipe_at: Callable[[float], Recipe]
     half: int | None = None
     tables: Mapping[float, PupilTable] = field(default_factory=dict)
-    kept: dict[float, list[tuple[FrequencyPupil, float]]] = field(default_factory=dict)
+    kept: dict[float, list[tuple[Light, float]]] = field(default_factory=dict)
 
     def at(self, x_mm: float, y_mm: float, half: int | None = None) -> np.ndarray:
         """Return the kernel of the point that lands at (x, y up), (size, size) float32 of unit sum, row 0 the top."""
         height, angle = hypot(x_mm, y_mm), atan2(x_mm, y_mm)
-        rays = self.pupils(height)
+        lights = self.lights(height)
         half = half or self.half or self.half_width(height)
         size = 2 * half + 1
         total = np.zeros((size, size), np.float32)
-        for weight, (pupil, shift_mm) in zip(self.colour.weights, rays, strict=True):
+        for weight, (pupil, shift_mm) in zip(self.colour.weights, lights, strict=True):
             shift = shift_mm * UM_PER_MM * np.sin(angle), shift_mm * UM_PER_MM * np.cos(angle)
             total += np.float32(weight) * self._one(pupil, angle, half, shift, self.recipe_at(height))
         total /= total.sum(dtype=float).astype(np.float32)
         return total
 
-    def _one(
-        self, pupil: FrequencyPupil, angle: float, half: int, shift: tuple[float, float], recipe: Recipe
-    ) -> np.ndarray:
+    def _one(self, pupil: Light, angle: float, half: int, shift: tuple[float, float], recipe: Recipe) -> np.ndarray:
         """Return the kernel of one wavelength, (2·half + 1,)²."""
+        if isinstance(pupil, RaySpread):
+            return ray_kernel(pupil, angle, half, self.pixel_um, shift)
         samples = samples_across(pupil, self.pixel_um, recipe.fineness)
         # The transform is periodic: a pencil wider than the window would wrap around to its other side.
         need = half_width(pupil, self.pixel_um, hypot(*shift))
@@ -79,14 +89,20 @@ class Kernels:
         return kernel[cut : kernel.shape[0] - cut, cut : kernel.shape[1] - cut] if cut else kernel
 
     def pupils(self, height_mm: float) -> list[tuple[FrequencyPupil, float]]:
-        """Return (pupil, lateral colour in mm) of every wavelength at one height."""
+        """Return (pupil, lateral colour in mm) of every wavelength at one height; none of a recipe of rays."""
+        return [(p, shift) for p, shift in self.lights(height_mm) if isinstance(p, FrequencyPupil)]
+
+    def lights(self, height_mm: float) -> list[tuple[Light, float]]:
+        """Return (pupil or rays, lateral colour in mm) of every wavelength at one height."""
         key = round(height_mm, 9)
         if key not in self.kept:
             recipe = self.recipe_at(height_mm)
-            self.kept[key] = [self._pupil(height_mm, w, recipe) for w in self.colour.wavelengths_um]
+            self.kept[key] = [self._light(height_mm, w, recipe) for w in self.colour.wavelengths_um]
         return self.kept[key]
 
-    def _pupil(self, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[FrequencyPupil, float]:
+    def _light(self, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[Light, float]:
+        if recipe.method == RAYS:
+            return _own_rays(self.seen, height_mm, wavelength_um)
         table = self.tables.get(wavelength_um)
         found = table.at(height_mm, float(vergence(self.seen.depth_mm))) if table else None
         pupil, shift = found or own_pupil(self.seen, height_mm, wavelength_um, recipe)
@@ -94,23 +110,29 @@ class Kernels:
 
     def half_width(self, height_mm: float) -> int:
         """Return how many pixels on either side of the centre hold the whole kernel at this height."""
-        return max(half_width(p, self.pixel_um, abs(s) * UM_PER_MM) for p, s in self.pupils(height_mm))
-
-    def light(self, height_mm: float) -> float:
-        """Return the pupil's projected solid angle at this height, weighted over the channel."""
-        recipe = self.recipe_at(height_mm)
-        own = (own_pupil(self.seen, height_mm, wave, recipe)[0].light for wave in self.colour.wavelengths_um)
-        return float(
-            sum(w * light for w, light in zip(self.colour.weights, own, strict=True)) / sum(self.colour.weights)
-        )
+        return max(half_width(p, self.pixel_um, abs(s) * UM_PER_MM) for p, s in self.lights(height_mm))
 
 
 def own_pupil(seen: SensorMap, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[FrequencyPupil, float]:
     """Return the pupil at one height from its own rays, and its lateral colour in mm; P2SFError names the height."""
-    try:
+    with _at_height(height_mm):
         pupil = pupil_map(seen.lens, seen.source(height_mm, wavelength_um), recipe.method, recipe.numbers)
+        return pupil, seen.shift_mm(height_mm, wavelength_um)
+
+
+def _own_rays(seen: SensorMap, height_mm: float, wavelength_um: float) -> tuple[RaySpread, float]:
+    """Return the rays of one height, and its lateral colour in mm; P2SFError names the height."""
+    with _at_height(height_mm):
+        spread = ray_spread(seen.lens, seen.source(height_mm, wavelength_um), seen.clip)
+        return spread, seen.shift_mm(height_mm, wavelength_um)
+
+
+@contextmanager
+def _at_height(height_mm: float) -> Iterator[None]:
+    """Name the height in a P2SFError."""
+    try:
+        yield
     except P2SFError as error:
         raise type(error)(
             "{height:.4g} mm from the axis of the sensor: {error}", height=height_mm, error=error
         ) from error
-    return pupil, seen.shift_mm(height_mm, wavelength_um)

@@ -9,6 +9,7 @@ rotation needs no interpolation.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TypeAlias
 
 import numpy as np
 
@@ -24,18 +25,19 @@ from p2sf.raytrace.fit import FittedPencil, Gradient, fit
 ORDERS = 6, 18  # the least and the greatest
 FAR_OFF = 30.0  # times the allowed residual: then the next order but one is tried, since the next seldom suffices
 NODES = 16, 44
-REACH_NODES = 14, 36
+REACH_NODES = 24, 48
+FOLDED = 0.1  # of the pupil's area: nodes count that area to some 2 % where the polynomials hold
 STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 PHASE_RESIDUAL = 2e-4  # waves RMS: 2e-3 of relative L2 in the finest detail, less in a pixel
 POINT_RESIDUAL = 5e-4  # of the pupil radius
+Forms: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]  # coefficients of phase, η and ξ
 
 
 @dataclass(frozen=True, eq=False)
 class FrequencyPupil:
     """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
 
-    ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``light`` the pupil's area in
-    (cycles/µm)² times λ², proportional to the irradiance of a uniform object; ``residual_waves`` RMS phase error left.
+    ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``residual_waves`` RMS phase error left.
     """
 
     order: int
@@ -44,7 +46,6 @@ class FrequencyPupil:
     eta: np.ndarray
     xi: np.ndarray
     reach_um: float
-    light: float
     residual_waves: float
     method: str
     numbers: int
@@ -69,14 +70,13 @@ def _from_seidel(lens: Lens, source: Source) -> FrequencyPupil:
     phase = wavefront(six, nodes.xi, nodes.eta)
     columns = phase, nodes.eta, nodes.xi
     phase, eta, xi = _coefficients(*basis_by_powers(4, sign * nodes.xi, sign * nodes.eta), columns)
-    reach = reach_of(4, phase, abs(scale))
-    light = np.pi * (abs(scale) * source.wavelength_um) ** 2
-    return FrequencyPupil(4, abs(scale), phase, eta, xi, reach, float(light), 0.0, "seidel", 6)
+    reach = reach_of(4, (phase, eta, xi), abs(scale))
+    return FrequencyPupil(4, abs(scale), phase, eta, xi, reach, 0.0, "seidel", 6)
 
 
 def _from_fit(found: FittedPencil, source: Source) -> FrequencyPupil:
     nodes = disc_nodes(*NODES)
-    even, odd, slopes, slopes_odd = _at_nodes(found.level.wave_order, found.level.map_order)
+    even, odd = _at_nodes(found.level.wave_order, found.level.map_order)
     phase, fx, fy = found.on(even, odd)
     centre = (fy.max() + fy.min()) / 2
     radius = float(np.hypot(fx, fy - centre).max()) * 1.02
@@ -91,26 +91,19 @@ def _from_fit(found: FittedPencil, source: Source) -> FrequencyPupil:
         if excess < 1 or order == ORDERS[-1]:
             break
         order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
-    area = (found.fx @ slopes_odd[0]) * (found.fy @ slopes[1]) - (found.fx @ slopes_odd[1]) * (found.fy @ slopes[0])
-    light = float(nodes.weight @ np.abs(area)) * np.pi * source.wavelength_um**2
     left = float(np.hypot(residual, found.residual_waves))
-    reach = reach_of(order, waves_of, radius)
-    return FrequencyPupil(order, radius, waves_of, eta_of, xi_of, reach, light, left, "fitted", found.numbers)
+    reach = reach_of(order, (waves_of, eta_of, xi_of), radius)
+    return FrequencyPupil(order, radius, waves_of, eta_of, xi_of, reach, left, "fitted", found.numbers)
 
 
 @lru_cache(maxsize=8)
-def _at_nodes(wave_order: int, map_order: int) -> tuple[np.ndarray, np.ndarray, Gradient, Gradient]:
-    """Return even and odd terms, and the gradients of the map's even and odd terms, at the fixed nodes."""
+def _at_nodes(wave_order: int, map_order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return even and odd terms at the fixed nodes."""
     nodes = disc_nodes(*NODES)
-    even = basis(max(wave_order, map_order), nodes.xi, nodes.eta)
-    odd = basis(map_order, nodes.xi, nodes.eta, odd=True)
-    slopes, slopes_odd = (gradient(map_order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
-    return even, odd, slopes, slopes_odd
+    return basis(max(wave_order, map_order), nodes.xi, nodes.eta), basis(map_order, nodes.xi, nodes.eta, odd=True)
 
 
-def _coefficients(
-    even: np.ndarray, odd: np.ndarray, columns: Sequence[np.ndarray]
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _coefficients(even: np.ndarray, odd: np.ndarray, columns: Sequence[np.ndarray]) -> Forms:
     """Return least-squares coefficients of phase and η over the even terms, and of ξ over the odd ones."""
     phase, eta, xi = columns
     both = _solve(even, np.stack([phase, eta], axis=1))
@@ -124,19 +117,47 @@ def _solve(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
     return np.linalg.solve(normal, rows @ values)
 
 
-def reach_of(order: int, phase: np.ndarray, radius: float) -> float:
-    """Return the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton)."""
-    across, along = _slopes(order)
-    distance = np.hypot(phase @ across, phase @ along) / radius
+def reach_of(order: int, forms: Forms, radius: float) -> float:
+    """Return the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton).
+
+    ``forms``: coefficients of phase, η and ξ. Only frequencies of the pupil count, since its polynomials mean nothing
+    beyond its rim. Raises GeometryError where they come back there, and would let light through that does not exist.
+    """
+    (_, eta, xi), terms_at = forms, _terms_at(order)
+    (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
+        (form @ across, form @ along) for form, (across, along) in zip(forms, terms_at.slopes, strict=True)
+    )
+    area = np.abs(xi_u * eta_v - xi_v * eta_u)
+    inside = (eta @ terms_at.even) ** 2 + (xi @ terms_at.odd) ** 2 <= 1
+    part = np.where(inside, terms_at.weight * area, 0.0)
+    if abs(part.sum() - 1) > FOLDED:
+        raise GeometryError(
+            "the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its "
+            "area; stop the lens down or reduce the field",
+            share=float(part.sum()),
+        )
+    distance, light = np.hypot(phase_u, phase_v) / radius, part * area
     order_of = np.argsort(distance)
-    inside = np.cumsum(disc_nodes(*REACH_NODES).weight[order_of]) <= 1 - STRAY
-    return float(distance[order_of][inside].max(initial=0.0))
+    within = np.cumsum(light[order_of]) <= (1 - STRAY) * light.sum()
+    return float(distance[order_of][within].max(initial=0.0))
+
+
+@dataclass(frozen=True, eq=False)
+class _TermsAt:
+    """Even and odd terms at REACH_NODES over u, the nodes' weights, and gradients as phase, η and ξ take them."""
+
+    even: np.ndarray
+    odd: np.ndarray
+    weight: np.ndarray
+    slopes: tuple[Gradient, Gradient, Gradient]
 
 
 @lru_cache(maxsize=16)
-def _slopes(order: int) -> Gradient:
+def _terms_at(order: int) -> _TermsAt:
     nodes = disc_nodes(*REACH_NODES)
-    return gradient(order, nodes.xi, nodes.eta)
+    even, odd = (basis(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
+    slopes, slopes_odd = (gradient(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
+    return _TermsAt(even, odd, nodes.weight, (slopes, slopes, slopes_odd))
 
 
 def dropped_terms(pupil: FrequencyPupil, waves: float) -> list[tuple[int, int, float]]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from p2sf.errors import SamplingError
 from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, Turned, turned
+from p2sf.pixel_kernels.ray_spread import RaySpread
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land
 LARGEST_WINDOW = 4096
@@ -28,12 +29,12 @@ class PixelWindow:
         return 2 * self.half + 1
 
 
-def half_width(pupil: FrequencyPupil, pixel_um: float, shift_um: float = 0.0) -> int:
+def half_width(pupil: FrequencyPupil | RaySpread, pixel_um: float, shift_um: float = 0.0) -> int:
     """Return how many pixels on either side of the centre hold the rays and the nearest rings around them."""
     return max(1, ceil((pupil.reach_um + abs(shift_um) + TAIL / pupil.radius) / pixel_um - 0.5))
 
 
-def samples_across(pupil: FrequencyPupil, pixel_um: float, finest: float = 1.0) -> int:
+def samples_across(pupil: FrequencyPupil | RaySpread, pixel_um: float, finest: float = 1.0) -> int:
     """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 every fringe.
 
     At least three, so that pixel edges are resolved well enough.

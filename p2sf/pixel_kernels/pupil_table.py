@@ -23,7 +23,7 @@ PupilShift: TypeAlias = tuple[FrequencyPupil, float]  # a pupil, and its lateral
 class PupilTable:
     """Pupils of one wavelength between those fitted at heights × vergences, and their lateral colour.
 
-    ``rows``, (heights · vergences, numbers): phase, η and ξ, radius, light and lateral colour in mm of each pupil.
+    ``rows``, (heights · vergences, numbers): phase, η and ξ, radius and lateral colour in mm of each pupil.
     ``like`` is a pupil of the highest order, with the largest residual of all.
     """
 
@@ -39,10 +39,10 @@ class PupilTable:
         weights = np.outer(lagrange(self.heights_mm, height_mm), lagrange(self.vergences, vergence)).ravel()
         row, like = weights @ self.rows, self.like
         even = like.phase.size
-        phase, eta, xi = row[:even], row[even : 2 * even], row[2 * even : -3]
-        radius, light, shift = row[-3:].tolist()
-        reach = reach_of(like.order, phase, radius)
-        return replace(like, phase=phase, eta=eta, xi=xi, reach_um=reach, radius=radius, light=light), shift
+        phase, eta, xi = row[:even], row[even : 2 * even], row[2 * even : -2]
+        radius, shift = row[-2:].tolist()
+        reach = reach_of(like.order, (phase, eta, xi), radius)
+        return replace(like, phase=phase, eta=eta, xi=xi, reach_um=reach, radius=radius), shift
 
 
 def pupil_table(
@@ -60,7 +60,7 @@ def pupil_table(
 def _row(pupil: FrequencyPupil, shift_mm: float, like: FrequencyPupil) -> np.ndarray:
     """Return all numbers of a pupil; zeros stand for terms of higher degree, the last of each form, that it lacks."""
     forms = (np.pad(getattr(pupil, n), (0, getattr(like, n).size - getattr(pupil, n).size)) for n in FORMS)
-    return np.concatenate([*forms, (pupil.radius, pupil.light, shift_mm)])
+    return np.concatenate([*forms, (pupil.radius, shift_mm)])
 
 
 @lru_cache(maxsize=1024)

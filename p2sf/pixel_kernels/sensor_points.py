@@ -23,7 +23,8 @@ class SensorMap:
     """One object plane seen through one lens: chief rays from the axis to the sensor's corner.
 
     ``heights_mm``: where real chief rays of ``slopes`` land, increasing from 0; ``scale_mm``: paraxial height per
-    unit slope, negative where the image is upright. At the reference wavelength.
+    unit slope, negative where the image is upright. At the reference wavelength. ``clip``: whether rims clip the
+    pencils of its points.
     """
 
     lens: Lens
@@ -32,6 +33,7 @@ class SensorMap:
     slopes: np.ndarray
     heights_mm: np.ndarray
     scale_mm: float
+    clip: bool = False
 
     def slope(self, height_mm: FloatOrArray) -> FloatOrArray:
         """Return field slopes whose chief rays land at radial heights, mm."""
@@ -62,7 +64,7 @@ class SensorMap:
         return (1 + close * here) / (1 + close * there)
 
 
-def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> SensorMap:
+def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float, clip: bool = False) -> SensorMap:
     """Return the map out to radial ``height_mm`` on the sensor; GeometryError where no chief ray lands that far."""
     six = coefficients(lens, depth_mm, 1.0, wavelength_um)
     scale = float(six.image_height)
@@ -75,7 +77,7 @@ def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: flo
         except GeometryError:
             continue
         if heights[-1] >= height_mm and (np.diff(heights) > 0).all():
-            return SensorMap(lens, float(depth_mm), float(wavelength_um), slopes, heights, scale)
+            return SensorMap(lens, float(depth_mm), float(wavelength_um), slopes, heights, scale, clip)
     raise GeometryError(
         "no chief ray of an object at {depth} lands {height:.4g} mm from the axis, where the sensor's "
         "corner is; take a smaller sensor",

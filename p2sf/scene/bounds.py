@@ -22,7 +22,7 @@ def check_colours(lens: Lens, scene: Scene) -> None:
             try:
                 medium.index(channel.wavelengths_um)
             except GlassError as error:
-                raise GlassError("channel {channel}: {error}", channel=channel.name, error=error) from error
+                raise GlassError("channel {channel}: {error}", channel=channel.label, error=error) from error
 
 
 def check_blur(study: Study) -> None:

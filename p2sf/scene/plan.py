@@ -216,7 +216,7 @@ def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Deci
             count=number + 1,
             all=len(counts),
         )
-        what = Message("colour {channel}", channel=channel.name)
+        what = Message("colour {channel}", channel=channel.label)
         decisions.append(Decision(what, choice, why, error, "colour"))
     return tuple(colours), decisions
 

@@ -8,9 +8,11 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
+from p2sf.messages import Message
 from p2sf.request import AimChoice, Request, check_aim, set_up
 from p2sf.scene.sensor import Sensor
 
+NAMES = {"red": Message("red"), "green": Message("green"), "blue": Message("blue")}
 TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil keep no less
 
 
@@ -26,14 +28,19 @@ class Channel:
         if not self.wavelengths_nm or len(self.wavelengths_nm) != len(self.weights):
             raise RequestError(
                 "channel {channel} has {waves} wavelengths and {weights} weights; give as many of both, at least one",
-                channel=self.name,
+                channel=self.label,
                 waves=len(self.wavelengths_nm),
                 weights=len(self.weights),
             )
         if not all(isfinite(w) and w > 0 for w in (*self.wavelengths_nm, *self.weights)):
             raise RequestError(
-                "channel {channel} has a wavelength or weight that is not positive; correct it", channel=self.name
+                "channel {channel} has a wavelength or weight that is not positive; correct it", channel=self.label
             )
+
+    @property
+    def label(self) -> Message | str:
+        """Return the name for messages: a common colour's is translated, any other stays as it was given."""
+        return NAMES.get(self.name, self.name)
 
     @property
     def wavelengths_um(self) -> np.ndarray:

@@ -149,7 +149,7 @@ def test_distortion_puts_points_where_real_chief_rays_land():
 def test_light_falls_off_as_the_cosines_fourth_power_for_a_thin_stop():
     """E ∝ cos⁴ for a stop that nothing magnifies; the landscape lens, whose stop stands before it, is close to that."""
     planned = quick(Sensor(100, 100, 60.0), "landscape")
-    shade = illumination(planned.kernels(0, 0.0), planned.scene.sensor)
+    shade = illumination(planned.sensor_map(0.0), planned.scene.sensor)
     slope = planned.sensor_map(0.0).slope(planned.scene.sensor.corners_mm()[1])
     assert shade[50, 50] == pytest.approx(1, abs=1e-3)
     assert shade[0, 0] == pytest.approx((1 + slope**2) ** -2, abs=0.03)

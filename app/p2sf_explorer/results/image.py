@@ -13,15 +13,16 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, slope_from_degrees
-from p2sf.errors import GeometryError, SamplingError
+from p2sf.errors import GeometryError
 from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.deblur import psnr, wiener, with_one_kernel
 from p2sf.image.lattice import Lattice
-from p2sf.image.preview import preview_plan
+from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.pixel_kernels import RAYS
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.pixels import samples_across
 from p2sf.pixel_kernels.sensor_points import chief_heights
@@ -125,8 +126,8 @@ UNMEASURED = {
         "Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones."
     ),
 }
-COUNTS = ((800, (3, 3)), (1200, (2, 2)), (2000, (1, 1)))  # samples along a PSF's side, and at how many places then
-WIDEST = COUNTS[-1][0]
+WIDEST = 1200  # samples along the side of a PSF that a plan is made for
+RAY_NOTE = Message("These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.")
 CORNER = 0.97  # of the way to the outermost chief ray
 TOLERANCE = 0.1  # relative error of a pixel's kernel: less cannot be seen
 PLANNING = 0.9  # of the time of a planned picture; the rest are its kernels and the blur
@@ -179,11 +180,13 @@ def question(live: Live) -> ImageRequest:
 
 def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
-    begun, scene = perf_counter(), scene_of(request)
-    coarse_plan = affordable(preview_plan(scene.camera(request.lens), scene))
+    begun, scene, watch = perf_counter(), scene_of(request), watch or Progress()
+    coarse_plan = preview_plan(scene.camera(request.lens), scene)
     why_not = no_plan(coarse_plan)
-    notes = ((Message("Coarse"), UNMEASURED[why_not]),)
-    return replace(_answer(request, coarse_plan, watch or Progress(), begun, notes), no_plan=why_not)
+    rays: Notes = ((Message("Rays"), RAY_NOTE),) if by_rays(coarse_plan) else ()
+    notes = ((Message("Coarse"), UNMEASURED[why_not]), *rays)
+    lattice = preview_lattice(coarse_plan, watch)
+    return replace(_answer(request, coarse_plan, watch, begun, notes, lattice), no_plan=why_not)
 
 
 def planned(request: ImageRequest, watch: Progress | None = None, known: ImageResult | None = None) -> ImageResult:
@@ -260,21 +263,6 @@ def shown(
     return blurred, right if show == "sharpened" else wrong, ((Message("Sharpening"), note),)
 
 
-def affordable(plan: Plan) -> Plan:
-    """Return a coarse plan with fewer places where a PSF is wide; SamplingError where one alone takes seconds."""
-    rim = plan.scene.sensor.corners_mm()[1]
-    kernels = plan.kernels(1, plan.vergences[0])
-    size = 2 * kernels.half_width(rim) + 1
-    side = size * samples_across(kernels.pupils(rim)[0][0], kernels.pixel_um)
-    if side > WIDEST:
-        raise SamplingError(
-            "points blur over {size:.2g} mm here, too much to wait for; "
-            "stop down, or move the source towards the axis or into focus",
-            size=size * kernels.pixel_um / UM_PER_MM,
-        )
-    return replace(plan, counts=next(counts for most, counts in COUNTS if side <= most))
-
-
 def fine_enough(answer: ImageResult) -> bool:
     """Return whether a plan is worth its time."""
     return no_plan(answer.plan) is None
@@ -282,11 +270,18 @@ def fine_enough(answer: ImageResult) -> bool:
 
 def no_plan(plan: Plan) -> Message | None:
     """Return why a plan is not worth its time, `TOO_WIDE` or `TOO_LARGE`; None where it is."""
-    if plan.counts == (1, 1):
-        return TOO_WIDE
     kernels = plan.kernels(1, plan.vergences[0])
-    pupil, _ = kernels.pupils(0.0)[0]
-    return TOO_LARGE if 2 * pupil.radius * kernels.pixel_um > MOST_SAMPLES else None
+    middle, _ = kernels.lights(plan.scene.sensor.corners_mm()[0])[0]
+    if 2 * middle.radius * kernels.pixel_um > MOST_SAMPLES:
+        return TOO_LARGE
+    rim = plan.scene.sensor.corners_mm()[1]
+    side = (2 * kernels.half_width(rim) + 1) * samples_across(kernels.lights(rim)[0][0], kernels.pixel_um)
+    return TOO_WIDE if side > WIDEST else None
+
+
+def by_rays(plan: Plan) -> bool:
+    """Return whether a plan's kernels are densities of rays."""
+    return any(recipe.method == RAYS for _, recipe in plan.zones)
 
 
 def axis_kernel(plan: Plan, lattice: Lattice) -> np.ndarray:

@@ -2,7 +2,13 @@
 
 import pytest
 
+from p2sf.lensfile.library import find_lens
+from p2sf.messages import Message
+from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf_explorer.i18n.language import set_language
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import unbroken
+from p2sf_explorer.results.image import plan_notes
 
 
 @pytest.mark.parametrize(
@@ -20,3 +26,17 @@ def test_no_line_end_parts_a_number_from_its_unit(text, kept):
 
 def test_the_sentence_on_the_dominant_term_breaks_at_no_unit(window):
     assert "\u00a0%" in window.controls.sentence.text() and " %" not in window.controls.sentence.text()
+
+
+def test_the_reasons_of_a_plan_name_its_channels_in_german():
+    camera = find_lens("singlet_f6")
+    planned = plan(camera, Scene(Sensor(24, 32, 20.0), tolerance=0.2))
+    set_language("de")
+    try:
+        headings = [said(heading) for heading, _ in plan_notes(planned)]
+        refused = said(Message("channel {channel}: {error}", channel=planned.scene.channels[1].label, error="x"))
+    finally:
+        set_language("en")
+    assert {"Farbe Rot", "Farbe Grün", "Farbe Blau"} < set(headings)
+    assert refused == "Kanal Grün: x"
+    assert Channel("H-alpha", (656.3,), (1.0,)).label == "H-alpha"  # a person's own name

@@ -458,6 +458,7 @@
 <message><source>Theory</source><translation>Theorie</translation></message>
 <message><source>Theory of this panel</source><translation>Theorie zu dieser Ansicht</translation></message>
 <message><source>Theory: conventions, formulas, sources</source><translation>Theorie: Konventionen, Formeln, Quellen</translation></message>
+<message><source>These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.</source><translation>Diese PSFs sind die Dichte der Strahlen; das meiste, was Beugung zu so breiten beiträgt, verbergen die Pixel.</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
 <message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
 <message><source>This is A: a spot is places of rays, not amounts; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
@@ -631,6 +632,7 @@
 <message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
 <message><source>beyond ∞</source><translation>hinter ∞</translation></message>
 <message><source>black body 5600 K</source><translation>Schwarzer Körper 5600 K</translation></message>
+<message><source>blue</source><translation>Blau</translation></message>
 <message><source>blur to tolerate</source><translation>erlaubte Unschärfe</translation></message>
 <message><source>blur, µm</source><translation>Unschärfe, µm</translation></message>
 <message><source>brightness</source><translation>Helligkeit</translation></message>
@@ -774,6 +776,7 @@
 <message><source>glass {name} is not known by name; its nd {nd:g} and vd {vd:g} of the same row are taken</source><translation>Glas {name} ist dem Namen nach unbekannt; nd {nd:g} und vd {vd:g} derselben Zeile gelten</translation></message>
 <message><source>glass {name} of {path} has nd {nd:.5f} by its coefficients and {listed:.5f} by its name line; the catalogue is damaged, replace it</source><translation>das Glas {name} aus {path} hat nd {nd:.5f} nach seinen Koeffizienten und {listed:.5f} nach seiner Namenszeile; der Katalog ist beschädigt, ersetzen</translation></message>
 <message><source>glass's nd or vd</source><translation>nd oder vd des Glases</translation></message>
+<message><source>green</source><translation>Grün</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an even asphere</source><translation>hat eine Form, die weder Kugel noch Kegelschnitt noch gerade Asphäre ist</translation></message>
 <message><source>heights × depths in each wavelength: {heights} × {depths}; the others of {count} lie on polynomials through them</source><translation>Höhen × Abstände je Wellenlänge: {heights} × {depths}; die übrigen von {count} liegen auf Polynomen durch diese</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
@@ -853,7 +856,9 @@
 <message><source>no nodes</source><translation>keine Knoten</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
 <message><source>no ray but the chief ray reaches the sensor; stop the lens down or reduce the field</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor; abblenden oder das Feld verkleinern</translation></message>
+<message><source>no ray lands within {half} pixels of the chief ray; take larger pixels</source><translation>im Umkreis von {half} Pixeln um den Hauptstrahl landet kein Strahl; größere Pixel nehmen</translation></message>
 <message><source>no ray reaches the sensor; choose a smaller field or leave {parameter} off</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder {parameter} auslassen</translation></message>
+<message><source>no ray reaches the sensor; choose a smaller field or stop the lens down</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder abblenden</translation></message>
 <message><source>no ray reaches the sensor; {remedy}</source><translation>kein Strahl erreicht den Sensor; {remedy}</translation></message>
 <message><source>no stop (STO) is stated; surface 1 is the stop, which is what CODE V takes</source><translation>keine Blende (STO) ist angegeben; Fläche 1 ist die Blende, wie CODE V es annimmt</translation></message>
 <message><source>no stop is named; the narrowest rim, surface {number}, is the stop</source><translation>keine Blende ist genannt; der engste Rand, Fläche {number}, ist die Blende</translation></message>
@@ -903,7 +908,6 @@
 <message><source>planned</source><translation>geplant</translation></message>
 <message><source>planning</source><translation>Plan</translation></message>
 <message><source>play is "{name}"; name a slider: {sliders}</source><translation>play ist "{name}"; einen Regler nennen: {sliders}</translation></message>
-<message><source>points blur over {size:.2g} mm here, too much to wait for; stop down, or move the source towards the axis or into focus</source><translation>Punkte verschwimmen hier über {size:.2g} mm, zu viel, um darauf zu warten; abblenden oder die Quelle zur Achse oder in den Fokus bringen</translation></message>
 <message><source>points {depth} away blur over {size:.2g} mm, which takes {side}² samples of {most}² at most; bring the depths nearer to the focus or stop down</source><translation>Punkte in {depth} Entfernung verschwimmen über {size:.2g} mm, das braucht {side}² Proben von höchstens {most}²; die Abstände näher an den Fokus bringen oder abblenden</translation></message>
 <message><source>present field</source><translation>jetziges Feld</translation></message>
 <message><source>preview {fast} / settled {ms} ms</source><translation>Vorschau {fast} / fertig {ms} ms</translation></message>
@@ -922,6 +926,7 @@
 <message><source>read</source><translation>gelesen</translation></message>
 <message><source>reads another file, which is not at hand</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
 <message><source>real image heights are taken as paraxial ones; distortion makes the angles differ</source><translation>wahre Bildhöhen gelten als paraxiale; durch Verzeichnung weichen die Winkel ab</translation></message>
+<message><source>red</source><translation>Rot</translation></message>
 <message><source>reference from {count} rays, {seconds} s</source><translation>Referenz aus {count} Strahlen, {seconds} s</translation></message>
 <message><source>reference wavelength</source><translation>Referenzwellenlänge</translation></message>
 <message><source>reference, µm</source><translation>Referenz, µm</translation></message>
@@ -1123,6 +1128,7 @@
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
+<message><source>the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its area; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihrer Fläche finden; abblenden oder das Feld verkleinern</translation></message>
 <message><source>the range to play is {value}; give where it begins and where it ends</source><translation>der Bereich zum Abspielen ist {value}; angeben, wo er beginnt und wo er endet</translation></message>
 <message><source>the real stop</source><translation>die wahre Blende</translation></message>
 <message><source>the reference is summed when the sliders rest</source><translation>die Referenz wird summiert, wenn die Regler ruhen</translation></message>

@@ -1,0 +1,44 @@
+"""The light that a lens collects from a point of an even object, and how thinly the sensor's area spreads it."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.pixel_kernels.sensor_points import SensorMap
+from p2sf.raytrace.aiming import pupil_rays
+from p2sf.raytrace.vignetting import clear_nodes
+
+NODES = 12, 32
+
+
+def light_collected(lens: Lens, source: Source, clip: bool = False) -> float:
+    """Return ∫cos θ dΩ over the pencil of a point of a Lambertian object, per unit d²(field slope).
+
+    It is relative to the paraxial entrance pupil's area at normal incidence. A plane of depth D before the entrance
+    pupil has dA = D²·d²s; for one at infinity dω = cos³θ·d²s. With dΩ = weight·cos³θ_chief/D² both give the mean of
+    weight·cos θ·cos³θ_chief over the pupil (the cosine to the fourth of a pinhole; Welford 1986, §6.5). Rays that are
+    lost carry no light. Raises GeometryError where all are.
+    """
+    nodes = clear_nodes(lens, source, NODES, clip)
+    rays = pupil_rays(lens, source, nodes.xi, nodes.eta)
+    cosine = 1 / np.sqrt(1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
+    mean = float(nodes.weight @ (cosine + 0 * nodes.xi))
+    return float(nodes.share * mean / (1 + source.field_slope**2) ** 1.5)
+
+
+def relative_illumination(seen: SensorMap, heights_mm: ArrayLike) -> np.ndarray:
+    """Return the irradiance of an even object over that on the axis, where chief rays land at these heights, mm.
+
+    The light of d²s falls on the area d²h = d(h²)/d(s²)·d²s, which distortion changes over the field.
+    """
+    heights = np.ravel(np.asarray(heights_mm, dtype=float))
+    square = seen.heights_mm**2
+    thinned = np.gradient(seen.slopes**2, square, edge_order=2)
+    found = np.array([_collected(seen, h) for h in heights]) * np.interp(heights**2, square, thinned)
+    relative: np.ndarray = found / (_collected(seen, 0.0) * thinned[0])
+    return relative.reshape(np.shape(heights_mm))
+
+
+def _collected(seen: SensorMap, height_mm: float) -> float:
+    return light_collected(seen.lens, seen.source(height_mm, seen.wavelength_um), seen.clip)

@@ -1,0 +1,137 @@
+"""Kernels of wide blurs: the density of rays over the pixels, which average what diffraction would add (handbook 10.1).
+
+A sum of waves takes a transform as wide as the blur and as fine as its fringes. Rays cost the same however wide it
+is, and one that is lost on its way leaves dark no more than its own place.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import cos, pi, sin
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.pixel_kernels.nodes import hats
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.ray_field import ray_data
+
+TRACED = 40, 120  # steps of radius, and of direction over half the disc: exact rays at their ends
+FINER = 5  # times as many cells either way, with rays interpolated between the exact ones
+STRAY = 2e-3  # of the light may land outside the window, as of a sum of waves
+RINGS = 2048
+
+
+@dataclass(frozen=True, eq=False)
+class RaySpread:
+    """Where the light of half a pencil lands, µm from the chief ray, and its shares; the other half mirrors it.
+
+    ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light but STRAY.
+    ``radius``: the largest spatial frequency, cycles/µm. ``lost``: share of the pupil whose rays do not arrive.
+    """
+
+    x_um: np.ndarray
+    y_um: np.ndarray
+    light: np.ndarray
+    reach_um: float
+    radius: float
+    lost: float
+
+
+def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
+    """Return the rays of one source; GeometryError where none reaches the sensor.
+
+    A cell's light is that of the sum of waves, |∂(ξ, η)/∂f|·dξ dη (Parseval).
+    """
+    grid = _grid()
+    rays = pencil(lens, source, grid.xi.ravel(), grid.eta.ravel(), clip)
+    passed = rays.passed.reshape(grid.xi.shape)
+    if not passed.any():
+        raise GeometryError("no ray reaches the sensor; choose a smaller field or stop the lens down")
+    data, share = ray_data(rays), grid.at_cells(passed.astype(float))
+    x, y = (_between_passed(column.reshape(passed.shape), passed, share) for column in (data.x_um, data.y_um))
+    area = grid.at_cells(_frequency_area(data.fx.reshape(passed.shape), data.fy.reshape(passed.shape)))
+    light = share * grid.rho**2 / area
+    light /= 2 * light.sum()
+    lost = 1 - float((share * grid.rho).sum() / (grid.rho + 0 * share).sum())
+    spread = float(np.nanmax(np.hypot(data.fx, data.fy)))
+    return RaySpread(x, y, light, _reach(np.hypot(x, y), light), spread, lost)
+
+
+@dataclass(frozen=True, eq=False)
+class _Grid:
+    """Exact rays over the half disc ξ ≥ 0, and the matrices that carry their values to the cells between them."""
+
+    radii: np.ndarray
+    directions: np.ndarray
+    to_radii: np.ndarray
+    to_directions: np.ndarray
+    rho: np.ndarray
+
+    @property
+    def xi(self) -> np.ndarray:
+        """Return ξ of the rays, (radii, directions)."""
+        return np.outer(self.radii, np.sin(self.directions))
+
+    @property
+    def eta(self) -> np.ndarray:
+        """Return η of the rays, (radii, directions)."""
+        return np.outer(self.radii, np.cos(self.directions))
+
+    def at_cells(self, values: np.ndarray) -> np.ndarray:
+        """Return values on the rays at the cells between them, linear in radius and direction."""
+        found: np.ndarray = self.to_radii @ values @ self.to_directions
+        return found
+
+
+@lru_cache(maxsize=1)
+def _grid() -> _Grid:
+    radii, directions = (np.linspace(0, end, count + 1) for end, count in zip((1.0, pi), TRACED, strict=True))
+    middles = [(np.arange(FINER * n) + 0.5) * (end / (FINER * n)) for end, n in zip((1.0, pi), TRACED, strict=True)]
+    return _Grid(radii, directions, hats(radii, middles[0]).T, hats(directions, middles[1]), middles[0][:, None])
+
+
+def _between_passed(values: np.ndarray, passed: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Return values at the cells, interpolated between those rays about a cell that arrived; 0 where none did."""
+    found: np.ndarray = _grid().at_cells(np.where(passed, values, 0.0)) / np.where(share > 0, share, 1.0)
+    return found
+
+
+def _frequency_area(fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
+    """Return |∂(fx, fy)/∂(ρ, θ)| by central differences; beside a lost ray, that of the mean |∂(fx, fy)/∂(ξ, η)|."""
+    grid = _grid()
+    (x_out, x_round), (y_out, y_round) = (np.gradient(f, grid.radii, grid.directions) for f in (fx, fy))
+    area = np.abs(x_out * y_round - x_round * y_out)
+    known, rho = np.isfinite(area), np.broadcast_to(grid.radii[:, None], area.shape)
+    found: np.ndarray = np.where(known, area, rho * (area[known].sum() / rho[known].sum()))
+    return found
+
+
+def _reach(distance: np.ndarray, light: np.ndarray) -> float:
+    """Return the radius that holds all of the light but STRAY, to a part in RINGS of the farthest ray's."""
+    ring = float(distance.max()) / RINGS or 1.0
+    within = np.bincount((distance / ring).astype(np.intp).ravel(), light.ravel()).cumsum()
+    return ring * (1 + int(np.searchsorted(within, (1 - STRAY) * within[-1])))
+
+
+def ray_kernel(
+    spread: RaySpread, angle: float, half: int, pixel_um: float, shift_um: tuple[float, float] = (0.0, 0.0)
+) -> np.ndarray:
+    """Return the share of a point's light per pixel, (2·half + 1,)² float32 of unit sum, row 0 at the top.
+
+    As `pixels.pixel_kernel`, from rays. Raises GeometryError where no ray lands in the window.
+    """
+    size, sine, cosine = 2 * half + 1, sin(angle), cos(angle)
+    total = np.zeros(size * size)
+    for across in (spread.x_um, -spread.x_um):
+        x = across * cosine + spread.y_um * sine + shift_um[0]
+        y = spread.y_um * cosine - across * sine + shift_um[1]
+        column, row = np.rint(x / pixel_um) + half, half - np.rint(y / pixel_um)
+        inside = (column >= 0) & (column < size) & (row >= 0) & (row < size)
+        place = (row[inside] * size + column[inside]).astype(np.intp)
+        total += np.bincount(place, spread.light[inside], total.size)
+    if not total.any():
+        raise GeometryError("no ray lands within {half} pixels of the chief ray; take larger pixels", half=half)
+    kernel: np.ndarray = (total / total.sum()).astype(np.float32).reshape(size, size)
+    return kernel

@@ -1,0 +1,91 @@
+"""Kernels made of rays: against the sum of waves, the rays themselves, and where polynomials give up."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GeometryError
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.pixel_kernels import RAYS, Colour, Kernels, Recipe, sensor_map
+from p2sf.pixel_kernels.frequency_grid import pupil_map
+from p2sf.pixel_kernels.pixels import PixelWindow, pixel_kernel, samples_across
+from p2sf.pixel_kernels.ray_spread import ray_kernel, ray_spread
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.raytrace.pencil import pencil
+
+WAVE = 0.5876
+WIDE = [("wide_angle_35", 21.0, 18), ("fast_gauss_f14", 15.0, 34)]  # and half of the blur in pixels of 32 µm
+
+
+def source(degrees: float, depth_mm: float = np.inf) -> Source:
+    return Source(depth_mm, float(np.tan(np.deg2rad(degrees))), WAVE)
+
+
+def relative(kernel, good) -> float:
+    return float(np.linalg.norm(kernel - good) / np.linalg.norm(good))
+
+
+@pytest.mark.parametrize(("name", "degrees", "half"), WIDE)
+def test_rays_and_waves_agree_where_pixels_are_wide(name, degrees, half):
+    """Pixels of 32 µm over some 20 samples of λ/2NA: what is left is diffraction at caustics, 1 to 2 % of L2."""
+    lens, angle = find_lens(name), 0.3
+    pupil = pupil_map(lens, source(degrees), "fitted")
+    waves = pixel_kernel(pupil, angle, PixelWindow(half, 32.0, samples_across(pupil, 32.0)))
+    rays = ray_kernel(ray_spread(lens, source(degrees)), angle, half, 32.0)
+    assert rays.sum(dtype=float) == pytest.approx(1, abs=1e-6)
+    assert relative(rays, waves) < 0.025
+    assert relative(rays[:, ::-1], waves) > 0.1  # a wrong sense of turning is something else
+
+
+@pytest.mark.parametrize(("name", "degrees", "half"), WIDE)
+def test_a_window_is_as_wide_as_the_rays_land(name, degrees, half):
+    """The share of the light is (∂(ξ, η)/∂f)² df, nearly that of the pupil; 5 % for this and for the nodes."""
+    lens = find_lens(name)
+    nodes = disc_nodes(60, 240)
+    rays = pencil(lens, source(degrees), nodes.xi, nodes.eta)
+    distance = 1000 * np.hypot(rays.dx, rays.dy)
+    order = np.argsort(distance)
+    within = distance[order][nodes.weight[order].cumsum() <= 0.998].max()
+    assert pupil_map(lens, source(degrees), "fitted").reach_um == pytest.approx(within, rel=0.05)
+    assert ray_spread(lens, source(degrees)).reach_um == pytest.approx(within, rel=0.05)
+
+
+def test_polynomials_that_come_back_beyond_the_rim_are_refused():
+    """The pupil of this corner fills a part of its frequencies' disc, and the rest was taken for pupil as well."""
+    with pytest.raises(GeometryError, match="too distorted for polynomials"):
+        pupil_map(find_lens("wide_angle_35"), source(31.5), "fitted")
+
+
+def test_lost_rays_leave_the_others():
+    lens, near = find_lens("relay"), source(1.0, 94.412)
+    nodes = disc_nodes(60, 240)
+    rays = pencil(lens, near, nodes.xi, nodes.eta)
+    passed = float(nodes.weight[rays.passed].sum())
+    assert passed < 0.99
+    with pytest.raises(GeometryError, match="do not reach the sensor"):
+        pupil_map(lens, near, "fitted")
+    found = ray_spread(lens, near)
+    assert 1 - found.lost == pytest.approx(passed, abs=5e-3)  # a cell has 1/40 of the radius
+    assert np.isfinite(found.light).all() and 2 * found.light.sum() == pytest.approx(1)
+    kernel = ray_kernel(found, 0.0, 100, 8.0)
+    assert np.isfinite(kernel).all() and kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
+
+
+def test_rims_darken_their_part_of_the_pupil():
+    """The share of the rays that pass, against many rays counted one by one."""
+    lens, at = find_lens("fast_gauss_f14"), source(22.0)
+    nodes = disc_nodes(60, 240)
+    passed = float(nodes.weight[pencil(lens, at, nodes.xi, nodes.eta, clip=True).passed].sum())
+    assert passed < 0.5
+    assert 1 - ray_spread(lens, at, clip=True).lost == pytest.approx(passed, abs=5e-3)
+    assert ray_spread(lens, at).lost == 0
+
+
+def test_kernels_of_rays_carry_their_lateral_colour():
+    seen = sensor_map(find_lens("fast_gauss_f14"), np.inf, WAVE, 15.0)
+    kernels = Kernels(seen, Colour((0.45, WAVE), (0.5, 0.5)), 16.0, lambda height: Recipe(RAYS))
+    assert not kernels.pupils(13.0) and len(kernels.lights(13.0)) == 2
+    kernel = kernels.at(0.0, 13.0)
+    assert kernel.shape[0] == 2 * kernels.half_width(13.0) + 1
+    assert kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
+    assert np.allclose(kernel, kernel[:, ::-1], atol=2e-4 * kernel.max())  # rays on a pixel's edge fall to one side
