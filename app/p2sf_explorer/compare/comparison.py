@@ -123,8 +123,11 @@ def difference(a: Live, b: Live) -> Difference:
     """Return what differs; B's wavefront on A's samples, straight lines between its own."""
     peak = max(float(a.psf.values.max()), float(b.psf.values.max())) or 1.0
     pupil = a.pupil.waves - resampled(b.pupil.waves, a.pupil.waves.shape[0])
+    least = min((a.pupil, b.pupil), key=lambda side: side.clear)
+    common = pupil_map(pupil, np.isfinite(pupil), DIFFERENCE)
+    minus = replace(common, outline=least.outline, clear=least.clear)
     six = {name: float(getattr(a.setup.coefficients, name) - getattr(b.setup.coefficients, name)) for name in TERMS}
-    return Difference((a.psf.values - b.psf.values) / peak, pupil_map(pupil, np.isfinite(pupil), DIFFERENCE), six)
+    return Difference((a.psf.values - b.psf.values) / peak, minus, six)
 
 
 def resampled(values: np.ndarray, count: int) -> np.ndarray:

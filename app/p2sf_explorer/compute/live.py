@@ -5,24 +5,17 @@ from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.metrics import airy_radius_um
 from p2sf.psf.result import Psf
-from p2sf.raytrace.pencil import opd_map
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
 from p2sf_explorer.compute.layout import Layout, layout
 from p2sf_explorer.compute.method import rendered
-from p2sf_explorer.compute.pupil import PupilMap, disc, dominant, pupil_map
+from p2sf_explorer.compute.pupil import PupilMap, dominant, pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.compute.warnings import warnings
 from p2sf_explorer.state.state import State
-
-PUPIL_SAMPLES = {"preview": 64, "settled": 96}
-RAY_SAMPLES = {"preview": 40, "settled": 64}  # across the pupil where every sample is a traced ray
 
 
 @dataclass(frozen=True)
@@ -82,16 +75,17 @@ def live(
     placed = perf_counter()
     picture = rendered(state, setup, quality, kept_method, at_least_um, cache)
     psf, finished = picture.psf, perf_counter()
+    pupil = picture.pupil or pupil_of(setup, picture.exact, quality, state.optics.clip)
     lost = sum(not ray.passed for ray in drawing.rays)
     answer = Live(
         state=state,
         setup=setup,
         layout=drawing,
-        pupil=picture.pupil or pupil(setup, picture.exact, quality),
+        pupil=pupil,
         psf=psf,
         quality=quality,
         airy_radius_um=float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na)),
-        dominant=dominant(setup.coefficients),
+        dominant=dominant(pupil),
         warnings=warnings(setup, picture.exact, lost, psf.method == "geometric"),
         why=picture.why,
         method=picture.method,
@@ -114,13 +108,3 @@ def attempted(view: ResultFunction, answer: Live) -> object:
         return view(answer)
     except P2SFError as error:
         return Refused(error.message)
-
-
-def pupil(setup: ParaxialSetup, exact: bool, quality: str) -> PupilMap:
-    """Return the wavefront that made the PSF: of the six coefficients for seidel, else of exact rays."""
-    xi, eta, inside = disc(PUPIL_SAMPLES[quality])
-    if not exact:
-        kind = "what-if" if setup.altered else "six coefficients"
-        return pupil_map(np.asarray(wavefront(setup.coefficients, xi, eta)), inside, kind)
-    count = RAY_SAMPLES[quality]
-    return pupil_map(opd_map(setup.lens, setup.source, count), disc(count)[2], "exact rays")

@@ -18,12 +18,11 @@ from p2sf.raytrace.fit import LEVELS, FittedPencil, fit, fit_rays, level_rays, l
 from p2sf.raytrace.pencil import Pencil, opd_on_sphere, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data
 from p2sf.raytrace.vignetting import CLIPPED
-from p2sf_explorer.compute.pupil import PupilMap, disc, pupil_map
+from p2sf_explorer.compute.pupil import ORDERS, PupilMap, whole_map
 from p2sf_explorer.compute.setup import ParaxialSetup
 
 LEVEL = LEVELS[0]  # 26 numbers
 CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS error in waves up to which 26 numbers do, 64 rays do, a fit does at all
-SAMPLES = 64  # of the pupil map, across
 EDGE = 9  # rays along the rim and along 0.7 of it, which show how far light reaches on the sensor
 
 
@@ -112,26 +111,13 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
 
 
 def preview_pupil(traced: Preview) -> PupilMap:
-    """Return the displayed wavefront over the pupil: a polynomial through that of the level's rays."""
-    setup, project = traced.setup, _projection()
+    """Return the displayed wavefront over the pupil: the terms that fit that of the level's rays."""
+    setup = traced.setup
     back = setup.lens.sensor_mm - setup.pupils.exit_from_last
-    waves = opd_on_sphere(traced.rays, back / traced.rays.chief_kz)
-    shown = np.full(project.inside.shape, np.nan)
-    shown[project.inside] = project.matrix @ waves
-    return pupil_map(shown, project.inside, "exact rays")
-
-
-@dataclass(frozen=True)
-class MapProjection:
-    """The linear map from the rays' waves to the samples of a picture, (samples inside, rays)."""
-
-    matrix: np.ndarray
-    inside: np.ndarray
+    return whole_map(_projection() @ opd_on_sphere(traced.rays, back / traced.rays.chief_kz), "preview")
 
 
 @lru_cache(maxsize=1)
-def _projection() -> MapProjection:
-    xi, eta, inside = disc(SAMPLES)
-    rays = basis(LEVELS[1].wave_order, *points())
-    shown = basis(LEVELS[1].wave_order, xi[inside], eta[inside])
-    return MapProjection(shown.T @ np.linalg.pinv(rays.T), inside)
+def _projection() -> np.ndarray:
+    """Return the least-squares inverse from the rays' waves to the terms of the pupil map, (terms, rays)."""
+    return np.linalg.pinv(basis(ORDERS["preview"], *points()).T)

@@ -1,36 +1,73 @@
-"""The wavefront over the pupil as a picture and as numbers. No Qt in here."""
+"""The wavefront over the pupil as a picture and as numbers. No Qt in here.
 
-from dataclasses import dataclass
+The wavefront is a sum of Zernike terms, fitted by least squares to exact rays or to the six coefficients: one product
+with a fixed matrix. Picture, RMS and the shares of the variance all come from it, over the part of the pupil that
+passes light.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import centred_axis
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
-from p2sf_explorer.state.terms import WORDS
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.quadrature import DiscNodes, disc_nodes
+from p2sf.pupil.zernike import basis, powers, terms
+from p2sf.pupil.zernike_terms import family, zernike_terms
+from p2sf.raytrace.clear_rim import ClearRim, clear_rim
+from p2sf.raytrace.pencil import displayed_opd, pencil
+from p2sf.raytrace.zernike_fit import USUAL_TERMS, decomposed
+from p2sf_explorer.compute.setup import ParaxialSetup
+
+SAMPLES = {"preview": 128, "settled": 512}  # across the picture; an enlarged panel has some thousand pixels
+ORDERS = {"preview": 8, "settled": 18}  # of the fit
+RAYS = {"preview": (7, 20), "settled": (16, 44)}  # radii and directions: exact for products of two terms of that order
+RIMS = {"preview": (48, 2), "settled": (128, 4)}  # directions and rounds of `clear_rim`
+RADII = 12  # of the nodes over a clipped pupil
+TURN = np.linspace(0, 2 * np.pi, 241)
+CIRCLE = np.stack([np.sin(TURN), np.cos(TURN)])
+UNSHARP = 1 / 14**2 / 10  # waves²: a tenth of Maréchal's limit
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PupilMap:
-    """W in waves over the unit disc, (y, x), NaN outside; RMS without piston, peak to valley, in waves."""
+    """W in waves over the square about the pupil, (y, x), NaN where the pupil's part that passes light is a pixel away.
+
+    ``rms`` without piston and ``peak_to_valley``, in waves; ``outline``: ξ and η of the part that passes light, closed,
+    (2, points); ``clear``: that part of the pupil's area; ``parts``: aberration → its part of the variance, waves²,
+    piston and tilt left out; ``rest``: what these parts leave.
+    """
 
     waves: np.ndarray
     rms: float
     peak_to_valley: float
     kind: str
+    outline: np.ndarray = field(default_factory=lambda: CIRCLE)
+    clear: float = 1.0
+    parts: Mapping[str, float] = field(default_factory=dict)
+    rest: float = 0.0
 
 
 @lru_cache(maxsize=8)
 def disc(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return ξ, η of ``count``² samples over the pupil's square, and which of them lie inside."""
-    axis = (centred_axis(count) + (0.5 if count % 2 == 0 else 0.0)) * 2 / count
+    axis = centres(count)
     xi, eta = np.meshgrid(axis, axis)
     return xi, eta, xi**2 + eta**2 <= 1
 
 
+def centres(count: int) -> np.ndarray:
+    """Return the centres of ``count`` even cells from −1 to 1."""
+    return (2 * np.arange(count) + 1 - count) / count
+
+
 def pupil_map(waves: np.ndarray, inside: np.ndarray, kind: str) -> PupilMap:
-    """Return the map with its RMS and peak-to-valley over the samples inside that have a value."""
+    """Return a map of samples with RMS and peak-to-valley over those inside that have a value."""
     kept = waves[inside]
     kept = kept[np.isfinite(kept)]
     if kept.size == 0:
@@ -39,8 +76,121 @@ def pupil_map(waves: np.ndarray, inside: np.ndarray, kind: str) -> PupilMap:
     return PupilMap(shown, float(kept.std()), float(kept.max() - kept.min()), kind)
 
 
+def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False) -> PupilMap:
+    """Return the wavefront that made the PSF: of the six coefficients for seidel, else of exact rays.
+
+    The six coefficients know no rims. Raises GeometryError where no ray reaches the sensor.
+    """
+    nodes = fit_nodes(quality)
+    if not exact:
+        kind = "what-if" if setup.altered else "six coefficients"
+        six = np.asarray(wavefront(setup.coefficients, nodes.xi, nodes.eta))
+        return whole_map(projection(quality) @ six, quality, kind)
+    lens, source = setup.lens, setup.source
+    found = projection(quality) @ displayed_opd(lens, source, nodes.xi, nodes.eta)
+    every_ray = bool(np.isfinite(found).all())
+    if every_ray and not (clip and clipped(lens, source, nodes)):
+        return whole_map(found, quality)
+    return _clear_map(setup, quality, clip, found if every_ray else None)
+
+
+def clipped(lens: Lens, source: Source, nodes: DiscNodes) -> bool:
+    """Return whether a rim stops a ray through the nodes or through the pupil's own rim."""
+    right = CIRCLE[:, : TURN.size // 2 + 1 : 5]
+    xi, eta = np.append(nodes.xi, right[0]), np.append(nodes.eta, right[1])
+    return not pencil(lens, source, xi, eta, clip=True).passed.all()
+
+
+def _clear_map(setup: ParaxialSetup, quality: str, clip: bool, found: np.ndarray | None) -> PupilMap:
+    """Return the map over the part that passes light; ``found``: the terms over the whole pupil, None for lost rays."""
+    rim = clear_rim(setup.lens, setup.source, clip, *RIMS[quality])
+    nodes = rim.nodes(RADII)
+    waves = displayed_opd(setup.lens, setup.source, nodes.xi, nodes.eta)
+    if found is None:
+        root = np.sqrt(nodes.weight)
+        table = basis(ORDERS[quality], nodes.xi, nodes.eta) * root
+        found = np.linalg.lstsq(table.T, waves * root, rcond=1e-12)[0]
+    fit = decomposed(nodes, waves, "noll", zernike_terms("noll", USUAL_TERMS))
+    parts = families((term.n, term.m, part) for term, part in zip(fit.terms, (fit.rms_waves**2).tolist(), strict=True))
+    shown, peak = _picture(found, quality, rim)
+    return PupilMap(shown, fit.rms, peak, "exact rays", rim.outline(), nodes.share, parts, fit.residual**2)
+
+
+def families(terms: Iterable[tuple[int, int, float]]) -> dict[str, float]:
+    """Return (n, m, part of the variance) added up by the aberration's name; piston and tilt are left out."""
+    parts: dict[str, float] = {}
+    for n, m, part in terms:
+        if n > 1:
+            name = family(n, abs(m))
+            parts[name] = parts.get(name, 0.0) + part
+    return parts
+
+
+def whole_map(found: np.ndarray, quality: str, kind: str = "exact rays") -> PupilMap:
+    """Return the map of a wavefront over the whole pupil, given by the even terms of `zernike` up to the order."""
+    squares = found**2
+    parts = families((n, m, part) for (n, m), part in zip(terms(ORDERS[quality]), squares.tolist(), strict=True))
+    shown, peak = _picture(found, quality, None)
+    return PupilMap(shown, float(np.sqrt(squares[1:].sum())), peak, kind, parts=parts)
+
+
+def fit_nodes(quality: str) -> DiscNodes:
+    """Return the pupil points of the rays that the terms are fitted to."""
+    return disc_nodes(*RAYS[quality])
+
+
+@lru_cache(maxsize=2)
+def projection(quality: str) -> np.ndarray:
+    """Return the matrix from waves at `fit_nodes` to the terms: their means over the disc, (terms, nodes)."""
+    nodes = fit_nodes(quality)
+    return basis(ORDERS[quality], nodes.xi, nodes.eta) * nodes.weight
+
+
+def _picture(found: np.ndarray, quality: str, rim: ClearRim | None) -> tuple[np.ndarray, float]:
+    """Return the samples of a wavefront up to a pixel beyond the rim, and its peak-to-valley up to the rim itself."""
+    count, order = SAMPLES[quality], ORDERS[quality]
+    waves, excess = _sampled(found, quality), _excess(count) if rim is None else _mirrored(rim.excess(*_right(count)))
+    edge = CIRCLE if rim is None else rim.outline()
+    at_rim = found @ basis(order, *edge[:, : edge.shape[1] // 2 + 1])  # the right half; the left is its mirror image
+    inside = waves[excess <= 0]
+    highest, lowest = (float(f([f(inside, initial=at_rim[0]), f(at_rim)])) for f in (np.max, np.min))
+    return np.where(excess < np.sqrt(2) * 2 / count, waves, np.nan), highest - lowest
+
+
+def _sampled(found: np.ndarray, quality: str) -> np.ndarray:
+    """Return the sum of the terms on the whole square: powers of η times powers of ξ², mirrored at ξ = 0."""
+    along, across, table = _power_tables(quality)
+    return _mirrored(along @ np.tensordot(found, table, 1).T @ across)
+
+
+def _mirrored(right: np.ndarray) -> np.ndarray:
+    """Return both halves of a map that is even in ξ."""
+    return np.concatenate([right[:, ::-1], right], axis=1)
+
+
+def _right(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return ξ and η of the samples with ξ > 0."""
+    xi, eta, _ = disc(count)
+    return xi[:, count // 2 :], eta[:, count // 2 :]
+
+
+@lru_cache(maxsize=2)
+def _power_tables(quality: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ηᵇ of the rows, ξ²ᵃ of the right half's columns, and the terms as powers, (terms, a, b)."""
+    axis, table = centres(SAMPLES[quality]), powers(ORDERS[quality])
+    square = axis[axis.size // 2 :] ** 2
+    return np.vander(axis, table.shape[2], increasing=True), np.vander(square, table.shape[1], increasing=True).T, table
+
+
+@lru_cache(maxsize=4)
+def _excess(count: int) -> np.ndarray:
+    """Return how far beyond the unit circle the samples lie."""
+    xi, eta, _ = disc(count)
+    return np.hypot(xi, eta) - 1
+
+
 def variance_parts(coefficients: Coefficients) -> dict[str, float]:
-    """Return how the variance of W over the disc (waves²) splits into orthogonal shapes; tilt is left out.
+    """Return how the variance of the six coefficients' W (waves²) is to be laid to each of them; tilt is left out.
 
     Spherical beyond its best focus W40²/180, coma beyond its tilt W31²/72, astigmatism about its medial focus W22²/24,
     and all focus together (W40 + W20 + Wd + W22/2)²/12 (Mahajan 1991, table 2-1). What pushes the focus the way it is
@@ -58,19 +208,18 @@ def variance_parts(coefficients: Coefficients) -> dict[str, float]:
 
 
 def strongest(coefficients: Coefficients) -> str:
-    """Return the term that makes most of the variance of W."""
+    """Return which of the six coefficients is to be changed first: the one that most of the variance is laid to."""
     parts = variance_parts(coefficients)
     return max(parts, key=parts.__getitem__)
 
 
-def dominant(coefficients: Coefficients) -> Message:
-    """Return what blurs most: a term and its share of the wavefront's variance."""
-    parts = variance_parts(coefficients)
-    total = sum(parts.values())
-    if total < 1 / 14**2 / 10:
+def dominant(pupil: PupilMap) -> Message:
+    """Return what blurs most: an aberration and its share of the variance without piston and tilt (handbook 3.4)."""
+    total = sum(pupil.parts.values()) + pupil.rest
+    if total < UNSHARP:
         return Message("Diffraction-limited: RMS {rms:.3f} λ", rms=np.sqrt(total))
-    name = strongest(coefficients)
-    percent, term = 100 * parts[name] / total, Message(WORDS[name])
+    name = max(pupil.parts, key=pupil.parts.__getitem__)
+    percent, term = 100 * pupil.parts[name] / total, Message(name)
     if percent > 50:
         return Message("Mostly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
     return Message("Most of all {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)

@@ -1,12 +1,17 @@
 """The wavefront over the pupil: W in waves as a map, contours or a surface, or its phase modulo one wave."""
 
 import numpy as np
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QColor, QPainter, QPainterPath
 
+from p2sf_explorer.charts.chart import Chart, Curve
 from p2sf_explorer.charts.contour import contours, interval
+from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.plots import HeatMap
 from p2sf_explorer.charts.surface_plot import SurfaceView
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.pupil import CIRCLE
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.camera import Camera
 from p2sf_explorer.state.scales import nice, significant
@@ -17,7 +22,23 @@ from p2sf_explorer.widgets.readout import Readout
 WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-CBC1"
 MODES = (("waves", "W, waves"), ("contour", "contours"), ("surface", "surface"), ("wrapped", "wrapped"))
 SIGNED = ("waves", "contour", "surface")  # which can show a difference
+AXES = {
+    "paraxial": ("ξ, pupil radii", "η, towards the field"),
+    "stop": ("ξ, stop radii", "η, towards the field"),
+}
 TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
+
+
+class Outside(Curve):
+    """The square about the pupil less a closed outline, filled: what remains of the picture has a smooth rim."""
+
+    def paint(self, painter: QPainter, chart: Chart) -> None:
+        """Fill what lies outside."""
+        (left, bottom), (right, top) = chart.to_pixels(-1.0, -1.0), chart.to_pixels(1.0, 1.0)
+        path = QPainterPath()
+        path.addRect(QRectF(left - 1, top - 1, right - left + 2, bottom - top + 2))
+        path.addPolygon(polygon(*chart.to_pixels(self.x, self.y)))
+        painter.fillPath(path, QColor(getattr(chart.theme, self.token)))
 
 
 class PupilPanel:
@@ -28,9 +49,11 @@ class PupilPanel:
         self.mode = chooser(MODES, "How the phase is shown", self.widget)
         self.mode.activated.connect(lambda: store.update(phase=self.mode.currentData()))
         self.widget.add_tool(self.mode)
-        self.map = HeatMap("ξ, pupil radii", "η, towards the field", self.widget)
-        turn = np.linspace(0, 2 * np.pi, 121)
-        self.map.chart.add_curve("muted").set_data(np.cos(turn), np.sin(turn))
+        self.map = HeatMap(*AXES["paraxial"], self.widget)
+        self.outside = Outside("card")
+        self.map.chart.curves.append(self.outside)
+        self.map.chart.add_curve("line").set_data(*CIRCLE)
+        self.rim = self.map.chart.add_curve("muted")
         self.map.set_extent(1.0)
         self.surface = SurfaceView(self.map)
         self.surface.turned.connect(
@@ -47,6 +70,9 @@ class PupilPanel:
     def show(self, live: Live) -> None:
         """Paint the wavefront."""
         pupil = live.difference.pupil if live.difference else live.pupil
+        self.outside.set_data(*pupil.outline)
+        self.rim.set_data(*pupil.outline)
+        self.map.chart.name_axes(*AXES[live.setup.lens.aim])
         mode = live.state.display.phase if live.state.display.phase in SIGNED or not live.difference else "waves"
         select(self.mode, mode)
         self.surface.setVisible(mode == "surface")
@@ -68,6 +94,8 @@ class PupilPanel:
                 self.surface.show_waves(pupil.waves, limit, live.quality, camera)
         rms, peak_to_valley = (significant(value, 3) for value in (pupil.rms, pupil.peak_to_valley))
         numbers = tr("RMS {r} λ · PV {p} λ", r=rms, p=peak_to_valley)
+        if pupil.clear < 1:
+            numbers += " · " + tr("{percent} % of the pupil", percent=f"{100 * pupil.clear:.0f}")
         lines = tr("line every {step} λ", step=f"{step:g}") if mode == "contour" else tr(pupil.kind)
         self.numbers.set_text(f"{numbers} · {lines}", short=numbers)
 

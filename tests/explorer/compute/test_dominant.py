@@ -7,10 +7,12 @@ import pytest
 
 from p2sf.messages import Message
 from p2sf.paraxial.wavefront import wavefront
-from p2sf_explorer.compute.pupil import disc, dominant, strongest, variance_parts
+from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.pupil import disc, strongest, variance_parts
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER, remedy
-from p2sf_explorer.state.state import State, new_state
+from p2sf_explorer.state.state import State, changed, new_state
 
 ZERO = replace(paraxial_setup(State()).coefficients, w40=0.0, w31=0.0, w22=0.0, w20=0.0, wd=0.0, w11=0.0)
 
@@ -53,12 +55,90 @@ def test_what_pulls_against_the_blur_has_no_share_of_it():
 @pytest.mark.parametrize(
     ("state", "words", "advice"),
     [
-        (new_state(lens="wide_angle_35"), "spherical aberration", NEARER),
+        (new_state(lens="wide_angle_35"), "coma", NEARER),
         (new_state(depth_mm=1500.0), "defocus", TOGETHER),
     ],
 )
 def test_the_advice_fits_what_is_said_to_blur_most(state, words, advice):
-    made = paraxial_setup(state)
-    blur = dominant(made.coefficients)
-    assert blur.template.startswith("Mostly {term}: ") and blur.values["term"] == Message(words)
-    assert remedy(made) == advice
+    blur = live(state).dominant
+    assert blur.values["term"] == Message(words)
+    assert remedy(paraxial_setup(state)) == advice
+
+
+TELEPHOTO = {"defocus": 30, "secondary spherical aberration": 28, "coma": 23, "trefoil": 14, "spherical aberration": 0}
+
+
+@pytest.mark.parametrize("quality", ["preview", "settled"])
+def test_the_headline_is_made_of_the_wavefront_that_makes_the_picture(quality):
+    """The telephoto at 7°: shares of a dense grid of rays (tests/raytrace/test_zernike_fit.py)."""
+    state = new_state(lens="telephoto", field_deg=7.0)
+    answer = live(state, quality)
+    pupil = answer.pupil
+    total = sum(pupil.parts.values()) + pupil.rest
+    for name, percent in TELEPHOTO.items():
+        assert 100 * pupil.parts[name] / total == pytest.approx(percent, abs=0.6), name  # rounded to whole percents
+    assert answer.dominant.values["term"] == Message("defocus")
+    assert answer.dominant.values["percent"] == pytest.approx(30, abs=1)
+    seidel = live(changed(state, method="seidel"), quality)
+    assert seidel.dominant.values["percent"] > 80  # the six coefficients make another picture here
+
+
+@pytest.mark.parametrize("method", ["seidel", "fitted"])
+@pytest.mark.parametrize("quality", ["preview", "settled"])
+def test_the_shares_add_up_to_the_rms_without_tilt(method, quality):
+    answer = live(new_state(field_deg=9.0, method=method), quality)
+    _, eta, inside = disc(len(answer.pupil.waves))
+    waves, eta = answer.pupil.waves[inside], eta[inside]
+    waves = waves - waves.mean()
+    without_tilt = waves - (waves @ eta) / (eta @ eta) * eta
+    # A grid of squares misses the disc's edge by a share of 1/128 or so.
+    assert sum(answer.pupil.parts.values()) == pytest.approx(without_tilt.var(), rel=0.01)
+    assert answer.pupil.rms == pytest.approx(waves.std(), rel=0.01)
+
+
+@pytest.mark.parametrize(("lens", "field"), [("petzval", 7.0), ("fast_gauss_f14", 22.0), ("double_gauss_28", 14.0)])
+@pytest.mark.parametrize(("quality", "error"), [("preview", 0.02), ("settled", 0.006)])
+def test_with_clip_the_pupil_and_its_figures_end_at_the_rims(lens, field, quality, error):
+    """Against rays on a grid of 300², kept where they pass; its all-or-nothing edge is wrong by half a cell."""
+    state = new_state(lens=lens, field_deg=field, clip=True)
+    pupil, setup = live(state, quality).pupil, paraxial_setup(state)
+    xi, eta, inside = pupil_grid(300)
+    passed = pencil(setup.lens, setup.source, xi[inside], eta[inside], clip=True).passed
+    waves = displayed_opd(setup.lens, setup.source, xi[inside][passed], eta[inside][passed])
+    assert pupil.clear == pytest.approx(passed.mean(), abs=0.006)
+    assert pupil.rms == pytest.approx(waves.std(), rel=error)
+    assert pupil.peak_to_valley == pytest.approx(np.ptp(waves), rel=4 * error)  # at a corner of the outline
+    x, y, _ = disc(len(pupil.waves))
+    known = np.isfinite(pupil.waves)
+    assert known.mean() == pytest.approx(np.pi / 4 * passed.mean(), abs=0.06)  # and a pixel beyond
+    assert np.abs(np.hypot(*pupil.outline)).max() <= 1 + 1e-9
+    assert (
+        not pencil(setup.lens, setup.source, x[~known], y[~known], clip=True).passed[np.hypot(x, y)[~known] < 1].any()
+    )
+
+
+def test_the_outline_is_where_rays_begin_to_be_stopped():
+    state = new_state(lens="fast_gauss_f14", field_deg=22.0, clip=True)
+    setup, outline = paraxial_setup(state), live(state).pupil.outline
+    inner, outer = (pencil(setup.lens, setup.source, *(outline * part), clip=True).passed for part in (0.998, 1.002))
+    within = np.hypot(*(1.002 * outline)) < 1
+    # Scaled about the pupil's centre, which lies inside; near a corner the rim is as steep as the scaling.
+    assert inner.mean() > 0.98 and not outer[within].any()
+
+
+def test_the_six_coefficients_know_no_rims():
+    state = new_state(lens="fast_gauss_f14", field_deg=22.0, clip=True, method="seidel")
+    pupil = live(state).pupil
+    assert pupil.clear == 1 and pupil.kind == "six coefficients"
+
+
+def test_lost_rays_leave_a_pupil_of_the_others():
+    state = new_state(field_deg=35.0)
+    setup = paraxial_setup(state)
+    xi, eta, inside = pupil_grid(200)
+    passed = pencil(setup.lens, setup.source, xi[inside], eta[inside]).passed
+    assert not passed.all()
+    pupil = live(state).pupil
+    waves = displayed_opd(setup.lens, setup.source, xi[inside], eta[inside])[passed]
+    assert pupil.clear == pytest.approx(passed.mean(), abs=0.01) and pupil.clear < 1
+    assert pupil.rms == pytest.approx(waves.std(), rel=0.01)  # a grid of 200 squares and an all-or-nothing edge

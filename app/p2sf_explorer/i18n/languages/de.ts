@@ -893,6 +893,7 @@
 <message><source>passes</source><translation>kommt durch</translation></message>
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
+<message><source>pentafoil</source><translation>Fünfblattfehler</translation></message>
 <message><source>per pixel</source><translation>je Pixel</translation></message>
 <message><source>perfect lens</source><translation>ideale Linse</translation></message>
 <message><source>perfect lens, µm</source><translation>ideale Linse, µm</translation></message>
@@ -901,6 +902,7 @@
 <message><source>pictures {wide} µm wide</source><translation>Bilder {wide} µm breit</translation></message>
 <message><source>pictures {wide} µm wide, each over its own peak</source><translation>Bilder {wide} µm breit, jedes über seiner Spitze</translation></message>
 <message><source>pincushion {part} at {field}</source><translation>Kissen {part} bei {field}</translation></message>
+<message><source>piston</source><translation>Kolbenterm</translation></message>
 <message><source>pixel</source><translation>Pixel</translation></message>
 <message><source>pixel of the photo</source><translation>Pixel des Fotos</translation></message>
 <message><source>pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}</source><translation>Pixel von {pixel:g} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin:.0%}</translation></message>
@@ -919,6 +921,12 @@
 <message><source>private glass {name}: {error}</source><translation>privates Glas {name}: {error}</translation></message>
 <message><source>pupils</source><translation>Pupillen</translation></message>
 <message><source>quality "{quality}" is unknown; choose "settled" or "preview"</source><translation>die Güte "{quality}" ist unbekannt; "settled" oder "preview" wählen</translation></message>
+<message><source>quaternary astigmatism</source><translation>quartärer Astigmatismus</translation></message>
+<message><source>quaternary coma</source><translation>quartäre Koma</translation></message>
+<message><source>quaternary pentafoil</source><translation>quartärer Fünfblattfehler</translation></message>
+<message><source>quaternary spherical aberration</source><translation>quartäre sphärische Aberration</translation></message>
+<message><source>quaternary tetrafoil</source><translation>quartärer Vierblattfehler</translation></message>
+<message><source>quaternary trefoil</source><translation>quartärer Dreiblattfehler</translation></message>
 <message><source>radius</source><translation>Radius</translation></message>
 <message><source>radius, µm</source><translation>Radius, µm</translation></message>
 <message><source>range_um of {name} is {limits}; write the shortest and the longest wavelength</source><translation>range_um von {name} ist {limits}; die kürzeste und die längste Wellenlänge schreiben</translation></message>
@@ -945,6 +953,12 @@
 <message><source>sampling</source><translation>Abtastung</translation></message>
 <message><source>sampling "{sampling}" is unknown; choose "mdft" or "fft"</source><translation>die Abtastung "{sampling}" ist unbekannt; "mdft" oder "fft" wählen</translation></message>
 <message><source>scene</source><translation>Szene</translation></message>
+<message><source>secondary astigmatism</source><translation>sekundärer Astigmatismus</translation></message>
+<message><source>secondary coma</source><translation>sekundäre Koma</translation></message>
+<message><source>secondary pentafoil</source><translation>sekundärer Fünfblattfehler</translation></message>
+<message><source>secondary spherical aberration</source><translation>sekundäre sphärische Aberration</translation></message>
+<message><source>secondary tetrafoil</source><translation>sekundärer Vierblattfehler</translation></message>
+<message><source>secondary trefoil</source><translation>sekundärer Dreiblattfehler</translation></message>
 <message><source>seconds one way</source><translation>Sekunden je Weg</translation></message>
 <message><source>seidel</source><translation>seidel</translation></message>
 <message><source>seidel from the six coefficients (what-if: coefficients altered by hand)</source><translation>seidel aus den sechs Koeffizienten (Was wäre wenn: von Hand geändert)</translation></message>
@@ -1037,6 +1051,13 @@
 <message><source>tangential, along η</source><translation>tangential, längs η</translation></message>
 <message><source>telecentric flag</source><translation>Kennzeichen der Telezentrie</translation></message>
 <message><source>terms</source><translation>Terme</translation></message>
+<message><source>tertiary astigmatism</source><translation>tertiärer Astigmatismus</translation></message>
+<message><source>tertiary coma</source><translation>tertiäre Koma</translation></message>
+<message><source>tertiary pentafoil</source><translation>tertiärer Fünfblattfehler</translation></message>
+<message><source>tertiary spherical aberration</source><translation>tertiäre sphärische Aberration</translation></message>
+<message><source>tertiary tetrafoil</source><translation>tertiärer Vierblattfehler</translation></message>
+<message><source>tertiary trefoil</source><translation>tertiärer Dreiblattfehler</translation></message>
+<message><source>tetrafoil</source><translation>Vierblattfehler</translation></message>
 <message><source>the Airy pattern</source><translation>die Airy-Figur</translation></message>
 <message><source>the PSF</source><translation>die PSF</translation></message>
 <message><source>the added waves are {waves}; give {count} numbers, for {terms}</source><translation>die hinzugefügten Wellen sind {waves}; {count} Zahlen angeben, für {terms}</translation></message>
@@ -1197,6 +1218,7 @@
 <message><source>this lens, µm</source><translation>diese Linse, µm</translation></message>
 <message><source>this stands before the first step; begin a step with a line ## and its title</source><translation>das steht vor dem ersten Schritt; einen Schritt mit einer Zeile ## und seinem Titel beginnen</translation></message>
 <message><source>through the lens</source><translation>durch das Objektiv</translation></message>
+<message><source>tilt</source><translation>Verkippung</translation></message>
 <message><source>tilt of the 3D view</source><translation>Neigung der 3D-Ansicht</translation></message>
 <message><source>tilt of the wavefront's surface</source><translation>Neigung der Wellenfrontfläche</translation></message>
 <message><source>time of one PSF, ms</source><translation>Zeit einer PSF, ms</translation></message>
@@ -1208,6 +1230,7 @@
 <message><source>top and bottom of the photo cut off</source><translation>Foto oben und unten abgeschnitten</translation></message>
 <message><source>traced</source><translation>traced</translation></message>
 <message><source>traced: exact wavefront</source><translation>traced: exakte Wellenfront</translation></message>
+<message><source>trefoil</source><translation>Dreiblattfehler</translation></message>
 <message><source>true or false</source><translation>true oder false</translation></message>
 <message><source>tungsten 2856 K</source><translation>Glühlampe 2856 K</translation></message>
 <message><source>turn of the 3D view</source><translation>Drehung der 3D-Ansicht</translation></message>
@@ -1378,6 +1401,7 @@
 <message><source>{path}: one file holds one PSF, this stack has shape ({shape}); write them singly</source><translation>{path}: eine Datei enthält eine PSF, dieser Stapel hat die Form ({shape}); einzeln schreiben</translation></message>
 <message><source>{path}: the ending "{ending}" is unknown; choose {choices}</source><translation>{path}: die Endung "{ending}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>{path}: this set-up has no PSF; change it until there is a picture</source><translation>{path}: diese Einstellung hat keine PSF; sie ändern, bis es ein Bild gibt</translation></message>
+<message><source>{percent} % of the pupil</source><translation>{percent} % der Pupille</translation></message>
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>
@@ -1428,6 +1452,7 @@
 <message><source>λ</source><translation>λ</translation></message>
 <message><source>λ/2NA/{fineness:g}</source><translation>λ/2NA/{fineness:g}</translation></message>
 <message><source>ξ, pupil radii</source><translation>ξ, Pupillenradien</translation></message>
+<message><source>ξ, stop radii</source><translation>ξ, Blendenradien</translation></message>
 <message><source>σx {sigma_x:.3g} µm, σy {sigma_y:.3g} µm, centre {centre:.3g} µm</source><translation>σx {sigma_x:.3g} µm, σy {sigma_y:.3g} µm, Mitte {centre:.3g} µm</translation></message>
 <message><source>← → ↑ ↓, Page Up/Down</source><translation>← → ↑ ↓, Bild auf/ab</translation></message>
 <message><source>∞</source><translation>∞</translation></message>
