@@ -45,7 +45,8 @@ class Sums:
 
     ``frequency``: cycles/mm; ``x``, ``y``: complex OTF along the axes; ``energy``: of a radius in µm.
     ``error``: the largest change of the OTF from half as many cells. ``slope``: waves per pupil radius, steepest.
-    ``fitted``: waves, the largest error of the phase at rays that took no part in the fit.
+    ``fitted``: waves, the largest error of the phase at rays that took no part in the fit. ``centroid_um``: of the
+    light, along y from the chief ray.
     """
 
     frequency: np.ndarray
@@ -56,6 +57,7 @@ class Sums:
     error: float
     slope: float
     fitted: float
+    centroid_um: float
 
     def radius(self, share: float) -> float:
         """Return the radius in µm that holds this share of all light."""
@@ -63,21 +65,6 @@ class Sums:
         while self.energy(high) < share:
             high *= 1.5
         return float(brentq(lambda r: self.energy(r) - share, high / 1.5, high, xtol=1e-7 * high))
-
-
-def sums(lens: Lens, source: Source, aim: str = "stop", perfect: bool = False, cells: int | None = None) -> Sums:
-    """Return OTF and energy about the centroid of one source at one wavelength; LostRays where rays are lost."""
-    pupil = pupil_of(lens, source, aim)
-    cells = cells or cells_for(pupil.slope)
-    coarse, fine = (on_grid(pupil, n, perfect) for n in (cells // 2, cells))
-    count = len(coarse.x)
-    error = max(np.abs(fine.x[: 2 * count : 2] - coarse.x).max(), np.abs(fine.y[: 2 * count : 2] - coarse.y).max())
-    return Sums(fine.frequency, fine.x, fine.y, fine.energy, cells, float(error), pupil.slope, pupil.error)
-
-
-def cells_for(slope: float) -> int:
-    """Return the number of cells across the pupil for a slope in waves per radius."""
-    return int(2 ** np.ceil(np.log2(np.clip(2 * STEPS * slope, FEWEST, MOST))))
 
 
 @dataclass(frozen=True)
@@ -97,6 +84,27 @@ class Pupil:
     error: float
 
 
+def sums(lens: Lens, source: Source, aim: str = "stop", perfect: bool = False, cells: int | None = None) -> Sums:
+    """Return OTF and energy about the centroid of one source at one wavelength; LostRays where rays are lost."""
+    return sums_of(pupil_of(lens, source, aim), perfect, cells)
+
+
+def sums_of(pupil: Pupil, perfect: bool = False, cells: int | None = None) -> Sums:
+    """Return OTF and energy about the centroid of a pupil."""
+    cells = cells or cells_for(pupil.slope)
+    coarse, fine = (on_grid(pupil, n, perfect) for n in (cells // 2, cells))
+    count = len(coarse.x)
+    error = max(np.abs(fine.x[: 2 * count : 2] - coarse.x).max(), np.abs(fine.y[: 2 * count : 2] - coarse.y).max())
+    return Sums(
+        fine.frequency, fine.x, fine.y, fine.energy, cells, float(error), pupil.slope, pupil.error, fine.centroid_um
+    )
+
+
+def cells_for(slope: float) -> int:
+    """Return the number of cells across the pupil for a slope in waves per radius."""
+    return int(2 ** np.ceil(np.log2(np.clip(2 * STEPS * slope, FEWEST, MOST))))
+
+
 def pupil_of(lens: Lens, source: Source, aim: str) -> Pupil:
     """Return the pupil over spatial frequency, from the referee's own rays."""
     system = system_of(lens, source.wavelength_um)
@@ -111,12 +119,22 @@ def pupil_of(lens: Lens, source: Source, aim: str) -> Pupil:
     rim = phase_and_frequency(system, edge, chief)[1]
     if not (np.isfinite(phase).all() and np.isfinite(rim).all()):
         raise LostRays(f"{np.isnan(phase).sum()} of {phase.size} rays are lost")
+    slope = float(np.hypot(rays.x - chief.x, rays.y - chief.y).max())
+    return pupil_through(f, phase, (rays.pupil_x, rays.pupil_y, rays.density), rim, slope)
+
+
+def pupil_through(
+    f: np.ndarray, phase: np.ndarray, entering: tuple[np.ndarray, np.ndarray, np.ndarray], rim: np.ndarray, spot: float
+) -> Pupil:
+    """Return the pupil through points of it: their f (2, ray), phase, (x, y, density) and, as f, its rim.
+
+    ``spot``: how far from the chief ray the farthest ray lands, mm.
+    """
     centre = (rim[1].max() + rim[1].min()) / 2
     half = MARGIN * max(rim[0].max(), rim[1].max() - centre)
     u, v = f[0] / half, (f[1] - centre) / half
-    fits, error = _fits(u, v, ((phase, 0), (rays.pupil_x, 1), (rays.pupil_y, 0), (rays.density, 0)))
-    slope = float(np.hypot(rays.x - chief.x, rays.y - chief.y).max()) * half
-    return Pupil(half, *fits, _rim_curve(rim[0] / half, (rim[1] - centre) / half), slope, error)
+    fits, error = _fits(u, v, ((phase, 0), (entering[0], 1), (entering[1], 0), (entering[2], 0)))
+    return Pupil(half, *fits, _rim_curve(rim[0] / half, (rim[1] - centre) / half), spot * half, error)
 
 
 def _rays(radii: int, angles: int) -> tuple[np.ndarray, np.ndarray]:
@@ -183,6 +201,7 @@ class OnGrid:
     x: np.ndarray
     y: np.ndarray
     energy: Callable[[float], float]
+    centroid_um: float
 
 
 def on_grid(pupil: Pupil, cells: int, perfect: bool) -> OnGrid:
@@ -202,7 +221,13 @@ def on_grid(pupil: Pupil, cells: int, perfect: bool) -> OnGrid:
     otf = scipy.fft.ifft2(np.square(plane.real) + np.square(plane.imag), overwrite_x=True)
     otf *= 1 / light
     otf[0, 0] = 1.0  # of itself a cell at the rim keeps its part, not its part squared
-    return OnGrid(np.arange(cells) * step, otf[0, :cells].copy(), otf[:cells, 0].copy(), _energy(otf, step, centroid))
+    return OnGrid(
+        np.arange(cells) * step,
+        otf[0, :cells].copy(),
+        otf[:cells, 0].copy(),
+        _energy(otf, step, centroid),
+        1000 * float(centroid[1]),
+    )
 
 
 def _fields(pupil: Pupil, axis: np.ndarray) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, np.ndarray]]:
