@@ -2,13 +2,16 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import isfinite
+from functools import lru_cache
+from math import inf, isfinite
 
 import numpy as np
 
 from p2sf.lens.lens import Lens, indices
 from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
 from p2sf.raytrace.pencil import pupil_rays
+from p2sf.raytrace.surface import sag_and_slope
 from p2sf_explorer.compute.glass_outlines import Glass, Outline, filling, glass_of, still, vertices, widest_exit
 from p2sf_explorer.compute.meridional import path
 from p2sf_explorer.compute.setup import ParaxialSetup
@@ -37,12 +40,21 @@ class Drawing:
 
 @dataclass(frozen=True)
 class RayPath:
-    """One ray: z and y in mm; ``kind`` is "marginal", "chief" or "rim"; ``passed`` False where it was lost."""
+    """One ray: z and y in mm; ``kind`` is "marginal", "chief" or "rim".
+
+    ``passed`` False where it does not reach the sensor; ``clipped`` where that is because a rim stops it.
+    """
 
     kind: str
     z: np.ndarray
     y: np.ndarray
     passed: bool = True
+    clipped: bool = False
+
+    @property
+    def lost(self) -> bool:
+        """Return whether the ray misses a surface or is totally reflected."""
+        return not (self.passed or self.clipped)
 
 
 @dataclass(frozen=True)
@@ -71,11 +83,11 @@ class Layout:
     sensor_half: float
 
 
-def layout(setup: ParaxialSetup) -> Layout:
-    """Return everything the layout panel draws."""
+def layout(setup: ParaxialSetup, clip: bool = False) -> Layout:
+    """Return everything the layout panel draws; with ``clip`` rays end at the rims that stop them."""
     drawn = drawing(setup.lens, int(setup.stop.surface), float(setup.stop.semi_diameter))
     depth, height = setup.source.depth_mm, setup.object_height_mm
-    rays = tuple(ray_paths(setup, drawn))
+    rays = tuple(ray_paths(setup, drawn, clip))
     return Layout(
         drawing=drawn,
         rays=rays,
@@ -128,8 +140,9 @@ RAYS = (("marginal", 0, 1.0), ("marginal", 0, -1.0), ("rim", 1, 1.0), ("rim", 1,
 """The drawn rays: kind, which source (0 the axial point, 1 the field point), and η in the entrance pupil."""
 
 
-def ray_paths(setup: ParaxialSetup, drawn: Drawing) -> Iterator[RayPath]:
-    """Yield the exact meridional rays of `RAYS`."""
+def ray_paths(setup: ParaxialSetup, drawn: Drawing, clip: bool = False) -> Iterator[RayPath]:
+    """Yield the exact meridional rays of `RAYS`; the chief ray, where the pupil begins, is not clipped."""
+    rims = pencil_rims(setup.lens) if clip else None
     source, etas = setup.source, np.array([1.0, -1.0, 0.0])
     both = Source(source.depth_mm, np.array([0.0, source.field_slope]), source.wavelength_um)
     rays = pupil_rays(setup.lens, both, np.zeros(3), etas)
@@ -139,8 +152,27 @@ def ray_paths(setup: ParaxialSetup, drawn: Drawing) -> Iterator[RayPath]:
     for kind, row, eta in RAYS:
         at = row, etas.tolist().index(eta)
         start, direction = (a[at][:0:-1].tolist() for a in (starts, directions))  # z, y
-        z, y, passed = path(setup.lens, index, start, direction)
-        yield RayPath(kind, np.array([start[0], *z]), np.array([start[1], *y]), passed)
+        z, y, passed = path(setup.lens, index, start, direction, None if kind == "chief" else rims)
+        clipped = bool(rims and y and not passed and abs(y[-1]) > rims[len(y) - 1])
+        places = np.array([[start[0], *z], [start[1], *y]])
+        if clipped:
+            end_at_rim(places, setup.lens, len(z), rims[len(y) - 1] if rims else 0.0)
+        yield RayPath(kind, places[0], places[1], passed, clipped)
+
+
+@lru_cache(maxsize=32)
+def pencil_rims(lens: Lens) -> tuple[float, ...]:
+    """Return the rim of each surface as a pencil meets it, mm, inf where none is stated; the stop's is the pupil's."""
+    return tuple((rim_radii(lens, lens.stop_surface or named_stop(lens), inf) * (1 + RIM_TIE)).tolist())
+
+
+def end_at_rim(places: np.ndarray, lens: Lens, surface: int, rim: float) -> None:
+    """Move the end of a clipped ray, (2, points) z and y, into the plane of the rim that stops it."""
+    sag = float(sag_and_slope(lens.surfaces[surface - 1], rim * rim)[0])
+    (z, y), (end_z, end_y) = places[:, -2], places[:, -1]
+    at = vertices(lens)[surface - 1] + sag
+    if isfinite(sag) and z < at and end_z > z:
+        places[:, -1] = at, y + (at - z) * (end_y - y) / (end_z - z)
 
 
 def _start(origins: np.ndarray, directions: np.ndarray, reach: float) -> np.ndarray:

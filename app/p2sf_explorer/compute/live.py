@@ -71,12 +71,12 @@ def live(
     """
     begun = perf_counter()
     setup = paraxial_setup(state)
-    drawing = layout(setup)
+    drawing = layout(setup, state.optics.clip)
     placed = perf_counter()
     picture = rendered(state, setup, quality, kept_method, at_least_um, cache)
     psf, finished = picture.psf, perf_counter()
     pupil = picture.pupil or pupil_of(setup, picture.exact, quality, state.optics.clip)
-    lost = sum(not ray.passed for ray in drawing.rays)
+    lost = sum(ray.lost for ray in drawing.rays)
     answer = Live(
         state=state,
         setup=setup,

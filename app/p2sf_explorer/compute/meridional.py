@@ -17,12 +17,16 @@ Meeting = tuple[float, float, float]
 
 
 def path(
-    lens: Lens, index: Sequence[float], start: Sequence[float], direction: Sequence[float]
+    lens: Lens,
+    index: Sequence[float],
+    start: Sequence[float],
+    direction: Sequence[float],
+    rims: Sequence[float] | None = None,
 ) -> tuple[list[float], list[float], bool]:
     """Return z and y of a ray on every surface and on the sensor, and whether it got there.
 
     ``index``: per space; ``start`` and ``direction`` are (z, y) from the first vertex. A ray that misses a surface
-    or is totally reflected ends where it last was.
+    or is totally reflected ends where it last was; one outside ``rims``, mm per surface, on the surface of that rim.
     """
     (z, y), length, vertex = start, hypot(*direction), 0.0
     cz, cy = direction[0] / length, direction[1] / length
@@ -34,6 +38,8 @@ def path(
         z, y = met[0] + vertex, met[1]
         places[0].append(z)
         places[1].append(y)
+        if rims is not None and abs(y) > rims[number]:
+            return *places, False
         turned = refracted(met[2], cz, cy, index[number], index[number + 1])
         if turned is None:
             return *places, False

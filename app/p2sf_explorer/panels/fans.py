@@ -9,21 +9,23 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
 
 LOOKS = {"sagittal, along ξ": ("marginal", 2), "tangential, along η": ("chief", 2)}
+PLACES = {"paraxial": "place in the entrance pupil, pupil radii", "stop": "place in the stop, stop radii"}
 RAY_TIP = "Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil."
 OPD_TIP = "OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included."
 
 
 class FanPanel(CurvesPanel):
-    """A quantity along the two axes of the pupil, about zero."""
+    """A quantity along the two axes of the pupil, about zero; the axis names the pupil that the rays fill."""
 
     def __init__(self, key: str, title: str, tip: str, unit: str):
-        super().__init__(title, tip, ("place in the entrance pupil, pupil radii", unit), LOOKS)
-        self._key = key
+        super().__init__(title, tip, (PLACES["paraxial"], unit), LOOKS)
+        self._key, self._unit = key, unit
 
     def show(self, live: Live) -> None:
-        """Paint the fan; lost rays leave gaps."""
+        """Paint the fan; lost and clipped rays leave gaps."""
         fan: Fan = live.views[self._key]
         lines = (np.asarray(fan.sagittal), np.asarray(fan.tangential))
+        self.chart.name_axes(PLACES[live.setup.lens.aim], self._unit)
         self.show_curves(fan.pupil, dict(zip(LOOKS, lines, strict=True)))
         both = np.abs(np.concatenate(lines))
         peak = float(np.nanmax(both)) if np.isfinite(both).any() else 0.0

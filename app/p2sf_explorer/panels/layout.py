@@ -21,8 +21,12 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.thumbnail import glass
 
-TIP = "The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP."
+TIP = (
+    "The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With "
+    "Clip at rims a ray ends, with a bar, at the rim that stops it."
+)
 WIDTHS = (1, 1.1, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.3, 7.1, 8, 9)  # times 10ᵏ mm
+END_PX = 11  # of the bar at the end of a clipped ray
 STEP = 0.02  # of the width, by which the picture moves
 KINDS = {"marginal": ("marginal", 2), "rim": ("chief", 1), "chief": ("chief", 2)}
 WORDS = {"marginal": "marginal rays, axial point", "chief": "chief ray", "rim": "rim rays of the field point"}
@@ -117,6 +121,13 @@ class LayoutChart(Chart):
             self._bar(painter, 3, d.stop_z, side * d.stop_rim, side * (d.stop_rim + wedge))
         self._bar(painter, 2, d.sensor_z, -half, half)
 
+    def _paint_ends(self, painter: QPainter) -> None:
+        """Paint a bar where a rim stops a ray."""
+        for ray in self.live.layout.rays if self.live else ():
+            if ray.clipped:
+                x, y = (float(v) for v in self.to_pixels(ray.z[-1], ray.y[-1]))
+                painter.fillRect(QRectF(x - 1, y - END_PX / 2, 2, END_PX), QColor(self.theme.text))
+
     def _bar(self, painter: QPainter, width: float, z: float, start: float, end: float) -> None:
         (x, top), (_, bottom) = self.to_pixels(z, max(start, end)), self.to_pixels(z, min(start, end))
         painter.fillRect(QRectF(x - width / 2, top, width, bottom - top), QColor(self.theme.text))
@@ -129,6 +140,7 @@ class LayoutChart(Chart):
         if self.live and self._drawn:
             self.highlight.paint(painter, self.live.setup.lens)
             self._paint_bars(painter, *self._drawn)
+            self._paint_ends(painter)
             paint_marks(painter, self, self.live.layout)
             self.handle.paint(painter, self, self.live)
 

@@ -10,13 +10,15 @@ from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.results.spot import figures, landed
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.results.rays import figures, landed
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.readout import FactTable
 
-TIP = "Spot diagram: where exact rays, evenly spread over the entrance pupil, meet the sensor; no diffraction."
+TIP = "Spot diagram: where exact rays, evenly spread over the pupil, meet the sensor; no diffraction."
+FILLED = {"paraxial": "rays fill the paraxial entrance pupil", "stop": "rays fill the real stop"}
 AXIS_PX = 60  # pixels of the axis and its label beside the square
 
 
@@ -78,7 +80,8 @@ class SpotPanel:
         farthest = max(float(np.abs(points).max()), 2 * live.airy_radius_um)
         half = nice(1.1 * farthest, (1, 1.5, 2, 3, 4, 5, 6, 8))
         self.chart.set_range((-half, half), (-half, half))
-        self.facts.show_rows(figures(spot, live.airy_radius_um))
+        self.facts.show_rows(figures(spot, live.airy_radius_um, live.state.optics.clip))
+        self.widget.set_readout(tr(FILLED[live.setup.lens.aim]))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

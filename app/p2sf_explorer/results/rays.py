@@ -1,10 +1,19 @@
-"""Exact rays of the present source: spot diagram, ray fan, OPD fan."""
+"""Exact rays of the present source: spot diagram with its figures, ray fan, OPD fan."""
 
+from typing import SupportsFloat
+
+import numpy as np
+
+from p2sf.messages import Message, Number
 from p2sf.raytrace.pencil import Fan, Spot, opd_fan, ray_fan, spot
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.results.first_order import Row
+from p2sf_explorer.state.scales import significant
 
 RINGS = {"preview": 6, "settled": 10}
 FAN_RAYS = 41
+ARRIVE = "That arrive, of those traced."
+WITHIN_RIMS = "That pass every rim and arrive, of those traced."
 
 
 def spots(live: Live) -> Spot:
@@ -15,9 +24,45 @@ def spots(live: Live) -> Spot:
 
 def ray_errors(live: Live) -> Fan:
     """Return transverse ray errors along the two axes of the pupil, µm."""
-    return ray_fan(live.setup.lens, live.setup.source, FAN_RAYS)
+    return ray_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
 
 
 def path_errors(live: Live) -> Fan:
     """Return optical path differences along the two axes of the pupil, waves."""
-    return opd_fan(live.setup.lens, live.setup.source, FAN_RAYS)
+    return opd_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
+
+
+def landed(spot: Spot) -> np.ndarray:
+    """Return x and y, (rays, 2) in µm, of the rays that reach the sensor."""
+    points = np.stack([spot.x_um, spot.y_um], axis=-1)
+    return points[np.isfinite(points).all(axis=-1)]
+
+
+def figures(spot: Spot, airy_um: float, clip: bool = False) -> tuple[Row, ...]:
+    """Return name, value and definition of a spot's figures; ``airy_um`` is the radius of the Airy disc."""
+    points = landed(spot)
+    apart = points - points.mean(axis=0)
+    across, up = apart.std(axis=0)
+    farthest, traced = np.hypot(*apart.T).max(), np.size(spot.x_um)
+    return (
+        ("RMS radius", micrometres(spot.rms_um), "Root mean square distance from the centroid."),
+        ("RMS in x", micrometres(across), "Root mean square of x about the centroid."),
+        ("RMS in y", micrometres(up), "Root mean square of y about the centroid."),
+        ("Farthest ray", micrometres(farthest), "Largest distance of a ray from the centroid."),
+        (
+            "Centroid y",
+            Message("{value:z.2f} µm", value=float(spot.centroid_y_um)),
+            "Of the centroid, from the chief ray.",
+        ),
+        ("Airy radius, the circle", micrometres(airy_um), "First dark ring of a perfect lens, 0.61 λ/NA."),
+        (
+            "Rays within the rims" if clip else "Rays",
+            Message("{count} / {all}", count=len(points), all=traced),
+            WITHIN_RIMS if clip else ARRIVE,
+        ),
+    )
+
+
+def micrometres(value: SupportsFloat) -> Message:
+    """Return a length with three digits."""
+    return Message("{value} µm", value=Number(significant(float(value), 3)))

@@ -42,10 +42,10 @@ class PsfSurface:
     factor: float
 
 
-def ray_bundle(setup: ParaxialSetup, drawn: Drawing) -> np.ndarray:
+def ray_bundle(setup: ParaxialSetup, drawn: Drawing, clip: bool = False) -> np.ndarray:
     """Return the source's rays, (ray, place, 3) mm, the chief ray first: origin, every surface, sensor.
 
-    A lost ray stays where it last was. Raises GeometryError.
+    A lost ray stays where it last was, with ``clip`` on the surface whose rim stops it. Raises GeometryError.
     """
     xi, eta = hexapolar(RINGS)
     rays = pupil_rays(setup.lens, setup.source, xi, eta)
@@ -53,8 +53,10 @@ def ray_bundle(setup: ParaxialSetup, drawn: Drawing) -> np.ndarray:
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     starts = origins - directions * ((origins[..., 2:] + before) / directions[..., 2:])
     points = trace(setup.lens, starts, directions, setup.source.wavelength_um).points
+    ended = pencil(setup.lens, setup.source, xi, eta, clip).failed_surface
     for number in range(1, len(points)):
-        points[number] = np.where(np.isnan(points[number]), points[number - 1], points[number])
+        behind = (ended > 0) & (number > ended)
+        points[number] = np.where(behind[:, None] | np.isnan(points[number]), points[number - 1], points[number])
     return points.swapaxes(0, 1)
 
 

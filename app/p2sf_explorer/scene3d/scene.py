@@ -32,7 +32,7 @@ def scene(live: Live) -> Scene3D:
     setup, drawn = live.setup, live.layout.drawing
     standing = still(setup.lens)
     wedge, thick = 0.18 * drawn.half_height + 0.25 * drawn.stop_rim, THICKNESS * drawn.half_height
-    rays = ray_bundle(setup, drawn)
+    rays = ray_bundle(setup, drawn, live.state.optics.clip)
     half = live.layout.sensor_half
     return Scene3D(
         glass=elements(standing) + filling(standing, drawn.sensor_z),

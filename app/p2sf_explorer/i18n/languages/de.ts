@@ -336,6 +336,7 @@
 <message><source>Rays</source><translation>Strahlen</translation></message>
 <message><source>Rays fill</source><translation>Strahlen füllen</translation></message>
 <message><source>Rays fill: the real stop, as light does, or the paraxial entrance pupil, the usual choice of the paper and of most programs. Off axis and in fast lenses the two differ.</source><translation>Strahlen füllen: die wahre Blende, wie es das Licht tut, oder die paraxiale Eintrittspupille, die übliche Wahl des Artikels und der meisten Programme. Außer der Achse und in lichtstarken Objektiven unterscheiden sich beide.</translation></message>
+<message><source>Rays within the rims</source><translation>Strahlen in den Rändern</translation></message>
 <message><source>Rear focal point, where light from a far axial point meets, from the last vertex: f′·A.</source><translation>Bildseitiger Brennpunkt, wo sich das Licht eines fernen Achspunkts trifft, vom letzten Scheitel: f′·A.</translation></message>
 <message><source>Rear principal plane, from which f′ is measured to F′; from the last vertex.</source><translation>Bildseitige Hauptebene, von der f′ bis F′ zählt; vom letzten Scheitel.</translation></message>
 <message><source>Rear-stop landscape singlet</source><translation>Landschaftslinse mit hinterer Blende</translation></message>
@@ -405,7 +406,7 @@
 <message><source>Split what follows this surface by a plane; nothing changes until it is edited (Insert)</source><translation>Was dieser Fläche folgt, durch eine Ebene teilen; es ändert sich nichts, bis sie bearbeitet wird (Einfg)</translation></message>
 <message><source>Spot</source><translation>Spot</translation></message>
 <message><source>Spot diagram</source><translation>Spotdiagramm</translation></message>
-<message><source>Spot diagram: where exact rays, evenly spread over the entrance pupil, meet the sensor; no diffraction.</source><translation>Spotdiagramm: wo exakte Strahlen, gleichmäßig über die Eintrittspupille verteilt, den Sensor treffen; keine Beugung.</translation></message>
+<message><source>Spot diagram: where exact rays, evenly spread over the pupil, meet the sensor; no diffraction.</source><translation>Spotdiagramm: wo exakte, über die Pupille gleichmäßig verteilte Strahlen auf den Sensor treffen; ohne Beugung.</translation></message>
 <message><source>Start</source><translation>Beginnen</translation></message>
 <message><source>State only…</source><translation>Nur Zustand …</translation></message>
 <message><source>Steps</source><translation>Schritte</translation></message>
@@ -429,13 +430,14 @@
 <message><source>Tessar f/4.5 (unit scale, f = 4 in)</source><translation>Tessar f/4,5 (Einheitsmaßstab, f = 4 Zoll)</translation></message>
 <message><source>Text of the lesson</source><translation>Text der Lektion</translation></message>
 <message><source>Textbook wavefronts, in a free pupil</source><translation>Wellenfronten aus dem Lehrbuch, in freier Pupille</translation></message>
+<message><source>That pass every rim and arrive, of those traced.</source><translation>Die jeden Rand passieren und ankommen, von den verfolgten.</translation></message>
 <message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The achromat's plain companion: same focal length and aperture, one glass</source><translation>Das schlichte Gegenstück zum Achromaten: gleiche Brennweite und Öffnung, ein Glas</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; {remedy}.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; {remedy}.</translation></message>
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>The human eye, 60 dioptres, with its image in the vitreous (n' = 1.3377)</source><translation>Das menschliche Auge, 60 Dioptrien, mit dem Bild im Glaskörper (n' = 1,3377)</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
-<message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP.</source><translation>Das Objektiv maßstäblich: die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP.</translation></message>
+<message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With Clip at rims a ray ends, with a bar, at the rim that stops it.</source><translation>Das Objektiv maßstäblich: Die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP. Mit Randbeschnitt endet ein Strahl mit einem Balken am Rand, der ihn aufhält.</translation></message>
 <message><source>The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
 <message><source>The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
 <message><source>The next step (Alt+Right)</source><translation>Der nächste Schritt (Alt+Rechts)</translation></message>
@@ -907,6 +909,7 @@
 <message><source>pixel of the photo</source><translation>Pixel des Fotos</translation></message>
 <message><source>pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}</source><translation>Pixel von {pixel:g} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin:.0%}</translation></message>
 <message><source>place in the entrance pupil, pupil radii</source><translation>Ort in der Eintrittspupille, Pupillenradien</translation></message>
+<message><source>place in the stop, stop radii</source><translation>Ort in der Blende, Blendenradien</translation></message>
 <message><source>planned</source><translation>geplant</translation></message>
 <message><source>planning</source><translation>Plan</translation></message>
 <message><source>play is "{name}"; name a slider: {sliders}</source><translation>play ist "{name}"; einen Regler nennen: {sliders}</translation></message>
@@ -931,6 +934,8 @@
 <message><source>radius, µm</source><translation>Radius, µm</translation></message>
 <message><source>range_um of {name} is {limits}; write the shortest and the longest wavelength</source><translation>range_um von {name} ist {limits}; die kürzeste und die längste Wellenlänge schreiben</translation></message>
 <message><source>ray density</source><translation>Strahlendichte</translation></message>
+<message><source>rays fill the paraxial entrance pupil</source><translation>Strahlen füllen die paraxiale Eintrittspupille</translation></message>
+<message><source>rays fill the real stop</source><translation>Strahlen füllen die wirkliche Blende</translation></message>
 <message><source>read</source><translation>gelesen</translation></message>
 <message><source>reads another file, which is not at hand</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
 <message><source>real image heights are taken as paraxial ones; distortion makes the angles differ</source><translation>wahre Bildhöhen gelten als paraxiale; durch Verzeichnung weichen die Winkel ab</translation></message>
