@@ -86,13 +86,13 @@ class Layout:
 def layout(setup: ParaxialSetup, clip: bool = False) -> Layout:
     """Return everything the layout panel draws; with ``clip`` rays end at the rims that stop them."""
     drawn = drawing(setup.lens, int(setup.stop.surface), float(setup.stop.semi_diameter))
-    depth, height = setup.source.depth_mm, setup.object_height_mm
+    depth, y = setup.source.depth_mm, setup.object_y_mm
     rays = tuple(ray_paths(setup, drawn, clip))
     return Layout(
         drawing=drawn,
         rays=rays,
         marks=tuple(marks(setup)),
-        source=None if height is None else (-depth, -height),
+        source=None if y is None else (-depth, y),
         image=_image_point(setup),
         entrance_z=float(setup.pupils.entrance_from_first),
         slope=setup.source.field_slope,

@@ -26,7 +26,8 @@ from p2sf_explorer.state.what_if import altered
 class ParaxialSetup:
     """One lens, opened and focused as the state says, and everything paraxial about it at this source.
 
-    ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand.
+    ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand. ``object_y_mm``: y of
+    the source, None at infinity.
     """
 
     lens: Lens
@@ -37,7 +38,7 @@ class ParaxialSetup:
     rays: ParaxialRays
     coefficients: Coefficients
     own: Coefficients
-    object_height_mm: float | None
+    object_y_mm: float | None
     focal_length_mm: float
 
     @property
@@ -121,7 +122,7 @@ def paraxial_setup(state: State) -> ParaxialSetup:
         rays=axial.rays,
         coefficients=altered(own, state),
         own=own,
-        object_height_mm=source.field_slope * gap if isfinite(source.depth_mm) else None,
+        object_y_mm=0.0 - source.field_slope * gap if isfinite(source.depth_mm) else None,
         focal_length_mm=float(axial.cardinal.effective_focal_length),
     )
 

@@ -22,7 +22,12 @@ SENSOR_TIP = "Where the sensor stands, from the last vertex: in the image of the
 STOP_TIP = (
     "The surface whose rim limits the light: the least |rim/y| on the way of the marginal ray, or the file's choice."
 )
-ENTRANCE_TIP = "The stop seen from the object: its diameter D = f′/N for a far object, its place from the first vertex."
+ENTRANCE_TIP = (
+    "The stop seen from the object: its diameter D = |f′|/N for a far object, its place from the first vertex."
+)
+OBJECT_TIP = (
+    "y of the source, negative below the axis; none at infinity. A field stated as an object height counts towards −y."
+)
 EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the last vertex."
 
 
@@ -158,7 +163,7 @@ def pupil_rows(live: Live) -> tuple[Row, ...]:
         ("Stop radius", length(float(s.stop.semi_diameter)), "Half the free diameter of the stop."),
         ("Entrance pupil", pupil(p.entrance_from_first, p.entrance_diameter), ENTRANCE_TIP),
         ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), EXIT_TIP),
-        ("f-number", aperture(number), "f′ over the entrance pupil."),
+        ("f-number", aperture(number), "|f′| over the entrance pupil."),
         ("Working f-number", aperture(0.5 / na if na else inf), "1/(2 NA) at this depth."),
         ("Numerical aperture", Message("{value:.4f}", value=na), "NA = n′|u′| of the marginal ray."),
         (
@@ -173,7 +178,7 @@ def pupil_rows(live: Live) -> tuple[Row, ...]:
 def source_rows(live: Live) -> tuple[Row, ...]:
     """Return what the lens makes of this source."""
     s = live.setup
-    c, height = s.own, s.object_height_mm
+    c, height = s.own, s.object_y_mm
     gap = s.lens.sensor_mm - float(c.image_distance)
     ratio = float(magnification(s.lens, s.source.depth_mm, s.source.wavelength_um))
     return (
@@ -184,7 +189,7 @@ def source_rows(live: Live) -> tuple[Row, ...]:
             Message("{value:z.2f}°", value=live.state.optics.field_deg),
             "Angle of the chief ray at the entrance pupil.",
         ),
-        ("Object height", NONE if height is None else length(height), "Of the source; none at infinity."),
+        ("Object height", NONE if height is None else length(height), OBJECT_TIP),
         ("Magnification", Message("{value:z.5f}", value=ratio), "Image over object height; 0 from infinity."),
         ("Paraxial image", length(float(c.image_distance)), "From the last vertex."),
         ("Sensor", length(s.lens.sensor_mm), "From the last vertex."),
@@ -193,7 +198,11 @@ def source_rows(live: Live) -> tuple[Row, ...]:
             Message("{value:z.1f} µm", value=1e3 * gap) if isfinite(gap) else INFINITE,
             "Δz: what Wd = NA²Δz/(2n′λ) has.",
         ),
-        ("Image height", length(float(c.image_height)), "Paraxial chief ray on the sensor."),
+        (
+            "Image height",
+            length(float(c.image_height)),
+            "y of the paraxial chief ray on the sensor; in focus, the magnification times the object height.",
+        ),
     )
 
 

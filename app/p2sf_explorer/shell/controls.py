@@ -266,7 +266,7 @@ class Controls(QWidget):
 
     def show_live(self, live: Live) -> None:
         """Show what follows from the state: heights, sensor position, the dominant term."""
-        height = live.setup.object_height_mm
+        height = live.setup.object_y_mm
         image = float(live.setup.coefficients.image_height)
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))

@@ -451,7 +451,7 @@
 <message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its top and bottom are cut off, {percent:.0f} % of its height.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist oben und unten abgeschnitten, {percent:.0f} % seiner Höhe.</translation></message>
 <message><source>The source: drag it to change field and, at a finite distance, depth.</source><translation>Die Quelle: Ziehen ändert das Feld und, bei endlichem Abstand, den Objektabstand.</translation></message>
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
-<message><source>The stop seen from the object: its diameter D = f′/N for a far object, its place from the first vertex.</source><translation>Die Blende vom Objekt aus gesehen: ihr Durchmesser D = f′/N für ein fernes Objekt, ihr Ort vom ersten Scheitel.</translation></message>
+<message><source>The stop seen from the object: its diameter D = |f′|/N for a far object, its place from the first vertex.</source><translation>Die Blende vom Objekt aus gesehen: ihr Durchmesser D = |f′|/N für ein fernes Objekt, ihr Ort vom ersten Scheitel.</translation></message>
 <message><source>The stop seen from the sensor: its diameter, and its place from the last vertex.</source><translation>Die Blende vom Sensor aus gesehen: ihr Durchmesser und ihr Ort vom letzten Scheitel.</translation></message>
 <message><source>The surface whose rim limits the light: the least |rim/y| on the way of the marginal ray, or the file's choice.</source><translation>Die Fläche, deren Rand das Licht begrenzt: das kleinste |Rand/y| auf dem Weg des Randstrahls, oder wie es die Datei sagt.</translation></message>
 <message><source>The wavefront as a surface; drag it or use the arrow keys to turn it</source><translation>Die Wellenfront als Fläche; durch Ziehen oder mit den Pfeiltasten zu drehen</translation></message>
@@ -491,7 +491,7 @@
 <message><source>Tools</source><translation>Extras</translation></message>
 <message><source>Track</source><translation>Baulänge</translation></message>
 <message><source>Try</source><translation>Versuchen</translation></message>
-<message><source>Two achromats face to face, the stop in their common focus: for near objects only, image upright</source><translation>Zwei Achromate einander zugewandt, die Blende in ihrem gemeinsamen Brennpunkt: nur für nahe Objekte, Bild aufrecht</translation></message>
+<message><source>Two achromats face to face, the stop in their common focus: for near objects only, image inverted</source><translation>Zwei Achromate einander zugewandt, die Blende in ihrem gemeinsamen Brennpunkt: nur für nahe Objekte, Bild umgekehrt</translation></message>
 <message><source>Two equal menisci about a stop: at unit magnification coma, distortion and lateral colour cancel exactly</source><translation>Zwei gleiche Menisken um eine Blende: beim Maßstab 1 heben sich Koma, Verzeichnung und Farbquerfehler genau auf</translation></message>
 <message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
 <message><source>Typed numbers may have a decimal point or a decimal comma; files and the command line take a decimal point.</source><translation>Getippte Zahlen dürfen Dezimalpunkt oder Dezimalkomma haben; Dateien und die Kommandozeile nehmen den Dezimalpunkt.</translation></message>
@@ -1284,6 +1284,8 @@
 <message><source>write {units} or no unit</source><translation>{units} oder keine Einheit schreiben</translation></message>
 <message><source>x, µm</source><translation>x, µm</translation></message>
 <message><source>x, µm from the chief ray</source><translation>x, µm vom Hauptstrahl</translation></message>
+<message><source>y of the paraxial chief ray on the sensor; in focus, the magnification times the object height.</source><translation>y des paraxialen Hauptstrahls auf dem Sensor; scharf gestellt der Abbildungsmaßstab mal die Objekthöhe.</translation></message>
+<message><source>y of the source, negative below the axis; none at infinity. A field stated as an object height counts towards −y.</source><translation>y der Quelle, negativ unter der Achse; keines im Unendlichen. Ein als Objekthöhe angegebenes Feld zählt nach −y.</translation></message>
 <message><source>y, mm</source><translation>y, mm</translation></message>
 <message><source>y, µm</source><translation>y, µm</translation></message>
 <message><source>y, µm (towards the axis)</source><translation>y, µm (zur Achse hin)</translation></message>
@@ -1450,6 +1452,7 @@
 <message><source>{where} is not a state of the explorer; give a .json the explorer has written</source><translation>{where} ist kein Zustand des Explorers; ein .json angeben, das der Explorer geschrieben hat</translation></message>
 <message><source>{where}, line {line}: not JSON ({why}); correct it or save it again</source><translation>{where}, Zeile {line}: kein JSON ({why}); berichtigen oder neu speichern</translation></message>
 <message><source>{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if</source><translation>{why}, also stellt ein anderer Ort des Sensors nicht scharf; Wd am Regler einstellen oder das Was-wäre-wenn zurücksetzen</translation></message>
+<message><source>|f′| over the entrance pupil.</source><translation>|f′| durch die Eintrittspupille.</translation></message>
 <message><source>±{half} µm depth of focus</source><translation>±{half} µm Fokustiefe</translation></message>
 <message><source>Δn at d unknown, the file does not tell the index it wants</source><translation>Δn bei d unbekannt, die Datei nennt den gewünschten Index nicht</translation></message>
 <message><source>Δn at d {value:+.5f}</source><translation>Δn bei d {value:+.5f}</translation></message>
