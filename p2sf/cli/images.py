@@ -16,7 +16,7 @@ from p2sf.io.psf_files import ENDINGS, write_psf
 from p2sf.io.record import describe, facts
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
-from p2sf.psf.metrics import centroid, radius_of_energy
+from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
 from p2sf.request import Request, Setup, set_up

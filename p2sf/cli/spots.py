@@ -12,8 +12,8 @@ from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
 from p2sf.files.writing import write_beside, write_json
 from p2sf.io.record import describe
 from p2sf.lensfile.library import find_lens
+from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import numerical_aperture
-from p2sf.psf.metrics import airy_radius_um
 from p2sf.request import Setup, set_up
 
 MOST_RINGS = 200  # 120 601 rays

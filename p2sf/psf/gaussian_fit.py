@@ -8,7 +8,6 @@ import numpy as np
 
 from p2sf.messages import Message
 from p2sf.psf.compare import r_squared
-from p2sf.psf.metrics import centroid
 from p2sf.psf.result import Psf
 
 WIDTHS = (0.5, 1.0, 2.0)  # of the starting points, in units of the reference's spread: narrow core, whole, wide skirt
@@ -68,7 +67,7 @@ def gaussian(x_um: np.ndarray, y_um: np.ndarray, sigma_x: float, sigma_y: float,
 
 def _starts(reference: Psf) -> Iterator[list[float]]:
     """Return starting points (log σx, log σy, centre y): about the centroid and about the peak."""
-    _, centre = centroid(reference)
+    centre = reference.values.sum(1) @ reference.y_um / reference.values.sum()
     highest = reference.y_um[np.unravel_index(reference.values.argmax(), reference.values.shape)[0]]
     for place in (float(centre), float(highest)):
         spread_x = np.sqrt((reference.values.sum(0) * reference.x_um**2).sum())

@@ -105,6 +105,19 @@ def outline(lens: Lens, source: Source, clip: bool = True) -> ClearPart:
     return ClearPart(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
 
 
+def clear_outline(lens: Lens, source: Source, points: int, clip: bool = True) -> tuple[np.ndarray, np.ndarray]:
+    """Return (ξ, η) along the right half of the clear part's edge from top to bottom, its corners among them.
+
+    Some ``points``, evenly seen from the centre. Raises GeometryError when no part is clear.
+    """
+    shape = outline(lens, source, clip)
+    arcs = [(low, high, max(2, round(points * (high - low) / np.pi))) for low, high in pairwise(shape.corners)]
+    parts = [np.linspace(*arc, endpoint=False) for arc in arcs]
+    theta = np.append(np.concatenate(parts), np.pi)
+    radius, _ = _edge(lens, source, clip, shape.centre, theta)
+    return radius * np.sin(theta), shape.centre + radius * np.cos(theta)
+
+
 def _edge(lens: Lens, source: Source, clip: bool, centre: float, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the clear radius along each angle, and the surface that ends it (0: the pupil's own rim)."""
     sine, cosine = np.sin(theta), np.cos(theta)

@@ -14,8 +14,8 @@ from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.metrics.compare import Errors, compare
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import Errors, compare
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import METHODS, render

@@ -7,7 +7,7 @@ from typing import Any
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf.psf.metrics import airy_radius_um
+from p2sf.metrics.perfect import airy_radius_um
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
 from p2sf_explorer.compute.layout import Layout, layout

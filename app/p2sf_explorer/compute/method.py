@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from p2sf.errors import GeometryError
 from p2sf.messages import Message, Number
+from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.wavefront import steepest_slope
-from p2sf.psf.metrics import airy_radius_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, seidel_psf, suitable_pixel_um
 from p2sf.psf.traced import in_rows

@@ -10,11 +10,11 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.metrics.window import centroid, mtf, radius_of_energy
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import find_stop
 from p2sf.psf.compare import r_squared as fidelity
 from p2sf.psf.methods import render
-from p2sf.psf.metrics import centroid, mtf, radius_of_energy
 from p2sf.psf.result import Psf
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 from p2sf_explorer.compute import live as compute

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.psf.metrics import diffraction_mtf, mtf
+from p2sf.metrics.perfect import diffraction_mtf
+from p2sf.metrics.window import mtf
 from p2sf_explorer.compute.live import Live
 
 INTERVALS = 512  # eight between two frequencies that 128 samples resolve, so that lobes are drawn smoothly

@@ -6,9 +6,9 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.metrics.window import centroid, encircled_energy
 from p2sf.paraxial.wavefront import steepest_polar, wavefront
 from p2sf.psf.fitted import fit
-from p2sf.psf.metrics import centroid, encircled_energy
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import corner_reach

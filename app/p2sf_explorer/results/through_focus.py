@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.messages import Message
-from p2sf.psf.metrics import airy_radius_um
+from p2sf.metrics.perfect import airy_radius_um
 from p2sf.raytrace.field_curves import real_foci, seidel_foci
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live

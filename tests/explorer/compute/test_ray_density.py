@@ -3,7 +3,7 @@ import pytest
 
 from p2sf.conventions import UM_PER_MM, centred_axis
 from p2sf.errors import GeometryError
-from p2sf.psf.metrics import radius_of_energy
+from p2sf.metrics.window import radius_of_energy
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from p2sf.psf.metrics import diffraction_mtf, mtf
+from p2sf.metrics.perfect import diffraction_mtf
+from p2sf.metrics.window import mtf
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.results.mtf import contrast
 from p2sf_explorer.state.state import changed, new_state

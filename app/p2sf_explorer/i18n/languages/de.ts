@@ -552,6 +552,7 @@
 <message><source>a PSF of {pixels} samples; give a whole number from 1</source><translation>eine PSF aus {pixels} Proben; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>a black box that hides its surfaces</source><translation>eine Black Box, die ihre Flächen verbirgt</translation></message>
 <message><source>a blur of {size} pixels with {samples} samples each needs a {side}² transform; bring the depths nearer to focus, stop down, or ask for larger pixels</source><translation>eine Unschärfe von {size} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²; die Abstände dem Fokus nähern, abblenden oder größere Pixel verlangen</translation></message>
+<message><source>a blur of {waves:.0f} waves per pupil radius needs {lines} × {samples} pupil samples; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius braucht {lines} × {samples} Pupillenproben; den Sensor dem Bild nähern oder abblenden</translation></message>
 <message><source>a chart of {columns} × {rows} pixels; give {least} to {most} each way</source><translation>eine Tafel von {columns} × {rows} Pixeln; {least} bis {most} je Richtung angeben</translation></message>
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
 <message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
@@ -838,6 +839,7 @@
 <message><source>medium {name} has no line in a Zemax file; save as TOML, or give nd and vd</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei; als TOML speichern oder nd und vd angeben</translation></message>
 <message><source>meets the asphere on surface {surface} where no safe intersection was found</source><translation>trifft die Asphäre auf Fläche {surface}, wo kein sicherer Schnittpunkt zu finden war</translation></message>
 <message><source>mercury g e</source><translation>Quecksilber g e</translation></message>
+<message><source>method "{method}" describes no pupil; choose {methods}</source><translation>Verfahren "{method}" beschreibt keine Pupille; {methods} wählen</translation></message>
 <message><source>method "{method}" is unknown; choose {methods}</source><translation>die Methode "{method}" ist unbekannt; {methods} wählen</translation></message>
 <message><source>method {inner:.3g}–{outer:.3g} mm</source><translation>Methode {inner:.3g}–{outer:.3g} mm</translation></message>
 <message><source>misses surface {surface}</source><translation>verfehlt Fläche {surface}</translation></message>
@@ -857,6 +859,7 @@
 <message><source>no glass (NM and CD lines) is in this file; give an AGF catalogue</source><translation>in dieser Datei ist kein Glas (Zeilen NM und CD); einen AGF-Katalog angeben</translation></message>
 <message><source>no nodes</source><translation>keine Knoten</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
+<message><source>no polynomial follows the rays of this pupil; stop the lens down or reduce the field</source><translation>kein Polynom folgt den Strahlen dieser Pupille; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no ray but the chief ray reaches the sensor; stop the lens down or reduce the field</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no ray lands within {half} pixels of the chief ray; take larger pixels</source><translation>im Umkreis von {half} Pixeln um den Hauptstrahl landet kein Strahl; größere Pixel nehmen</translation></message>
 <message><source>no ray reaches the sensor; choose a smaller field or leave {parameter} off</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder {parameter} auslassen</translation></message>
@@ -936,6 +939,7 @@
 <message><source>ray density</source><translation>Strahlendichte</translation></message>
 <message><source>rays fill the paraxial entrance pupil</source><translation>Strahlen füllen die paraxiale Eintrittspupille</translation></message>
 <message><source>rays fill the real stop</source><translation>Strahlen füllen die wirkliche Blende</translation></message>
+<message><source>rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; stop the lens down or reduce the field</source><translation>Strahlen aus verschiedenen Teilen der Pupille kommen in einer Richtung an, und die Summe ihres Lichts hat keine Grenze; abblenden oder das Feld verkleinern</translation></message>
 <message><source>read</source><translation>gelesen</translation></message>
 <message><source>reads another file, which is not at hand</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
 <message><source>real image heights are taken as paraxial ones; distortion makes the angles differ</source><translation>wahre Bildhöhen gelten als paraxiale; durch Verzeichnung weichen die Winkel ab</translation></message>
@@ -1417,6 +1421,7 @@
 <message><source>{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; ask for a wavelength inside, or change the glass</source><translation>{quantity} {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
 <message><source>{radial} radii × {angular} directions; give at least 1 radius and an even count ≥ 2</source><translation>{radial} Radien × {angular} Richtungen; mindestens 1 Radius und eine gerade Anzahl ≥ 2 angeben</translation></message>
 <message><source>{radii} radii × {directions} directions</source><translation>{radii} Radien × {directions} Richtungen</translation></message>
+<message><source>{radius:.3g} µm hold {share:.3g} of the light, less than {fraction}; ask for larger radii</source><translation>{radius:.3g} µm enthalten {share:.3g} des Lichts, weniger als {fraction}; größere Radien verlangen</translation></message>
 <message><source>{rounds} rounds of Richardson–Lucy; give at least 1</source><translation>{rounds} Runden Richardson–Lucy; mindestens 1 angeben</translation></message>
 <message><source>{rows} rows × {columns} columns of equal frequency</source><translation>{rows} Zeilen × {columns} Spalten gleicher Frequenz</translation></message>
 <message><source>{rows} rows × {columns} columns; give even counts of at least 2</source><translation>{rows} Zeilen × {columns} Spalten; gerade Anzahlen ab 2 angeben</translation></message>

@@ -7,10 +7,9 @@ import pytest
 from scipy.special import j0, j1, jn_zeros
 
 from p2sf.errors import SamplingError
-from p2sf.psf.metrics import (
-    airy_radius_um,
+from p2sf.metrics.perfect import airy_radius_um, diffraction_mtf
+from p2sf.metrics.window import (
     centroid,
-    diffraction_mtf,
     encircled_energy,
     mtf,
     peak,

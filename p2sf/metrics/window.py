@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import SamplingError
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import AIRY_RADIUS
 
 NEAR, FINER = 6, 5  # for its energy a PSF is interpolated: within so many pixels of its centre, so much finer
 
@@ -43,12 +42,6 @@ class Mtf(NamedTuple):
     frequency_per_mm: np.ndarray
     tangential: np.ndarray
     sagittal: np.ndarray
-
-
-def airy_radius_um(wavelength_um: ArrayLike, na: float | np.ndarray) -> np.ndarray:
-    """Return the radius of the first dark ring, 0.6098 λ/NA (first zero of J1 over 2π; Airy 1835)."""
-    radius: np.ndarray = AIRY_RADIUS * np.asarray(wavelength_um) / na
-    return radius
 
 
 def strehl(psf: Psf) -> float | np.ndarray | None:
@@ -218,10 +211,3 @@ def _powers(factor: np.ndarray, count: int) -> np.ndarray:
     while len(found) < count:
         found = np.concatenate([found, found * factor ** len(found)])
     return found[:count]
-
-
-def diffraction_mtf(frequency_per_mm: ArrayLike, na: ArrayLike, wavelength_um: float | np.ndarray) -> np.ndarray:
-    """Return the contrast of a perfect circular pupil, (2/π)(acos ν − ν√(1−ν²)), ν = λf/(2 NA) (Goodman 2005, 6-31)."""
-    nu = np.clip(np.asarray(frequency_per_mm) / UM_PER_MM * wavelength_um / (2 * np.asarray(na)), 0, 1)
-    contrast: np.ndarray = 2 / np.pi * (np.arccos(nu) - nu * np.sqrt(1 - nu**2))
-    return contrast

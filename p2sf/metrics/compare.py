@@ -1,0 +1,66 @@
+"""How far one PSF is from another on the same grid, in the quantities a PSF is judged by (handbook 6.1)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.errors import SamplingError
+from p2sf.messages import Message
+from p2sf.metrics.window import centroid, radius_of_energy
+from p2sf.psf.compare import r_squared, relative_l2
+from p2sf.psf.result import Psf
+
+SAME_PITCH = 1e-9  # relative: the rounding of a pitch written to a file and read again
+
+
+@dataclass(frozen=True)
+class Errors:
+    """A PSF against a reference, both normalised to unit sum in the window they share.
+
+    ``r_squared`` is 1 − Σ(reference − psf)²/Σ(reference − mean)², negative where the mean itself fits better;
+    ``relative_l2`` the root of Σ(reference − psf)²/Σreference². ``strehl`` is the difference of Strehl ratios, None
+    where one has none, ``radius_50_um`` and ``radius_80_um`` of encircled-energy radii about each one's centroid,
+    ``centroid_um`` the distance between the centroids. Differences are this PSF less the reference.
+    """
+
+    r_squared: float
+    relative_l2: float
+    strehl: float | None
+    radius_50_um: float
+    radius_80_um: float
+    centroid_um: float
+
+
+def compare(psf: Psf, reference: Psf) -> Errors:
+    """Return how far a PSF is from the reference; SamplingError unless both have the same samples and pitch."""
+    _check_same_grid(psf, reference)
+    (x, y), (x_reference, y_reference) = centroid(psf), centroid(reference)
+    radii = [float(radius_of_energy(psf, part) - radius_of_energy(reference, part)) for part in (0.5, 0.8)]
+    return Errors(
+        r_squared=r_squared(psf.values, reference.values),
+        relative_l2=relative_l2(psf.values, reference.values),
+        strehl=_difference(psf.strehl, reference.strehl),
+        radius_50_um=radii[0],
+        radius_80_um=radii[1],
+        centroid_um=float(np.hypot(x - x_reference, y - y_reference)),
+    )
+
+
+def _difference(one: float | np.ndarray | None, other: float | np.ndarray | None) -> float | None:
+    return None if one is None or other is None else float(one - other)
+
+
+def _check_same_grid(psf: Psf, reference: Psf) -> None:
+    same = abs(psf.pixel_um / reference.pixel_um - 1) < SAME_PITCH
+    if psf.values.shape != reference.values.shape or not same:
+        raise SamplingError(
+            "cannot compare {psf} with {reference}; render both on the same grid",
+            psf=_grid(psf),
+            reference=_grid(reference),
+        )
+
+
+def _grid(psf: Psf) -> Message:
+    """Return what grid a PSF has, in words."""
+    shape = " × ".join(map(str, psf.values.shape))
+    return Message("{shape} samples at {pixel_um:g} µm", shape=shape, pixel_um=psf.pixel_um)

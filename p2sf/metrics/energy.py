@@ -1,0 +1,176 @@
+"""Encircled energy from the pupil, of all light and without a window (handbook 6.3).
+
+With OTF the transfer function in two dimensions about a point, the light within a radius R of that point is
+
+    E(R) = ∫∫ OTF(ν)·R·J₁(2πRν)/ν d²ν,
+
+Parseval's theorem with the transform of a disc (Goodman 2005, eq. 2-35). The transfer function is the autocorrelation
+of the pupil on an even grid, by FFT, gathered in rings of equal |ν|.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import pi
+
+import numpy as np
+from scipy import fft
+from scipy.special import j1
+
+from p2sf.conventions import protected
+from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of, uniform_disc
+from p2sf.metrics.perfect import circle_energy
+from p2sf.pupil.phasors import cosine_sine
+from p2sf.pupil.quadrature import even_count
+
+FEWEST, PER_WAVE = 128, 4.5  # samples across the pupil: two blurs side by side fit into the period of the PSF
+MOST_ACROSS = 3072  # 300 MB; beyond, at some 650 waves of slope, the landing points of rays are as exact
+STRIPS = 8  # of a cell, over which the part inside the edge is averaged
+RINGS = 8  # per step of frequency
+RADII = 128  # of a tabulated curve
+BEYOND = 12.0  # λ/2NA beyond the outermost ray up to which a curve is tabulated
+GEOMETRIC = 400  # rows and columns of landing points
+
+
+@dataclass(frozen=True, eq=False)
+class RingSums:
+    """The transfer function of one pupil about a point, summed over rings: Σ E = ``sums``·(transform of a disc).
+
+    ``radius``: mean |ν| of each ring in steps of the grid, (rings,); ``step``: cycles per µm; ``across``: samples.
+    """
+
+    radius: np.ndarray
+    sums: np.ndarray
+    step: float
+    across: int
+
+    def within(self, radius_um: np.ndarray) -> np.ndarray:
+        """Return the share of all light within each radius, (n,)."""
+        scaled = radius_um * self.step
+        found: np.ndarray = _disc_transform(scaled, self.radius) @ self.sums + _missing(self.across, scaled)
+        return found
+
+    def tabulated(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return RADII + 1 even radii from 0 to beyond the blur, µm, and the share within each, from a kept matrix."""
+        scaled, matrix = _kept_transform(self.across)
+        return scaled / self.step, matrix @ self.sums + _missing(self.across, scaled)
+
+
+@dataclass(frozen=True, eq=False)
+class LandingPoints:
+    """Where rays land about a point, ascending in µm, and the light up to each: energy where diffraction is nothing."""
+
+    radius_um: np.ndarray
+    light: np.ndarray
+
+    def within(self, radius_um: np.ndarray) -> np.ndarray:
+        """Return the share of all light within each radius, (n,)."""
+        within: np.ndarray = np.interp(radius_um, self.radius_um, self.light)
+        return within
+
+    def tabulated(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return RADII + 1 even radii from 0 to the outermost ray, µm, and the share within each."""
+        radius = np.linspace(0, float(self.radius_um[-1]), RADII + 1)
+        return radius, self.within(radius)
+
+
+def energy_of(pupil: FrequencyPupil, centre_um: float | None = None) -> "RingSums | LandingPoints":
+    """Return the energy of a pupil about (0, ``centre_um``), its centroid if not given."""
+    centre = pupil.centroid_um if centre_um is None else centre_um
+    across = samples_across(pupil, centre)
+    return ring_sums(pupil, centre, across) if across <= MOST_ACROSS else landing_points(pupil, centre)
+
+
+def samples_across(pupil: FrequencyPupil, centre_um: float) -> int:
+    """Return how many samples across the pupil its blur about a point takes."""
+    reach = reach_of(pupil)
+    aside = abs(centre_um - pupil.centroid_um) * pupil.half_y
+    return even_count(FEWEST + PER_WAVE * max(reach.x, reach.y + aside))
+
+
+def ring_sums(pupil: FrequencyPupil, centre_um: float, across: int) -> RingSums:
+    """Return the transfer function about a point on a grid of ``across`` samples, summed over rings."""
+    step = 2 * max(pupil.half_x, pupil.half_y) / across
+    wave, kept = _cells(pupil, centre_um, step, across)
+    length = fft.next_fast_len(2 * across + 4)
+    field = fft.fft2(np.concatenate([wave[:, ::-1], wave], axis=1), (length, length))
+    transfer = fft.rfft2(field.real**2 + field.imag**2).real
+    light = float(transfer[0, 0])
+    ring, radius = _rings(length)
+    transfer[:, 1 : (length + 1) // 2] *= 2  # the half at −ν
+    sums = np.bincount(ring, transfer.ravel(), radius.size) * (kept / light)
+    return RingSums(radius, sums, step, across)
+
+
+def _cells(pupil: FrequencyPupil, centre_um: float, step: float, across: int) -> tuple[np.ndarray, float]:
+    """Return the pupil function (y, x > 0) on the cells of a grid, and how much of the light that is.
+
+    A cell on the edge has an amplitude equal to its share inside. The square of that is less than the share: what lacks
+    is light that the whole edge would send beyond half the period of the grid.
+    """
+    wide, high = step / pupil.half_x, step / pupil.half_y
+    x = (np.arange(across // 2 + 1) + 0.5) * wide
+    y = (np.arange(across + 2) - (across + 1) / 2) * high
+    area = np.zeros((y.size, x.size))
+    for strip in (np.arange(STRIPS) + 0.5) / STRIPS - 0.5:
+        area += np.clip((pupil.chords(y + strip * high)[:, None] - x) / wide + 0.5, 0, 1)
+    area /= STRIPS
+    phase, density = pupil.on_grid(x, y)
+    density *= area > 0
+    phase += centre_um * pupil.half_y * y[:, None]
+    amplitude = area * density
+    wave = np.empty(phase.shape, np.complex64)
+    wave.real, wave.imag = cosine_sine(phase, np.float32)
+    wave *= amplitude.astype(np.float32)
+    return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
+
+
+@lru_cache(maxsize=4)
+def _rings(length: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the ring of every sample of a real transform's half plane, flat, and the mean radius of each ring."""
+    along, across = fft.fftfreq(length, 1 / length), np.arange(length // 2 + 1)
+    radius = np.hypot(across, along[:, None]).ravel()
+    ring = np.rint(RINGS * radius).astype(np.int32)
+    count = np.maximum(np.bincount(ring), 1)
+    return protected(ring), protected(np.bincount(ring, radius) / count)
+
+
+def _disc_transform(radius: np.ndarray, frequency: np.ndarray) -> np.ndarray:
+    """Return R·J₁(2πRν)/ν, πR² at ν = 0, (radii, frequencies) (Goodman 2005, eq. 2-35)."""
+    wide = radius[:, None]
+    table: np.ndarray = wide * j1(2 * pi * wide * frequency) / np.where(frequency > 0, frequency, 1.0)
+    table[:, frequency == 0] = pi * wide**2
+    return table
+
+
+@lru_cache(maxsize=4)
+def _kept_transform(across: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return even radii up to BEYOND the blur that needs such a grid, in periods of the PSF, and the matrix of E(R)."""
+    top = min(
+        0.5, (2 * max(across - FEWEST, 0) / PER_WAVE + BEYOND) / across
+    )  # S waves land at S/half = 2S/(step·across)
+    scaled = np.linspace(0, top, RADII + 1)
+    radius = _rings(fft.next_fast_len(2 * across + 4))[1]
+    return protected(scaled), protected(_disc_transform(scaled, radius))
+
+
+@lru_cache(maxsize=16)
+def _missing_table(across: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return what the grid's energy of a uniform disc lacks of the closed form, at radii in periods of the PSF."""
+    scaled = np.linspace(0, 0.5, 4 * RADII + 1)
+    found = ring_sums(uniform_disc(), 0.0, across)
+    exact = circle_energy(scaled / found.step)
+    return scaled, exact - _disc_transform(scaled, found.radius) @ found.sums
+
+
+def _missing(across: int, scaled: np.ndarray) -> np.ndarray:
+    missing: np.ndarray = np.interp(scaled, *_missing_table(across))
+    return missing
+
+
+def landing_points(pupil: FrequencyPupil, centre_um: float) -> LandingPoints:
+    """Return where the pupil's rays land about a point."""
+    x, y, light = landing_um(pupil, GEOMETRIC)
+    radius = np.hypot(x, y - centre_um).ravel()
+    order = np.argsort(radius)
+    share = np.cumsum(light.ravel()[order])
+    return LandingPoints(radius[order], share / share[-1])

@@ -1,0 +1,360 @@
+"""The pupil of one method as a function of spatial frequency: phase and density as polynomials, and its outline.
+
+The field at the sensor is a Fourier integral over the frequencies f = n'K/λ of the plane waves that arrive,
+
+    E(x, y) = ∫∫ D(fx, fy)·exp(2πi(w(fx, fy) + fx·x + fy·y)) dfx dfy,
+
+D the density of the rays, weight·|∂(ξ, η)/∂(fx, fy)|. Everything a PSF is judged by, its transfer function and its
+energy, is an integral over this pupil (Goodman 2005, eq. 6-28), which needs no window. Phase and density are smooth,
+so a polynomial through some hundreds of rays gives them at all frequencies of a grid by two small products.
+
+See handbook 6.3.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import inf
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebder, chebvander
+from scipy.fft import dct, dst
+from scipy.linalg import qr, solve_triangular
+
+from p2sf.conventions import protected
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.psf.huygens import all_reach
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.raytrace.fit import FittedPencil
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.vignetting import clear_nodes, clear_outline
+
+# RMS error of the phase up to which a higher order is tried: the transfer function's error is at most 2π√2 times it.
+RESIDUAL_WAVES = 5e-5
+MOST_RESIDUAL = 1e-3  # and above which no polynomial describes the pupil
+RIM = 64  # intervals of the rim's right half that are traced
+OUTLINE = 2048  # intervals of the outline: chords between them depart from it by 3e-7 of the radius
+PROBE = 33  # points along each axis where slopes are looked for
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How many radii × directions of rays carry polynomials of an order."""
+
+    order: int
+    radii: int
+    directions: int
+
+
+ORDERS = (
+    Sampling(8, 10, 16),
+    Sampling(10, 10, 16),
+    Sampling(14, 14, 24),
+    Sampling(18, 14, 24),
+    Sampling(24, 20, 36),
+    Sampling(32, 28, 48),
+    Sampling(44, 40, 70),
+)
+EXACT = Sampling(4, 6, 10)  # the six coefficients are a polynomial of fourth order
+
+
+@dataclass(frozen=True)
+class PupilNodes:
+    """Rays over half the pupil, (nodes,): the last ``rim`` of them on its edge, from the top to the bottom.
+
+    ``share``: the area that each stands for, 0 on the edge; ``weight``: of its field; phase in waves, fx and fy in
+    cycles per µm.
+    """
+
+    xi: np.ndarray
+    eta: np.ndarray
+    share: np.ndarray
+    weight: np.ndarray
+    phase: np.ndarray
+    fx: np.ndarray
+    fy: np.ndarray
+    rim: int
+
+
+@dataclass(frozen=True, eq=False)
+class FrequencyPupil:
+    """The pupil over spatial frequencies (fx, fy), even in fx.
+
+    Attributes
+    ----------
+    half_x, half_y, middle_y : float
+        The box around the pupil: |fx| ≤ half_x, |fy − middle_y| ≤ half_y, cycles per µm.
+    phase, density : numpy.ndarray
+        Coefficients of T_b(y)·T_a(x), (order + 1, order + 1), in the box's own coordinates; phase in waves, the density
+        positive and up to a factor.
+    outline_x, outline_y : numpy.ndarray
+        The edge's right half from the largest to the smallest fy, in the box's coordinates.
+    centroid_um : float
+        The light's centroid along y, µm from the chief ray: its mean landing point.
+    rms_um : float
+        RMS distance of the rays, weighted by their light, from the centroid, µm.
+    residual_waves : float
+        RMS error of the phase.
+    rays : int
+        How many rays were traced.
+    """
+
+    half_x: float
+    half_y: float
+    middle_y: float
+    phase: np.ndarray
+    density: np.ndarray
+    outline_x: np.ndarray
+    outline_y: np.ndarray
+    centroid_um: float
+    rms_um: float
+    residual_waves: float
+    rays: int
+
+    @property
+    def cut_off_per_um(self) -> tuple[float, float]:
+        """Return the frequencies along x and along y from which on nothing is transferred, cycles per µm."""
+        return 2 * self.half_x, 2 * self.half_y
+
+    def chords(self, y: np.ndarray) -> np.ndarray:
+        """Return the half length of the row at each y, in the box's coordinates; 0 outside the pupil."""
+        half: np.ndarray = np.interp(-y, -self.outline_y, self.outline_x, left=0.0, right=0.0)
+        return half
+
+    def columns(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the lower and the upper end of the column at each x ≥ 0, in the box's coordinates."""
+        widest = int(self.outline_x.argmax())
+        upper = np.interp(x, self.outline_x[: widest + 1], self.outline_y[: widest + 1])
+        lower = np.interp(x, self.outline_x[: widest - 1 : -1], self.outline_y[: widest - 1 : -1])
+        return lower, upper
+
+    def on_grid(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return phase and density at the points (y, x) of a grid in the box's coordinates."""
+        return _on_grid(self.phase, x, y), _on_grid(self.density, x, y)
+
+
+def _on_grid(table: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    order = len(table) - 1
+    values: np.ndarray = chebvander(y, order) @ table @ chebvander(x, order).T
+    return values
+
+
+@dataclass(frozen=True)
+class Reach:
+    """How far apart rays land, as waves over the pupil's radius: what sums over the pupil must resolve.
+
+    ``x``, ``y``: the largest distance from the centroid along each axis times half_x, half_y. ``in_row``: the largest
+    difference of y between rays of one row, times half_y; ``in_column``: of x between rays of one column, times half_x.
+    """
+
+    x: float
+    y: float
+    in_row: float
+    in_column: float
+
+
+def reach_of(pupil: FrequencyPupil) -> Reach:
+    """Return how far apart rays land: over f, the phase has the gradient −(x, y) (Hamilton)."""
+    x, y = np.linspace(0, 1, PROBE), np.cos(np.linspace(0, np.pi, PROBE))
+    outside = x > pupil.chords(y)[:, None] + 1 / PROBE
+    along, across = (chebvander(points, len(pupil.phase) - 1) for points in (y, x))
+    landing_x = np.where(outside, np.nan, along @ chebder(pupil.phase, axis=1) @ across[:, :-1].T)
+    landing_y = np.where(outside, np.nan, along[:, :-1] @ chebder(pupil.phase, axis=0) @ across.T)
+    landing_y += pupil.centroid_um * pupil.half_y
+    x_range, y_range = (
+        np.nanmax(landing_x, 0) - np.nanmin(landing_x, 0),
+        np.nanmax(landing_y, 1) - np.nanmin(landing_y, 1),
+    )
+    farthest_x, farthest_y = (float(np.nanmax(np.abs(landing))) for landing in (landing_x, landing_y))
+    return Reach(farthest_x, farthest_y, float(y_range.max()), float(x_range.max()))
+
+
+def landing_um(pupil: FrequencyPupil, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return where rays land, x and y in µm from the chief ray, and the light of each, up to a factor."""
+    angle = np.arange(1, count + 1) * (np.pi / (count + 1))
+    y = np.cos(angle)[:, None]
+    chord = pupil.chords(y[:, 0])[:, None]
+    x = chord * (np.arange(count) + 0.5) / count
+    along, across = (chebvander(points, len(pupil.phase) - 1) for points in (y[:, 0], x))
+    landing_x = -np.einsum("jb,ba,jka->jk", along, chebder(pupil.phase, axis=1), across[..., :-1], optimize=True)
+    landing_y = -np.einsum("jb,ba,jka->jk", along[:, :-1], chebder(pupil.phase, axis=0), across, optimize=True)
+    few = len(pupil.density)
+    density = np.einsum("jb,ba,jka->jk", along[:, :few], pupil.density, across[..., :few], optimize=True)
+    return landing_x / pupil.half_x, landing_y / pupil.half_y, density**2 * chord * np.sin(angle)[:, None]
+
+
+def uniform_disc(half: float = 1.0) -> FrequencyPupil:
+    """Return the pupil of a perfect lens whose cut-off is 2·half cycles per µm."""
+    x, y = _rim(OUTLINE)
+    return FrequencyPupil(half, half, 0.0, np.zeros((2, 2)), np.ones((1, 1)), x, y, 0.0, 0.0, 0.0, 0)
+
+
+def pupil_of_rays(lens: Lens, source: Source, clip: bool = False) -> FrequencyPupil:
+    """Return the pupil of exact rays; where rims clip or rays are lost, it ends there.
+
+    Raises GeometryError where the chief ray does not reach the sensor, or no polynomial describes the pupil, as where
+    rays of different parts of it arrive in one direction.
+    """
+    whole = not clip and all_reach(lens, source)
+    edge = _rim(RIM) if whole else clear_outline(lens, source, OUTLINE // 4, clip)
+
+    def traced(sampling: Sampling) -> PupilNodes:
+        counts = sampling.radii, 2 * sampling.directions
+        inside = disc_nodes(*counts) if whole else clear_nodes(lens, source, counts, clip)
+        xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
+        rays = pencil(lens, source, xi, eta)
+        data = ray_data(rays)
+        field = data.weight, data.phase, data.fx, data.fy
+        return PupilNodes(xi, eta, _shares(inside.weight, edge), *field, edge[0].size)
+
+    return _settled(traced, ORDERS, whole)
+
+
+def pupil_of_fit(found: FittedPencil) -> FrequencyPupil:
+    """Return the pupil that a fit describes. Raises GeometryError where its map of the pupil folds."""
+    edge = _rim(RIM)
+
+    def evaluated(sampling: Sampling) -> PupilNodes:
+        inside = disc_nodes(sampling.radii, 2 * sampling.directions)
+        xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
+        weight = found.weight_at(xi, eta)
+        return PupilNodes(xi, eta, _shares(inside.weight, edge), weight, *found.at(xi, eta), edge[0].size)
+
+    return replace(_settled(evaluated, ORDERS, True), rays=found.rays)
+
+
+def pupil_of_coefficients(six: Coefficients) -> FrequencyPupil:
+    """Return the pupil of the six coefficients: the unit circle, frequencies −n'u'(ξ, η)/λ, uniform density."""
+    edge, scale = _rim(RIM), -float(six.reduced_slope) / float(six.wavelength_um)
+
+    def evaluated(sampling: Sampling) -> PupilNodes:
+        inside = disc_nodes(sampling.radii, 2 * sampling.directions)
+        xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
+        phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
+        return PupilNodes(xi, eta, _shares(inside.weight, edge), one, phase, scale * xi, scale * eta, edge[0].size)
+
+    return replace(_settled(evaluated, (EXACT,), True), rays=2)
+
+
+def _shares(weight: np.ndarray, edge: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    return np.append(weight, np.zeros(edge[0].size))
+
+
+@lru_cache(maxsize=4)
+def _rim(intervals: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the right half of the unit circle from (0, 1) to (0, −1), (intervals + 1,)."""
+    angle = np.linspace(0, np.pi, intervals + 1)
+    return protected(np.sin(angle)), protected(np.cos(angle))
+
+
+def _settled(nodes_of: Callable[[Sampling], PupilNodes], orders: tuple[Sampling, ...], smooth: bool) -> FrequencyPupil:
+    """Return the pupil through nodes, of the first order whose residual is small enough."""
+    counts, traced = (0, 0), 0
+    for sampling in orders:
+        if counts != (sampling.radii, sampling.directions):
+            nodes, counts = nodes_of(sampling), (sampling.radii, sampling.directions)
+            traced += nodes.xi.size
+        found = _through(nodes, sampling.order, smooth)
+        if found.residual_waves < RESIDUAL_WAVES:
+            break
+    if found.residual_waves == inf:
+        raise GeometryError(
+            "rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; "
+            "stop the lens down or reduce the field"
+        )
+    if not found.residual_waves < MOST_RESIDUAL:
+        raise GeometryError("no polynomial follows the rays of this pupil; stop the lens down or reduce the field")
+    return replace(found, rays=traced)
+
+
+def _through(nodes: PupilNodes, order: int, smooth: bool) -> FrequencyPupil:
+    """Return the polynomials through nodes by least squares, and what else follows from the rays."""
+    fx, fy = np.abs(nodes.fx), nodes.fy  # of a pupil that is even in fx, either half will do
+    edge_x, edge_y = _outline(fx[-nodes.rim :], fy[-nodes.rim :], smooth)
+    half_x, low, high = float(edge_x.max()), float(edge_y.min()), float(edge_y.max())
+    half_y, middle = (high - low) / 2, (high + low) / 2
+    x, y = fx / half_x, (fy - middle) / half_y
+    used = nodes.xi > 0
+    least = LeastSquares(order, x[used], y[used], nodes.share[used])
+    phase = least.solve(nodes.phase[used])
+    miss = least.values(phase) - nodes.phase[used]
+    freedom = max(1 - least.unknowns / miss.size, 1e-3)
+    share = nodes.share[used]
+    density, flat = least.density(nodes.xi[used], nodes.eta[used], nodes.weight[used])
+    light = share * nodes.weight[used] * least.values(density)  # D²df = D·weight·dξdη
+    light /= light.sum()
+    landing_x, landing_y = (-slope / half for slope, half in zip(least.slopes(phase), (half_x, half_y), strict=True))
+    centroid = float(light @ landing_y)
+    return FrequencyPupil(
+        half_x,
+        half_y,
+        middle,
+        phase,
+        density,
+        edge_x / half_x,
+        (edge_y - middle) / half_y,
+        centroid,
+        float(np.sqrt(light @ (landing_x**2 + (landing_y - centroid) ** 2))),
+        float(np.sqrt(share @ miss**2 / share.sum() / freedom)) if flat else inf,
+        0,
+    )
+
+
+class LeastSquares:
+    """Polynomials T_a(x)·T_b(y), a even and a + b ≤ order, through values at points of the box, by one QR."""
+
+    def __init__(self, order: int, x: np.ndarray, y: np.ndarray, share: np.ndarray):
+        self._x, self._y, self._order = x, y, order
+        self._at = np.array([(b, a) for a in range(0, order + 1, 2) for b in range(order + 1 - a)]).T
+        self._across, self._along = chebvander(x, order), chebvander(y, order)
+        self._design = self._along[:, self._at[0]] * self._across[:, self._at[1]]
+        self._root = np.sqrt(share + share[share > 0].min())  # the edge counts too, where polynomials deviate first
+        self._factor, self._upper = qr(self._design * self._root[:, None], mode="economic", check_finite=False)
+        self.unknowns = self._at.shape[1]
+
+    def solve(self, values: np.ndarray) -> np.ndarray:
+        """Return the coefficients, (order + 1, order + 1) for (b, a)."""
+        table = np.zeros((self._order + 1, self._order + 1))
+        table[tuple(self._at)] = solve_triangular(self._upper, self._factor.T @ (values * self._root))
+        return table
+
+    def values(self, table: np.ndarray) -> np.ndarray:
+        """Return the polynomial at the points."""
+        values: np.ndarray = self._design @ table[tuple(self._at)]
+        return values
+
+    def slopes(self, table: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return ∂/∂x and ∂/∂y of the polynomial at the points."""
+        across = np.einsum("nb,ba,na->n", self._along, chebder(table, axis=1), self._across[:, :-1], optimize=True)
+        along = np.einsum("nb,ba,na->n", self._along[:, :-1], chebder(table, axis=0), self._across, optimize=True)
+        return across, along
+
+    def density(self, xi: np.ndarray, eta: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, bool]:
+        """Return the coefficients of weight·|∂(ξ, η)/∂(x, y)|, and whether that map goes without a fold."""
+        stretch, up = self.solve(xi / self._x), self.solve(eta)  # ξ is odd in x, and ξ/x even
+        (stretch_x, stretch_y), (up_x, up_y) = self.slopes(stretch), self.slopes(up)
+        area = (self.values(stretch) + self._x * stretch_x) * up_y - self._x * stretch_y * up_x
+        return self.solve(weight * np.abs(area)), bool(area.min() * area.max() > 0)
+
+
+def _outline(x: np.ndarray, y: np.ndarray, smooth: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return the edge's right half from the largest to the smallest y; a smooth one refined by its Fourier series."""
+    if y[0] < y[-1]:
+        x, y = x[::-1], y[::-1]
+    if smooth:
+        x, y = _refined(x, y)
+    return np.maximum(x, 0.0), np.minimum.accumulate(y)
+
+
+def _refined(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return x, odd, and y, even about both ends, at OUTLINE equal steps: their sine and cosine series go on."""
+    more = (0, OUTLINE + 1 - y.size)
+    sines, cosines = np.pad(dst(x[1:-1], 1), more), np.pad(dct(y, 1), more)
+    cosines[y.size - 1] /= 2  # the last of a cosine series counts once, in a longer one twice
+    scale = 1 / (2 * (y.size - 1))
+    return np.concatenate([[0.0], dst(sines, 1) * scale, [0.0]]), dct(cosines, 1) * scale

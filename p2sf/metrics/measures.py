@@ -1,0 +1,250 @@
+"""The measures of one source by one method, from the pupil: which pupils, their weights, and what is read off them.
+
+A spectrum is a sum of pupils, each with its share of the light and the place where its chief ray lands, as the colour
+PSF has them (`p2sf.psf.polychromatic`); a single wavelength is a sum of one.
+
+See handbook 6.3.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.colour.colorimetry import bands
+from p2sf.colour.spectrum import Spectrum
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import RequestError, SamplingError
+from p2sf.lens.lens import Lens, lens_range_um
+from p2sf.lens.source import Source
+from p2sf.messages import Alternatives
+from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
+from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays
+from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, otf_slices
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.methods import choose
+from p2sf.psf.polychromatic import chief_shifts_um
+from p2sf.psf.seidel import check_image
+from p2sf.raytrace.fit import fit
+
+METHODS = ("auto", "seidel", "fitted", "traced", "huygens")
+FREQUENCIES = 257
+COLOURS = 21  # wavelengths of a continuous spectrum, as the colour PSF has them
+SHOWN = 4.0  # RMS radii, and periods of the cut-off, that a line spread is shown over
+POINTS = 513
+PARTS = (0.5, 0.8)  # of the light, whose radii are quoted
+
+
+@dataclass(frozen=True, eq=False)
+class Mtf:
+    """Contrast of sine patterns against cycles per mm on the sensor, all (n,).
+
+    ``tangential``: of patterns that vary along y, the direction of the field; ``sagittal``: along x. Beside them those
+    of the same pupils without phase, which nothing exceeds. ``method`` names what described the pupil.
+    """
+
+    frequency_per_mm: np.ndarray
+    tangential: np.ndarray
+    sagittal: np.ndarray
+    perfect_tangential: np.ndarray
+    perfect_sagittal: np.ndarray
+    method: str
+
+
+@dataclass(frozen=True, eq=False)
+class Energy:
+    """The share of all light within each radius, µm, of its centroid, both (n,).
+
+    ``centroid_um``: along y from the chief ray. ``radius_50_um``, ``radius_80_um``: what holds half and 80 % of all
+    light. ``rms_um``: RMS distance of the rays from the centroid; that of the light is infinite behind any hard edge.
+    """
+
+    radius_um: np.ndarray
+    fraction: np.ndarray
+    centroid_um: float
+    radius_50_um: float
+    radius_80_um: float
+    rms_um: float
+    method: str
+
+
+@dataclass(frozen=True, eq=False)
+class LineSpread:
+    """Images of a line and of an edge across x and across y: positions in µm from the centroid, all (n,).
+
+    ``line_x``, ``line_y``: shares of the light per µm, of lines along y and along x. ``edge_x``, ``edge_y``: edges that
+    are dark below 0, their bright side 1. ``centroid_um``: along y from the chief ray.
+    """
+
+    position_um: np.ndarray
+    line_x: np.ndarray
+    line_y: np.ndarray
+    edge_x: np.ndarray
+    edge_y: np.ndarray
+    centroid_um: float
+    method: str
+
+
+@dataclass(frozen=True, eq=False)
+class PupilPart:
+    """One wavelength's pupil, its share of the light and how far above the source's own chief ray it lands, µm."""
+
+    pupil: FrequencyPupil
+    share: float = 1.0
+    shift_um: float = 0.0
+
+    @property
+    def centroid_um(self) -> float:
+        """Return where the light's centroid lies, µm from the source's chief ray."""
+        return self.pupil.centroid_um + self.shift_um
+
+
+Parts = Sequence[PupilPart]
+
+
+def pupil_of(lens: Lens, source: Source, method: str = "traced", clip: bool = False) -> tuple[FrequencyPupil, str]:
+    """Return the pupil that a method describes, and the method; "huygens" is "traced", the same rays.
+
+    Raises GeometryError where rays do not reach the sensor, RequestError for a method that knows no pupil.
+    """
+    if method not in METHODS:
+        raise RequestError(
+            'method "{method}" describes no pupil; choose {methods}', method=method, methods=Alternatives(METHODS)
+        )
+    if method == "auto":
+        method = choose(lens, source, clip=clip).method
+    if method == "seidel":
+        six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+        check_image(six)
+        return pupil_of_coefficients(six), method
+    if method == "fitted":
+        return pupil_of_fit(fit(lens, source)), method
+    return pupil_of_rays(lens, source, clip), method
+
+
+def parts_of(
+    lens: Lens, source: Source, method: str = "traced", clip: bool = False, spectrum: Spectrum | None = None
+) -> tuple[list[PupilPart], str]:
+    """Return the pupils of a source by one method, of a spectrum one per wavelength, weighted by the eye's CIE Y."""
+    if spectrum is None:
+        pupil, used = pupil_of(lens, source, method, clip)
+        return [PupilPart(pupil)], used
+    known = lens_range_um(lens)
+    waves, xyz = bands(spectrum, COLOURS, *((known,) if known else ()))
+    share, shifts = xyz[:, 1] / xyz[:, 1].sum(), chief_shifts_um(lens, source, waves)
+    found = []
+    for wave, part, shift in zip(waves, share, shifts, strict=True):
+        pupil, used = pupil_of(lens, replace(source, wavelength_um=float(wave)), method, clip)
+        found.append(PupilPart(pupil, float(part), float(shift)))
+    return found, used
+
+
+def centroid_of(parts: Parts) -> float:
+    """Return the centroid of all parts' light along y, µm from the source's chief ray."""
+    return sum(part.share * part.centroid_um for part in parts)
+
+
+def mtf_of(parts: Parts, method: str, frequency_per_mm: ArrayLike | None = None) -> Mtf:
+    """Return the contrast at frequencies in cycles per mm, by default FREQUENCIES even ones up to the cut-off."""
+    slices = [otf_slices(part.pupil) for part in parts]
+    perfect = [otf_slices(replace(part.pupil, phase=np.zeros((2, 2)), centroid_um=0.0)) for part in parts]
+    if frequency_per_mm is None:
+        cut_off = max(one.cut_off for both in slices for one in both)
+        frequency_per_mm = np.linspace(0, UM_PER_MM * cut_off, FREQUENCIES)
+    frequency = np.abs(np.asarray(frequency_per_mm, dtype=float))
+    curves = []
+    for axis in (1, 0):
+        own = _transfer(parts, [both[axis] for both in slices], frequency / UM_PER_MM)
+        shares = zip((part.share for part in parts), perfect, strict=True)
+        bound = sum(share * np.abs(both[axis].at(frequency / UM_PER_MM)) for share, both in shares)
+        # |Σ PP*| ≤ Σ |P||P*|: the two are sampled differently, and near the cut-off that makes some 1e-5.
+        curves += [np.minimum(np.abs(own), bound), np.asarray(bound)]
+    tangential, perfect_tangential, sagittal, perfect_sagittal = curves
+    given = np.asarray(frequency_per_mm, dtype=float)
+    return Mtf(given, tangential, sagittal, perfect_tangential, perfect_sagittal, method)
+
+
+def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -> np.ndarray:
+    """Return Σ share·OTF about the centroid of all parts; along x the centroid is that of the chief ray, 0."""
+    total: np.ndarray | complex = 0.0
+    centre = centroid_of(parts)
+    for part, one in zip(parts, slices, strict=True):
+        aside = part.centroid_um - centre if one.along_y else 0.0
+        total = total + part.share * one.at(frequency) * np.exp(-2j * np.pi * aside * frequency)
+    return np.asarray(total)
+
+
+def energy_in(parts: Parts, method: str, radius_um: ArrayLike | None = None) -> Energy:
+    """Return the energy within radii of the centroid, by default even ones from 0 to beyond the blur."""
+    centre = centroid_of(parts)
+    found = [energy_of(part.pupil, centre - part.shift_um) for part in parts]
+    radius, fraction = _tabulated(parts, found)
+    half, most = (_radius_of(parts, found, radius, fraction, part) for part in PARTS)
+    if radius_um is not None:
+        radius = np.asarray(radius_um, dtype=float)
+        fraction = _within(parts, found, radius)
+    square = sum(p.share * (p.pupil.rms_um**2 + (p.centroid_um - centre) ** 2) for p in parts)
+    return Energy(radius, fraction, centre, half, most, float(np.sqrt(square)), method)
+
+
+Found = Sequence[RingSums | LandingPoints]
+
+
+def _within(parts: Parts, found: Found, radius_um: np.ndarray) -> np.ndarray:
+    total: np.ndarray = np.sum(
+        [part.share * one.within(radius_um) for part, one in zip(parts, found, strict=True)], axis=0
+    )
+    return total
+
+
+def _tabulated(parts: Parts, found: Found) -> tuple[np.ndarray, np.ndarray]:
+    """Return a curve over radii that cover the blur of every part."""
+    if len(found) == 1:
+        return found[0].tabulated()
+    radius = max((one.tabulated()[0] for one in found), key=lambda radii: float(radii[-1]))
+    return radius, _within(parts, found, radius)
+
+
+def _radius_of(parts: Parts, found: Found, radius: np.ndarray, fraction: np.ndarray, share: float) -> float:
+    """Return the smallest radius that holds a share of the light; NaN where the curve ends before it."""
+    from scipy.optimize import brentq
+
+    above = np.flatnonzero(fraction >= share)
+    if not above.size:
+        return float("nan")
+    low, high = float(radius[max(above[0] - 1, 0)]), float(radius[above[0]])
+    return float(brentq(lambda r: float(_within(parts, found, np.array([r]))[0]) - share, low, high, rtol=1e-6))
+
+
+def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -> LineSpread:
+    """Return the images of a line and of an edge, by default at POINTS even positions about the centroid."""
+    slices = [otf_slices(part.pupil) for part in parts]
+    if position_um is None:
+        half = max(SHOWN * part.pupil.rms_um + SHOWN / min(part.pupil.cut_off_per_um) for part in parts)
+        position_um = np.linspace(-half, half, POINTS)
+    position = np.asarray(position_um, dtype=float)
+    found = []
+    for axis in (0, 1):
+        own = [both[axis] for both in slices]
+        step = min(one.step for one in own)
+        frequency = step * np.arange(round(max(one.cut_off for one in own) / step) + 1)
+        values = _transfer(parts, own, frequency)
+        found.append((line_spread(values, step, position), edge_spread(values, step, position)))
+    (line_x, edge_x), (line_y, edge_y) = found
+    return LineSpread(position, line_x, line_y, edge_x, edge_y, centroid_of(parts), method)
+
+
+def radius_of(energy: Energy, share: float) -> float:
+    """Return the radius that holds a share of the light, between the tabulated ones; SamplingError beyond the last."""
+    if not 0 < share < 1:
+        raise SamplingError("an energy fraction of {fraction}; give a number between 0 and 1", fraction=share)
+    rising = np.maximum.accumulate(energy.fraction)
+    if share > rising[-1]:
+        raise SamplingError(
+            "{radius:.3g} µm hold {share:.3g} of the light, less than {fraction}; ask for larger radii",
+            radius=float(energy.radius_um[-1]),
+            share=float(rising[-1]),
+            fraction=share,
+        )
+    return float(np.interp(share, rising, energy.radius_um))

@@ -1,0 +1,79 @@
+"""Encircled energy of all light, against Rayleigh's closed form, geometry, and the light in windows of known share."""
+
+import numpy as np
+import pytest
+
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.metrics.energy import landing_points, ring_sums, samples_across
+from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
+from p2sf.metrics.measures import PupilPart, energy_in
+from p2sf.metrics.perfect import circle_energy
+from p2sf.psf.traced import traced_psf
+from tests.support.waves import NA, WAVELENGTH_UM, waves
+
+UNIT = WAVELENGTH_UM / NA
+
+
+def test_a_perfect_lens_has_rayleighs_energy():
+    """Where the calibration does not tell: a pupil sampled twice as finely, whose own calibration is another one."""
+    pupil = pupil_of_coefficients(waves())
+    radius = UNIT * np.linspace(0, 8, 161)
+    plain = ring_sums(pupil, 0.0, 512)
+    from p2sf.metrics.energy import _disc_transform
+
+    raw = _disc_transform(radius * plain.step, plain.radius) @ plain.sums
+    np.testing.assert_allclose(raw, circle_energy(radius / UNIT), atol=1e-4)
+    np.testing.assert_allclose(ring_sums(pupil, 0.0, 128).within(radius), circle_energy(radius / UNIT), atol=2e-5)
+
+
+def test_known_radii_of_the_airy_pattern():
+    """0.26741 and 0.44847 λ/NA hold half and 80 %: where 1 − J0² − J1² does."""
+    found = energy_in([PupilPart(pupil_of_coefficients(waves()))], "seidel")
+    for radius, share in ((found.radius_50_um, 0.5), (found.radius_80_um, 0.8)):
+        assert circle_energy(radius / UNIT) == pytest.approx(share, abs=2e-5)
+
+
+@pytest.mark.parametrize("w", [{"wd": 40.0}, {"w31": 30.0}, {"w40": 40.0, "wd": -20.0}])
+def test_a_large_blur_tends_to_the_density_of_rays(w):
+    pupil = pupil_of_coefficients(waves(**w))
+    waves_sum, rays = (
+        ring_sums(pupil, pupil.centroid_um, samples_across(pupil, pupil.centroid_um)),
+        landing_points(pupil, pupil.centroid_um),
+    )
+    radius = np.linspace(0, 1.2 * pupil.rms_um, 40)
+    assert np.abs(waves_sum.within(radius) - rays.within(radius)).max() < 0.04
+
+
+@pytest.mark.parametrize(("name", "field"), [("double_gauss_28", 10.0), ("cooke_triplet", 20.0), ("telephoto", 7.0)])
+def test_it_is_the_light_in_a_window_whose_share_is_known(name, field):
+    """A wide window of the traced PSF, another road altogether: its circles of samples, and its share of all light."""
+    lens, source = find_lens(name), Source(field_deg=field)
+    pupil = pupil_of_rays(lens, source)
+    found = energy_in([PupilPart(pupil)], "traced")
+    pitch = 1 / (8 * max(pupil.half_x, pupil.half_y))
+    psf = traced_psf(lens, source, 768, pitch)
+    distance = np.hypot(psf.x_um, (psf.y_um - found.centroid_um)[:, None])
+    for radius, share in ((found.radius_50_um, 0.5), (found.radius_80_um, 0.8)):
+        inside = np.clip((radius - distance) / pitch + 0.5, 0, 1)  # a sample on the circle counts in part
+        assert psf.energy * (psf.values * inside).sum() == pytest.approx(share, abs=2e-3)
+
+
+def test_the_curve_rises_to_all_the_light():
+    found = energy_in([PupilPart(pupil_of_coefficients(waves(w31=3.0, w22=2.0)))], "seidel")
+    assert found.fraction[0] == pytest.approx(0, abs=1e-9)
+    assert np.diff(found.fraction).min() > -2e-4
+    assert 0.95 < found.fraction[-1] < 1
+    lens = find_lens("petzval")
+    assert energy_in([PupilPart(pupil_of_rays(lens, Source()))], "traced").radius_80_um > 20  # a window said 5.6
+
+
+def test_two_colours_beside_each_other_are_about_their_common_centroid():
+    """Two Airy patterns far apart: half of the light lies on each side, so hardly any near the centroid."""
+    pupil = pupil_of_coefficients(waves())
+    apart = [PupilPart(pupil, 0.5, -20.0), PupilPart(pupil, 0.5, 20.0)]
+    found = energy_in(apart, "seidel", np.array([15.0, 40.0]))
+    assert found.centroid_um == pytest.approx(0, abs=1e-9)
+    assert found.fraction[0] < 0.02 < 0.95 < found.fraction[1]
+    assert found.radius_50_um == pytest.approx(20, rel=0.02)
+    assert found.rms_um == pytest.approx(20, rel=1e-6)

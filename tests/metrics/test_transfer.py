@@ -1,0 +1,141 @@
+"""Transfer function, line and edge spread from the pupil, against closed forms, Hopkins's integral and plain sums."""
+
+import numpy as np
+import pytest
+from numpy.polynomial.legendre import leggauss
+
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.metrics import transfer
+from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
+from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
+from p2sf.metrics.perfect import diffraction_mtf
+from p2sf.metrics.transfer import end_weights, otf_slices
+from p2sf.raytrace.fit import fit
+from tests.support.waves import NA, WAVELENGTH_UM, waves
+
+CUT_OFF = 2 * NA / WAVELENGTH_UM
+
+
+def contrast(per_um=None, **w):
+    frequency = None if per_um is None else 1000 * per_um
+    return mtf_of([PupilPart(pupil_of_coefficients(waves(**w)))], "seidel", frequency)
+
+
+def defocused(nu: np.ndarray, waves_at_rim: float) -> np.ndarray:
+    """Return the OTF of a defocused circular pupil by its integral over the overlap of two discs (Hopkins 1955).
+
+    ``nu``: frequency over the cut-off. With δ = 2ν the difference of the two phases is 2Wδx at x from the middle.
+    """
+    node, weight = leggauss(4000)
+    half = 1 - nu[:, None]
+    x = half * node
+    chord = np.sqrt(np.maximum(1 - (np.abs(x) + nu[:, None]) ** 2, 0))
+    return (2 / np.pi * half * weight * chord * np.cos(8 * np.pi * waves_at_rim * nu[:, None] * x)).sum(1)
+
+
+def test_a_perfect_pupil_has_the_closed_form():
+    """1e-6 between the lags too, where a spline of fifth order meets the cusp at 0 and the power 3/2 at the cut-off."""
+    found = contrast(np.linspace(0, CUT_OFF, 1201))
+    exact = diffraction_mtf(found.frequency_per_mm, NA, WAVELENGTH_UM)
+    np.testing.assert_allclose(found.tangential, exact, atol=2e-5)
+    np.testing.assert_allclose(found.sagittal, exact, atol=2e-5)
+    np.testing.assert_array_equal(found.tangential, found.perfect_tangential)
+
+
+@pytest.mark.parametrize("defocus", [0.3, 1.0, 7.0, 32.0, 200.0])
+def test_defocus_is_hopkinss_integral(defocus):
+    nu = np.linspace(0, 1, 801)
+    found, exact = contrast(nu * CUT_OFF, wd=defocus), defocused(nu, defocus)
+    for curve in (found.tangential, found.sagittal):
+        assert np.abs(curve - np.abs(exact)).max() < 1e-3  # half of what is promised
+
+
+@pytest.mark.parametrize(
+    "w", [{"w40": 5.0}, {"w31": 6.0}, {"w22": 4.0}, {"w40": 3.0, "w31": 4.0, "w22": 3.0, "wd": -3.0}]
+)
+def test_it_is_the_autocorrelation_of_the_pupil(w):
+    """Against the plain two-dimensional integral over the overlap, at a few frequencies: Gauss nodes on each chord."""
+    c, found = waves(**w), contrast(CUT_OFF * np.array([0.03, 0.2, 0.5, 0.9]), **w)
+    for nu, tangential, sagittal in zip((0.03, 0.2, 0.5, 0.9), found.tangential, found.sagittal, strict=True):
+        assert abs(abs(overlap(c, 0.0, nu)) - tangential) < 5e-4
+        assert abs(abs(overlap(c, nu, 0.0)) - sagittal) < 5e-4
+
+
+def overlap(c, nu_x, nu_y) -> complex:
+    from p2sf.paraxial.wavefront import wavefront
+
+    node, weight = leggauss(400)
+    nu = np.hypot(nu_x, nu_y)
+    across = np.sqrt(1 - nu**2) * np.sin(np.pi / 2 * node)  # perpendicular to the shift, its ends smoothed
+    share = weight * np.pi / 2 * np.sqrt(1 - nu**2) * np.cos(np.pi / 2 * node)
+    half = np.sqrt(1 - across**2) - nu
+    along = half[:, None] * node
+    side = across[:, None] + 0 * along
+    xi, eta = (along, side) if nu_x else (side, along)
+    phase = wavefront(c, xi + nu_x, eta + nu_y) - wavefront(c, xi - nu_x, eta - nu_y)
+    return complex((share * half) @ (np.exp(2j * np.pi * np.asarray(phase)) @ weight) / np.pi)
+
+
+def test_nothing_passes_the_cut_off_and_nothing_is_better_than_perfect():
+    found = contrast(CUT_OFF * np.array([0.3, 0.999, 1.0, 1.001, 2.0, 4.0]), w40=2.0, w31=3.0)
+    assert found.tangential[3:].tolist() == found.sagittal[3:].tolist() == [0, 0, 0]
+    for name in ("double_gauss_28", "petzval", "tessar"):
+        lens = find_lens(name)
+        one = mtf_of([PupilPart(pupil_of_rays(lens, Source(field_deg=lens.fields_deg[1])))], "traced")
+        assert (one.tangential - one.perfect_tangential).max() < 1e-6
+        assert (one.sagittal - one.perfect_sagittal).max() < 1e-6
+
+
+def test_an_end_between_two_samples_is_integrated_exactly():
+    ends = np.array([9.5, 9.77, 10.0, 10.31, 10.499])
+    last, weight = end_weights(ends)
+    for power in range(transfer.END):
+        for end, at, own in zip(ends, last, weight.T, strict=True):
+            places = np.arange(at, -400.0, -1)
+            factor = np.ones(places.size)
+            factor[: own.size] = own
+            # With a smooth start the sum is the integral, so that only the end is tested.
+            start = 1 / (1 + np.exp(-(places + 190) / 8))
+            fine = np.linspace(-400, end, 400_001)
+            exact = np.trapezoid((fine / 10) ** power / (1 + np.exp(-(fine + 190) / 8)), fine)
+            assert factor @ ((places / 10) ** power * start) == pytest.approx(exact, abs=1e-6 * max(1, abs(exact)))
+
+
+def test_a_line_and_an_edge_are_integrals_of_each_other():
+    found = spread_of([PupilPart(pupil_of_coefficients(waves(w31=3.0, w40=1.0)))], "seidel", np.linspace(-60, 60, 6001))
+    step = found.position_um[1] - found.position_um[0]
+    for line, edge in ((found.line_x, found.edge_x), (found.line_y, found.edge_y)):
+        np.testing.assert_allclose(np.gradient(edge, step), line, atol=2e-3 * line.max())
+        assert line.min() > -1e-4 * line.max()
+        assert edge[0] == pytest.approx(1 - edge[-1], abs=0.02)
+    assert found.edge_x[3000] == pytest.approx(0.5, abs=1e-6)
+
+
+def test_the_line_of_a_perfect_lens_is_struves():
+    """LSF(0)/2f = 8/(3π): the mean of the overlap curve, ∫OTF dν (Born & Wolf 1999, §8.5)."""
+    found = spread_of([PupilPart(pupil_of_coefficients(waves()))], "seidel", np.zeros(1))
+    mean = 4 / (3 * np.pi)  # of (2/π)(acos ν − ν√(1−ν²)) over 0 … 1
+    assert found.line_x[0] == pytest.approx(2 * CUT_OFF * mean, rel=1e-4)
+
+
+def test_the_centroid_is_the_mean_landing_point_of_the_light():
+    pupil = pupil_of_coefficients(waves(w31=2.0))
+    assert pupil.centroid_um == pytest.approx(-2.0 * WAVELENGTH_UM / NA, rel=1e-9)
+
+
+def test_every_ray_method_tells_of_the_same_pupil():
+    lens = find_lens("cooke_triplet")
+    source = Source(field_deg=14)
+    exact = mtf_of([PupilPart(pupil_of_rays(lens, source))], "traced")
+    from p2sf.metrics.frequency_pupil import pupil_of_fit
+
+    fitted = mtf_of([PupilPart(pupil_of_fit(fit(lens, source, 119)))], "fitted", exact.frequency_per_mm)
+    assert np.abs(fitted.tangential - exact.tangential).max() < 2e-3
+
+
+def test_slices_have_unit_contrast_at_zero_and_none_at_the_cut_off():
+    for one in otf_slices(pupil_of_coefficients(waves(w31=1.0))):
+        assert one.values[0] == pytest.approx(1)
+        assert abs(one.values[-1]) < 1e-6
+        assert one.cut_off == pytest.approx(CUT_OFF, rel=1e-6)
