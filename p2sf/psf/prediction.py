@@ -44,4 +44,7 @@ def seidel_sigma(
     own = slice(0, weight.size)
     variance = weight @ (error[own] - weight @ error[own]) ** 2
     departure = weight @ (miss_x[own] ** 2 + miss_y[own] ** 2)
-    return float(np.sqrt(variance + departure * spread**2))
+    # The six coefficients describe an even pupil; an error of the amplitude acts as a phase of 1/2π of it.
+    light = rays.weight[own] / (weight @ rays.weight[own] / weight.sum())
+    uneven = weight @ (light - 1) ** 2 / (2 * np.pi) ** 2
+    return float(np.sqrt(variance + departure * spread**2 + uneven))

@@ -17,7 +17,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
 from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike import basis_by_powers, columns, evaluate
+from p2sf.pupil.zernike import basis, basis_by_powers, columns, evaluate
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Index, launch, per_ray, run
 
@@ -26,12 +26,18 @@ AIM_MOVE = 1e-6  # of the pupil's radius: a last Newton step this small leaves i
 DIFFERENCE = 1e-6  # of the pupil's radius: the determinant, and so the weight, is good to that
 ROUNDING_STEP = 1e-8  # of the distances in the lens, for pupils so small that the step would meet their rounding
 CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
-MAP_ORDER, MAP_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses; its 60 rays cost what ten would
-FEW = 24  # rays, for which the map costs more than the steps of Newton's method it saves
+ROUGH_ORDER, ROUGH_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses, from 60 rays
+FINE_ORDER, FINE_NODES = 15, (9, 34)
+FINE_ERROR = 1e-10  # of the pupil's radius, on the rim: the most that an entrance point by the fine map may be off
+FINE_WEIGHT_ERROR = 1e-5
+RIM_RAYS = 9  # by which the fine map is judged
+RIDGE = 1e-12  # added to the normal equations, so that they can be solved however the points lie
+FEW = 24  # rays, below which a map costs more than the steps of Newton's method it saves
+MANY = 512  # rays, from which on a fine map costs less than a step of Newton's method
 
 Nodes: TypeAlias = np.ndarray  # (ray,)
 Point: TypeAlias = tuple[np.ndarray, np.ndarray]  # x and y, mm
-MapForm: TypeAlias = tuple[list[list[float]], list[list[float]]]  # polynomials as `zernike.evaluate` takes them
+Form: TypeAlias = list[list[float]]  # a polynomial as `zernike.evaluate` takes it
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +151,16 @@ def pupil_rays(
     xi, eta = np.asarray(xi, dtype=float), np.asarray(eta, dtype=float)
     if lens.aim == "paraxial":
         return _through(enter, enter.radius * xi, enter.radius * eta)
-    return _aimed(lens, source, enter, stop, xi, eta)
+    found = _stop_map(lens, source) if stop is None and xi.size >= MANY and _single(enter) else None
+    if found is None:
+        return _aimed(lens, source, enter, stop, xi, eta)
+    x, y, weight = found.at(xi, eta)
+    return replace(_through(enter, x, y), weight=weight, stop_surface=int(np.max(enter.stop.surface)))
+
+
+def _single(enter: Entrance) -> bool:
+    """Return whether this is one source, without leading axes."""
+    return max(enter.slope.ndim, enter.reach.ndim, enter.radius.ndim) == 1
 
 
 def _through(enter: Entrance, x: np.ndarray, y: np.ndarray, slope: FloatOrArray | None = None) -> PupilRays:
@@ -179,7 +194,8 @@ def _aimed(
     found = _newton(lens, enter, goal, _guess(lens, source, enter, stop, xi, eta))
     if found.missed.any():
         found = _by_continuation(lens, enter, goal, (enter.radius * xi, enter.radius * eta), found)
-    rays = _through(enter, *(np.where(found.missed, np.nan, v) for v in (found.x, found.y)))
+        found.x[found.missed] = found.y[found.missed] = np.nan
+    rays = _through(enter, found.x, found.y)
     area = (rim / enter.radius) ** 2 / found.gain
     # dΩ = dx dy·cosθ/distance², with 1/cosθ = √(1 + slope²), which is also the distance over that along the axis.
     oblique = (1 + enter.slope**2) / (1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
@@ -196,27 +212,21 @@ class _Aim:
     missed: np.ndarray
 
 
-def _newton(lens: Lens, enter: Entrance, goal: Point, guess: Point, part: float = 1.0) -> _Aim:
+def _newton(lens: Lens, enter: Entrance, goal: Point, guess: Point, part: float = 1.0, steps: int = AIM_STEPS) -> _Aim:
     """Return the entrance points whose rays, at this part of the field slope, meet the stop at ``goal``."""
     radius, step = float(np.max(enter.radius)), _difference_mm(enter)
-    shape = np.broadcast_shapes(*map(np.shape, (*goal, *guess, enter.slope, enter.reach)))
-    x, y, goal_x, goal_y = (np.array(np.broadcast_to(v, shape)) for v in (*guess, *goal))
-    gain, missed = np.full(shape, np.nan), np.ones(shape, bool)
-    open_ = np.arange(shape[-1])
-    for _ in range(AIM_STEPS):
-        here = x[..., open_], y[..., open_]
-        beam = _at_stop(lens, enter, _beside(*here, step), part)
-        miss = goal_x[..., open_] - beam.x[0], goal_y[..., open_] - beam.y[0]
-        move_x, move_y, area = _newton_step(beam, miss, step)
-        x[..., open_], y[..., open_], gain[..., open_] = here[0] + move_x, here[1] + move_y, area
-        far = np.hypot(move_x, move_y)
-        # A gain that is not positive belongs to another sheet, where rays of the pupil have crossed.
-        missed[..., open_] = ~((far <= AIM_MOVE * radius) & (area > 0))
-        keep = (far > AIM_MOVE * radius).any(tuple(range(far.ndim - 1)))
-        if not keep.any():
-            break
-        open_ = open_[keep]
-    return _Aim(x, y, gain, missed)
+    beam = _at_stop(lens, enter, _beside(*guess, step), part)
+    move_x, move_y, gain = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
+    far = np.hypot(move_x, move_y)
+    # A gain that is not positive belongs to another sheet, where rays of the pupil have crossed.
+    found = _Aim(guess[0] + move_x, guess[1] + move_y, gain, ~((far <= AIM_MOVE * radius) & (gain > 0)))
+    again = (far > AIM_MOVE * radius).any(tuple(range(far.ndim - 1)))
+    if steps > 1 and again.any():
+        some = (goal[0][..., again], goal[1][..., again]), (found.x[..., again], found.y[..., again])
+        better = _newton(lens, enter, *some, part, steps - 1)
+        for column, new in zip(vars(found).values(), vars(better).values(), strict=True):
+            column[..., again] = new
+    return found
 
 
 def _by_continuation(lens: Lens, enter: Entrance, goal: Point, start_at: Point, found: _Aim) -> _Aim:
@@ -228,12 +238,9 @@ def _by_continuation(lens: Lens, enter: Entrance, goal: Point, start_at: Point, 
         again = _newton(lens, enter, some, guess, part)
         guess = again.x, again.y
     better = found.missed[..., lost] & ~again.missed
-    columns = []
     for old, new in zip(vars(found).values(), vars(again).values(), strict=True):
-        column = old.copy()
-        column[..., lost] = np.where(better, new, old[..., lost])
-        columns.append(column)
-    return _Aim(*columns)
+        old[..., lost] = np.where(better, new, old[..., lost])
+    return found
 
 
 def _difference_mm(enter: Entrance) -> float:
@@ -264,9 +271,9 @@ def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.n
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
     """Return entrance points from which Newton's method starts: by the pupil map, or for few rays the paraxial ones."""
     plain = enter.radius * xi, enter.radius * eta
-    if enter.slope.size > 1 or enter.reach.size > 1 or enter.radius.size > 1 or xi.size < FEW:
+    if xi.size < FEW or not _single(enter):
         return plain
-    form = _pupil_map(lens, enter) if stop else _cached_map(lens, source)
+    form = _rough_map(lens, enter) if stop else _cached_rough_map(lens, source)
     if form is None:
         return plain
     square = xi * xi
@@ -274,22 +281,73 @@ def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | N
 
 
 @lru_cache(maxsize=64)
-def _cached_map(lens: Lens, source: Source) -> MapForm | None:
-    return _pupil_map(lens, entrance(lens, source))
+def _cached_rough_map(lens: Lens, source: Source) -> tuple[Form, Form] | None:
+    return _rough_map(lens, entrance(lens, source))
 
 
-def _pupil_map(lens: Lens, enter: Entrance) -> MapForm | None:
+def _rough_map(lens: Lens, enter: Entrance) -> tuple[Form, Form] | None:
     """Return entrance points x/ξ and y (mm) as polynomials of the stop point, for `evaluate`; None if rays are lost.
 
     Rays through the paraxial pupil land on the stop at scattered points; a least-squares fit over those gives the map
     from the stop back to the pupil without a search.
     """
-    nodes, rim = disc_nodes(*MAP_NODES), float(np.max(enter.stop.semi_diameter))
+    nodes, rim = disc_nodes(*ROUGH_NODES), float(np.max(enter.stop.semi_diameter))
     x, y = (float(enter.radius.item()) * v for v in (nodes.xi, nodes.eta))
     beam = _at_stop(lens, enter, (x, y))
     scale = float(enter.upright.item()) / rim
     if not np.isfinite(beam.x + beam.y).all():
         return None
-    even, odd = basis_by_powers(MAP_ORDER, *(scale * v.ravel() for v in (beam.x, beam.y)))
-    across, along = (np.linalg.lstsq(rows.T, v, rcond=None)[0] for rows, v in ((odd, x), (even, y)))
-    return columns(across, MAP_ORDER, odd=True), columns(along, MAP_ORDER)
+    even, odd = basis_by_powers(ROUGH_ORDER, *(scale * v.ravel() for v in (beam.x, beam.y)))
+    across, along = _least_squares(odd, x), _least_squares(even, y)
+    return columns(across, ROUGH_ORDER, odd=True), columns(along, ROUGH_ORDER)
+
+
+@dataclass(frozen=True)
+class StopMap:
+    """Polynomials over the stop: entrance points x/ξ and y (mm), and weights."""
+
+    x: Form
+    y: Form
+    weight: Form
+
+    def at(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return entrance points and weights at points of the stop."""
+        square = xi * xi
+        return xi * evaluate(self.x, square, eta), evaluate(self.y, square, eta), evaluate(self.weight, square, eta)
+
+
+@lru_cache(maxsize=64)
+def _stop_map(lens: Lens, source: Source) -> StopMap | None:
+    """Return the map through aimed rays that stands for aiming itself; None where rays on the rim disprove it."""
+    nodes, turn = disc_nodes(*FINE_NODES), np.linspace(0, np.pi, RIM_RAYS)
+    held = np.sin(turn), np.cos(turn)
+    rays = pupil_rays(lens, source, np.append(nodes.xi, held[0]), np.append(nodes.eta, held[1]))
+    if not np.isfinite(rays.x).all():
+        return None
+    count, weights = nodes.xi.size, np.asarray(rays.weight)
+    even, odd = _projections()
+    found = StopMap(
+        columns(odd @ rays.x[:count], FINE_ORDER, odd=True),
+        columns(even @ rays.y[:count], FINE_ORDER),
+        columns(even @ weights[:count], FINE_ORDER),
+    )
+    true = rays.x[count:], rays.y[count:], weights[count:]
+    x, y, light = (mapped - traced for mapped, traced in zip(found.at(*held), true, strict=True))
+    radius = float(entrance(lens, source).radius.item())
+    exact = np.hypot(x, y).max() <= FINE_ERROR * radius and np.abs(light).max() <= FINE_WEIGHT_ERROR
+    return found if exact else None
+
+
+@lru_cache(maxsize=1)
+def _projections() -> tuple[np.ndarray, np.ndarray]:
+    """Return the matrices from values at the fine map's nodes to coefficients of the even and of the odd terms."""
+    nodes = disc_nodes(*FINE_NODES)
+    even, odd = (basis(FINE_ORDER, nodes.xi, nodes.eta, flag) * nodes.weight for flag in (False, True))
+    return even, odd
+
+
+def _least_squares(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return the solution by the normal equations, which lose digits that a guess does not need."""
+    normal = rows @ rows.T
+    normal[np.diag_indices_from(normal)] *= 1 + RIDGE
+    return np.linalg.solve(normal, rows @ values)
