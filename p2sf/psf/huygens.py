@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from time import perf_counter
+from typing import Literal
 
 import numpy as np
 
@@ -23,9 +24,10 @@ from p2sf.psf.prediction import EDGE_ERROR
 from p2sf.psf.result import Psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
-from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
-from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, whole_nodes
+from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, radiometric, whole_nodes
 
 BLOCK = 8192  # rays at a time: few enough for a second-level cache and to check for cancellation every few ms
 GROWTH = 1.3
@@ -33,6 +35,7 @@ MOST_NODES = 2**22
 PROBE = 12, 36
 LIVE = 72, 180  # as many rays as a 128² grid has in the half disc
 
+Amplitude = Literal["area", "radiometric"]
 Window = tuple[int, float]
 """Pixels on a side, µm per pixel."""
 Counts = tuple[int, int]
@@ -57,25 +60,30 @@ def huygens_psf(
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
     clip: bool = False,
+    amplitude: Amplitude = "area",
 ) -> Psf:
     """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
 
     The agreement reached (relative L2 in the window) is reported as the PSF's ``tolerance``, also where more nodes than
     are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as a
     128² grid has or as the blur needs, for a preview of no guaranteed accuracy. ``progress`` is called with the
-    fraction done; ``cancelled`` is called between blocks, and True ends the work with `Cancelled`. Raises
-    GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there.
+    fraction done; ``cancelled`` is called between blocks, and True ends the work with `Cancelled`. ``amplitude``
+    "area" gives each ray the field of its cell's area in the entrance pupil, as other programs do; "radiometric" the
+    root of that times the cell's area over direction cosines, which conserves the energy of each cell. Raises
+    GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there, and the
+    radiometric amplitude is refused.
     """
     started = perf_counter()
     window = pixels, pixel_um
+    pupil = fit(lens, source) if amplitude == "radiometric" else None
     if tolerance is None:
-        found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, live=True))
+        found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, live=True), pupil)
         sampling = _sampling(lens, counts, found, clip, Message("one pass in float32"))
         error = EDGE_ERROR if clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
         made = Origin("huygens", 0, _nodes(counts), sampling, started, None, error)
     else:
         watch = _Watch(progress, cancelled)
-        found, counts, reached, rays = _settle(lens, source, window, clip, tolerance, watch)
+        found, counts, reached, rays = _settle(lens, source, window, clip, tolerance, watch, pupil)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
         sampling = _sampling(lens, counts, found, clip, None if reached <= tolerance else short)
         made = Origin("huygens", 0, rays, sampling, started, reached, reached**2)
@@ -83,23 +91,31 @@ def huygens_psf(
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, found.blur_um2, made)
 
 
-def _once(lens: Lens, source: Source, window: Window, clip: bool, watch: "_Watch") -> tuple[Field, Counts]:
+def _once(
+    lens: Lens, source: Source, window: Window, clip: bool, watch: "_Watch", pupil: FittedPencil | None
+) -> tuple[Field, Counts]:
     """Return the field of one pass in float32: as many rays as a 128² grid, more where the blur needs more."""
     needed = first_counts(lens, source, window, clip)
     counts = LIVE if needed[0] <= LIVE[0] and needed[1] <= LIVE[1] else needed
-    return huygens_field(lens, source, counts, window, clip, watch), counts
+    return huygens_field(lens, source, counts, window, clip, watch, pupil), counts
 
 
 def _settle(
-    lens: Lens, source: Source, window: Window, clip: bool, tolerance: float, watch: "_Watch"
+    lens: Lens,
+    source: Source,
+    window: Window,
+    clip: bool,
+    tolerance: float,
+    watch: "_Watch",
+    pupil: FittedPencil | None,
 ) -> tuple[Field, Counts, float, int]:
     """Return (field, counts, agreement, rays traced) once two successive node counts agree."""
     counts = first_counts(lens, source, window, clip)
     watch.expect(_nodes(counts) + _nodes(_raised(counts)))
-    before, rays = huygens_field(lens, source, counts, window, clip, watch), _nodes(counts)
+    before, rays = huygens_field(lens, source, counts, window, clip, watch, pupil), _nodes(counts)
     while True:
         counts = _raised(counts)
-        found = huygens_field(lens, source, counts, window, clip, watch)
+        found = huygens_field(lens, source, counts, window, clip, watch, pupil)
         rays += _nodes(counts)
         reached = _distance(before.values, found.values)
         if reached <= tolerance or _nodes(_raised(counts)) > MOST_NODES:
@@ -153,10 +169,21 @@ def _probe() -> tuple[np.ndarray, np.ndarray]:
     return np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
 
 
-def huygens_field(lens: Lens, source: Source, counts: Counts, window: Window, clip: bool, watch: "_Watch") -> Field:
-    """Return the field of one set of nodes; over a grid of samples the sum is a matrix product."""
+def huygens_field(
+    lens: Lens,
+    source: Source,
+    counts: Counts,
+    window: Window,
+    clip: bool,
+    watch: "_Watch",
+    pupil: FittedPencil | None = None,
+) -> Field:
+    """Return the field of one set of nodes; over a grid of samples the sum is a matrix product.
+
+    ``pupil``: the fit that gives areas over direction cosines, for the radiometric amplitude.
+    """
     nodes = _nodes_of(lens, source, counts, clip)
-    blur = None if watch.live else pencil_blur(lens, source, nodes)
+    blur = None if watch.live else pencil_blur(lens, source, nodes, pupil)
     axis, dtype = centred_axis(*window), np.float32 if watch.live else np.float64
     total: np.ndarray | float = 0.0
     lost, spread, area, light = 0, 0.0, 0.0, 0.0
@@ -164,6 +191,8 @@ def huygens_field(lens: Lens, source: Source, counts: Counts, window: Window, cl
         part = slice(first, first + BLOCK)
         data, share = _block(lens, source, nodes, part)
         weight = share * data.weight
+        if pupil is not None:
+            weight = share * radiometric(data.weight, pupil.jacobian(nodes.xi[part], nodes.eta[part]))
         area, light = area + share.sum(), light + weight.sum()
         lost += int((share == 0).sum())
         spread = max(spread, float(np.hypot(data.fx, data.fy).max(initial=0)))
@@ -185,8 +214,7 @@ def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNo
 @lru_cache(maxsize=16)
 def all_reach(lens: Lens, source: Source) -> bool:
     """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
-    xi, eta = hexapolar(PROBE[0])
-    return bool(pencil(lens, source, xi, eta).passed.all())
+    return bool(pencil(lens, source, *_probe()).passed.all())
 
 
 def _block(lens: Lens, source: Source, nodes: ClearNodes, part: slice) -> tuple[RayData, np.ndarray]:

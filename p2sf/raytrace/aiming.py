@@ -193,7 +193,7 @@ def _aimed(
     goal = rim * enter.upright * xi, rim * enter.upright * eta
     found = _newton(lens, enter, goal, _guess(lens, source, enter, stop, xi, eta))
     if found.missed.any():
-        found = _by_continuation(lens, enter, goal, (enter.radius * xi, enter.radius * eta), found)
+        found = _by_continuation(lens, enter, goal, _paraxial(enter, xi, eta), found)
         found.x[found.missed] = found.y[found.missed] = np.nan
     rays = _through(enter, found.x, found.y)
     area = (rim / enter.radius) ** 2 / found.gain
@@ -270,14 +270,19 @@ def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.n
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
     """Return entrance points from which Newton's method starts: by the pupil map, or for few rays the paraxial ones."""
-    plain = enter.radius * xi, enter.radius * eta
     if xi.size < FEW or not _single(enter):
-        return plain
+        return _paraxial(enter, xi, eta)
     form = _rough_map(lens, enter) if stop else _cached_rough_map(lens, source)
     if form is None:
-        return plain
+        return _paraxial(enter, xi, eta)
     square = xi * xi
     return xi * evaluate(form[0], square, eta), evaluate(form[1], square, eta)
+
+
+def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
+    """Return points of the paraxial entrance pupil, of every source: (…, ray)."""
+    x, y, *_ = np.broadcast_arrays(enter.radius * xi, enter.radius * eta, enter.slope, enter.reach)
+    return x, y
 
 
 @lru_cache(maxsize=64)

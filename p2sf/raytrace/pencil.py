@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -66,7 +67,7 @@ class Pencil:
 
 @dataclass(frozen=True)
 class Spot:
-    """Where rays meet the sensor, µm from the chief ray; ``rms_um`` about their centroid."""
+    """Where rays meet the sensor, µm from the chief ray; ``rms_um`` about the centroid of their light."""
 
     x_um: np.ndarray
     y_um: np.ndarray
@@ -218,7 +219,9 @@ def opd_map(lens: Lens, source: Source, count: int = 64) -> np.ndarray:
 def spot(lens: Lens, source: Source | Sources, rings: int = 8, clip: bool = False) -> Spot:
     """Return the spot diagram of ``rings`` hexapolar rings, and its RMS radius about the centroid; µm.
 
-    Raises GeometryError where no ray reaches the sensor.
+    A ray stands for the light of its cell, so both are means weighted with `Pencil.weight`, to the first power: the
+    energy of rays that are launched evenly into the solid angle is proportional to it. Raises GeometryError where no
+    ray reaches the sensor.
     """
     xi, eta = hexapolar(rings)
     rays = pencil(lens, source, xi, eta, clip)
@@ -227,20 +230,34 @@ def spot(lens: Lens, source: Source | Sources, rings: int = 8, clip: bool = Fals
         raise GeometryError(
             "no ray reaches the sensor; choose a smaller field or leave {parameter} off", parameter="clip"
         )
-    centre_x, centre_y = _mean(x), _mean(y)
-    square = np.nanmean((x - centre_x) ** 2 + (y - centre_y) ** 2, axis=-1)
+    light = np.where(rays.passed, rays.weight, 0.0)
+    centre_x, centre_y = _centroid(x, light), _centroid(y, light)
+    square = _mean((x - centre_x) ** 2 + (y - centre_y) ** 2, light)[..., 0]
     return Spot(x, y, np.sqrt(square), centre_y[..., 0])
 
 
-def _mean(values: np.ndarray) -> np.ndarray:
-    """Return the mean over the rays that arrive, (…, 1); 0 where it is nothing but the rounding of their sum."""
-    mean: np.ndarray = np.nanmean(values, -1, keepdims=True)
+def _mean(values: np.ndarray, light: np.ndarray) -> np.ndarray:
+    """Return the mean by light over the rays that have any, (…, 1); NaN where none has."""
+    with np.errstate(invalid="ignore"):
+        share = light / light.sum(-1, keepdims=True)
+    mean: np.ndarray = (np.where(light > 0, values, 0.0) * share).sum(-1, keepdims=True)
+    return mean
+
+
+def _centroid(values: np.ndarray, light: np.ndarray) -> np.ndarray:
+    """Return the mean, (…, 1); 0 where it is nothing but the rounding of a sum."""
+    mean = _mean(values, light)
     return np.where(np.abs(mean) > MEAN_ROUNDING * np.nanmax(np.abs(values), -1, keepdims=True), mean, 0.0)
 
 
 def hexapolar(rings: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return pupil points (ξ, η): the centre, then rings of 6, 12, 18 … points, equal area per point."""
-    radius = np.concatenate([[0.0], *(np.full(6 * k, k / rings) for k in range(1, rings + 1))])
+    """Return pupil points (ξ, η): the centre, then rings of 6, 12, 18 … points, equal area per point.
+
+    Inside ring k there are 1 + 3k(k − 1) of all 1 + 3n(n + 1) points and its own are 6k, so the middle of its share of
+    the area lies at ρ² = (1 + 3k²)/(1 + 3n(n + 1)). No point lies on the rim.
+    """
+    square = [(1 + 3 * k * k) / (1 + 3 * rings * (rings + 1)) for k in range(1, rings + 1)]
+    radius = np.concatenate([[0.0], *(np.full(6 * k, sqrt(s)) for k, s in enumerate(square, 1))])
     angle = np.concatenate([[0.0], *(2 * np.pi * np.arange(6 * k) / (6 * k) for k in range(1, rings + 1))])
     return radius * np.sin(angle), radius * np.cos(angle)
 

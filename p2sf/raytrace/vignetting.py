@@ -16,7 +16,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
-from p2sf.raytrace.fit import fit
+from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import hexapolar, pencil
 
 SEARCH_RINGS = 12
@@ -134,14 +134,25 @@ def _edge(lens: Lens, source: Source, clip: bool, centre: float, theta: np.ndarr
     return np.where(whole, outer, low), np.where(whole, 0, rim)
 
 
-def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes) -> float | None:
-    """Return ∫|field|²dx in µm² at unit unaberrated peak, by Parseval from a fit; None where rays are lost."""
+def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, pupil: FittedPencil | None = None) -> float | None:
+    """Return ∫|field|²dx in µm² at unit unaberrated peak, by Parseval from a fit; None where rays are lost.
+
+    ``pupil``: the fit, for the `radiometric` amplitude.
+    """
     try:
-        found = fit(lens, source)
+        found = pupil or fit(lens, source)
     except GeometryError:
         return None
-    if nodes.share == 1.0:
+    if nodes.share == 1.0 and pupil is None:
         return found.blur_um2
+    area = np.abs(found.jacobian(nodes.xi, nodes.eta))
     light = found.weight_at(nodes.xi, nodes.eta)
-    light /= (nodes.weight * light).sum() / nodes.weight.sum()
-    return float(nodes.weight @ (light * light / np.abs(found.jacobian(nodes.xi, nodes.eta))) / (np.pi * nodes.share))
+    field = light if pupil is None else radiometric(light, area)
+    field = field / ((nodes.weight * field).sum() / nodes.weight.sum())
+    return float(nodes.weight @ (field * field / area) / (np.pi * nodes.share))
+
+
+def radiometric(light: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
+    """Return √(light·|∂f/∂(ξ, η)|), the field of unit pupil area that spreads over f with all the energy sent in."""
+    field: np.ndarray = np.sqrt(light * np.abs(jacobian))
+    return field

@@ -48,6 +48,7 @@ def ray_bundle(setup: ParaxialSetup, drawn: Drawing, clip: bool = False) -> np.n
     A lost ray stays where it last was, with ``clip`` on the surface whose rim stops it. Raises GeometryError.
     """
     xi, eta = hexapolar(RINGS)
+    xi, eta = xi / eta.max(), eta / eta.max()  # the outermost ring shows the pupil's rim
     rays = pupil_rays(setup.lens, setup.source, xi, eta)
     before = min(setup.source.depth_mm, BEFORE * (drawn.right - drawn.left) - drawn.left)
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
