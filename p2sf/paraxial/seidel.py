@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, indices
 from p2sf.notebook import cell, html_table
 from p2sf.paraxial.first_order import crossing
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
@@ -81,6 +81,34 @@ def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope: FloatOrArray = 1.0)
     unit = SeidelSums(*(x.reshape(len(x), *missing, *x.shape[1:]) for x in _unit_sums(lens, rays).columns()))
     powers = (1.0, field_slope, np.square(field_slope), np.square(field_slope), np.power(field_slope, 3))
     return SeidelSums(*(column * power for column, power in zip(unit.columns(), powers, strict=True)))
+
+
+@dataclass(frozen=True)
+class ChromaticSums:
+    """C_I and C_II per surface in mm between two wavelengths at one field, surface axis first.
+
+    ``axial``/2 is what the shorter wavelength's defocus at the pupil's rim exceeds the longer one's by, as path, and
+    ``lateral`` what its tilt does.
+    """
+
+    axial: np.ndarray
+    lateral: np.ndarray
+
+
+def chromatic_sums(
+    lens: Lens, rays: ParaxialRays, shorter_um: float, longer_um: float, field_slope: FloatOrArray = 1.0
+) -> ChromaticSums:
+    """Return both sums per surface for the rays of one source, C_I = ΣAyΔ(δn/n) and C_II = ΣĀyΔ(δn/n), mm.
+
+    δn is the index at ``shorter_um`` less that at ``longer_um``, both in vacuum; everything else is of the rays' own
+    wavelength. Exact to first order in δn. Raises GlassError. Source: Welford 1986, §10.3.
+    """
+    c, _ = _shape_terms(lens)
+    n, _, nu, _, y, chief_nu, chief_y = _layers(rays)
+    relative = (indices(lens, shorter_um) - indices(lens, longer_um)) / rays.index
+    bend = y * np.diff(relative, axis=0)  # yΔ(δn/n)
+    snell, chief_snell = nu + n * y * c, chief_nu + n * chief_y * c  # A and Ā
+    return ChromaticSums(snell * bend, chief_snell * bend * field_slope)
 
 
 def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:

@@ -49,7 +49,7 @@ def surfaces(a: PerSurface, b: PerSurface) -> PerSurface | Message:
     counts = {name: len(view.waves["w40"]) for name, view in (("a", a), ("b", b))}
     if counts["a"] != counts["b"]:
         return Message("This is A: it has {a} surfaces and B has {b}, so that none stands for another.", **counts)
-    return PerSurface({name: waves - b.waves[name] for name, waves in a.waves.items()}, a.stop_surface)
+    return PerSurface({name: waves - b.waves[name] for name, waves in a.waves.items()}, a.stop_surface, a.colours_nm)
 
 
 def field(a: FieldView, b: FieldView) -> FieldView:

@@ -1,4 +1,4 @@
-"""Bars of what each surface adds to a coefficient: one coefficient, or all of them stacked."""
+"""Bars of what each surface adds to a Seidel coefficient or a chromatic sum: one of them, or all side by side."""
 
 from dataclasses import dataclass
 
@@ -12,39 +12,59 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.seidel import PerSurface
 from p2sf_explorer.state.scales import nice, signed
-from p2sf_explorer.state.terms import WORDS
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
 
 TIP = (
-    "Seidel contributions: what each surface adds to a coefficient, in waves; large ones of opposite sign cancel. "
+    "Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign "
+    "cancel. "
+    "C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. "
     "Point at a bar: its surface is lit in the layout, and the other way round."
 )
-TERMS = ("w40", "w31", "w22", "w20", "w11")
+TERMS = ("w40", "w31", "w22", "petzval", "w11", "c1", "c2")  # side by side
+NAMES = {
+    **{"w40": "W40", "w31": "W31", "w22": "W22", "petzval": "Petzval", "w20": "W20", "w11": "W11"},
+    **{"c1": "C I", "c2": "C II"},
+}
+CHOICES = (
+    ("all", "all sums"),
+    ("w40", "W40 spherical aberration"),
+    ("w31", "W31 coma"),
+    ("w22", "W22 astigmatism"),
+    ("petzval", "Petzval sum"),
+    ("w20", "W20 field curvature"),
+    ("w11", "W11 distortion"),
+    ("c1", "C I axial colour"),
+    ("c2", "C II lateral colour"),
+)
 ALL = "all"
+MOVING = ("w11", "c2")  # which move the image and do not blur it: the axis of all sums does not grow for them
 # Okabe and Ito (2008): colour-blind people tell them apart, on light and dark.
-HUES = {"w40": "#0072b2", "w31": "#d55e00", "w22": "#009e73", "w20": "#cc79a7", "w11": "#e69f00"}
-WIDTH = 0.62  # of a bar, of the distance to the next
+HUES = {"w40": "#0072b2", "w31": "#d55e00", "w22": "#009e73", "petzval": "#cc79a7", "w11": "#e69f00"} | {
+    "c1": "#56b4e9",
+    "c2": "#8c8c8c",
+}
+CUT_PX = 6  # from the end of the axis to the cut in a bar that goes on
+WIDTH, GROUP = 0.62, 0.84  # of a bar alone, and of a group of them, of the distance to the next
 
 
 @dataclass(frozen=True)
 class Bar:
-    """A bar of a term at ``x``, from ``base`` up by ``height``; ``surface`` 0 is the sum."""
+    """A bar of a term about ``x``, ``width`` wide and ``height`` high; ``surface`` 0 is the sum."""
 
     surface: int
     x: float
-    base: float
+    width: float
     height: float
     term: str
 
 
 class SeidelPanel:
-    """Bars per surface of the chosen coefficient, or of all, and their sum at the right."""
+    """Bars per surface of the chosen sum, or of all, and the whole at the right."""
 
     def __init__(self, store: Store):
         self.widget = Card("Seidel per surface", TIP)
-        choices = (*((t, f"W{t[1:]} {WORDS[t]}") for t in TERMS), (ALL, "all, stacked"))
-        self.term = chooser(choices, "Which coefficient", self.widget)
+        self.term = chooser(CHOICES, "Which sum", self.widget)
         self.term.activated.connect(self._again)
         self.widget.add_tool(self.term)
         self.chart = BarsChart(store)
@@ -52,17 +72,18 @@ class SeidelPanel:
         self._live: Live | None = None
 
     def show(self, live: Live) -> None:
-        """Paint the bars of the chosen coefficient."""
+        """Paint the bars of the chosen sum."""
         self._live = live
         view: PerSurface = live.views["seidel"]
         chosen = self.term.currentData()
         bars = bars_of(view, TERMS if chosen == ALL else (chosen,))
         self.chart.show_bars(bars, view, chosen == ALL)
         if chosen == ALL:
-            marks = (f'<span style="color:{HUES[t]}">■</span> W{t[1:]}' for t in TERMS)
-            self.widget.set_readout(" &nbsp; ".join(marks))
+            marks = (f'<span style="color:{HUES[t]}">■</span> {NAMES[t]}' for t in TERMS)
+            self.widget.set_readout(" &nbsp; ".join((*marks, colours(view))))
         else:
-            self.widget.set_readout(tr("sum {sum} λ", sum=signed(float(view.waves[chosen].sum()), 3)))
+            whole = tr("sum {sum} λ", sum=signed(float(view.waves[chosen].sum()), 3))
+            self.widget.set_readout(f"{whole} · {colours(view)}" if chosen in ("c1", "c2") else whole)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -81,19 +102,19 @@ class BarsChart(Chart):
         self._store = store
         self.zero = self.add_curve("line")
         self.bars: tuple[Bar, ...] = ()
-        self.stacked, self.highlighted = False, 0
+        self.grouped, self.highlighted = False, 0
         self.setMouseTracking(True)
         store.pointed.connect(self._highlight)
 
-    def show_bars(self, bars: tuple[Bar, ...], view: PerSurface, stacked: bool) -> None:
+    def show_bars(self, bars: tuple[Bar, ...], view: PerSurface, grouped: bool) -> None:
         """Show bars over the surfaces' names."""
-        self.bars, self.stacked = bars, stacked
-        last = bars[-1].x
-        ends = [0.1, *(abs(end) for bar in bars for end in (bar.base, bar.base + bar.height))]
-        limit = nice(max(ends), (1, 1.5, 2, 3, 5, 7))
+        self.bars, self.grouped = bars, grouped
+        count = len(view.waves["w40"])
+        last = count + 1.5
+        heights = [abs(bar.height) for bar in bars if not (grouped and bar.term in MOVING)]
+        limit = nice(max(0.1, *heights), (1, 1.5, 2, 3, 5, 7))
         self.set_range((0.3, last + 0.7), (-limit, limit))
         self.zero.set_data((0.3, last + 0.7), (0, 0))
-        count = len(view.waves["w40"])
         names = tuple((k, f"{k} {tr('stop')}" if k == view.stop_surface else str(k)) for k in range(1, count + 1))
         ticks = (*names, (last, tr("sum")))
         if ticks != self.bottom_ticks:
@@ -103,13 +124,13 @@ class BarsChart(Chart):
 
     def rows_of_data(self) -> list[list[str]]:
         """Return the bars as rows: coefficient, surface, waves."""
-        rows = [[f"W{bar.term[1:]}", str(bar.surface or "sum"), f"{bar.height:.9g}"] for bar in self.bars]
-        return [["coefficient", "surface", "waves"], *rows] if rows else []
+        rows = [[NAMES[bar.term], str(bar.surface or "sum"), f"{bar.height:.9g}"] for bar in self.bars]
+        return [["sum", "surface", "waves"], *rows] if rows else []
 
     def room(self, bar: Bar) -> QRectF:
         """Return the rectangle of a bar in pixels."""
         (left, right), (low, high) = self.to_pixels(
-            np.array([bar.x - WIDTH / 2, bar.x + WIDTH / 2]), np.array([bar.base, bar.base + bar.height])
+            np.array([bar.x - bar.width / 2, bar.x + bar.width / 2]), np.array([0.0, bar.height])
         )
         return QRectF(QPointF(float(left), float(low)), QPointF(float(right), float(high))).normalized()
 
@@ -120,7 +141,15 @@ class BarsChart(Chart):
             painter.fillRect(QRectF(left, self.area.top(), right - left, self.area.height()), QColor(self.theme.faint))
         for bar in self.bars:
             plain = self.theme.positive if bar.height >= 0 else self.theme.negative
-            painter.fillRect(self.room(bar), QColor(HUES[bar.term] if self.stacked else plain))
+            room = self.room(bar)
+            painter.fillRect(room, QColor(HUES[bar.term] if self.grouped else plain))
+            if room.top() < self.area.top() - 1 or room.bottom() > self.area.bottom() + 1:
+                self._cut(painter, room)
+
+    def _cut(self, painter: QPainter, room: QRectF) -> None:
+        """Cut a bar that goes on beyond the axis near its visible end."""
+        end = self.area.top() + CUT_PX if room.top() < self.area.top() else self.area.bottom() - CUT_PX
+        painter.fillRect(QRectF(room.left() - 1, end, room.width() + 2, 2), QColor(self.theme.card))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Tell the store the surface under the pointer."""
@@ -138,15 +167,21 @@ class BarsChart(Chart):
 
 
 def bars_of(view: PerSurface, terms: tuple[str, ...]) -> tuple[Bar, ...]:
-    """Return the bars of the terms, positive ones stacked upwards and negative ones downwards; the sums last."""
-    count = len(view.waves[terms[0]])
-    columns = {term: np.append(view.waves[term], view.waves[term].sum()) for term in terms}
-    ends = np.zeros((2, count + 1))
+    """Return the bars of the terms, side by side where there are several, surface by surface; the sums last."""
+    count, width = len(view.waves[terms[0]]), (GROUP if len(terms) > 1 else WIDTH) / len(terms)
     bars: list[Bar] = []
-    for term, heights in columns.items():
-        for k, height in enumerate(heights.tolist()):
-            side = int(height < 0)
-            place = k + 1 if k < count else count + 1.5
-            bars.append(Bar(0 if k == count else k + 1, place, float(ends[side, k]), height, term))
-            ends[side, k] += height
+    for k in range(count + 1):
+        place = k + 1 if k < count else count + 1.5
+        for number, term in enumerate(terms):
+            height = float(view.waves[term][k] if k < count else view.waves[term].sum())
+            aside = (number - (len(terms) - 1) / 2) * width
+            bars.append(Bar(k + 1 if k < count else 0, place + aside, width, height, term))
     return tuple(bars)
+
+
+def colours(view: PerSurface) -> str:
+    """Return between which wavelengths the chromatic sums are."""
+    short, long = (f"{value:.4g}" for value in view.colours_nm)
+    return (
+        tr("one wavelength, no colour") if short == long else tr("colour {short} − {long} nm", short=short, long=long)
+    )

@@ -1,9 +1,12 @@
-"""Bars per surface, stacked or alone, and the light between them and the layout."""
+"""Bars per surface, side by side or alone, and the light between them and the layout."""
+
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 
+from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.layout_view.surface_highlight import section
 
 
@@ -43,17 +46,42 @@ def test_bars_are_as_high_as_the_contributions_and_the_last_is_their_sum(window,
     assert panel.chart.bars[-1].surface == 0
 
 
-def test_stacked_bars_stand_on_one_another_and_end_where_the_sums_do(window, panel):
+def test_all_sums_stand_side_by_side_and_add_up(window, panel):
     choose(panel, "all")
     waves = window.live.views["seidel"].waves
-    for surface in range(1, len(waves["w40"]) + 1):
+    count = len(waves["w40"])
+    for surface in range(1, count + 1):
         mine = [bar for bar in panel.chart.bars if bar.surface == surface]
-        assert len(mine) == 5
-        top = max(bar.base + bar.height for bar in mine)
-        low = min(bar.base + bar.height for bar in mine)
-        own = np.array([column[surface - 1] for column in waves.values()])
-        assert max(0.0, top) == pytest.approx(own.clip(min=0).sum())
-        assert min(0.0, low) == pytest.approx(own.clip(max=0).sum())
+        assert [bar.term for bar in mine] == ["w40", "w31", "w22", "petzval", "w11", "c1", "c2"]
+        assert [bar.height for bar in mine] == pytest.approx([waves[bar.term][surface - 1] for bar in mine])
+        rooms = [panel.chart.room(bar) for bar in mine]
+        assert all(a.right() <= b.left() + 1e-6 for a, b in pairwise(rooms))
+        assert abs(mine[0].x - surface) < 0.5 and abs(mine[-1].x - surface) < 0.5
+    for bar in panel.chart.bars[-7:]:
+        assert bar.surface == 0 and bar.height == pytest.approx(waves[bar.term].sum())
+    six = window.live.setup.coefficients
+    for term in ("w40", "w31", "w22", "w20", "w11"):
+        assert waves[term].sum() == pytest.approx(float(getattr(six, term)), rel=1e-9)
+    assert "486.1 − 656.3 nm" in panel.widget.readout.text()
+
+
+def test_the_chromatic_sums_are_the_change_of_focus_and_height_between_the_lens_s_wavelengths(window, panel):
+    """To first order in the dispersion: the difference of the coefficients themselves, the sensor in the image."""
+    window.store.update(focus_mm=float("inf"), field_deg=10.0)
+    live = window.live
+    setup, waves = live.setup, live.views["seidel"].waves
+    ends = [
+        coefficients(setup.lens, setup.source.depth_mm, setup.source.field_slope, nm / 1000, setup.stop)
+        for nm in (486.1327, 656.2725)
+    ]
+    source_um = setup.source.wavelength_um
+    focus = float(ends[0].wd) * 0.4861327 / source_um - float(ends[1].wd) * 0.6562725 / source_um
+    height_um = 1000 * float(ends[0].image_height - ends[1].image_height)
+    # Dispersion from F to C is some 2 % of n − 1: second order leaves that much of each surface's part.
+    scale = np.abs(waves["c1"]).max(), np.abs(waves["c2"]).max()
+    assert waves["c1"].sum() == pytest.approx(focus, abs=0.05 * scale[0])
+    tilt = float(setup.coefficients.reduced_slope) * height_um / source_um
+    assert waves["c2"].sum() == pytest.approx(tilt, abs=0.05 * scale[1])
 
 
 def test_pointing_at_a_bar_lights_its_surface_in_the_layout(window, panel, qtbot):

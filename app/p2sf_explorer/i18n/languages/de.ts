@@ -74,6 +74,8 @@
 <message><source>Begin the first lesson (F3)</source><translation>Die erste Lektion beginnen (F3)</translation></message>
 <message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
+<message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
+<message><source>C II lateral colour</source><translation>C II Farbquerfehler</translation></message>
 <message><source>Cancel</source><translation>Abbrechen</translation></message>
 <message><source>Cemented achromat f/6, 20 mm</source><translation>Verkitteter Achromat f/6, 20 mm</translation></message>
 <message><source>Centroid y</source><translation>Schwerpunkt y</translation></message>
@@ -284,6 +286,7 @@
 <message><source>Periskop-type symmetric lens, f/11, 100 mm</source><translation>Symmetrisches Objektiv vom Periskop-Typ, f/11, 100 mm</translation></message>
 <message><source>Petzval lens f/1.4, 50 mm</source><translation>Petzval-Objektiv f/1,4, 50 mm</translation></message>
 <message><source>Petzval radius</source><translation>Petzval-Radius</translation></message>
+<message><source>Petzval sum</source><translation>Petzvalsumme</translation></message>
 <message><source>Phase</source><translation>Phase</translation></message>
 <message><source>Photo…</source><translation>Foto …</translation></message>
 <message><source>Picture (*.png)</source><translation>Bild (*.png)</translation></message>
@@ -374,7 +377,7 @@
 <message><source>Saved {name}</source><translation>{name} gespeichert</translation></message>
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
 <message><source>Save…</source><translation>Speichern …</translation></message>
-<message><source>Seidel contributions: what each surface adds to a coefficient, in waves; large ones of opposite sign cancel. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel-Beiträge: was jede Fläche zu einem Koeffizienten beiträgt, in Wellen; große mit entgegengesetztem Vorzeichen heben sich auf. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
+<message><source>Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
 <message><source>Semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
 <message><source>Sensor</source><translation>Sensor</translation></message>
@@ -541,6 +544,7 @@
 <message><source>Which interpolation the error is of</source><translation>Zu welcher Interpolation der Fehler gehört</translation></message>
 <message><source>Which picture is made</source><translation>Welches Bild gemacht wird</translation></message>
 <message><source>Which slider moves</source><translation>Welcher Regler sich bewegt</translation></message>
+<message><source>Which sum</source><translation>Welche Summe</translation></message>
 <message><source>Why the picture is computed in this way: the plan's decisions, each with its error</source><translation>Warum das Bild so berechnet wird: die Entscheidungen des Plans, jede mit ihrem Fehler</translation></message>
 <message><source>Why…</source><translation>Warum …</translation></message>
 <message><source>Window</source><translation>Fenster</translation></message>
@@ -595,7 +599,7 @@
 <message><source>aimed at the real stop</source><translation>auf die wahre Blende gerichtet</translation></message>
 <message><source>air</source><translation>Luft</translation></message>
 <message><source>all panels</source><translation>alle Ansichten</translation></message>
-<message><source>all, stacked</source><translation>alle, gestapelt</translation></message>
+<message><source>all sums</source><translation>alle Summen</translation></message>
 <message><source>along x</source><translation>längs x</translation></message>
 <message><source>along y</source><translation>längs y</translation></message>
 <message><source>an FFT needs an even number of PSF samples, not {pixels}; add one or use mdft</source><translation>eine FFT braucht eine gerade Anzahl von PSF-Proben, nicht {pixels}; eine hinzufügen oder mdft nehmen</translation></message>
@@ -665,6 +669,7 @@
 <message><source>coefficient</source><translation>Koeffizient</translation></message>
 <message><source>coefficients of {name} are not up to {count} numbers; correct them</source><translation>die Koeffizienten von {name} sind nicht bis zu {count} Zahlen; berichtigen</translation></message>
 <message><source>colour {channel}</source><translation>Farbe {channel}</translation></message>
+<message><source>colour {short} − {long} nm</source><translation>Farbe {short} − {long} nm</translation></message>
 <message><source>column "{name}" is unknown</source><translation>die Spalte "{name}" ist unbekannt</translation></message>
 <message><source>column {name} is missing</source><translation>die Spalte {name} fehlt</translation></message>
 <message><source>coma</source><translation>Koma</translation></message>
@@ -886,6 +891,7 @@
 <message><source>on</source><translation>an</translation></message>
 <message><source>on the pixels, µm</source><translation>auf den Pixeln, µm</translation></message>
 <message><source>one pass in float32</source><translation>ein Durchgang in float32</translation></message>
+<message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
 <message><source>open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>or</source><translation>oder</translation></message>
