@@ -1,10 +1,15 @@
-"""What many tests ask of the command line: that it succeeds, that it answers in JSON, that it refuses in a sentence."""
+"""What many tests ask of the command line: that it succeeds, answers in JSON, refuses in a sentence."""
 
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from p2sf.cli import main
+from p2sf.glass.media import catalogue_glass
+from p2sf.glass.pages import Page, page
+from p2sf_explorer.compute import setup
 
 
 @pytest.fixture
@@ -49,3 +54,22 @@ def sentence(error: str) -> str:
     assert error.count("\n") == 1 and error.startswith("p2sf: ") and error.endswith((".\n", "?\n"))
     assert "; " in error  # what is wrong; what to do
     return error
+
+
+@pytest.fixture
+def glasses_of_version_0_1(monkeypatch):
+    """Round the glasses' coefficients to 32 bits, as version 0.1 had them, for files that it wrote."""
+
+    def rounded(name: str) -> Page:
+        found = page(name)
+        return replace(found, numbers=tuple(float(np.float32(number)) for number in found.numbers))
+
+    _forget_glasses()
+    monkeypatch.setattr("p2sf.glass.catalogue.page", rounded)
+    yield
+    _forget_glasses()
+
+
+def _forget_glasses() -> None:
+    for cached in (catalogue_glass, setup._load, setup._edited):
+        cached.cache_clear()

