@@ -1,4 +1,4 @@
-"""`p2sf tradeoff` and `p2sf paper`: what each method costs in time and in error, measured on this machine."""
+"""`p2sf tradeoff`, `p2sf validate` and `p2sf paper`: what methods cost, and others' figures beside our own."""
 
 from collections.abc import Sequence
 from math import inf
@@ -97,6 +97,26 @@ def _write_tradeoff(output: Path, rows: list["MethodCost"], lines: Sequence[tupl
                 tradeoff.draw(handle, rows, title.replace(": ", "\n"))
 
     write_beside(output, write)
+
+
+def validate(*, as_json: Json = False) -> int:
+    """Put this program's figures beside those that other programs and the paper's authors published.
+
+    The exit code is 1 where a figure differs by more than its tolerance.
+    """
+    from p2sf.studies import validate as study
+
+    rows = study.validation()
+    failed = sum(row.verdict == study.DIFFERS for row in rows)
+    if as_json:
+        print_json({"agree": failed == 0, "figures": [study.record(row) for row in rows]})
+        return int(failed > 0)
+    print_table("Published figures beside this program's own", study.COLUMNS, study.lines(rows))
+    print("\nA tolerance is")
+    for why, tolerances in study.reasons(rows).items():
+        print(f"  {tolerances}: {why}")
+    print(f"{len(rows)} figures, {failed} differ, {sum(row.ours is None for row in rows)} cannot be computed yet")
+    return int(failed > 0)
 
 
 Folder = Annotated[Path, Parameter(["--output", "-o"], negative="", help="Folder for the figures, made if missing.")]

@@ -1,0 +1,215 @@
+"""Figures that others published, beside this program's own: what `p2sf validate` prints (published.toml has them)."""
+
+import tomllib
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from functools import cache
+from math import floor, log10
+from pathlib import Path
+
+from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.glass.catalogue import find_entry
+from p2sf.glass.media import CatalogueGlass, ConstantIndex
+from p2sf.lens.lens import Lens, with_aim, with_f_number
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.first_order import abcd, cardinal_points
+from p2sf.paraxial.pupils import find_stop, pupils
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.compare import r_squared
+from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.seidel import seidel_psf
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.zernike_fit import zernike_fit
+from p2sf.studies.paper import PIXELS, WINDOW_UM
+
+DATA = Path(__file__).with_name("published.toml")
+KINDS = {"program": "another program", "paper": "the paper's authors", "witness": "independent witness"}
+AGREES, DIFFERS = "agrees", "differs, unexplained"
+
+
+@dataclass(frozen=True)
+class Published:
+    """One published figure: what it is, of which lens, who says so, and the largest difference that is agreement.
+
+    ``why`` says where the tolerance comes from. ``measure`` names the function of `MEASURES`; "" with ``waits_for``,
+    what this program lacks. The others say what of the shipped lens is replaced: ``glasses`` by label, all ``indices``
+    at this wavelength, the ``last_radius``, the ``f_number``.
+    """
+
+    quantity: str
+    lens: str
+    value: float
+    unit: str
+    tolerance: float
+    why: str
+    source: str
+    kind: str
+    measure: str = ""
+    waits_for: str = ""
+    wavelength_nm: float = 0.0
+    field_deg: float = 0.0
+    f_number: float | None = None
+    last_radius: float | None = None
+    glasses: dict[str, str] | None = None
+    indices: tuple[float, ...] = ()
+    row: int = 0
+    column: int = 0
+
+    @property
+    def wavelength_um(self) -> float:
+        """Return the wavelength, µm."""
+        return self.wavelength_nm / NM_PER_UM
+
+    @property
+    def point(self) -> Source:
+        """Return the point source at infinity that the figure is about."""
+        return Source(field_slope=float(slope_from_degrees(self.field_deg)), wavelength_um=self.wavelength_um)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A published figure beside this program's own; ``ours`` and ``difference`` are None where it cannot compute it."""
+
+    published: Published
+    ours: float | None
+
+    @property
+    def difference(self) -> float | None:
+        """Return ours less theirs."""
+        return None if self.ours is None else self.ours - self.published.value
+
+    @property
+    def verdict(self) -> str:
+        """Return `AGREES`, `DIFFERS`, or what the figure waits for."""
+        if self.difference is None:
+            return f"waits for {self.published.waits_for}"
+        return AGREES if abs(self.difference) <= self.published.tolerance else DIFFERS
+
+
+@cache
+def published() -> tuple[Published, ...]:
+    """Return the published figures in the order of the file."""
+    tables = tomllib.loads(DATA.read_text(encoding="utf-8"))["figure"]
+    return tuple(Published(**{**table, "indices": tuple(table.get("indices", ()))}) for table in tables)
+
+
+def compare(figure: Published) -> Comparison:
+    """Return one figure beside this program's own."""
+    if figure.waits_for:
+        return Comparison(figure, None)
+    return Comparison(figure, float(MEASURES[figure.measure](figure, lens_of(figure))))
+
+
+def validation() -> tuple[Comparison, ...]:
+    """Return every published figure beside this program's own."""
+    return tuple(map(compare, published()))
+
+
+def lens_of(figure: Published) -> Lens:
+    """Return the lens a figure is about; rays fill its paraxial entrance pupil, as in the other programs' defaults."""
+    lens = with_aim(find_lens(figure.lens), "paraxial")
+    for label, other in (figure.glasses or {}).items():
+        glass = CatalogueGlass(find_entry(other))
+        surfaces = (replace(s, medium=glass) if s.medium.label == label else s for s in lens.surfaces)
+        lens = replace(lens, surfaces=tuple(surfaces))
+    if figure.indices:
+        media = map(ConstantIndex, figure.indices[1:])
+        surfaces = (replace(s, medium=medium) for s, medium in zip(lens.surfaces, media, strict=True))
+        lens = replace(lens, surfaces=tuple(surfaces), object_medium=ConstantIndex(figure.indices[0]))
+    if figure.last_radius is not None:
+        lens = replace(lens, surfaces=(*lens.surfaces[:-1], replace(lens.surfaces[-1], radius=figure.last_radius)))
+    return lens if figure.f_number is None else with_f_number(lens, figure.f_number)
+
+
+def focal_length(figure: Published, lens: Lens) -> float:
+    """Return the effective focal length, mm."""
+    return float(cardinal_points(lens, figure.wavelength_um).effective_focal_length)
+
+
+def front_focal_plane(figure: Published, lens: Lens) -> float:
+    """Return where the front focal plane lies, mm to the right of the first vertex."""
+    return float(cardinal_points(lens, figure.wavelength_um).front_focal_distance)
+
+
+def entrance_pupil(figure: Published, lens: Lens) -> float:
+    """Return where the entrance pupil lies, mm to the right of the first vertex."""
+    stop = find_stop(lens, figure.point.depth_mm, figure.wavelength_um)
+    return float(pupils(lens, figure.wavelength_um, stop).entrance_from_first)
+
+
+def system_matrix(figure: Published, lens: Lens) -> float:
+    """Return one element of the matrix of reduced angles, first to last vertex."""
+    return float(abcd(lens, figure.wavelength_um)[figure.row, figure.column])
+
+
+def rms_wavefront(figure: Published, lens: Lens) -> float:
+    """Return the RMS of the wavefront about its mean on the chief ray's sphere, waves; tilt counts, rims do not."""
+    return zernike_fit(lens, figure.point).rms
+
+
+def chief_ray(figure: Published, lens: Lens) -> float:
+    """Return the height of the exact chief ray on the sensor, mm."""
+    return float(pencil(lens, figure.point, [0.0], [0.5]).chief_y[0])
+
+
+def r_squared_of_seidel(figure: Published, lens: Lens) -> float:
+    """Return R² of the PSF of the six coefficients against the Huygens sum, in the paper's window."""
+    window = PIXELS, WINDOW_UM / PIXELS
+    source = figure.point
+    six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+    return r_squared(seidel_psf(six, *window).values, huygens_psf(lens, source, *window).values)
+
+
+MEASURES: dict[str, Callable[[Published, Lens], float]] = {
+    "focal_length": focal_length,
+    "front_focal_plane": front_focal_plane,
+    "entrance_pupil": entrance_pupil,
+    "abcd": system_matrix,
+    "rms_wavefront": rms_wavefront,
+    "chief_ray": chief_ray,
+    "r_squared_of_seidel": r_squared_of_seidel,
+}
+COLUMNS = ("quantity", "lens", "theirs", "source", "ours", "difference", "tolerance", "verdict")
+
+
+def lines(rows: tuple[Comparison, ...]) -> list[tuple[str, ...]]:
+    """Return the table in words, a line per figure, as `COLUMNS` names them."""
+    return [
+        (
+            row.published.quantity,
+            row.published.lens,
+            _written(row.published.value, row.published),
+            f"{row.published.source} ({KINDS[row.published.kind]})",
+            "–" if row.ours is None else _written(row.ours, row.published),
+            "–" if row.difference is None else f"{row.difference:.0e}",
+            f"{row.published.tolerance:.0e}",
+            row.verdict,
+        )
+        for row in rows
+    ]
+
+
+def reasons(rows: tuple[Comparison, ...]) -> dict[str, str]:
+    """Return each reason for a tolerance → the tolerances it stands for, from the smallest."""
+    found: dict[str, set[float]] = {}
+    for row in rows:
+        found.setdefault(row.published.why, set()).add(row.published.tolerance)
+    return {why: ", ".join(f"{size:.0e}" for size in sorted(sizes)) for why, sizes in found.items()}
+
+
+def _written(value: float, figure: Published) -> str:
+    """Return a value to the digit that the tolerance decides, with its unit."""
+    return f"{value:.{max(-floor(log10(figure.tolerance)), 0)}f} {figure.unit}".strip()
+
+
+def markdown(rows: tuple[Comparison, ...]) -> str:
+    """Return the table as the handbook has it: without differences, which round-off changes from machine to machine."""
+    shown = [k for k, name in enumerate(COLUMNS) if name != "difference"]
+    cells = [COLUMNS, ("---",) * len(COLUMNS), *lines(rows)]
+    return "".join("| " + " | ".join(line[k] for k in shown) + " |\n" for line in cells)
+
+
+def record(row: Comparison) -> dict:
+    """Return one row as JSON carries it."""
+    return {**asdict(row.published), "ours": row.ours, "difference": row.difference, "verdict": row.verdict}

@@ -1,0 +1,65 @@
+"""Published figures: every one agrees or says what it waits for, a wrong one is red, and the handbook has the table."""
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from p2sf.cli import main
+from p2sf.lens.lens import with_aim
+from p2sf.studies import validate
+from p2sf.studies.validate import AGREES, DIFFERS, KINDS, MEASURES, compare, lens_of, markdown, published, validation
+from p2sf_explorer.handbook.pages import page
+
+FIGURES = {f"{figure.lens}, {figure.quantity}, {figure.source}": figure for figure in published()}
+OPTICSTUDIO = [figure for figure in published() if figure.source.startswith("Ansys") and figure.measure]
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_published_figure_agrees_or_waits(name):
+    figure, row = FIGURES[name], compare(FIGURES[name])
+    assert figure.kind in KINDS and figure.why and (figure.measure in MEASURES) != bool(figure.waits_for)
+    assert row.verdict == (f"waits for {figure.waits_for}" if figure.waits_for else AGREES), row
+
+
+def test_the_figures_asked_for_are_in_the_table():
+    assert [figure.value for figure in OPTICSTUDIO] == [49.99978307143194, 0.2364, 1.2182]
+    assert sum(figure.waits_for == "mirrors" for figure in published()) == 8
+    assert sum(figure.kind == "paper" for figure in published()) == 4
+
+
+@pytest.mark.parametrize("figure", OPTICSTUDIO, ids=lambda figure: figure.quantity)
+def test_a_wrong_figure_is_red(figure):
+    assert compare(replace(figure, value=figure.value + 3 * figure.tolerance)).verdict == DIFFERS
+
+
+def test_the_focal_length_has_double_precision():
+    """Indices in 32 bits give 49.999785002 mm, two million tolerances away."""
+    assert abs(compare(OPTICSTUDIO[0]).difference) < 1e-13
+
+
+def test_the_filling_of_the_pupil_tells():
+    """Through the real stop the wavefront at 14° has 1.205 waves: the figure was made in the paraxial pupil."""
+    figure = OPTICSTUDIO[-1]
+    stop = MEASURES[figure.measure](figure, with_aim(lens_of(figure), "stop"))
+    assert stop == pytest.approx(1.205, abs=1e-3) and lens_of(figure).aim == "paraxial"
+
+
+def test_the_command_fails_where_a_figure_differs(capsys, monkeypatch):
+    rows = (
+        compare(OPTICSTUDIO[0]),
+        compare(replace(OPTICSTUDIO[0], value=50.0)),
+        compare(FIGURES[next(reversed(FIGURES))]),
+    )
+    monkeypatch.setattr(validate, "validation", lambda: rows)
+    assert main(["validate"]) == 1 and DIFFERS in capsys.readouterr().out
+    assert main(["validate", "--json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert not found["agree"] and [figure["verdict"] for figure in found["figures"]] == [AGREES, DIFFERS, AGREES]
+    monkeypatch.setattr(validate, "validation", lambda: rows[:1])
+    assert main(["validate"]) == 0
+
+
+def test_the_handbook_has_the_table():
+    """`python -c "from p2sf.studies.validate import *; print(markdown(validation()))"` writes it."""
+    assert markdown(validation()) in page("numerics")
