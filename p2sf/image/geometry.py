@@ -6,6 +6,7 @@ from p2sf.pixel_kernels import SensorMap
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.scene.sensor import Sensor
 
+FINER = 2  # times as many heights where rims clip, whose vignetting begins and ends suddenly
 VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is ignored
 
 
@@ -43,7 +44,7 @@ def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:
     """
     from scipy.interpolate import PchipInterpolator
 
-    heights = np.linspace(*sensor.corners_mm(), count)
+    heights = np.linspace(*sensor.corners_mm(), count if not seen.clip else FINER * count)
     light = relative_illumination(seen, heights)
     x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
     square = x * x + (y * y)[:, None]

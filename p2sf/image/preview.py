@@ -13,6 +13,7 @@ from p2sf.lens.lens import Lens
 from p2sf.pixel_kernels import RAYS, Kernels, Recipe
 from p2sf.pixel_kernels.frequency_grid import FrequencyPupil
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
+from p2sf.raytrace.fit import levels
 from p2sf.scene.bounds import check_colours
 from p2sf.scene.cost import Cost
 from p2sf.scene.plan import Plan
@@ -21,7 +22,6 @@ from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduced
 
 LONGEST = 320  # pixels along the preview's longer side
-COARSE = Recipe("fitted", 26)
 BY_RAYS = Recipe(RAYS)
 MOST_RESIDUAL = 0.5  # waves RMS: a fit that leaves more says less of the blur than rays do
 # Kernels at how many places, by samples along the side of a wave sum's transform, and by pixels along that of rays'.
@@ -49,14 +49,14 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
 def preview_plan(camera: Lens, scene: Scene) -> Plan:
     """Return a plan without any measurement, whose error is unknown, of a lens already focused.
 
-    One wavelength a channel, 3 × 3 places or fewer where kernels are wide, 26 numbers a pencil; rays in place of waves
-    where the sum would take seconds, and where 26 numbers do not describe the pencil.
+    One wavelength a channel, 3 × 3 places or fewer where kernels are wide, the smallest fit; rays in place of waves
+    where the sum would take seconds, and where that fit does not describe the pencil.
     """
     colours = tuple(reduced(channel, 1) for channel in scene.channels)
     middle = colours[len(colours) // 2].wavelengths_um[0]
     edge = scene.sensor.corners_mm()[1]
     vergence = float(scene.vergences(2)[0])
-    zones, counts = ((edge, COARSE),), WAVE_COUNTS[0][1]
+    zones, counts = ((edge, Recipe("fitted", levels(camera.aim)[0].numbers)),), WAVE_COUNTS[0][1]
     planned = Plan(camera, scene, middle, zones, colours, counts, (vergence,), (), float("nan"), UNKNOWN, UNKNOWN)
     side = wave_side(planned)
     for most, fewer in WAVE_COUNTS:

@@ -116,7 +116,8 @@ class Kernels:
 def own_pupil(seen: SensorMap, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[FrequencyPupil, float]:
     """Return the pupil at one height from its own rays, and its lateral colour in mm; P2SFError names the height."""
     with _at_height(height_mm):
-        pupil = pupil_map(seen.lens, seen.source(height_mm, wavelength_um), recipe.method, recipe.numbers)
+        source = seen.source(height_mm, wavelength_um)
+        pupil = pupil_map(seen.lens, source, recipe.method, recipe.numbers, seen.clip)
         return pupil, seen.shift_mm(height_mm, wavelength_um)
 
 

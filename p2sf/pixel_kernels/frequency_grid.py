@@ -9,7 +9,7 @@ rotation needs no interpolation.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TypeAlias
+from math import nan
 
 import numpy as np
 
@@ -20,7 +20,10 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, basis_by_powers, gradient, powers, terms
+from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.fit import FittedPencil, Gradient, fit
+from p2sf.raytrace.trace import lens_rims, run
+from p2sf.raytrace.vignetting import CLIPPED
 
 ORDERS = 6, 18  # the least and the greatest
 FAR_OFF = 30.0  # times the allowed residual: then the next order but one is tried, since the next seldom suffices
@@ -30,7 +33,9 @@ FOLDED = 0.1  # of the pupil's area: nodes count that area to some 2 % where the
 STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 PHASE_RESIDUAL = 2e-4  # waves RMS: 2e-3 of relative L2 in the finest detail, less in a pixel
 POINT_RESIDUAL = 5e-4  # of the pupil radius
-Forms: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]  # coefficients of phase, η and ξ
+NEARLY_CLEAR = -0.15  # of 1 − (height/rim)²: nodes up to here count as clear, since the rim lies between them
+SURELY_CLEAR = 0.05  # of the same: a rim that stays above at nodes clips nothing between them
+CLIPPED_SHARE, BESIDE = 0.03, 1.7  # the part that clipped nodes have in a fit, and up to which square of u
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +43,9 @@ class FrequencyPupil:
     """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
 
     ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``residual_waves`` RMS phase error left.
+    ``weight``: of the light by entrance pupil area, even; none for the even light of a paraxial pupil. ``rims``,
+    (surfaces, even terms): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
+    ``clear``: the share of the pupil's area that no rim clips.
     """
 
     order: int
@@ -45,55 +53,82 @@ class FrequencyPupil:
     phase: np.ndarray
     eta: np.ndarray
     xi: np.ndarray
+    weight: np.ndarray
+    rims: np.ndarray
+    clear: float
     reach_um: float
     residual_waves: float
     method: str
     numbers: int
 
 
-def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None) -> FrequencyPupil:
-    """Return the pupil of one source by the method "seidel" or "fitted".
+def pupil_map(
+    lens: Lens, source: Source, method: str, numbers: int | None = None, clip: bool = False
+) -> FrequencyPupil:
+    """Return the pupil of one source by the method "seidel" or "fitted"; ``clip`` lets the clear rims clip it.
 
-    Raises GeometryError where rays do not reach the sensor or the image lies at infinity.
+    Raises GeometryError where rays do not reach the sensor, rims clip all of them, or the image lies at infinity.
     """
-    if method == "seidel":
-        return _from_seidel(lens, source)
-    return _from_fit(fit(lens, source, numbers), source)
+    rims = _rims(lens, source) if clip else np.empty((0, disc_nodes(*NODES).xi.size))
+    if not (rims > 0).all(0).any():
+        raise GeometryError(CLIPPED, parameter="clip")
+    made = _from_seidel(lens, source, rims) if method == "seidel" else _from_fit(fit(lens, source, numbers), rims)
+    return replace(made, reach_um=reach_of(made))
 
 
-def _from_seidel(lens: Lens, source: Source) -> FrequencyPupil:
+def _rims(lens: Lens, source: Source) -> np.ndarray:
+    """Return 1 − (height/rim)² where rays of the pupil's nodes meet each surface that has a rim, (surfaces, nodes)."""
+    nodes, limits = disc_nodes(*NODES), lens_rims(lens, keep_stop=False)
+    rays, heights = pupil_rays(lens, source, nodes.xi, nodes.eta), []
+    beam = start(rays)
+    run(lens, beam, rays.index, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
+    return np.array([1 - (height / rim) ** 2 for height, rim in zip(heights, limits, strict=False) if np.isfinite(rim)])
+
+
+def _clear_share(rims: np.ndarray) -> float:
+    return float(disc_nodes(*NODES).weight[(rims > 0).all(0)].sum())
+
+
+def _from_seidel(lens: Lens, source: Source, rims: np.ndarray) -> FrequencyPupil:
     six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     scale = -float(six.reduced_slope) / source.wavelength_um
     if scale == 0:
         raise GeometryError("the image lies at infinity, so the sensor sees no blur of finite size; move the object")
     nodes, sign = disc_nodes(*NODES), np.sign(scale)
+    order = ORDERS[0] if len(rims) else 4
+    even, odd = basis_by_powers(order, sign * nodes.xi, sign * nodes.eta)
     phase = wavefront(six, nodes.xi, nodes.eta)
-    columns = phase, nodes.eta, nodes.xi
-    phase, eta, xi = _coefficients(*basis_by_powers(4, sign * nodes.xi, sign * nodes.eta), columns)
-    reach = reach_of(4, (phase, eta, xi), abs(scale))
-    return FrequencyPupil(4, abs(scale), phase, eta, xi, reach, 0.0, "seidel", 6)
+    (phase, eta, *forms), (xi,) = _solve(even, [phase, nodes.eta, *rims]), _solve(odd, [nodes.xi])
+    edges = np.reshape(forms, (-1, phase.size))
+    made = order, abs(scale), phase, eta, xi, np.empty(0), edges, _clear_share(rims)
+    return FrequencyPupil(*made, nan, 0.0, "seidel", 6)
 
 
-def _from_fit(found: FittedPencil, source: Source) -> FrequencyPupil:
-    nodes = disc_nodes(*NODES)
+def _from_fit(found: FittedPencil, rims: np.ndarray) -> FrequencyPupil:
+    """Return the pupil of a fit; what rims clip is described only as far as the clear part allows."""
+    nodes, clear = disc_nodes(*NODES), (rims > NEARLY_CLEAR).all(0)
     even, odd = _at_nodes(found.level.wave_order, found.level.map_order)
     phase, fx, fy = found.on(even, odd)
-    centre = (fy.max() + fy.min()) / 2
-    radius = float(np.hypot(fx, fy - centre).max()) * 1.02
+    light = [found.weight_at(nodes.xi, nodes.eta)] if found.level.weighted else []
+    centre = (fy[clear].max() + fy[clear].min()) / 2
+    radius = float(np.hypot(fx, fy - centre)[clear].max()) * 1.02
     u, v = fx / radius, (fy - centre) / radius
+    share = np.where(clear, 1.0, np.where(u * u + v * v <= BESIDE, CLIPPED_SHARE, 0.0))
+    columns = share * np.stack([phase, nodes.eta, *light, *rims])
     order = ORDERS[0]
     while True:
         even_here, odd_here = basis_by_powers(order, u, v)
-        waves_of, eta_of, xi_of = _coefficients(even_here, odd_here, (phase, nodes.eta, nodes.xi))
-        waves, miss = waves_of @ even_here - phase, eta_of @ even_here - nodes.eta
-        residual = float(np.sqrt(nodes.weight @ waves**2))
+        waves_of, eta_of, *others = _solve(even_here * share, columns)
+        waves, miss = (waves_of @ even_here - phase)[clear], (eta_of @ even_here - nodes.eta)[clear]
+        residual = float(np.sqrt(nodes.weight[clear] @ waves**2 / nodes.weight[clear].sum()))
         excess = max(residual / PHASE_RESIDUAL, float(np.abs(miss).max()) / POINT_RESIDUAL)
         if excess < 1 or order == ORDERS[-1]:
             break
         order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
-    left = float(np.hypot(residual, found.residual_waves))
-    reach = reach_of(order, (waves_of, eta_of, xi_of), radius)
-    return FrequencyPupil(order, radius, waves_of, eta_of, xi_of, reach, left, "fitted", found.numbers)
+    (xi_of,), left = _solve(odd_here * share, [share * nodes.xi]), float(np.hypot(residual, found.residual_waves))
+    weight_of, rims_of = (np.array(others[part]) for part in (slice(len(light)), slice(len(light), None)))
+    forms = waves_of, eta_of, xi_of, weight_of.ravel(), rims_of.reshape(-1, waves_of.size)
+    return FrequencyPupil(order, radius, *forms, _clear_share(rims), nan, left, "fitted", found.numbers)
 
 
 @lru_cache(maxsize=8)
@@ -103,43 +138,50 @@ def _at_nodes(wave_order: int, map_order: int) -> tuple[np.ndarray, np.ndarray]:
     return basis(max(wave_order, map_order), nodes.xi, nodes.eta), basis(map_order, nodes.xi, nodes.eta, odd=True)
 
 
-def _coefficients(even: np.ndarray, odd: np.ndarray, columns: Sequence[np.ndarray]) -> Forms:
-    """Return least-squares coefficients of phase and η over the even terms, and of ξ over the odd ones."""
-    phase, eta, xi = columns
-    both = _solve(even, np.stack([phase, eta], axis=1))
-    return both[:, 0], both[:, 1], _solve(odd, xi)
-
-
-def _solve(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Return the least-squares solution by the normal equations, well conditioned for nearly orthogonal terms."""
+def _solve(rows: np.ndarray, values: Sequence[np.ndarray]) -> np.ndarray:
+    """Return least-squares coefficients, (values, terms), by the normal equations of nearly orthogonal terms."""
     normal = rows @ rows.T
     normal[np.diag_indices_from(normal)] *= 1 + 1e-12
-    return np.linalg.solve(normal, rows @ values)
+    found: np.ndarray = np.linalg.solve(normal, rows @ np.stack(values, axis=1)).T
+    return found
 
 
-def reach_of(order: int, forms: Forms, radius: float) -> float:
+def reach_of(pupil: FrequencyPupil) -> float:
     """Return the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton).
 
-    ``forms``: coefficients of phase, η and ξ. Only frequencies of the pupil count, since its polynomials mean nothing
-    beyond its rim. Raises GeometryError where they come back there, and would let light through that does not exist.
+    Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
+    they come back there, and would let light through that does not exist.
     """
-    (_, eta, xi), terms_at = forms, _terms_at(order)
+    at = _terms_at(pupil.order)
     (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
-        (form @ across, form @ along) for form, (across, along) in zip(forms, terms_at.slopes, strict=True)
+        (form @ across, form @ along)
+        for form, (across, along) in zip((pupil.phase, pupil.eta, pupil.xi), at.slopes, strict=True)
     )
     area = np.abs(xi_u * eta_v - xi_v * eta_u)
-    inside = (eta @ terms_at.even) ** 2 + (xi @ terms_at.odd) ** 2 <= 1
-    part = np.where(inside, terms_at.weight * area, 0.0)
-    if abs(part.sum() - 1) > FOLDED:
+    inside = (pupil.eta @ at.even) ** 2 + (pupil.xi @ at.odd) ** 2 <= 1
+    part = np.where(inside & (pupil.rims @ at.even > 0).all(0), at.weight * area, 0.0)
+    if not pupil.clear - FOLDED < part.sum() < pupil.clear + FOLDED:
         raise GeometryError(
             "the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its "
             "area; stop the lens down or reduce the field",
-            share=float(part.sum()),
+            share=float(part.sum()) / pupil.clear,
         )
-    distance, light = np.hypot(phase_u, phase_v) / radius, part * area
+    light = part * area
+    if pupil.weight.size:
+        light *= (pupil.weight @ at.even) ** 2
+    distance = np.hypot(phase_u, phase_v) / pupil.radius
     order_of = np.argsort(distance)
     within = np.cumsum(light[order_of]) <= (1 - STRAY) * light.sum()
     return float(distance[order_of][within].max(initial=0.0))
+
+
+def cutting_rims(pupil: FrequencyPupil) -> np.ndarray:
+    """Return those rims that clip any part of the pupil, (surfaces, even terms)."""
+    at = _terms_at(pupil.order)
+    inside = (pupil.eta @ at.even) ** 2 + (pupil.xi @ at.odd) ** 2 <= 1
+    nearest = (pupil.rims @ at.even)[:, inside].min(1, initial=np.inf)
+    cutting: np.ndarray = pupil.rims[nearest < SURELY_CLEAR]
+    return cutting
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,12 +228,17 @@ def without(pupil: FrequencyPupil, waves: float) -> FrequencyPupil:
 
 @dataclass(frozen=True, eq=False)
 class Turned:
-    """A frequency pupil as plain powers Σ c[i, j]·uⁱ·vʲ, rotated to the direction of its field."""
+    """A frequency pupil as plain powers Σ c[i, j]·uⁱ·vʲ, rotated to the direction of its field.
+
+    ``weight`` None: 1 everywhere. ``rims``: only those that clip.
+    """
 
     radius: float
     phase: np.ndarray
     eta: np.ndarray
     xi: np.ndarray
+    weight: np.ndarray | None
+    rims: np.ndarray
 
 
 def turned(pupil: FrequencyPupil, angle: float) -> Turned:
@@ -204,7 +251,12 @@ def turned(pupil: FrequencyPupil, angle: float) -> Turned:
     from_xi[keep] = -pupil.xi * sine_odd
     phase = _plain(pupil.order, pupil.phase * cosine, pupil.phase[keep] * sine)
     eta = _plain(pupil.order, pupil.eta * cosine, pupil.eta[keep] * sine)
-    return Turned(pupil.radius, phase, eta, _plain(pupil.order, from_xi, pupil.xi * cosine_odd))
+    xi = _plain(pupil.order, from_xi, pupil.xi * cosine_odd)
+    weight, *rims = (
+        _plain(pupil.order, form * cosine, form[keep] * sine) if form.size else None
+        for form in (pupil.weight, *cutting_rims(pupil))
+    )
+    return Turned(pupil.radius, phase, eta, xi, weight, np.array(rims))
 
 
 def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:

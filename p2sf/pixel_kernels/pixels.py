@@ -116,17 +116,22 @@ def _field(pupil: Turned, side: int, step: float, origin: tuple[float, float]) -
         turns = table[rows] @ across
         turns -= np.rint(turns)
         turns = (2 * np.pi * turns).astype(np.float32)
-        (xi, xi_u), (eta, eta_u) = single[rows] @ maps
-        xi_v, eta_v = steep[rows] @ maps[:, 0]
+        (xi, xi_u), (eta, eta_u), *others = single[rows] @ maps
+        xi_v, eta_v, *others_v = steep[rows] @ maps[:, 0]
         amplitude = _amplitude((xi, eta), np.abs(xi_u * eta_v - xi_v * eta_u), axis, rows)
+        if pupil.weight is not None:
+            amplitude *= others.pop()[0]
+        for (rim, rim_u), rim_v in zip(others, others_v, strict=False):
+            amplitude *= _share_inside(rim, np.hypot(rim_u, rim_v) * np.float32(cell))
         np.multiply(amplitude, np.cos(turns), out=field[rows].real)
         np.multiply(amplitude, np.sin(turns), out=field[rows].imag)
     return _wrapped(field, half, side)
 
 
 def _maps_across(pupil: Turned, table: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Return (ξ, η) × (value, slope by u) summed over the powers of u, (2, 2, powers of v, columns) float32."""
-    forms = np.stack([pupil.xi.T, pupil.eta.T])[:, None]
+    """Return (ξ, η, rims, weight) × (value, slope by u) summed over powers of u, (2, powers of v, columns) float32."""
+    last = () if pupil.weight is None else (pupil.weight,)
+    forms = np.stack([form.T for form in (pupil.xi, pupil.eta, *pupil.rims, *last)])[:, None]
     maps: np.ndarray = (forms @ np.stack([table.T, slopes.T])).astype(np.float32)
     return maps
 
@@ -134,14 +139,19 @@ def _maps_across(pupil: Turned, table: np.ndarray, slopes: np.ndarray) -> np.nda
 def _amplitude(point: tuple[np.ndarray, np.ndarray], area: np.ndarray, axis: np.ndarray, rows: slice) -> np.ndarray:
     """Return ``area``, |∂(ξ, η)/∂u|, times each cell's share inside the pupil, float32, for some rows.
 
-    Across the rim the share falls linearly over one cell, whose width in the pupil is the root of its area there.
+    A cell's width in the pupil is the root of its area there.
     """
     (xi, eta), cell = point, axis[1] - axis[0]
-    inside = (1 - np.sqrt(xi * xi + eta * eta)) / (np.sqrt(area) * np.float32(cell) + np.float32(1e-30)) + 0.5
+    inside = _share_inside(1 - np.sqrt(xi * xi + eta * eta), np.sqrt(area) * np.float32(cell))
     inside *= axis[rows, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials are not valid
-    np.clip(inside, 0, 1, out=inside)
     np.multiply(area, inside, out=area)
     return area
+
+
+def _share_inside(within: np.ndarray, cell: np.ndarray) -> np.ndarray:
+    """Return the share of each cell where ``within`` is positive, if it changes by ``cell`` across: linear at a rim."""
+    share = within / (cell + np.float32(1e-30)) + 0.5
+    return np.clip(share, 0, 1, out=share)
 
 
 def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:

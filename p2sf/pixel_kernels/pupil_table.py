@@ -14,7 +14,7 @@ import numpy as np
 
 from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, reach_of
 
-FORMS = "phase", "eta", "xi"
+FORMS = "phase", "eta", "xi", "weight", "rims"
 SAME = 1e-9  # of the farthest node: positions closer than this are the same
 PupilShift: TypeAlias = tuple[FrequencyPupil, float]  # a pupil, and its lateral colour in mm
 
@@ -23,7 +23,7 @@ PupilShift: TypeAlias = tuple[FrequencyPupil, float]  # a pupil, and its lateral
 class PupilTable:
     """Pupils of one wavelength between those fitted at heights × vergences, and their lateral colour.
 
-    ``rows``, (heights · vergences, numbers): phase, η and ξ, radius and lateral colour in mm of each pupil.
+    ``rows``, (heights · vergences, numbers): of each pupil all FORMS, radius, clear share and lateral colour in mm.
     ``like`` is a pupil of the highest order, with the largest residual of all.
     """
 
@@ -38,11 +38,11 @@ class PupilTable:
             return None
         weights = np.outer(lagrange(self.heights_mm, height_mm), lagrange(self.vergences, vergence)).ravel()
         row, like = weights @ self.rows, self.like
-        even = like.phase.size
-        phase, eta, xi = row[:even], row[even : 2 * even], row[2 * even : -2]
-        radius, shift = row[-2:].tolist()
-        reach = reach_of(like.order, (phase, eta, xi), radius)
-        return replace(like, phase=phase, eta=eta, xi=xi, reach_um=reach, radius=radius), shift
+        sizes = [getattr(like, name).size for name in FORMS]
+        phase, eta, xi, weight, rims, (radius, clear, shift) = np.split(row, np.cumsum(sizes))
+        rims, radius, clear = rims.reshape(like.rims.shape), float(radius), float(clear)
+        made = replace(like, phase=phase, eta=eta, xi=xi, weight=weight, rims=rims, radius=radius, clear=clear)
+        return replace(made, reach_um=reach_of(made)), float(shift)
 
 
 def pupil_table(
@@ -59,8 +59,14 @@ def pupil_table(
 
 def _row(pupil: FrequencyPupil, shift_mm: float, like: FrequencyPupil) -> np.ndarray:
     """Return all numbers of a pupil; zeros stand for terms of higher degree, the last of each form, that it lacks."""
-    forms = (np.pad(getattr(pupil, n), (0, getattr(like, n).size - getattr(pupil, n).size)) for n in FORMS)
-    return np.concatenate([*forms, (pupil.radius, shift_mm)])
+    forms = (_widened(getattr(pupil, name), getattr(like, name).shape[-1]) for name in FORMS)
+    return np.concatenate([*forms, (pupil.radius, pupil.clear, shift_mm)])
+
+
+def _widened(form: np.ndarray, terms: int) -> np.ndarray:
+    """Return coefficients with zeros behind them, flat."""
+    lacking = [(0, 0)] * (form.ndim - 1) + [(0, terms - form.shape[-1])]
+    return np.pad(form, lacking).ravel()
 
 
 @lru_cache(maxsize=1024)

@@ -42,7 +42,7 @@ class RaySpread:
 def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     """Return the rays of one source; GeometryError where none reaches the sensor.
 
-    A cell's light is that of the sum of waves, |∂(ξ, η)/∂f|·dξ dη (Parseval).
+    A cell's light is that of the sum of waves, weight²·|∂(ξ, η)/∂f|·dξ dη (Parseval).
     """
     grid = _grid()
     rays = pencil(lens, source, grid.xi.ravel(), grid.eta.ravel(), clip)
@@ -52,7 +52,8 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     data, share = ray_data(rays), grid.at_cells(passed.astype(float))
     x, y = (_between_passed(column.reshape(passed.shape), passed, share) for column in (data.x_um, data.y_um))
     area = grid.at_cells(_frequency_area(data.fx.reshape(passed.shape), data.fy.reshape(passed.shape)))
-    light = share * grid.rho**2 / area
+    weight = _between_passed(data.weight.reshape(passed.shape), passed, share)
+    light = share * weight**2 * grid.rho**2 / area
     light /= 2 * light.sum()
     lost = 1 - float((share * grid.rho).sum() / (grid.rho + 0 * share).sum())
     spread = float(np.nanmax(np.hypot(data.fx, data.fy)))

@@ -11,7 +11,7 @@ from p2sf.scene.scene import RGB, Channel, Scene
 from p2sf.scene.sensor import Sensor
 
 KEYS = {
-    "": {"name", "tolerance", "measure", "focus_mm", "f_number", "aim", "sensor", "depth", "channel"},
+    "": {"name", "tolerance", "measure", "focus_mm", "f_number", "aim", "clip", "sensor", "depth", "channel"},
     "sensor": {"rows", "columns", "pixel_um", "centre_mm"},
     "depth": {"near_mm", "far_mm", "map"},
     "channel": {"name", "wavelengths_nm", "weights"},
@@ -58,6 +58,8 @@ def scene_from(table: dict, path: Path) -> Scene:
     far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", "inf")))
     given: dict[str, Any] = {key: table[key] for key in ("name", "measure", "aim") if key in table}
     given |= {key: _number(key, table[key]) for key in ("tolerance", "focus_mm", "f_number") if key in table}
+    if "clip" in table:
+        given["clip"] = _flag("clip", table["clip"])
     return Scene(
         Sensor(
             _whole(sensor, "rows"), _whole(sensor, "columns"), _number("pixel_um", sensor["pixel_um"]), _pair(sensor)
@@ -68,6 +70,12 @@ def scene_from(table: dict, path: Path) -> Scene:
         depth_map=str(path.parent / depth["map"]) if "map" in depth else None,
         **given,
     )
+
+
+def _flag(key: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise RequestError("{key} is {given}; write true or false, without quotes", key=key, given=f"{value!r:.40}")
+    return value
 
 
 def _number(key: str, value: Any) -> float:

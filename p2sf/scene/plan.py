@@ -22,7 +22,7 @@ from p2sf.scene.pricing import MethodZones, costliest_method, method_seconds, na
 from p2sf.scene.scene import Channel, Scene, depth_of
 from p2sf.scene.sharing import few_depths, few_heights, node_heights, share_pupils
 from p2sf.scene.spectrum import reduced
-from p2sf.scene.study import DEPTH_COUNTS, METHODS, NODE_COUNTS, SAMPLINGS, Study, first_allowed, from_phase
+from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, SAMPLINGS, Study, first_allowed, from_phase
 
 # The share of the tolerance that each kind of decision may use. The errors are independent, so their squares add.
 SHARES = {"method": 0.5, "terms": 0.1, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.1}
@@ -93,7 +93,8 @@ class Plan:
 
     def sensor_map(self, vergence: float) -> SensorMap:
         """Return where the points of one depth land."""
-        return _sensor_map(self.lens, depth_of(vergence), self.reference_um, self.scene.sensor.corners_mm()[1])
+        corner = self.scene.sensor.corners_mm()[1]
+        return _sensor_map(self.lens, depth_of(vergence), self.reference_um, corner, self.scene.clip)
 
 
 @lru_cache(maxsize=32)
@@ -108,8 +109,8 @@ def pupils_between(planned: Plan, wavelength_um: float) -> PupilTable:
 
 
 @lru_cache(maxsize=32)
-def _sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> SensorMap:
-    return sensor_map(lens, depth_mm, wavelength_um, height_mm)
+def _sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float, clip: bool) -> SensorMap:
+    return sensor_map(lens, depth_mm, wavelength_um, height_mm, clip)
 
 
 def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> Plan:
@@ -135,7 +136,7 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     nodes, seconds, pupils = _pupils(study, budget, methods, counts, vergences, waves)
     if nodes:  # pupils that are interpolated together share one method
         methods = [(edge, costliest_method(methods)) for edge, _ in methods]
-    zones = tuple((edge, Recipe(*METHODS[n], *SAMPLINGS[sampling], drop)) for edge, n in methods)
+    zones = tuple((edge, Recipe(*study.methods[n], *SAMPLINGS[sampling], drop)) for edge, n in methods)
     decisions = (*method, terms, sampled, field, depth, *colour, pupils)
     errors = (max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES)
     error = hypot(*errors, study.tables_error)
@@ -158,9 +159,11 @@ def _zones(study: Study, budget: float) -> tuple[MethodZones, list[Decision]]:
     """Return (outer edge, method) of every zone, and the decisions."""
     heights, found, decisions = study.heights(), [], []
     for inner, outer in pairwise(heights):
-        number, error = _first(METHODS, study.method_error, study.places((outer, inner)), SHARES["method"] * budget)
+        number, error = _first(
+            study.methods, study.method_error, study.places((outer, inner)), SHARES["method"] * budget
+        )
         found.append((float(outer), number))
-        method, numbers = METHODS[number]
+        method, numbers = study.methods[number]
         why = (
             Message("the six Seidel coefficients keep the pixels' error here")
             if method == "seidel"
@@ -276,7 +279,7 @@ def _pupils(
     height_count, height_error = few_heights(study, len(heights), allowed / 2)
     depth_count, depth_error = few_depths(study, len(vergences), allowed / 2)
     shared, every = height_count * depth_count * waves, len(heights) * len(vergences) * waves
-    seconds = shared * method_seconds(costliest_method(methods))
+    seconds = shared * method_seconds(study, costliest_method(methods))
     what = Message("pupils")
     if seconds >= alone:
         why = Message("fewer fits, all of the costliest method, with the others interpolated would cost no less")

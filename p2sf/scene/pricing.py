@@ -9,12 +9,12 @@ from p2sf.pixel_kernels import Colour, Recipe
 from p2sf.pixel_kernels.pixels import samples_across
 from p2sf.scene.cost import Work, pupil_seconds
 from p2sf.scene.sharing import node_heights
-from p2sf.scene.study import METHODS, Study
+from p2sf.scene.study import Study
 
 NAIVE_FINENESS, NAIVE_MARGIN = 2.0, 0.5  # every fringe of the light (λ/4NA), and half a window against aliasing
 
 MethodZones = Sequence[tuple[float, int]]
-"""Zones of the field from the axis outwards: (outer edge in mm, index into `study.METHODS`)."""
+"""Zones of the field from the axis outwards: (outer edge in mm, index into `Study.methods`)."""
 RecipeZones = Sequence[tuple[float, Recipe]]
 """The same with the recipe of the zone's kernels."""
 
@@ -24,9 +24,9 @@ def costliest_method(zones: MethodZones) -> int:
     return max(method for _, method in zones)
 
 
-def method_seconds(method: int) -> float:
-    """Return what one pupil of an entry of METHODS costs, seconds."""
-    name, numbers = METHODS[method]
+def method_seconds(study: Study, method: int) -> float:
+    """Return what one pupil of an entry of `Study.methods` costs, seconds."""
+    name, numbers = study.methods[method]
     return pupil_seconds(name, numbers or 6)
 
 
@@ -35,7 +35,7 @@ def single_seconds(study: Study, zones: MethodZones, counts: tuple[int, int], la
     edges = np.array([edge for edge, _ in zones])
     heights = node_heights(study.scene.sensor, counts)
     which = np.minimum(np.searchsorted(edges, heights), len(edges) - 1)
-    return layers * waves * float(sum(method_seconds(zones[n][1]) for n in which))
+    return layers * waves * float(sum(method_seconds(study, zones[n][1]) for n in which))
 
 
 def plan_work(

@@ -9,10 +9,11 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels import SensorMap
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
-from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
+from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data, steepness
+from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, whole_nodes
 from p2sf.scene.scene import Channel
 
 PROBE = 12, 36
@@ -29,20 +30,23 @@ def reference_kernel(
     for wavelength, share in zip(channel.wavelengths_um, channel.shares, strict=True):
         source = seen.source(height, float(wavelength))
         shift = seen.shift_mm(height, float(wavelength)) * UM_PER_MM
-        total = total + share * exact_pixels(seen.lens, source, angle, half, pixel_um, shift)
+        total = total + share * exact_pixels(seen.lens, source, angle, half, pixel_um, shift, seen.clip)
     return total
 
 
-def exact_pixels(lens: Lens, source: Source, angle: float, half: int, pixel_um: float, shift_um: float) -> np.ndarray:
+def exact_pixels(
+    lens: Lens, source: Source, angle: float, half: int, pixel_um: float, shift_um: float, clip: bool = False
+) -> np.ndarray:
     """Return one wavelength's light per pixel; ``shift_um`` along the field's direction."""
-    probe = disc_nodes(*PROBE)
+    probe = nodes_of(lens, source, PROBE, clip)
     steep = steepness(ray_data(pencil(lens, source, probe.xi, probe.eta)), probe.xi, probe.eta)
     size = 2 * half + 1
     place, share = _pixel_points(size, pixel_um, steep.spread)
     counts = counts_for(steep, size, pixel_um)
-    nodes = disc_nodes(*(2 * ceil(0.55 * count) for count in counts))
+    radii, directions = (2 * ceil(0.55 * count) for count in counts)
+    nodes = nodes_of(lens, source, (radii, directions), clip)
     data = ray_data(pencil(lens, source, nodes.xi, nodes.eta))
-    phase, weight = (np.concatenate([v, v]) for v in (data.phase, nodes.weight / 2))
+    phase, weight = (np.concatenate([v, v]) for v in (data.phase, nodes.weight * data.weight / 2))
     across_f, along_f = np.concatenate([data.fx, -data.fx]), np.concatenate([data.fy, data.fy])
     sine, cosine = np.sin(angle), np.cos(angle)
     fx, fy = across_f * cosine + along_f * sine, along_f * cosine - across_f * sine
@@ -52,6 +56,11 @@ def exact_pixels(lens: Lens, source: Source, angle: float, half: int, pixel_um: 
     pixels = np.einsum("aibj,i,j->ab", light, share, share)
     image: np.ndarray = pixels[::-1] / pixels.sum()
     return image
+
+
+def nodes_of(lens: Lens, source: Source, counts: tuple[int, int], clip: bool) -> ClearNodes:
+    """Return (radial, angular) ``counts`` of nodes over the pupil, or its clear part."""
+    return clear_nodes(lens, source, counts) if clip else whole_nodes(counts)
 
 
 def _pixel_points(size: int, pixel_um: float, spread: float) -> tuple[np.ndarray, np.ndarray]:

@@ -67,7 +67,7 @@ class Scene:
     ``tolerance``: relative L2 error of a pixel's kernel, which bounds a white picture's; or with ``measure`` "r2"
     the least R². ``focus_mm`` puts the sensor at the paraxial image of that distance and ``f_number`` sets
     the stop, None leaves both as the lens file has them. ``aim`` is how exact rays fill the pupil, as `Request` has
-    it. ``depth_map`` names a picture of depths in mm.
+    it, and with ``clip`` the rims of all surfaces clip them. ``depth_map`` names a picture of depths in mm.
     """
 
     sensor: Sensor
@@ -79,6 +79,7 @@ class Scene:
     focus_mm: float | None = None
     f_number: float | None = None
     aim: AimChoice | None = None
+    clip: bool = False
     depth_map: str | None = None
     name: str = "scene"
 

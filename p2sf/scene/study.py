@@ -14,12 +14,10 @@ from p2sf.lens.lens import Lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap, sensor_map
 from p2sf.pixel_kernels.pupil_table import PupilTable
-from p2sf.raytrace.fit import LEVELS, fit
+from p2sf.raytrace.fit import fit, levels
 from p2sf.scene.scene import Channel, Scene, depth_of
 from p2sf.scene.spectrum import reduced
 
-# What describes a pupil, cheapest first: the method and how many numbers it fits.
-METHODS: tuple[tuple[str, int | None], ...] = (("seidel", None), *(("fitted", level.numbers) for level in LEVELS))
 # Fineness and margin of `Recipe`, cheapest first.
 SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0)
 # The first for errors that change a kernel as a whole, the second for those that only show in its fringes.
@@ -52,6 +50,8 @@ class Study:
         self.single = self.colour_of(self.reference_um)
         means = [float(channel.wavelengths_um @ channel.shares) for channel in self.scene.channels]
         self.waves = tuple(sorted({min(means), self.reference_um, max(means)}))
+        # What describes a pupil, cheapest first: the method and how many numbers it fits.
+        self.methods = (("seidel", None), *(("fitted", level.numbers) for level in levels(self.lens.aim)))
         self._sensor_maps: dict[float, SensorMap] = {}
         self._depths: dict[float, list[float]] = {}
         self._kernels: dict[tuple[Recipe, Colour, float], Kernels] = {}
@@ -62,7 +62,8 @@ class Study:
         """Return where the points of one depth land, out to the sensor's corner."""
         key = round(vergence, 15)
         if key not in self._sensor_maps:
-            self._sensor_maps[key] = sensor_map(self.lens, depth_of(vergence), self.reference_um, self.farthest_mm)
+            place = depth_of(vergence), self.reference_um, self.farthest_mm
+            self._sensor_maps[key] = sensor_map(self.lens, *place, self.scene.clip)
         return self._sensor_maps[key]
 
     def heights(self) -> np.ndarray:
@@ -98,7 +99,7 @@ class Study:
         """Return the kernels of one recipe in one colour at one depth."""
         key = (recipe, colour, round(vergence, 15))
         if key not in self._kernels:
-            converged = (recipe.method, recipe.numbers) == METHODS[self.converged_method]
+            converged = (recipe.method, recipe.numbers) == self.methods[self.converged_method]
             tables = self.tables if converged else {}
             recipe_at = partial(self._fewest_numbers, recipe) if converged else partial(_same_everywhere, recipe)
             pixel = self.scene.sensor.pixel_um
@@ -107,7 +108,7 @@ class Study:
 
     def _fewest_numbers(self, recipe: Recipe, height_mm: float) -> Recipe:
         """Return the converged recipe with the fewest numbers that converge at this height."""
-        return recipe if self.tables else replace(recipe, numbers=METHODS[self.converged_at(height_mm)][1])
+        return recipe if self.tables else replace(recipe, numbers=self.methods[self.converged_at(height_mm)][1])
 
     @staticmethod
     def colour_of(wave: float) -> Colour:
@@ -116,27 +117,27 @@ class Study:
 
     @cached_property
     def converged_method(self) -> int:
-        """Return the first entry of METHODS converged at both ends of field and depth, in the bluest colour."""
+        """Return the first entry of ``methods`` converged at both ends of field and depth, in the bluest colour."""
         return max(self.converged_at(height) for height in (self.farthest_mm, self.nearest_mm))
 
     def converged_at(self, height_mm: float) -> int:
-        """Return the first entry of METHODS whose fit leaves less than CONVERGED_WAVES at both ends of the depths."""
+        """Return the first of ``methods`` whose fit leaves less than CONVERGED_WAVES at both ends of the depths."""
         self.check()
         ends, wave = {float(v) for v in self.scene.vergences(2)}, min(self.waves)
-        for method in range(1, len(METHODS)):
+        for method in range(1, len(self.methods)):
             if all(self.residual(method, height_mm, v, wave) < CONVERGED_WAVES for v in ends):
                 return method
-        return len(METHODS) - 1
+        return len(self.methods) - 1
 
     def recipe(self, sampling: tuple[float, float] = COARSE_SAMPLING) -> Recipe:
         """Return the converged recipe."""
-        return Recipe(*METHODS[self.converged_method], *sampling)
+        return Recipe(*self.methods[self.converged_method], *sampling)
 
     def method_error(self, method: int, height_mm: float, vergence: float, wave: float) -> float:
         """Return the relative error of a method's kernel against the converged one, and that one's own."""
         if method >= self.converged_method:
             return from_phase(self.residual(self.converged_method, height_mm, vergence, wave))
-        tried = Recipe(*METHODS[method], *FINE_SAMPLING)
+        tried = Recipe(*self.methods[method], *FINE_SAMPLING)
         return self.distance(tried, self.recipe(FINE_SAMPLING), height_mm, vergence, wave)
 
     def residual(self, method: int, height_mm: float, vergence: float, wave: float) -> float:
@@ -144,7 +145,7 @@ class Study:
         key = (method, round(height_mm, 9), round(vergence, 15), wave)
         if key not in self._residuals:
             source = self.sensor_map(vergence).source(height_mm, wave)
-            self._residuals[key] = fit(self.lens, source, METHODS[method][1]).residual_waves
+            self._residuals[key] = fit(self.lens, source, self.methods[method][1]).residual_waves
         return self._residuals[key]
 
     def distance(self, tried: Recipe, reference: Recipe, height_mm: float, vergence: float, wave: float) -> float:

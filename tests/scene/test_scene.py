@@ -18,6 +18,7 @@ from p2sf.scene.sharing import TARGET_ERROR, few_heights, share_pupils
 from p2sf.scene.spectrum import reduced
 from p2sf.scene.study import Study, distance, first_allowed
 from p2sf.scene.table import plan_rows
+from p2sf.scene.verify import planned_kernel
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 SCENE = """
@@ -48,6 +49,19 @@ def test_the_plan_keeps_its_tolerance_against_exact_rays(planned):
     verdict = verify(planned, points=2, seed=1)
     assert planned.meets and verdict.kept
     assert verdict.worst > 0  # the two roads share no approximation
+
+
+def test_a_plan_of_clipped_pencils_keeps_its_tolerance():
+    """A crop of the Double Gauss's corner, where its rims take 5 % of the pupil and 15 % of L2."""
+    lens = find_lens("double_gauss_28")
+    scene = Scene(Sensor(40, 40, 8.0, (0.0, 23.5)), GREEN, tolerance=0.1, clip=True)
+    clipped = plan(lens, scene)
+    verdict = verify(clipped, points=2)
+    assert clipped.meets and verdict.kept
+    x, y, vergence, channel = verdict.places[0]
+    kernel = planned_kernel(replace(clipped, scene=replace(scene, clip=False)), x, y, vergence, channel)
+    seen = clipped.sensor_map(vergence)
+    assert distance(kernel, reference_kernel(seen, GREEN[channel], x, y, kernel.shape[0] // 2, 8.0)) > 0.1
 
 
 def test_a_plan_without_what_it_decided_would_not(planned):
@@ -184,6 +198,15 @@ def test_a_wrong_scene_is_one_sentence_with_its_file(tmp_path, old, new, words):
     with pytest.raises(RequestError, match=words) as caught:
         read_scene(path)
     assert "desk.toml" in str(caught.value)
+
+
+def test_a_scene_says_whether_rims_clip(tmp_path):
+    for line, clip in (("clip = true", True), ("clip = false", False), ("", False)):
+        (tmp_path / "scene.toml").write_text(f"{line}\n{SCENE}", encoding="utf-8")
+        assert read_scene(tmp_path / "scene.toml").clip is clip
+    (tmp_path / "scene.toml").write_text(f'clip = "yes"\n{SCENE}', encoding="utf-8")
+    with pytest.raises(RequestError, match="clip is 'yes'; write true or false, without quotes"):
+        read_scene(tmp_path / "scene.toml")
 
 
 def test_a_colour_that_no_glass_knows_is_named_as_it_was_given():

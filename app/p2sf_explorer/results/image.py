@@ -145,6 +145,7 @@ class ImageRequest:
     show: str
     pixel_um: float | None
     centre_mm: float
+    clip: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,9 +174,8 @@ def question(live: Live) -> ImageRequest:
     state, setup = live.state, live.setup
     whole = state.photo.pixel_um is None
     centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
-    return ImageRequest(
-        setup.lens, state.optics.depth_mm, state.photo.source, state.photo.show, state.photo.pixel_um, centre
-    )
+    photo, optics = state.photo, state.optics
+    return ImageRequest(setup.lens, optics.depth_mm, photo.source, photo.show, photo.pixel_um, centre, optics.clip)
 
 
 def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
@@ -303,7 +303,7 @@ def scene_of(request: ImageRequest) -> Scene:
     else:
         room = max(0.0, reach - half_um * request.pixel_um / UM_PER_MM)
         sensor = Sensor(ROWS, COLUMNS, request.pixel_um, (0.0, float(np.clip(request.centre_mm, -room, room))))
-    return Scene(sensor, channels, request.depth_mm, request.depth_mm, TOLERANCE)
+    return Scene(sensor, channels, request.depth_mm, request.depth_mm, TOLERANCE, clip=request.clip)
 
 
 def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:

@@ -15,6 +15,7 @@ from p2sf.lens.lens import lens_range_um
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.messages import Message
 from p2sf.pixel_kernels import RAYS, Recipe
+from p2sf.pixel_kernels.illumination import light_collected
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.results import image
@@ -180,6 +181,18 @@ def test_a_picture_of_rays_says_so():
     assert by_rays(found.plan) and (Message("Rays"), RAY_NOTE) in found.notes and found.no_plan == TOO_WIDE
     near = coarse(asked())
     assert not by_rays(near.plan) and Message("Rays") not in dict(near.notes)
+
+
+def test_the_picture_obeys_clipping():
+    """The Double Gauss's whole field: rims take a part of the corner's light and blur, and none in the middle."""
+    whole, clipped = (coarse(asked(photo_pixel_um=None, clip=clip)) for clip in (False, True))
+    ratio = clipped.after[..., 1] / whole.after[..., 1]
+    assert ratio[ROWS // 2, COLUMNS // 2] == pytest.approx(1, abs=1e-3)
+    seen = clipped.plan.sensor_map(0.0)
+    corner = seen.source(clipped.plan.scene.sensor.corners_mm()[1], seen.wavelength_um)
+    light = [light_collected(seen.lens, corner, clip) for clip in (True, False)]
+    assert ratio[0, 0] == pytest.approx(light[0] / light[1], abs=5e-3) and ratio[0, 0] < 0.98
+    assert np.abs(clipped.lattice.kernels[0][0] - whole.lattice.kernels[0][0]).max() > 1e-3
 
 
 def test_rays_make_nearly_the_picture_of_waves():

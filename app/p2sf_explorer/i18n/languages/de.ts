@@ -1338,6 +1338,7 @@
 <message><source>{keyword}: {what} is missing; complete the line</source><translation>{keyword}: {what} fehlt; die Zeile ergänzen</translation></message>
 <message><source>{key} is {given}; give a number, without quotes</source><translation>{key} ist {given}; eine Zahl angeben, ohne Anführungszeichen</translation></message>
 <message><source>{key} is {given}; give numbers in brackets, such as [530, 560]</source><translation>{key} ist {given}; Zahlen in Klammern angeben wie [530, 560]</translation></message>
+<message><source>{key} is {given}; write true or false, without quotes</source><translation>{key} ist {given}; true oder false schreiben, ohne Anführungszeichen</translation></message>
 <message><source>{lost} of {rays} rays are lost, and a smooth pupil does not describe that</source><translation>{lost} von {rays} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field</source><translation>{lost} von {total} Strahlen erreichen den Sensor nicht; abblenden oder das Feld verkleinern</translation></message>
 <message><source>{lost} rays lost</source><translation>{lost} Strahlen verloren</translation></message>
