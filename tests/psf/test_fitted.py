@@ -85,14 +85,18 @@ def test_the_residual_is_that_of_rays_the_fit_has_not_seen(name):
 
 
 def test_the_map_of_the_pupil_is_squeezed_off_axis_as_the_witness_found():
-    """The stored reference: NA × 0.979 sagittal and × 0.945 tangential on the Double Gauss at 14°."""
+    """Another program, Double Gauss at 14°: NA × 0.979 sagittal, × 0.945 tangential, for rays it does not name.
+
+    Over the axis' own, exact rays give 0.985 and 0.948 beside the chief ray, 0.983 and 0.946 on the rim of the paraxial
+    pupil, 0.979 and 0.934 on that of the real stop: its figures lie between the definitions, ours within 0.007 of them.
+    """
     squeeze = []
     for index in (0, 2):
         lens, source, _, _ = list(cases("double_gauss_28"))[index]
         _, fx, fy = fit(lens, source, 46).at(np.array([0.05, 0.0, 0.0]), np.array([0.0, 0.05, -0.05]))
         squeeze.append((fx[0], (fy[1] - fy[2]) / 2))
     sagittal, tangential = (off / on for off, on in zip(squeeze[1], squeeze[0], strict=True))
-    assert sagittal == pytest.approx(0.979, abs=0.015) and tangential == pytest.approx(0.945, abs=0.015)
+    assert sagittal == pytest.approx(0.979, abs=0.007) and tangential == pytest.approx(0.945, abs=0.007)
 
 
 def test_the_energy_follows_parseval():
