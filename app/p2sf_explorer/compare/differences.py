@@ -8,12 +8,14 @@ import numpy as np
 
 from p2sf.messages import Message, Number
 from p2sf.raytrace.field_curves import Foci, Heights
+from p2sf.raytrace.zernike_fit import ZernikeFit
 from p2sf_explorer.compute.live import Refused
 from p2sf_explorer.results.chromatic import Chromatic
 from p2sf_explorer.results.field import FieldView, exaggeration, grid
 from p2sf_explorer.results.first_order import NONE, Row
 from p2sf_explorer.results.seidel import PerSurface
 from p2sf_explorer.results.through_focus import Strip
+from p2sf_explorer.results.zernike import ZernikeView
 from p2sf_explorer.state.scales import signed
 
 FROM_ANSWERS = ("psf", "pupil", "coefficients")  # what `p2sf_explorer.compare.comparison.difference` holds
@@ -50,6 +52,16 @@ def surfaces(a: PerSurface, b: PerSurface) -> PerSurface | Message:
     if counts["a"] != counts["b"]:
         return Message("This is A: it has {a} surfaces and B has {b}, so that none stands for another.", **counts)
     return PerSurface({name: waves - b.waves[name] for name, waves in a.waves.items()}, a.stop_surface, a.colours_nm)
+
+
+def terms(a: ZernikeView, b: ZernikeView) -> ZernikeView:
+    """Return A − B of the Zernike coefficients and of their shares; RMS and residual likewise."""
+
+    def less(mine: ZernikeFit, other: ZernikeFit) -> ZernikeFit:
+        names = ("waves", "rms_waves", "share", "rms", "rms_without_tilt", "residual")
+        return replace(mine, **{name: getattr(mine, name) - getattr(other, name) for name in names})
+
+    return replace(a, fits={order: less(fit, b.fits[order]) for order, fit in a.fits.items()})
 
 
 def field(a: FieldView, b: FieldView) -> FieldView:
@@ -111,6 +123,7 @@ SUBTRACTED: dict[str, Callable[[Any, Any], Any]] = {
     "ray_fan": curves,
     "opd_fan": curves,
     "seidel": surfaces,
+    "zernike": terms,
     "field": field,
     "chromatic": colours,
     "first_order": tables,

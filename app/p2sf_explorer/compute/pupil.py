@@ -21,6 +21,7 @@ from p2sf.pupil.zernike import basis, powers, terms
 from p2sf.pupil.zernike_terms import family, zernike_terms
 from p2sf.raytrace.clear_rim import ClearRim, clear_rim
 from p2sf.raytrace.pencil import displayed_opd, pencil
+from p2sf.raytrace.vignetting import ClearNodes
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, decomposed
 from p2sf_explorer.compute.setup import ParaxialSetup
 
@@ -76,22 +77,35 @@ def pupil_map(waves: np.ndarray, inside: np.ndarray, kind: str) -> PupilMap:
     return PupilMap(shown, float(kept.std()), float(kept.max() - kept.min()), kind)
 
 
+Samples = tuple[ClearNodes, np.ndarray, ClearRim | None]
+"""Nodes over the part of the half disc that passes light, W there in waves, and the rim of a part of the pupil."""
+
+
 def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False) -> PupilMap:
     """Return the wavefront that made the PSF: of the six coefficients for seidel, else of exact rays.
 
     The six coefficients know no rims. Raises GeometryError where no ray reaches the sensor.
     """
+    samples = pupil_samples(setup, exact, quality, clip)
+    if samples[2] is not None:
+        return _clear_map(samples, quality)
+    kind = "exact rays" if exact else "what-if" if setup.altered else "six coefficients"
+    return whole_map(projection(quality) @ samples[1], quality, kind)
+
+
+def pupil_samples(setup: ParaxialSetup, exact: bool, quality: str, clip: bool) -> Samples:
+    """Return samples of the wavefront that `pupil_of` shows; over the whole pupil they stand at `fit_nodes`."""
     nodes = fit_nodes(quality)
+    whole = ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
     if not exact:
-        kind = "what-if" if setup.altered else "six coefficients"
-        six = np.asarray(wavefront(setup.coefficients, nodes.xi, nodes.eta))
-        return whole_map(projection(quality) @ six, quality, kind)
+        return whole, np.asarray(wavefront(setup.coefficients, nodes.xi, nodes.eta)), None
     lens, source = setup.lens, setup.source
-    found = projection(quality) @ displayed_opd(lens, source, nodes.xi, nodes.eta)
-    every_ray = bool(np.isfinite(found).all())
-    if every_ray and not (clip and clipped(lens, source, nodes)):
-        return whole_map(found, quality)
-    return _clear_map(setup, quality, clip, found if every_ray else None)
+    waves = displayed_opd(lens, source, nodes.xi, nodes.eta)
+    if np.isfinite(waves).all() and not (clip and clipped(lens, source, nodes)):
+        return whole, waves, None
+    rim = clear_rim(lens, source, clip, *RIMS[quality])
+    clear = rim.nodes(RADII)
+    return clear, displayed_opd(lens, source, clear.xi, clear.eta), rim
 
 
 def clipped(lens: Lens, source: Source, nodes: DiscNodes) -> bool:
@@ -101,19 +115,17 @@ def clipped(lens: Lens, source: Source, nodes: DiscNodes) -> bool:
     return not pencil(lens, source, xi, eta, clip=True).passed.all()
 
 
-def _clear_map(setup: ParaxialSetup, quality: str, clip: bool, found: np.ndarray | None) -> PupilMap:
-    """Return the map over the part that passes light; ``found``: the terms over the whole pupil, None for lost rays."""
-    rim = clear_rim(setup.lens, setup.source, clip, *RIMS[quality])
-    nodes = rim.nodes(RADII)
-    waves = displayed_opd(setup.lens, setup.source, nodes.xi, nodes.eta)
-    if found is None:
-        root = np.sqrt(nodes.weight)
-        table = basis(ORDERS[quality], nodes.xi, nodes.eta) * root
-        found = np.linalg.lstsq(table.T, waves * root, rcond=1e-12)[0]
+def _clear_map(samples: Samples, quality: str) -> PupilMap:
+    """Return the map over the part of the pupil that passes light."""
+    nodes, waves, rim = samples
+    root = np.sqrt(nodes.weight)
+    table = basis(ORDERS[quality], nodes.xi, nodes.eta) * root
+    found = np.linalg.lstsq(table.T, waves * root, rcond=1e-12)[0]
     fit = decomposed(nodes, waves, "noll", zernike_terms("noll", USUAL_TERMS))
     parts = families((term.n, term.m, part) for term, part in zip(fit.terms, (fit.rms_waves**2).tolist(), strict=True))
     shown, peak = _picture(found, quality, rim)
-    return PupilMap(shown, fit.rms, peak, "exact rays", rim.outline(), nodes.share, parts, fit.residual**2)
+    outline = CIRCLE if rim is None else rim.outline()
+    return PupilMap(shown, fit.rms, peak, "exact rays", outline, nodes.share, parts, fit.residual**2)
 
 
 def families(terms: Iterable[tuple[int, int, float]]) -> dict[str, float]:

@@ -93,6 +93,7 @@ REGISTRY = (
     tab("Rays", "ray_fan", "Ray fan", "8.3", "fans:RayFanPanel", "rays:ray_errors"),
     tab("Rays", "opd_fan", "OPD fan", "4.3", "fans:OpdFanPanel", "rays:path_errors"),
     tab("Aberrations", "seidel", "Seidel per surface", "3.2", "seidel:SeidelPanel", "seidel:per_surface"),
+    tab("Aberrations", "zernike", "Zernike", "3.4", "zernike:ZernikePanel", "zernike:zernike"),
     tab("Aberrations", "field", "Field curves", "8.3", "field:FieldPanel", "field:field_curves"),
     tab("Aberrations", "chromatic", "Chromatic shift", "8.3", "chromatic:ChromaticPanel", "chromatic:chromatic"),
     tab("Lens", "lens", "Table", "1.1", "lens_table:LensTablePanel", "lens_table:rows"),

@@ -173,14 +173,15 @@ class Scrolling(QScrollArea):
             layout.setContentsMargins(0, 0, BAR_AIR if self.verticalScrollBar().isVisible() else 0, 0)
 
 
-def scrolled(table: FactTable) -> QScrollArea:
-    """Return a table at the foot of an area that scrolls where there is little room, so that no row is cut in two."""
+def scrolled(table: FactTable, at_foot: bool = True) -> QScrollArea:
+    """Return a table at the foot or top of an area that scrolls where room is little, so that no row is cut in two."""
     body = QWidget()
     column = QVBoxLayout(body)
     area = Scrolling()
     column.setContentsMargins(0, 0, 0, 0)
-    column.addStretch(1)
+    column.addStretch(1 if at_foot else 0)
     column.addWidget(table)
+    column.addStretch(0 if at_foot else 1)
     area.setWidgetResizable(True)
     area.setFrameShape(QScrollArea.Shape.NoFrame)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

@@ -177,11 +177,13 @@
 <message><source>Frame</source><translation>Ausschnitt</translation></message>
 <message><source>Free pupil</source><translation>Freie Pupille</translation></message>
 <message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
+<message><source>Fringe, peak waves</source><translation>Fringe, Spitzenwellen</translation></message>
 <message><source>Front focal point, whose light leaves as a parallel beam, from the first vertex: D/C.</source><translation>Objektseitiger Brennpunkt, dessen Licht als paralleles Bündel austritt, vom ersten Scheitel: D/C.</translation></message>
 <message><source>Front focus F</source><translation>Objektseitiger Brennpunkt F</translation></message>
 <message><source>Front principal plane, imaged onto H′ at magnification 1; from the first vertex.</source><translation>Objektseitige Hauptebene, mit Maßstab 1 auf H′ abgebildet; vom ersten Scheitel.</translation></message>
 <message><source>Front-stop landscape singlet</source><translation>Landschaftslinse mit vorderer Blende</translation></message>
 <message><source>Glass or index</source><translation>Glas oder Index</translation></message>
+<message><source>Gram–Schmidt over {percent:.0f} % of the pupil</source><translation>Gram–Schmidt über {percent:.0f} % der Pupille</translation></message>
 <message><source>Grey</source><translation>Grau</translation></message>
 <message><source>Handbook</source><translation>Handbuch</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
@@ -244,6 +246,7 @@
 <message><source>No, thanks</source><translation>Nein, danke</translation></message>
 <message><source>Nodal point N</source><translation>Knotenpunkt N</translation></message>
 <message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
+<message><source>Noll, RMS waves</source><translation>Noll, RMS-Wellen</translation></message>
 <message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
 <message><source>Numerical accuracy</source><translation>Numerische Genauigkeit</translation></message>
 <message><source>Numerical aperture</source><translation>Numerische Apertur</translation></message>
@@ -542,6 +545,7 @@
 <message><source>Where the sensor stands, from the last vertex: in the image of the focus distance, shifted by Δz.</source><translation>Wo der Sensor steht, vom letzten Scheitel: im Bild des eingestellten Abstands, um Δz verschoben.</translation></message>
 <message><source>Which coefficient</source><translation>Welcher Koeffizient</translation></message>
 <message><source>Which interpolation the error is of</source><translation>Zu welcher Interpolation der Fehler gehört</translation></message>
+<message><source>Which order of the terms</source><translation>Welche Reihenfolge der Terme</translation></message>
 <message><source>Which picture is made</source><translation>Welches Bild gemacht wird</translation></message>
 <message><source>Which slider moves</source><translation>Welcher Regler sich bewegt</translation></message>
 <message><source>Which sum</source><translation>Welche Summe</translation></message>
@@ -550,6 +554,9 @@
 <message><source>Window</source><translation>Fenster</translation></message>
 <message><source>Working f-number</source><translation>Wirksame Blendenzahl</translation></message>
 <message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
+<message><source>Zernike</source><translation>Zernike</translation></message>
+<message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
+<message><source>Z{number}: {waves} λ · {share}</source><translation>Z{number}: {waves} λ · {share}</translation></message>
 <message><source>[aperture] states {count} of {names}; keep exactly one</source><translation>[aperture] gibt {count} von {names} an; genau eines behalten</translation></message>
 <message><source>[sensor] lacks {missing}; add it</source><translation>in [sensor] fehlt {missing}; hinzufügen</translation></message>
 <message><source>a Fresnel surface</source><translation>eine Fresnel-Fläche</translation></message>
@@ -1066,6 +1073,7 @@
 <message><source>tangential T, third order</source><translation>tangential T, dritte Ordnung</translation></message>
 <message><source>tangential, along η</source><translation>tangential, längs η</translation></message>
 <message><source>telecentric flag</source><translation>Kennzeichen der Telezentrie</translation></message>
+<message><source>term</source><translation>Term</translation></message>
 <message><source>terms</source><translation>Terme</translation></message>
 <message><source>tertiary astigmatism</source><translation>tertiärer Astigmatismus</translation></message>
 <message><source>tertiary coma</source><translation>tertiäre Koma</translation></message>
@@ -1268,6 +1276,8 @@
 <message><source>wavelength, nm</source><translation>Wellenlänge, nm</translation></message>
 <message><source>wavelengths are {wavelengths} nm; give positive numbers</source><translation>die Wellenlängen sind {wavelengths} nm; positive Zahlen angeben</translation></message>
 <message><source>waves</source><translation>Wellen</translation></message>
+<message><source>waves RMS</source><translation>Wellen RMS</translation></message>
+<message><source>waves peak</source><translation>Wellen Spitze</translation></message>
 <message><source>weights</source><translation>Gewichte</translation></message>
 <message><source>weights of fields and wavelengths</source><translation>Gewichte der Felder und Wellenlängen</translation></message>
 <message><source>what is added to {term}</source><translation>was zu {term} hinzukommt</translation></message>
@@ -1279,6 +1289,7 @@
 <message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
 <message><source>which P2SF does not trace</source><translation>den P2SF nicht rechnet</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
+<message><source>whole pupil</source><translation>ganze Pupille</translation></message>
 <message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
 <message><source>working</source><translation>in Arbeit</translation></message>
 <message><source>wrapped</source><translation>gefaltet</translation></message>
@@ -1420,6 +1431,7 @@
 <message><source>{path}: one file holds one PSF, this stack has shape ({shape}); write them singly</source><translation>{path}: eine Datei enthält eine PSF, dieser Stapel hat die Form ({shape}); einzeln schreiben</translation></message>
 <message><source>{path}: the ending "{ending}" is unknown; choose {choices}</source><translation>{path}: die Endung "{ending}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>{path}: this set-up has no PSF; change it until there is a picture</source><translation>{path}: diese Einstellung hat keine PSF; sie ändern, bis es ein Bild gibt</translation></message>
+<message><source>{percent:.1f} %</source><translation>{percent:.1f} %</translation></message>
 <message><source>{percent} % of the pupil</source><translation>{percent} % der Pupille</translation></message>
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
@@ -1436,6 +1448,8 @@
 <message><source>{rows} × {columns} nodes</source><translation>{rows} × {columns} Knoten</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths, mirror images for nothing</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
+<message><source>{r} λ left</source><translation>{r} λ Rest</translation></message>
+<message><source>{r} λ without tilt</source><translation>{r} λ ohne Verkippung</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>

@@ -1,0 +1,117 @@
+"""The Zernike terms of the wavefront: bars, a table, and what is left."""
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QColor, QPainter
+
+from p2sf.messages import Message, Number
+from p2sf.raytrace.zernike_fit import ZernikeFit
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.messages import WINDOW
+from p2sf_explorer.results.zernike import ZernikeView, csv_rows, rows
+from p2sf_explorer.state.scales import nice, significant
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import chooser
+from p2sf_explorer.widgets.chart_card import ChartsCard
+from p2sf_explorer.widgets.readout import FactTable, scrolled
+
+TIP = (
+    "Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; "
+    "θ from +x. Percent: share of the variance without piston and tilt, which do not blur."
+)
+CHOICES = (("noll", "Noll, RMS waves"), ("fringe", "Fringe, peak waves"))
+UNITS = {"noll": "waves RMS", "fringe": "waves peak"}
+WIDTH = 0.7  # of a bar, of the distance to the next
+BLURRING = 4  # the first term behind piston and tilt, in both orders
+TABLE_PX = 390
+
+
+class ZernikePanel:
+    """Bars of the terms that blur beside a table of all that can differ from zero; the chooser switches the order."""
+
+    def __init__(self, store: Store):
+        self.chart, self.table = TermsChart(), TermTable()
+        area = scrolled(self.table, at_foot=False)
+        area.setMaximumWidth(TABLE_PX)
+        self.widget = ChartsCard("Zernike", TIP, (self.chart, area), (3, 2))
+        self.order = chooser(CHOICES, "Which order of the terms", self.widget)
+        self.order.activated.connect(self._again)
+        self.widget.add_tool(self.order)
+        self._live: Live | None = None
+
+    def show(self, live: Live) -> None:
+        """Paint the terms in the chosen order."""
+        self._live = live
+        view: ZernikeView = live.views["zernike"]
+        fit = view.fits[self.order.currentData()]
+        self.chart.show_fit(fit)
+        self.table.show_rows(rows(fit))
+        self.widget.set_readout(" · ".join(figures(fit, view.kind)))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.chart.restyle(theme)
+        self.table.restyle(theme)
+
+    def _again(self) -> None:
+        if self._live:
+            self.show(self._live)
+
+
+def figures(fit: ZernikeFit, kind: str) -> tuple[str, ...]:
+    """Return RMS with and without tilt, what is left, over which pupil, and of which wavefront."""
+    whole, still, left = (Number(significant(value, 3)) for value in (fit.rms, fit.rms_without_tilt, fit.residual))
+    over = Message("whole pupil")
+    if fit.clear < 1:
+        over = Message("Gram–Schmidt over {percent:.0f} % of the pupil", percent=100 * fit.clear)
+    parts = Message("RMS {r} λ", r=whole), Message("{r} λ without tilt", r=still), Message("{r} λ left", r=left)
+    return tuple(part.text(WINDOW) for part in (*parts, over, Message(kind)))
+
+
+class TermTable(FactTable):
+    """The terms by name; the chart gives the rows to copy, the terms that are zero included."""
+
+    def rows_of_data(self) -> list[list[str]]:
+        """Return nothing."""
+        return []
+
+
+class TermsChart(Chart):
+    """Bars over the terms' numbers."""
+
+    def __init__(self) -> None:
+        super().__init__("term", UNITS["noll"])
+        self.zero = self.add_curve("line")
+        self.fit: ZernikeFit | None = None
+
+    def show_fit(self, fit: ZernikeFit) -> None:
+        """Show the bars of the terms that blur."""
+        self.fit = fit
+        self.name_axes("term", UNITS[fit.order])
+        limit = nice(max(float(np.abs(fit.waves[BLURRING - 1 :]).max()), 1e-3), (1, 1.5, 2, 3, 5, 7))
+        ends = BLURRING - 0.7, len(fit.waves) + 0.7
+        self.set_range(ends, (-limit, limit))
+        self.zero.set_data(ends, (0, 0))
+        self.update()
+
+    def bars(self) -> list[tuple[int, QRectF]]:
+        """Return the number and the rectangle, in pixels, of each bar that is not zero."""
+        found = []
+        for number, waves in enumerate(self.fit.waves.tolist() if self.fit else [], 1):
+            if number >= BLURRING and waves:
+                left, low = self.to_pixels(number - WIDTH / 2, 0.0)
+                right, high = self.to_pixels(number + WIDTH / 2, waves)
+                found.append((number, QRectF(QPointF(left, low), QPointF(right, high)).normalized()))
+        return found
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the bars."""
+        for number, room in self.bars():
+            positive = self.fit is not None and self.fit.waves[number - 1] > 0
+            painter.fillRect(room, QColor(self.theme.positive if positive else self.theme.negative))
+
+    def rows_of_data(self) -> list[list[str]]:
+        """Return every term as a row."""
+        return csv_rows(self.fit) if self.fit else []
