@@ -42,13 +42,13 @@ def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:
 
     Between these it is a polynomial of h², or where rims clip, which makes it bend, a monotone cubic.
     """
-    from scipy.interpolate import PchipInterpolator
-
     heights = np.linspace(*sensor.corners_mm(), count if not seen.clip else FINER * count)
     light = relative_illumination(seen, heights)
     x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
     square = x * x + (y * y)[:, None]
     if seen.clip:
+        from scipy.interpolate import PchipInterpolator
+
         fit = PchipInterpolator(heights**2, light)
     else:
         fit = np.polynomial.Polynomial.fit(heights**2, light, min(4, count - 1))
