@@ -24,7 +24,7 @@ COMMANDS = {
     "zernike": ("zernikes:zernike", "The exact wavefront as Zernike terms, in waves and shares of its variance."),
     "tradeoff": ("studies:tradeoff", "What every method costs in time and in error, measured."),
     "validate": ("studies:validate", "Figures that other programs published, beside this program's own."),
-    "paper": ("studies:paper", "Redo the paper's two figures on this machine."),
+    "paper": ("studies:paper", "Redo the paper's two figures on this machine, and judge its claims."),
     "plan": ("scenes:plan_command", "The least model that a scene requires, each decision explained."),
     "image": ("scenes:image", "A picture through the lens, blurred as field, depth and colour demand."),
     "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),

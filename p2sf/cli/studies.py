@@ -123,7 +123,7 @@ Folder = Annotated[Path, Parameter(["--output", "-o"], negative="", help="Folder
 
 
 def paper(*, folder: Folder = Path("paper"), as_json: Json = False) -> None:
-    """Redo the paper's figures: stage times against refracting elements, and R² against field; PNG and JSON."""
+    """Redo the paper's figures and judge its claims: stage times, memory, defocus, R² against field; PNG and JSON."""
     from p2sf.studies.paper import draw_accuracy, draw_timing, paper_figures
 
     _make(folder)
@@ -138,7 +138,9 @@ def paper(*, folder: Folder = Path("paper"), as_json: Json = False) -> None:
     methods = figures["accuracy"][0]["r_squared"]
     rows = [(name, *(f"{row['r_squared'][name]:.5f}" for row in figures["accuracy"])) for name in methods]
     print_table(title, ("method", *fields), rows)
-    print(figures["finding"])
+    print("\nThe paper's claims")
+    for claim in figures["claims"]:
+        print(f"  {claim['claim']}: {claim['verdict']}\n    {claim['measured']}")
     return print(f"written: paper.json, paper_timing.png and paper_accuracy.png in {folder}")
 
 
