@@ -166,7 +166,7 @@ def _values(text: str, path: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         found = re.search(r" \(at line (\d+), column \d+\)", str(error))
-        line = int(found[1]) if found else text.count("\n") + 1
+        line = int(found[1]) if found else len(text.rstrip().splitlines()) or 1  # it ends too early
         problem = re.sub(r" \(at .*\)$", "", str(error)).rstrip(".")
         raise LensFileError(
             "this is not TOML ({reason}); {remedy}", path, line, reason=problem, remedy=_remedy(text, line)

@@ -6,7 +6,7 @@ from math import ceil, floor
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
@@ -159,6 +159,8 @@ class ColourBar(QWidget):
 class HeatMap(QWidget):
     """An image in physical coordinates with its colour bar; curves go on ``chart``."""
 
+    resized = Signal()
+
     def __init__(self, bottom: str, left: str, parent: QWidget | None = None):
         super().__init__(parent)
         self.chart, self.bar = Chart(bottom, left, aspect=True), ColourBar(self)
@@ -182,6 +184,13 @@ class HeatMap(QWidget):
             self.chart.left_name = wide
             self.bar.setVisible(wide)
             self.chart.forget_background()
+        self.resized.emit()
+
+    @property
+    def device_pixels(self) -> float:
+        """Return how many pixels of the screen the picture has along its shorter side."""
+        area = self.chart.area
+        return min(area.width(), area.height()) * self.devicePixelRatioF()
 
     def show_values(
         self, values: np.ndarray, levels: tuple[float, float], rect: tuple[float, float, float, float]

@@ -13,6 +13,7 @@ from p2sf_explorer.compare.differences import WHY, subtracted
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
 from p2sf_explorer.compute.live import Live, ResultFunction
+from p2sf_explorer.compute.method import Least
 from p2sf_explorer.compute.pupil import PupilMap, pupil_map
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.state.pinning import side_b
@@ -71,13 +72,13 @@ def answers(
     conditions = _Conditions(
         quality,
         kept_method(last.b if last and moving else None, other),
-        width_um(a),
+        window_of(a),
         cache,
         cache.version if cache else 0,
     )
     b = _b(other, conditions, prescription(other))
-    if width_um(b) > width_um(a) * (1 + 1e-9):
-        a = compute.live(state, quality, {}, a.method if state.optics.method == "auto" else "", width_um(b), cache)
+    if larger(window_of(b), window_of(a)):
+        a = compute.live(state, quality, {}, a.method if state.optics.method == "auto" else "", window_of(b), cache)
     return Answers(a, b, seen(state, a, b, views, begun))
 
 
@@ -87,7 +88,7 @@ class _Conditions:
 
     quality: str
     kept: str
-    at_least_um: float
+    least: Least
     cache: SumCache | None
     version: int
 
@@ -95,7 +96,7 @@ class _Conditions:
 @lru_cache(maxsize=4)
 def _b(state: State, conditions: _Conditions, lens: Lens) -> Live:
     """Return B's answer, kept while only A changes. ``lens`` is in the key because its file may change."""
-    return compute.live(state, conditions.quality, {}, conditions.kept, conditions.at_least_um, conditions.cache)
+    return compute.live(state, conditions.quality, {}, conditions.kept, conditions.least, conditions.cache)
 
 
 def kept_method(last: Live | None, state: State) -> str:
@@ -103,9 +104,15 @@ def kept_method(last: Live | None, state: State) -> str:
     return last.method if last and state.optics.method == "auto" and not last.setup.altered else ""
 
 
-def width_um(live: Live) -> float:
-    """Return the width of an answer's window, µm."""
-    return live.psf.values.shape[-1] * live.psf.pixel_um
+def window_of(live: Live) -> Least:
+    """Return the samples and the width, µm, of an answer's window."""
+    samples = live.psf.values.shape[-1]
+    return samples, samples * live.psf.pixel_um
+
+
+def larger(one: Least, other: Least) -> bool:
+    """Return whether a window has more samples than another, or is wider beyond rounding."""
+    return one[0] > other[0] or one[1] > other[1] * (1 + 1e-9)
 
 
 def seen(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:

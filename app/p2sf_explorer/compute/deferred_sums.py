@@ -1,28 +1,42 @@
-"""Sums of waves over real rays: how they are made, which are too slow for a frame, and a cache of those. No Qt here."""
+"""Sums of waves: how they are made, which are too slow for a frame or too large for any, and a cache. No Qt here."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.paraxial.wavefront import steepest_chords
+from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
 from p2sf.psf.huygens import all_reach, huygens_psf
 from p2sf.psf.plane_waves import counts_for
 from p2sf.psf.result import Psf
+from p2sf.psf.seidel import seidel_psf
+from p2sf.psf.seidel_stack import LARGEST_NODES, corner_reach
+from p2sf.psf.separable_sum import MOST_NODES as MOST_IN_ROWS
 from p2sf.psf.separable_sum import row_counts
 from p2sf.psf.traced import in_rows, traced_psf
+from p2sf.pupil.quadrature import chords_for
 from p2sf.raytrace.fit import FittedPencil
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.state import State
 
-# As many nodes as are summed in some 40 ms, and on a busy machine in a few times that.
-MOST_NODES = {"fitted": 60_000, "traced": 30_000, "huygens": 12_000}
+# As many nodes as are summed in some 40 ms, and on a busy machine in a few times that, over so many samples a side.
+MOST_NODES = {"seidel": 100_000, "fitted": 60_000, "traced": 30_000, "huygens": 12_000}
+FEW_SAMPLES = 128
+MOST_IN_PRODUCTS = 2**30  # nodes × samples a side of a sum in rows: a second
+MOST_ONE_BY_ONE = 2**32  # nodes × samples of a sum ray by ray: some ten seconds
 KEPT = 8
+KEPT_BYTES = 2**25  # of all samples that are kept, 32 MB: four of the largest pictures in float64
 
 
 @dataclass(frozen=True)
 class SumRequest:
-    """Everything a PSF over real rays depends on; ``window`` is (pixels, µm per pixel)."""
+    """Everything a PSF that is a sum of waves depends on; ``window`` is (samples a side, µm between samples).
+
+    ``six``: the coefficients that make it in place of rays; ``by_hand``: they are not the lens's own.
+    """
 
     lens: Lens
     source: Source
@@ -30,6 +44,8 @@ class SumRequest:
     window: tuple[int, float]
     tolerance: float
     clip: bool
+    six: Coefficients | None = None
+    by_hand: bool = False
 
 
 class SumCache:
@@ -50,21 +66,30 @@ class SumCache:
         """Keep a PSF or why there is none, and forget the oldest of too many."""
         self._found[sum_request] = found
         self.version += 1
-        for oldest in list(self._found)[:-KEPT]:
+        for oldest in list(self._found)[:-1]:
+            if len(self._found) <= KEPT and self._bytes() <= KEPT_BYTES:
+                return
             del self._found[oldest]
+
+    def _bytes(self) -> int:
+        return sum(found.values.nbytes for found in self._found.values() if isinstance(found, Psf))
 
 
 def sum_request(state: State, setup: ParaxialSetup, method: str, window: tuple[int, float]) -> SumRequest:
     """Return what a state asks of one method in a window."""
-    return SumRequest(setup.lens, setup.source, method, window, state.optics.tolerance, state.optics.clip)
+    six = setup.coefficients if method == "seidel" else None
+    known = setup.lens, setup.source, method, window, state.optics.tolerance, state.optics.clip
+    return SumRequest(*known, six, setup.altered)
 
 
 def by_rays(request: SumRequest, quality: str = "settled", cancelled: Callable[[], bool] | None = None) -> Psf:
-    """Return the PSF of a method that traces rays. Huygens is summed once; the accuracy worker makes it converge.
+    """Return the PSF of a request. Huygens is summed once; the accuracy worker makes it converge.
 
     ``cancelled`` is polled between blocks of rays and ends the work with `Cancelled`. Raises P2SFError's kinds.
     """
     lens, source, window = request.lens, request.source, request.window
+    if request.six is not None:
+        return by_coefficients(request, request.six, quality)
     if request.method == "huygens":
         return huygens_psf(lens, source, *window, None, cancelled=cancelled, clip=request.clip)
     if request.method == "traced":
@@ -74,20 +99,84 @@ def by_rays(request: SumRequest, quality: str = "settled", cancelled: Callable[[
     return render(lens, source, request.method, *window, quality, request.tolerance, request.clip)
 
 
+def by_coefficients(request: SumRequest, six: Coefficients, quality: str) -> Psf:
+    """Return the PSF of six coefficients; what they are predicted to miss is known of the lens's own only."""
+    psf = seidel_psf(six, *request.window, quality)
+    if request.by_hand:
+        return psf
+    from p2sf.psf.methods import seidel_error
+
+    return replace(psf, predicted_error=seidel_error(request.lens, request.source, six))
+
+
+@dataclass(frozen=True)
+class Size:
+    """How many ``nodes`` a sum has, the mirror half not counted; 0 where that is not known beforehand.
+
+    ``in_rows``: it separates into products; ``most``: the largest number of nodes that is summed at all.
+    """
+
+    nodes: float
+    in_rows: bool
+    most: float
+
+    def products(self, samples: int) -> float:
+        """Return the cost of a picture of so many samples a side."""
+        return self.nodes * (samples if self.in_rows else samples**2)
+
+
+def size(request: SumRequest, fitted: FittedPencil | None) -> Size:
+    """Return the size of a settled sum. ``fitted``: a coarse fit to exact rays; None where rays are lost."""
+    if request.six is not None:
+        return Size(coefficient_nodes(request.six, request.window), True, LARGEST_NODES)
+    if fitted is None:
+        return Size(0.0, request.method == "fitted", MOST_RAYS)
+    one_by_one = request.clip or (request.method == "traced" and not in_rows(request.lens, request.source))
+    if request.method == "huygens" or (request.method == "traced" and one_by_one):
+        radii, directions = counts_for(fitted.steepness, *request.window)
+        return Size(radii * directions / 2, False, MOST_RAYS)
+    return Size(row_nodes(fitted, request.window), True, MOST_IN_ROWS / 2)
+
+
+def impossible(request: SumRequest, fitted: FittedPencil | None) -> float:
+    """Return how many pupil samples a sum would need that has too many; 0 for one that can be made."""
+    found = size(request, fitted)
+    return found.nodes if found.nodes > found.most else 0.0
+
+
+def most_samples(request: SumRequest, fitted: FittedPencil | None) -> int:
+    """Return the most samples a side that are summed within some seconds, at least those of a small picture."""
+    found, samples = size(request, fitted), request.window[0]
+    if not found.nodes:
+        return FEW_SAMPLES
+    most = MOST_IN_PRODUCTS if found.in_rows else MOST_ONE_BY_ONE
+    while samples > FEW_SAMPLES and found.products(samples) > most:
+        samples //= 2
+    return samples
+
+
 def slow(request: SumRequest, fitted: FittedPencil | None) -> bool:
     """Return whether a settled sum would block the window. ``fitted``: a coarse fit; None where rays are lost.
 
     The cost of rims and lost rays is not known beforehand: following an outline takes a thousand pencils.
     """
-    most = MOST_NODES[request.method]
-    if request.method == "fitted":
-        return fitted is not None and row_nodes(fitted, request.window) > most
-    if request.clip or fitted is None:
+    found = size(request, fitted)
+    if not found.nodes or (request.clip and request.method != "fitted"):
+        return request.method != "fitted"
+    if found.products(max(FEW_SAMPLES, request.window[0])) > MOST_NODES[request.method] * (
+        FEW_SAMPLES if found.in_rows else FEW_SAMPLES**2
+    ):
         return True
     if request.method == "huygens":
-        radii, directions = counts_for(fitted.steepness, *request.window)
-        return radii * directions / 2 > most or not all_reach(request.lens, request.source)
-    return row_nodes(fitted, request.window) > most or not in_rows(request.lens, request.source)
+        return not all_reach(request.lens, request.source)
+    return request.method == "traced" and not found.in_rows
+
+
+def coefficient_nodes(six: Coefficients, window: tuple[int, float]) -> float:
+    """Return how many nodes of a quarter pupil carry the phase of six coefficients over a window."""
+    reach = corner_reach(float(six.na) / float(six.wavelength_um), *window)
+    rows, columns = chords_for(*steepest_chords(six), reach, reach / 2**0.5)
+    return rows * columns / 4
 
 
 def row_nodes(fitted: FittedPencil, window: tuple[int, float], quality: str = "settled") -> float:

@@ -11,7 +11,7 @@ from p2sf.metrics.perfect import airy_radius_um
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
 from p2sf_explorer.compute.layout import Layout, layout
-from p2sf_explorer.compute.method import rendered
+from p2sf_explorer.compute.method import ALONE, Least, Rendered, rendered
 from p2sf_explorer.compute.pupil import PupilMap, dominant, pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.compute.warnings import warnings
@@ -23,8 +23,10 @@ class Live:
     """One answer: setup, drawing, pupil, PSF, messages, and what the open panels show, in ``views``.
 
     ``method`` is the method chosen, by a person or by ``auto``; ``milliseconds`` of each part of the work; ``quality``
-    is "preview" while a slider moves, else "settled"; ``pending`` is the sum of waves that the PSF stands in for. With
-    a B pinned, ``side`` names what is on screen and ``difference`` is what A − B shows in place of this answer.
+    is "preview" while a slider moves, else "settled"; ``pending`` is the sum of waves that the PSF stands in for,
+    ``request`` the one that made it, with up to ``finest`` samples a side, and ``refused`` says why the chosen method
+    has none here. With a B pinned, ``side`` names what is on screen and ``difference`` is what A − B shows in place of
+    this answer.
     """
 
     state: State
@@ -42,6 +44,9 @@ class Live:
     views: Mapping[str, Any] = field(default_factory=dict)
     side: str = ""
     pending: SumRequest | None = None
+    request: SumRequest | None = None
+    finest: int = 0
+    refused: Message | None = None
     difference: Any = None
 
 
@@ -61,19 +66,20 @@ def live(
     quality: str = "settled",
     views: Mapping[str, ResultFunction] | None = None,
     kept_method: str = "",
-    at_least_um: float = 0.0,
+    least: Least = ALONE,
     cache: SumCache | None = None,
 ) -> Live:
     """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest.
 
-    ``kept_method`` names the method that ``auto`` keeps while a slider moves; the PSF's window is ``at_least_um`` wide.
+    ``kept_method`` names the method that ``auto`` keeps while a slider moves; the PSF's window has at least
+    the samples and the width in µm of ``least``.
     With ``cache``, a sum of waves too slow for a frame is taken from there or left pending; without, waited for.
     """
     begun = perf_counter()
     setup = paraxial_setup(state)
     drawing = layout(setup, state.optics.clip)
     placed = perf_counter()
-    picture = rendered(state, setup, quality, kept_method, at_least_um, cache)
+    picture = rendered(state, setup, quality, kept_method, least, cache)
     psf, finished = picture.psf, perf_counter()
     pupil = picture.pupil or pupil_of(setup, picture.exact, quality, state.optics.clip)
     lost = sum(ray.lost for ray in drawing.rays)
@@ -86,10 +92,13 @@ def live(
         quality=quality,
         airy_radius_um=float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na)),
         dominant=dominant(pupil),
-        warnings=warnings(setup, picture.exact, lost, psf.method == "geometric"),
+        warnings=warnings(setup, pupil if picture.exact else None, lost, shows_density(picture, quality)),
         why=picture.why,
         method=picture.method,
         pending=picture.pending,
+        request=picture.request,
+        finest=picture.finest,
+        refused=picture.refused,
         milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (finished - placed)},
     )
     return with_views(answer, views or {}, begun)
@@ -108,3 +117,9 @@ def attempted(view: ResultFunction, answer: Live) -> object:
         return view(answer)
     except P2SFError as error:
         return Refused(error.message)
+
+
+def shows_density(picture: Rendered, quality: str) -> bool:
+    """Return whether ray density is shown and nothing better follows."""
+    follows = quality != "settled" or picture.pending or picture.refused
+    return picture.psf.method == "geometric" and not follows

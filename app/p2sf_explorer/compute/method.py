@@ -1,21 +1,35 @@
 """Which method makes the picture, and the picture itself. No Qt in here."""
 
 from dataclasses import dataclass, replace
-from math import floor, log10, sqrt
+from functools import cached_property
+from math import floor, log10
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.messages import Message, Number
-from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import check_image, seidel_psf, suitable_pixel_um
+from p2sf.psf.seidel import AIRY_RADIUS, check_image, seidel_psf
 from p2sf.psf.traced import in_rows
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Pencil, pencil
-from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest, by_rays, row_nodes, slow, sum_request
+from p2sf.raytrace.ray_field import ray_data
+from p2sf_explorer.compute.deferred_sums import (
+    SumCache,
+    SumRequest,
+    by_rays,
+    impossible,
+    most_samples,
+    row_nodes,
+    slow,
+    sum_request,
+)
 from p2sf_explorer.compute.preview import (
+    EDGE,
     FAR,
+    Preview,
     best_fit,
     clipped_psf,
     edge_points,
@@ -27,20 +41,27 @@ from p2sf_explorer.compute.preview import (
 from p2sf_explorer.compute.pupil import PupilMap
 from p2sf_explorer.compute.ray_density import geometric_psf, main_reach_um
 from p2sf_explorer.compute.setup import ParaxialSetup
+from p2sf_explorer.compute.warnings import remedy
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
 
 if TYPE_CHECKING:
     from p2sf.psf.methods import Choice
 
+Window = tuple[int, float]
+"""Samples on a side, µm per sample."""
+Least = tuple[int, float]
+"""Samples on a side and width in µm that a window has at least, for the sake of another picture beside it."""
+
 PIXELS = {"preview": 64, "settled": 128}
-WHOLE = 64  # samples over which the six coefficients give the window that shows all of the PSF
+SIZES = (128, 256, 512, 1024)  # samples of a settled picture: the fewest that are λ/2NA apart, whose sum is the light
 WINDOWS = (1, 1.5, 2, 3, 4, 5, 6, 8)
-STEEPEST_IN_ALL = 210.0  # waves of slope and of the plane wave to the window's corner: samples carry both together
-STEEPEST = 80.0  # waves of slope: beyond, a sample of the window is some four Airy radii wide
+STEEP = 80.0  # waves of slope: beyond, a window of all rays would show the light as a dot
+STEEPEST_IN_ALL = 210.0  # waves of slope and of the plane wave to the window's corner, for a frame of six coefficients
+COARSEST = 4.0  # Airy radii between the samples of a window that is as wide as another picture asks for
 ALL_LIGHT = 0.995
 NO_REASON = Message("")
-FARTHEST = 160.0  # waves of slope of a ray: beyond, too, a sample is several Airy radii wide
+ALONE: Least = (0, 0.0)
 QUICK_NODES = 60_000  # of a picture that moves: some 20 ms, and on a busy machine a few times that
 ROOM = 5  # Airy radii around the rays, for what diffraction adds
 
@@ -50,7 +71,8 @@ class Rendered:
     """A PSF, why this method made it, whether by exact rays or six coefficients, and which ``method`` was chosen.
 
     ``why`` is empty for a person's own choice. ``pupil`` is the wavefront where the picture's own rays give it too.
-    ``pending`` is the sum of waves that this picture stands in for.
+    ``request`` is the sum of waves that made the picture, which may have up to ``finest`` samples a side, ``pending``
+    the one that it stands in for. ``refused`` says why the method that a person chose has no picture here.
     """
 
     psf: Psf
@@ -59,6 +81,83 @@ class Rendered:
     method: str
     pupil: PupilMap | None = None
     pending: SumRequest | None = None
+    request: SumRequest | None = None
+    finest: int = 0
+    refused: Message | None = None
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be shown: a state and its setup by one method, and why by that, in a window of at least this size."""
+
+    state: State
+    setup: ParaxialSetup
+    method: str
+    why: Message
+    least: Least
+    cache: SumCache | None
+
+    @property
+    def exact(self) -> bool:
+        """Return whether exact rays make the picture."""
+        return self.method != "seidel"
+
+    @cached_property
+    def traced(self) -> Preview | None:
+        """Return some eighty rays; None where one is lost."""
+        return preview(self.setup)
+
+    @cached_property
+    def fitted(self) -> FittedPencil | None:
+        """Return a coarse fit to exact rays; None where one is lost."""
+        return best_fit(self.traced) if self.traced else None
+
+    @cached_property
+    def extent(self) -> "Extent":
+        """Return how far the light reaches on the sensor."""
+        if not self.exact:
+            return extent(self.setup, "seidel")
+        return extent_of(self.setup, self.traced.rays if self.traced else edge_pencil(self.setup))
+
+    @cached_property
+    def own_width_um(self) -> float:
+        """Return the width of the window without another picture beside it."""
+        return width_um(self.setup, self.exact, self.extent, self.state.optics.clip)
+
+    def window(self, quality: str) -> Window:
+        """Return the samples and their pitch; a picture that moves has few."""
+        width = max(self.own_width_um, self.least[1])
+        if quality == "preview":
+            return PIXELS["preview"], width / PIXELS["preview"]
+        needed = 2 * self.own_width_um * AIRY_RADIUS / self.extent.airy_um
+        fine = next((size for size in SIZES if needed <= size), SIZES[-1])
+        pixels = max(self.least[0], min(fine, self.finest(width)))
+        return pixels, width / pixels
+
+    def finest(self, width: float) -> int:
+        """Return the most samples a side that a picture so wide is made with in some seconds."""
+        window = SIZES[-1], width / SIZES[-1]
+        request = sum_request(self.state, self.setup, self.method, window)
+        return most_samples(request, self.fitted if self.exact else None)
+
+    @property
+    def coarse(self) -> bool:
+        """Return whether the window is so wide for another picture's sake that its samples miss this one."""
+        pixels = max(self.least[0], PIXELS["settled"])
+        return self.least[1] > max(self.own_width_um, COARSEST * self.extent.airy_um * pixels)
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How far from the chief ray light lands, µm, and the Airy radius of the beam that brings it, µm."""
+
+    landing_um: float
+    airy_um: float
+
+    @property
+    def slope(self) -> float:
+        """Return the slope of the wavefront at the farthest ray, waves per pupil radius."""
+        return AIRY_RADIUS * self.landing_um / self.airy_um
 
 
 def rendered(
@@ -66,12 +165,12 @@ def rendered(
     setup: ParaxialSetup,
     quality: str,
     kept_method: str = "",
-    at_least_um: float = 0.0,
+    least: Least = ALONE,
     cache: SumCache | None = None,
 ) -> Rendered:
     """Return the PSF by the state's method, or by the one ``auto`` chooses, or by ``kept_method`` while moving.
 
-    The window is as wide as the PSF asks for, and ``at_least_um``. What is altered by hand has no rays: the six
+    The window is as wide as the PSF asks for, and as ``least``. What is altered by hand has no rays: the six
     coefficients make its picture. A sum too slow for a frame is taken from ``cache`` or left pending; without
     ``cache`` it is waited for. Raises GeometryError for an image at infinity.
     """
@@ -81,94 +180,118 @@ def rendered(
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
     else:
         method, why = (kept_method, NO_REASON) if kept_method else chosen(state, setup)
-    if quality == "preview" and method != "seidel":
-        return moving(state, setup, method, at_least_um, cache)
-    if too_blurred(setup, at_least_um):
-        return blurred(state, setup, method, quality, at_least_um)
-    if method != "seidel":
-        return resting(state, setup, (method, why), at_least_um, cache)
-    pitch = max(at_least_um, window_um(setup, method)) / PIXELS[quality]
-    return Rendered(seidel_psf(setup.coefficients, PIXELS[quality], pitch, quality), why, False, method)
+    task = Task(state, setup, method, why, least, cache)
+    return moving(task, quality) if quality == "preview" else resting(task)
 
 
-def resting(
-    state: State, setup: ParaxialSetup, choice: tuple[str, Message], at_least_um: float, cache: SumCache | None
-) -> Rendered:
-    """Return the settled picture of a method that traces rays; its stand-in while it is pending, or where it failed."""
-    (method, why), traced = choice, preview(setup) if cache else None
-    landing = landing_um(traced.rays if traced else edge_pencil(setup))
-    if slope(setup, landing) > FARTHEST:
-        return blurred(state, setup, method, "settled", at_least_um)
-    pixels = PIXELS["settled"]
-    request = sum_request(state, setup, method, (pixels, max(at_least_um, ray_window_um(setup, landing)) / pixels))
-    if cache is None or not slow(request, best_fit(traced) if traced else None):
-        return Rendered(by_rays(request), why, True, method)
-    result = cache.get(request)
+def resting(task: Task) -> Rendered:
+    """Return the settled picture; its stand-in while it is pending, or where it failed, is too large or too coarse."""
+    window, own = task.window("settled"), task.state.optics.method != "auto" or task.setup.altered
+    request = sum_request(task.state, task.setup, task.method, window)
+    fitted = task.fitted if task.exact else None
+    samples = impossible(request, fitted)
+    if samples and own and task.least[1] <= task.own_width_um:
+        refused = too_many(task, samples)
+        return replace(blurred(task, window), why=refused, refused=refused)
+    if samples or task.coarse:
+        return blurred(task, window)
+    if task.cache is None or not slow(request, fitted):
+        return summed(task, by_rays(request), request)
+    result = task.cache.get(request)
     if isinstance(result, Psf):
-        return Rendered(result, why, True, method)
-    stand_in = moving(state, setup, method, at_least_um, cache, "settled")
+        return summed(task, result, request)
+    stand_in = moving(task, "settled")
     if result is not None:
-        return replace(stand_in, why=result, pending=None)
-    soon = Message("{method} follows: its sum of waves takes a moment", method=method)
+        return replace(stand_in, why=result)
+    soon = Message("{method} follows: its sum of waves takes a moment", method=task.method)
     return replace(stand_in, why=soon, pending=request)
 
 
-def moving(
-    state: State,
-    setup: ParaxialSetup,
-    method: str,
-    at_least_um: float = 0.0,
-    cache: SumCache | None = None,
-    quality: str = "preview",
-) -> Rendered:
-    """Return what is shown in place of a slower method: the density of rays where blur is large, else fitted.
+def summed(task: Task, psf: Psf, request: SumRequest) -> Rendered:
+    """Return the settled picture that a sum made."""
+    finest = task.finest(request.window[0] * request.window[1])
+    return Rendered(psf, task.why, task.exact, task.method, request=request, finest=finest)
 
-    Where rays are lost and there is no ``cache``, traced is waited for. ``quality`` sets the number of samples.
+
+def too_many(task: Task, samples: float) -> Message:
+    """Return why the method that a person chose has no picture here, and what to do."""
+    return Message(
+        "{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto "
+        "to see ray density",
+        method=task.method,
+        count=samples,
+        remedy=remedy(task.setup),
+    )
+
+
+def moving(task: Task, quality: str) -> Rendered:
+    """Return what is shown in place of a slower method: fitted, or the density of rays where a sum would take long.
+
+    Where rays are lost and there is no cache, traced is waited for. ``quality`` sets the number of samples.
     """
-    pixels, traced = PIXELS[quality], preview(setup, state.optics.clip)
+    window = task.window(quality)
+    if not task.exact:
+        return moving_coefficients(task, window, quality)
+    traced = preview(task.setup, True) if task.state.optics.clip else task.traced
     pupil = preview_pupil(traced) if traced and quality == "preview" else None
-    landing = landing_um(traced.rays if traced else edge_pencil(setup))
-    window = pixels, max(at_least_um, ray_window_um(setup, landing)) / pixels
-    fitted = best_fit(traced) if traced else None
-    if too_blurred(setup, at_least_um) or (fitted and not quickly(setup, fitted, window)):
-        return replace(blurred(state, setup, method, quality, at_least_um), pupil=pupil)
+    if task.coarse or (traced and task.fitted and not quickly(task.setup, task.fitted, window)):
+        return replace(blurred(task, window, quality), pupil=pupil)
     why = NO_REASON
-    if method != "fitted":
-        why = Message("fitted while the slider moves, {method} when it rests", method=method)
+    if task.method != "fitted":
+        why = Message("fitted while the slider moves, {method} when it rests", method=task.method)
     if traced:
-        return Rendered(preview_psf(traced, *window, fitted), why, True, method, pupil)
-    if cache is None:
-        return Rendered(by_rays(sum_request(state, setup, "traced", window), "preview"), NO_REASON, True, method)
-    return replace(rimmed(state, setup, method, window, quality), why=why)
+        return Rendered(preview_psf(traced, *window, task.fitted), why, True, task.method, pupil)
+    if task.cache is None:
+        waited = sum_request(task.state, task.setup, "traced", window)
+        return Rendered(by_rays(waited, "preview"), NO_REASON, True, task.method)
+    return replace(rimmed(task, window, quality), why=why)
 
 
-def quickly(setup: ParaxialSetup, fitted: FittedPencil, window: tuple[int, float]) -> bool:
+def moving_coefficients(task: Task, window: Window, quality: str) -> Rendered:
+    """Return the picture of six coefficients while it moves; the density of their rays where it has many waves."""
+    c = task.setup.coefficients
+    steep = float(steepest_slope(c)) + corner_waves(task, window)
+    if task.coarse or quality == "settled" or steep > STEEPEST_IN_ALL:
+        return blurred(task, window, quality)
+    return Rendered(seidel_psf(c, *window, quality), task.why, False, task.method)
+
+
+def too_coarse(task: Task, window: Window) -> bool:
+    """Return whether a small picture among many shows no waves: its samples miss them, or their sum takes long."""
+    if window[1] > COARSEST * task.extent.airy_um:
+        return True
+    if not task.exact:
+        return float(steepest_slope(task.setup.coefficients)) + corner_waves(task, window) > STEEPEST_IN_ALL
+    return task.fitted is not None and not quickly(task.setup, task.fitted, window)
+
+
+def corner_waves(task: Task, window: Window) -> float:
+    """Return the waves per pupil radius of the plane wave to a window's corner."""
+    return AIRY_RADIUS * window[0] * window[1] / 2**0.5 / task.extent.airy_um
+
+
+def quickly(setup: ParaxialSetup, fitted: FittedPencil, window: Window) -> bool:
     """Return whether the sum of a fit, or of exact rays where it misses much, is done within a frame or two."""
-    nodes = row_nodes(fitted, window, "preview")
+    nodes = row_nodes(fitted, window, "preview") * max(1.0, window[0] / PIXELS["settled"])
     if fitted.error_waves > FAR:
         return nodes < QUICK_NODES / 3 and in_rows(setup.lens, setup.source)
     return nodes < QUICK_NODES
 
 
-def rimmed(state: State, setup: ParaxialSetup, method: str, window: tuple[int, float], quality: str) -> Rendered:
+def rimmed(task: Task, window: Window, quality: str) -> Rendered:
     """Return the moving picture where rims clip: the fit to all rays, summed over those that pass, else ray density."""
-    traced = preview(setup)
     try:
-        few = traced is not None and quickly(setup, best_fit(traced), window)
-        psf = clipped_psf(traced, *window) if traced and few else None
+        few = task.fitted is not None and quickly(task.setup, task.fitted, window)
+        psf = clipped_psf(task.traced, *window) if task.traced and few else None
     except GeometryError:  # every ray is clipped, or the fit is no map: the density says which
         psf = None
-    if psf is None:
-        return blurred(state, setup, method, quality, window[0] * window[1])
-    return Rendered(psf, NO_REASON, True, method)
+    return Rendered(psf, NO_REASON, True, task.method) if psf else blurred(task, window, quality)
 
 
-def blurred(state: State, setup: ParaxialSetup, method: str, quality: str, at_least_um: float) -> Rendered:
-    """Return the density of rays, in a window as wide as most of them reach."""
-    exact, pixels = method != "seidel", PIXELS[quality]
-    wide = min(window_um(setup, method), ray_window_um(setup, main_reach_um(setup, exact, state.optics.clip)))
-    psf = geometric_psf(setup, exact, (pixels, max(at_least_um, wide) / pixels), quality, state.optics.clip)
-    return Rendered(psf, density_reason(psf), exact, method)
+def blurred(task: Task, window: Window, quality: str = "settled") -> Rendered:
+    """Return the density of rays over a window."""
+    psf = geometric_psf(task.setup, task.exact, window, quality, task.state.optics.clip)
+    return Rendered(psf, density_reason(psf), task.exact, task.method)
 
 
 def density_reason(psf: Psf) -> Message:
@@ -181,31 +304,41 @@ def density_reason(psf: Psf) -> Message:
     )
 
 
-def too_blurred(setup: ParaxialSetup, across_um: float = 0.0) -> bool:
-    """Return whether a wave sum would take too long for a picture that shows only the density of rays anyway.
+def extent(setup: ParaxialSetup, method: str) -> Extent:
+    """Return how far light reaches: by the six coefficients' slope for seidel, else by exact rays at the rim."""
+    if method != "seidel":
+        return extent_of(setup, edge_pencil(setup))
+    cycles = float(setup.coefficients.na) / setup.source.wavelength_um
+    return Extent(float(steepest_slope(setup.coefficients)) / cycles, AIRY_RADIUS / cycles)
 
-    Either the blur is large, or a window ``across_um`` wide, for another picture's sake, has coarse samples.
+
+def extent_of(setup: ParaxialSetup, rays: Pencil) -> Extent:
+    """Return how far light reaches by a pencil whose last rays are those at the rim; none if all are lost."""
+    data = ray_data(rays)
+    cycles = np.hypot(data.fx, data.fy)[-2 * EDGE :]
+    paraxial = float(setup.coefficients.na) / setup.source.wavelength_um
+    return Extent(landing_um(rays), AIRY_RADIUS / (float(np.nanmax(cycles)) if np.isfinite(cycles).any() else paraxial))
+
+
+def width_um(setup: ParaxialSetup, exact: bool, found: Extent, clip: bool) -> float:
+    """Return the width of the shown window, µm: a round number, so that axes stand still while sliders move.
+
+    It holds every ray, or most of the light where some rays land far out, and what diffraction adds.
     """
-    steep, corner = float(steepest_slope(setup.coefficients)), sqrt(2) * slope(setup, across_um / 2)
-    return steep > STEEPEST or steep + corner > STEEPEST_IN_ALL
+    whole = round_width_um(found.landing_um, found.airy_um)
+    if found.slope <= STEEP:
+        return whole
+    return min(whole, round_width_um(main_reach_um(setup, exact, clip), found.airy_um))
 
 
-def slope(setup: ParaxialSetup, landing: float) -> float:
-    """Return the slope of the wavefront, waves per pupil radius, of a ray that lands so far from the chief ray, µm."""
-    return landing * float(setup.coefficients.na) / setup.source.wavelength_um
+def round_width_um(reach_um: float, airy_um: float) -> float:
+    """Return the width of a window that shows light landing so far out, and what diffraction adds, µm."""
+    return nice(2 * (reach_um + ROOM * airy_um), WINDOWS)
 
 
-def window_um(setup: ParaxialSetup, method: str) -> float:
-    """Return the width of the shown window, µm: a round number, so that axes stand still while sliders move."""
-    if method == "seidel":
-        return nice(float(suitable_pixel_um(setup.coefficients, WHOLE)) * WHOLE, WINDOWS)
-    return ray_window_um(setup, landing_um(edge_pencil(setup)))
-
-
-def ray_window_um(setup: ParaxialSetup, landing: float) -> float:
-    """Return the width of a window that shows rays landing so far out, and what diffraction adds, µm."""
-    airy = float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na))
-    return nice(2 * (landing + ROOM * airy), WINDOWS)
+def window_um(setup: ParaxialSetup, method: str, clip: bool = False) -> float:
+    """Return the width of the window that a method asks for, µm."""
+    return width_um(setup, method != "seidel", extent(setup, method), clip)
 
 
 def edge_pencil(setup: ParaxialSetup) -> Pencil:

@@ -20,6 +20,7 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 GRIDS = {"preview": (64, 180), "settled": (128, 360)}  # radii, directions of the half disc
 TOO_FAR = 2.0  # times the distance a lens is focused at
 MOST_LIGHT, AROUND = 0.9, 1.25  # nine tenths of the light of an even disc lie within 1/1.18 of its half width
+MOST_PIXELS = 128  # on a side: as many as the rays fill evenly
 TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated to the above
 
 Landing = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -35,11 +36,13 @@ def geometric_psf(
     """
     begun, (pixels, pixel_um) = perf_counter(), window
     x, y, weight = exact_landing(setup, quality, clip) if exact else seidel_landing(setup, quality)
-    values = density(x, y, weight, pixels, pixel_um)
+    blocks = max(1, pixels // MOST_PIXELS)
+    values = density(x, y, weight, pixels // blocks, pixel_um * blocks)
     energy = float(values.sum())
     if not energy:
         raise GeometryError("no ray reaches the sensor; {remedy}", remedy=remedy(setup, clip))
-    strehl = float(values.max()) / unaberrated(setup, pixel_um)
+    if blocks > 1:  # finer samples would show the single rays
+        values = np.kron(values, np.full((blocks, blocks), blocks**-2.0))
     radii, directions = GRIDS[quality]
     sampling = Message(
         "density of {radii} × {directions} rays; diffraction is too fine to see here",
@@ -48,13 +51,15 @@ def geometric_psf(
     )
     seconds, wavelength = perf_counter() - begun, setup.source.wavelength_um
     rays = TRACED[quality][0] * TRACED[quality][1] if exact else 2
-    return Psf(values / energy, pixel_um, wavelength, "geometric", strehl, energy, 0, rays, sampling, seconds)
+    return Psf(values / energy, pixel_um, wavelength, "geometric", None, energy, 0, rays, sampling, seconds)
 
 
 def remedy(setup: ParaxialSetup, clip: bool) -> Message:
     """Return what lets light through again; a lens made for near objects needs a nearer source."""
     if setup.source.depth_mm > TOO_FAR * focused_distance(setup.lens):
         return Message("this lens is for near objects, so choose a nearer depth")
+    if not setup.source.field_slope:
+        return Message("stop down, or leave clipping off") if clip else Message("stop down")
     if clip:
         return Message("choose a smaller field, stop down, or leave clipping off")
     return Message("choose a smaller field or stop down")
@@ -148,6 +153,8 @@ def density(x: np.ndarray, y: np.ndarray, weight: np.ndarray, pixels: int, pixel
     return (half + half[:, ::-1])[:, :pixels]
 
 
-def unaberrated(setup: ParaxialSetup, pixel_um: float) -> float:
-    """Return the share of light on one pixel at the peak of the unaberrated PSF, π(NA·pixel/λ)², by Parseval."""
-    return np.pi * (float(setup.coefficients.na) * pixel_um / setup.source.wavelength_um) ** 2
+def over_unaberrated(psf: Psf, setup: ParaxialSetup) -> np.ndarray:
+    """Return a ray density in units of the unaberrated peak, whose share of light on a sample is π(NA·pixel/λ)²."""
+    share = np.pi * (float(setup.coefficients.na) * psf.pixel_um / setup.source.wavelength_um) ** 2
+    found: np.ndarray = psf.values * (float(psf.energy or 0.0) / share)
+    return found

@@ -7,7 +7,7 @@ from threading import Event
 
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
-from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.huygens import first_counts, huygens_psf
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import PIXELS, window_um
@@ -15,6 +15,7 @@ from p2sf_explorer.compute.warnings import remedy
 from p2sf_explorer.state.what_if import NO_REFERENCE
 
 REFERENCE_TOLERANCE = 1e-3  # relative L2: R² is then known to 1e-6 or better
+MOST_NODES = 250_000  # of its first pass: with the next one some ten seconds in the background
 REPEATS = 3  # of each method, for a median time
 METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
 
@@ -50,14 +51,14 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
     """Return the accuracy of an answer, or of ``every_method`` beside it. Raises P2SFError, Cancelled among them."""
     if live.setup.altered:
         raise SamplingError(NO_REFERENCE)
-    if live.psf.method == "geometric":
+    window = PIXELS["settled"], window_um(live.setup, "huygens", live.state.optics.clip) / PIXELS["settled"]
+    if live.psf.method == "geometric" or reference_nodes(live, window) > MOST_NODES:
         raise SamplingError("the blur is too large for a reference here; {remedy}", remedy=remedy(live.setup))
     share = 0.5 if every_method else 1.0
     reference = huygens_psf(
         live.setup.lens,
         live.setup.source,
-        PIXELS["settled"],
-        window_um(live.setup, "huygens") / PIXELS["settled"],
+        *window,
         REFERENCE_TOLERANCE,
         lambda part: progress(share * part),
         cancelled.is_set,
@@ -68,6 +69,12 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
     if every_method:
         results = tuple(method_results(live, reference, cancelled, lambda part: progress(0.5 + part / 2)))
     return Accuracy(live, shown, reference, r_squared(shown.values, reference.values), results)
+
+
+def reference_nodes(live: Live, window: tuple[int, float]) -> int:
+    """Return how many nodes the first pass of the reference has. Raises as `first_counts` does."""
+    radii, directions = first_counts(live.setup.lens, live.setup.source, window, live.state.optics.clip)
+    return radii * directions // 2
 
 
 def in_window(live: Live, reference: Psf) -> Psf:

@@ -4,7 +4,7 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.compute.deferred_sums import by_rays, sum_request
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.method import too_blurred
+from p2sf_explorer.compute.method import ALONE, NO_REASON, Task, too_coarse
 from p2sf_explorer.compute.preview import preview, preview_psf
 from p2sf_explorer.compute.ray_density import geometric_psf
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -41,11 +41,12 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     P2SFError's kinds where there is no PSF.
     """
     setup = paraxial_setup(state)
-    if too_blurred(setup):
-        return geometric_psf(setup, not six, window, "preview", state.optics.clip)
-    if six or setup.altered:
+    task = Task(state, setup, "seidel" if six or setup.altered else "fitted", NO_REASON, ALONE, None)
+    if too_coarse(task, window):
+        return geometric_psf(setup, task.exact, window, "preview", state.optics.clip)
+    if not task.exact:
         return seidel_psf(setup.coefficients, *window, "preview")
     traced = preview(setup, state.optics.clip)
     if traced:
-        return preview_psf(traced, *window)
+        return preview_psf(traced, *window, task.fitted)
     return by_rays(sum_request(state, setup, "traced", window), "preview")

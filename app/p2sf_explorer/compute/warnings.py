@@ -9,28 +9,35 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message, Number
 from p2sf.paraxial.lens_checks import lens_checks
-from p2sf_explorer.compute.pupil import strongest
+from p2sf.paraxial.wavefront import wavefront
+from p2sf_explorer.compute.pupil import PupilMap, disc, strongest
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import significant
 
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
 TOGETHER = Message("bring focus and source together to see waves")
 NEARER = Message("stop down or go nearer the axis to see waves")
+SMALLER = Message("stop down to see waves")
+FACTOR, MANY_WAVES, DISC = 2.0, 20.0, 24  # between two peaks to valley, the larger one, samples across the pupil
 WIDE_DEG, FAST_NA = 25.0, 0.30  # tan and sin differ by 10 % at 25°; an NA of 0.3 is f/1.7
 
 
-def warnings(setup: ParaxialSetup, exact: bool, lost_rays: int = 0, geometric: bool = False) -> tuple[Message, ...]:
-    """Return the sentences that hold for this setup, with or without exact rays, most important first.
+def warnings(
+    setup: ParaxialSetup, pupil: PupilMap | None, lost_rays: int = 0, geometric: bool = False
+) -> tuple[Message, ...]:
+    """Return the sentences that hold for this setup, most important first.
 
-    ``geometric``: the picture is the density of rays.
+    ``pupil``: the wavefront of exact rays, None where six coefficients make the picture; ``geometric``: the picture is
+    the density of rays.
     """
     found = (
         _by_hand(setup),
         _image_at_infinity(setup),
         _blurred(setup) if geometric else None,
         _lost(lost_rays),
-        None if exact else _defocus(setup),
-        None if exact else _paraxial(setup),
+        None if pupil else _defocus(setup),
+        None if pupil else _paraxial(setup),
+        _not_paraxial(setup, pupil) if pupil else None,
         _narrower_rim(setup),
         *_lens_faults(setup.lens),
     )
@@ -78,7 +85,9 @@ def _blurred(setup: ParaxialSetup) -> Message:
 
 def remedy(setup: ParaxialSetup) -> Message:
     """Return what brings waves back into view, after what blurs most."""
-    return TOGETHER if strongest(setup.coefficients) == "wd" else NEARER
+    if strongest(setup.coefficients) == "wd":
+        return TOGETHER
+    return NEARER if setup.source.field_slope else SMALLER
 
 
 def _lost(count: int) -> Message | None:
@@ -103,6 +112,21 @@ def _defocus(setup: ParaxialSetup) -> Message | None:
     return Message(
         "Defocus is {waves} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down.",
         waves=Number(significant(waves, 3)),
+    )
+
+
+def _not_paraxial(setup: ParaxialSetup, pupil: PupilMap) -> Message | None:
+    """Return why coefficients and pupil show different waves."""
+    xi, eta, inside = disc(DISC)
+    six = float(np.ptp(np.asarray(wavefront(setup.coefficients, xi, eta))[inside]))
+    exact = pupil.peak_to_valley
+    if not max(six, exact) > max(MANY_WAVES, FACTOR * min(six, exact)):
+        return None
+    return Message(
+        "Exact rays have {exact} λ from peak to valley, the six coefficients {six} λ: these are paraxial, and the rays "
+        "are too steep for that here; pupil and PSF are of exact rays.",
+        exact=Number(significant(exact, 3)),
+        six=Number(significant(six, 3)),
     )
 
 

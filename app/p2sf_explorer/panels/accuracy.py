@@ -80,8 +80,10 @@ class AccuracyPanel:
         self.message.set_text(said(why), "warning")
 
     def _show_figure(self, stale: bool) -> None:
-        text = f"{self._figure} · {tr('earlier picture')}" if stale else self._figure
-        self.message.set_text(text, "muted" if stale else "text")
+        """Say what was measured, and nothing of an earlier picture but that it is one."""
+        self.message.set_text(tr("earlier picture") if stale else self._figure, "muted" if stale else "text")
+        for label in self.labels:
+            label.setVisible(not stale)
 
     def show_accuracy(self, accuracy: Accuracy, stale: bool) -> None:
         """Paint reference, difference and methods."""

@@ -56,8 +56,10 @@ class BesidePanel:
         middle = 100 * float(view.pixels[view.pixels.shape[0] // 2, view.pixels.shape[1] // 2])
         shares = "the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %"
         real, perfect = f"{middle:.3g}", f"{100 * view.perfect_share:.3g}"
-        strehl = tr("Strehl {strehl}", strehl=significant(float(np.asarray(live.psf.strehl)), 2))
-        self.widget.set_readout(f"{strehl} · {tr(shares, real=real, perfect=perfect)}")
+        words = tr(shares, real=real, perfect=perfect)
+        if live.psf.strehl is not None:
+            words = f"{tr('Strehl {strehl}', strehl=significant(float(live.psf.strehl), 2))} · {words}"
+        self.widget.set_readout(words)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

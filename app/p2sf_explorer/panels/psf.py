@@ -1,23 +1,32 @@
 """The point spread function on the sensor, in µm about the chief ray."""
 
 import numpy as np
+from PySide6.QtCore import QTimer
 
 from p2sf.messages import Message
+from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
 from p2sf_explorer.charts.brightness import DECADES, stretched
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.deferred_sums import SumRequest
+from p2sf_explorer.compute.finer import Source, answer, finer
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.method import at_least
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import significant, written_r_squared
 from p2sf_explorer.state.state import State
+from p2sf_explorer.state.terms import FILLED
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser, select
 from p2sf_explorer.widgets.differences import show_signed
 from p2sf_explorer.widgets.readout import Readout
+from p2sf_explorer.workers.panel_jobs import Asking
 
 PSF_MAP = BRIGHTNESS
+RESIZED_MS = 200  # after the last change of the panel's size, the picture is summed for its new pixels
+NOTHING_FINER = Message("")
 METHOD_WORDS = {"geometric": "geometric: ray density, no diffraction"}
 SHORT_WORDS = {"geometric": "ray density"}
 QUALITIES = ("preview", "settled")
@@ -47,14 +56,51 @@ class PsfPanel:
         self.widget.set_body(self.map)
         self.widget.add_footer(self.badge)
         self._half = self._airy = 0.0
-        self._r_squared: float | None = None
         self._times: dict[str, str] = {}
+        self._live: Live | None = None
+        self._finer: tuple[SumRequest, Psf] | None = None
+        self.asking = Asking(self.widget, answer, self._take, lambda text: None)
+        self._settled = QTimer(self.widget, singleShot=True, interval=RESIZED_MS)
+        self._settled.timeout.connect(self._on_resized)
+        self.map.resized.connect(self._settled.start)
 
     def show(self, live: Live) -> None:
-        """Paint the PSF."""
-        psf, state = live.psf, live.state
-        select(self.scale, state.display.psf_scale)
-        select(self.units, state.display.psf_units)
+        """Paint the PSF, and have it summed with a sample for each pixel where it has fewer."""
+        self._live = live
+        select(self.scale, live.state.display.psf_scale)
+        select(self.units, live.state.display.psf_units)
+        wanted = self._wanted(live)
+        known = self._finer is not None and self._finer[0] == wanted
+        self._paint(live, self._finer[1] if self._finer and known else live.psf)
+        self.show_badge(live, None)
+        if wanted is None:
+            self._finer = None
+            self.asking.refuse(NOTHING_FINER)
+        elif not known:
+            self.asking.ask(wanted)
+
+    def _wanted(self, live: Live) -> SumRequest | None:
+        """Return the sum with a sample for each pixel of the panel; None where the picture is as fine as that."""
+        found = None if live.difference else live.views.get("psf")
+        return finer(found, self.map.device_pixels) if isinstance(found, Source) else None
+
+    def _take(self, request: SumRequest, psf: Psf) -> str:
+        """Show a finer picture if it is that of the present answer."""
+        if self._live and request == self._wanted(self._live):
+            self._finer = request, psf
+            self._paint(self._live, psf)
+        return ""
+
+    def _on_resized(self) -> None:
+        if self._live and self._live.quality == "settled":
+            self.show(self._live)
+
+    def stop(self) -> None:
+        """End the background work for good."""
+        self.asking.worker.stop()
+
+    def _paint(self, live: Live, psf: Psf) -> None:
+        state = live.state
         count, step = psf.values.shape[-1], psf.pixel_um
         start = -(count // 2 + 0.5) * step
         peak = float(psf.values.max()) or 1.0
@@ -64,11 +110,10 @@ class PsfPanel:
         else:
             self.map.set_map(PSF_MAP)
             self.map.show_values(stretched(psf.values / peak, state.display.psf_scale), (0.0, 1.0), rect)
-            self.map.means(psf.values * (top_value(state, psf, peak) / peak), QUANTITIES[state.display.psf_units])
-            self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[state.display.psf_units], labels(state, psf, peak))
+            self.map.means(psf.values * (top_value(state, psf, peak) / peak), QUANTITIES[unit_of(state, psf)])
+            self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[unit_of(state, psf)], labels(state, psf, peak))
         self.airy.token = self.arrow.token = "muted" if live.difference else WHITE
         self._frame(count * step / 2, live)
-        self.show_badge(live, self._r_squared, not live.setup.altered)
 
     def _frame(self, half: float, live: Live) -> None:
         if half != self._half:
@@ -83,12 +128,12 @@ class PsfPanel:
         shown = half if side else np.nan
         self.arrow.set_data(shown * ARROW[0], shown * side * ARROW[1])
 
-    def show_badge(self, live: Live, r_squared: float | None, stale: bool) -> None:
-        """Show method, times and measured R² against the Huygens sum; grey while that is of an earlier picture.
+    def show_badge(self, live: Live, r_squared: float | None) -> None:
+        """Show method, times and R² against the Huygens sum: measured where it is known, else predicted.
 
-        The times are the last ones of a preview, while a slider moves, and of a settled picture.
+        The times are the last ones of a preview, while a slider moves, and of a settled picture. A prediction of less
+        than 0.999 is a caution.
         """
-        self._r_squared = r_squared
         psf = live.psf
         if live.difference:
             largest = significant(100 * float(np.abs(live.difference.psf).max()), 3)
@@ -98,10 +143,9 @@ class PsfPanel:
         measured = None if live.setup.altered or psf.method == "geometric" else r_squared
         times = {name: self._times[name] for name in QUALITIES if name in self._times}
         whole, short = badge_words(live, times, measured)
-        self.badge.set_text(whole, "muted" if stale else "text", short)
-        values = {"numbers": psf.numbers, "rays": psf.rays, "words": psf.sampling}
-        sampling = said(Message("{numbers} numbers, {rays} rays; sampling: {words}", **values))
-        self.badge.setToolTip(f"{whole}\n{sampling}")
+        unsure = measured is None and (psf.predicted_error or 0.0) > CAUTION
+        self.badge.set_text(whole, "warning" if unsure else "text", short)
+        self.badge.setToolTip("\n".join((whole, *tip_words(live))))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -117,7 +161,26 @@ def badge_words(live: Live, times: dict[str, str], r_squared: float | None) -> t
     short = (*before, tr(SHORT_WORDS.get(method, method)), f"{'/'.join(times.values())} ms")
     if r2:
         whole, short = (*whole, tr("R² {r} vs Huygens", r=r2)), (*short, f"R² {r2}")
+    elif live.psf.predicted_error is not None:
+        words = predicted_words(live.psf.predicted_error)
+        whole, short = (*whole, words), (*short, words)
     return " · ".join(whole), " · ".join(short)
+
+
+def predicted_words(error: float) -> str:
+    """Return the least R² that is predicted, in words."""
+    return tr("predicted R² ≥ {r}", r=at_least(1 - error)) if error < 1 else tr("no R² predicted")
+
+
+def tip_words(live: Live) -> tuple[str, ...]:
+    """Return what the badge says under the pointer: prediction, numbers and rays, and how they fill the pupil."""
+    psf = live.psf
+    values = {"numbers": psf.numbers, "rays": psf.rays, "words": psf.sampling}
+    lines = (
+        said(Message("{numbers} numbers, {rays} rays; sampling: {words}", **values)),
+        tr(FILLED[live.setup.lens.aim]),
+    )
+    return lines if psf.predicted_error is None else (predicted_words(psf.predicted_error), *lines)
 
 
 def times_words(times: dict[str, str]) -> str:
@@ -142,7 +205,16 @@ def decade(top: float, decades: int) -> str:
 
 def top_value(state: State, psf: Psf, peak: float) -> float:
     """Return the brightest sample in the chosen units."""
-    return {"peak": 1.0, "sum": peak, "strehl": float(np.asarray(psf.strehl))}[state.display.psf_units]
+    units = unit_of(state, psf)
+    if units == "strehl" and psf.strehl is not None:
+        return float(psf.strehl)
+    return peak if units == "sum" else 1.0
+
+
+def unit_of(state: State, psf: Psf) -> str:
+    """Return the units of the colour bar: a picture without a Strehl ratio is shown over its peak in its place."""
+    units = state.display.psf_units
+    return "peak" if units == "strehl" and psf.strehl is None else units
 
 
 def labels(state: State, psf: Psf, peak: float) -> tuple[tuple[float, str], ...]:

@@ -13,12 +13,12 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.rays import figures, landed
 from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.terms import FILLED
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.readout import FactTable
 
 TIP = "Spot diagram: where exact rays, evenly spread over the pupil, meet the sensor; no diffraction."
-FILLED = {"paraxial": "rays fill the paraxial entrance pupil", "stop": "rays fill the real stop"}
 AXIS_PX = 60  # pixels of the axis and its label beside the square
 
 

@@ -56,7 +56,9 @@ def rows(live: Live) -> tuple[Row, ...]:
         ("Stop", stop(s.stop), STOP_TIP),
         (
             "Strehl ratio",
-            Message("{value}", value=Number(significant(float(live.psf.strehl or 0.0), 2))),
+            NONE
+            if live.psf.strehl is None
+            else Message("{value}", value=Number(significant(float(live.psf.strehl), 2))),
             "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.",
         ),
     )

@@ -14,11 +14,13 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import corner_reach
 from p2sf.pupil.quadrature import disc_nodes, nodes_for
 from p2sf.pupil.transform import sum_on_line
+from p2sf.raytrace.fit import LEVELS
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients
 
 POINTS = {"preview": 257, "settled": 513}
 FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # two evaluations of Bessel functions meet at FAR, each exact to 1e-12
+FEW_SAMPLES = 128  # a side of a picture whose samples are shared exactly by the circles
 MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
 
 
@@ -56,7 +58,7 @@ def profiles(live: Live) -> ProfileCurves:
 def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the samples through the chief ray in units of the unaberrated peak, straight lines between them."""
     rows, columns = psf.values.shape
-    scale = float(psf.strehl or 0.0) / (float(psf.values.max()) or 1.0)
+    scale = (1.0 if psf.strehl is None else float(psf.strehl)) / (float(psf.values.max()) or 1.0)
     row, column = psf.values[rows // 2], psf.values[:, columns // 2]
     return scale * np.interp(position, psf.x_um, row), scale * np.interp(position, psf.x_um, column)
 
@@ -97,7 +99,7 @@ def fitted_nodes(live: Live) -> Nodes | None:
     """Return the nodes of a fit to exact rays; None if a sum takes too long, P2SFError where rays are lost."""
     found, psf = fit(live.setup.lens, live.setup.source), live.psf
     counts = counts_for(found.steepness, on_axes(psf), psf.pixel_um)
-    if counts[0] * counts[1] > MOST_NODES:
+    if counts[0] * counts[1] * found.numbers > MOST_NODES * LEVELS[0].numbers:
         return None
     nodes = disc_nodes(*counts)
     phase, fx, fy = found.at(nodes.xi, nodes.eta)
@@ -112,7 +114,7 @@ def on_axes(psf: Psf) -> int:
 def energy(live: Live, position: np.ndarray) -> np.ndarray:
     """Return the share of the window's light within |position| of the centroid; from rings of samples while moving."""
     psf, radius = live.psf, np.abs(position)
-    if live.quality == "settled":
+    if live.quality == "settled" and psf.values.shape[-1] <= FEW_SAMPLES:
         return encircled_energy(psf, radius_um=radius).fraction
     x, y = centroid(psf)
     distance = np.hypot(psf.x_um - x, (psf.y_um - y)[:, None]).ravel() / psf.pixel_um

@@ -12,6 +12,7 @@ from p2sf.raytrace.field_curves import real_foci, seidel_foci
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
+from p2sf_explorer.compute.ray_density import over_unaberrated
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.scales import nice
@@ -97,11 +98,14 @@ def answer(request: Strip, stopped: Callable[[], bool], tell: Callable[[float, o
 def light(shift_um: float, request: Strip) -> np.ndarray:
     """Return the light per sample of one position, in units of the unaberrated peak; NaN where there is no PSF."""
     try:
-        psf = in_window(changed(request.state, sensor_shift_um=shift_um), request.window, request.six)
+        state = changed(request.state, sensor_shift_um=shift_um)
+        psf = in_window(state, request.window, request.six)
+        if psf.strehl is None:
+            return over_unaberrated(psf, paraxial_setup(state))
     except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip
         return np.full((request.window[0],) * 2, np.nan)
     peak = float(psf.values.max()) or 1.0
-    return psf.values * (float(psf.strehl or 0.0) / peak)
+    return psf.values * (float(psf.strehl) / peak)
 
 
 def outwards(count: int) -> list[int]:

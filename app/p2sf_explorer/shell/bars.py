@@ -1,6 +1,6 @@
 """The bar above (lens, method, undo, snapshot, theme), the line below (warnings, facts), the banner for refusals."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -171,8 +171,7 @@ class StatusLine(QWidget):
         sentences = [said(warning) for warning in live.warnings]
         text = "   ".join(f"⚠ {sentence}" for sentence in sentences)
         if self.warning.text() != text:
-            short = (sentence.partition("; ")[0].rstrip(".") for sentence in sentences)
-            self.warning.set_text(text, short="   ".join(f"⚠ {words} …" for words in short))
+            self.warning.set_text(text, short=shortened(sentences))
             self.warning.setToolTip("\n".join(sentences))
         self.facts.set_text(facts(live, frame_ms))
 
@@ -191,6 +190,17 @@ class StatusLine(QWidget):
         """Take the colours of a theme."""
         self.warning.restyle(theme)
         self.facts.restyle(theme)
+
+
+def shortened(sentences: Sequence[str]) -> tuple[str, ...]:
+    """Return ever shorter lines: the last warning loses what follows its semicolon first, the first warning last."""
+    short, lines = list(sentences), []
+    for number in reversed(range(len(short))):
+        head, semicolon, _ = short[number].partition("; ")
+        if semicolon:
+            short[number] = f"{head} …"
+            lines.append("   ".join(f"⚠ {words}" for words in short))
+    return tuple(lines)
 
 
 def facts(live: Live, frame_ms: float | None) -> str:

@@ -10,3 +10,4 @@ WORDS = {
     "w11": "distortion",
 }
 FORMULAS = {"w40": "ρ⁴", "w31": "ρ³ cos θ", "w22": "ρ² cos² θ", "w20": "ρ²", "wd": "ρ²", "w11": "ρ cos θ"}
+FILLED = {"paraxial": "rays fill the paraxial entrance pupil", "stop": "rays fill the real stop"}

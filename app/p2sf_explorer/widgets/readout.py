@@ -30,16 +30,17 @@ class Readout(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self._pill, self._colour, self._align = pill, colour, align
-        self._text, self._short, self._theme = "", "", LIGHT
+        self._text, self._theme = "", LIGHT
+        self._short: tuple[str, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def text(self) -> str:
         """Return the text shown."""
         return self._text
 
-    def set_text(self, text: str, colour: str | None = None, short: str = "") -> None:
-        """Show a text as it is, in another token's colour if one is named; ``short`` where there is little room."""
-        self._short = short
+    def set_text(self, text: str, colour: str | None = None, short: str | tuple[str, ...] = ()) -> None:
+        """Show a text as it is, in another token's colour if one is named; the first ``short`` one that fits if not."""
+        self._short = (short,) if isinstance(short, str) else short
         if (text, colour or self._colour) != (self._text, self._colour):
             self._text, self._colour = text, colour or self._colour
             self.setAccessibleName(text)
@@ -67,10 +68,11 @@ class Readout(QWidget):
 
     def _cut(self) -> str:
         room = self.width() - (2 * PAD if self._pill else 0)
-        for text in filter(None, (self._text, self._short)):
+        texts = [self._text, *filter(None, self._short)]
+        for text in texts:
             if width_of(text, SIZE) <= room:
                 return text
-        return metrics(SIZE).elidedText(self._short or self._text, Qt.TextElideMode.ElideRight, room)
+        return metrics(SIZE).elidedText(texts[-1], Qt.TextElideMode.ElideRight, room)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint ground and text."""

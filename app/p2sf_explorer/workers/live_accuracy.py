@@ -12,8 +12,8 @@ from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import NO_REFERENCE
 from p2sf_explorer.workers.worker import LatestWins
 
-ShowBadge = Callable[[Live, float | None, bool], None]
-"""Writes R² of an answer, None for none, on the PSF; True where it belongs to an earlier picture."""
+ShowBadge = Callable[[Live, float | None], None]
+"""Writes the measured R² of an answer, None for none, on the PSF."""
 
 
 @runtime_checkable
@@ -58,7 +58,7 @@ class LiveAccuracy(QObject):
         self._resting = resting
 
     def watch(self, live: Live | None) -> None:
-        """Measure a settled answer that stands in for no other; show an earlier figure in grey meanwhile."""
+        """Measure a settled answer that stands in for no other."""
         self._live = live
         if live is None or not self._enabled or self._resting or live.quality != "settled" or live.pending:
             return
@@ -74,7 +74,7 @@ class LiveAccuracy(QObject):
     def _refuse_altered(self, live: Live) -> None:
         """Show no figure: the reference is the lens's, and this picture is not."""
         self.worker.cancel()
-        self._show_badge(live, None, False)
+        self._show_badge(live, None)
         if display := self._display_on_show():
             display.show_failure(Message(NO_REFERENCE))
 
@@ -87,7 +87,8 @@ class LiveAccuracy(QObject):
         if live is None or live.setup.altered:
             return
         stale = not fits(accuracy, live, False) or live.quality != "settled" or live.pending is not None
-        self._show_badge(live, accuracy.r_squared, stale)
+        if not stale:
+            self._show_badge(live, accuracy.r_squared)
         if display := self._display_on_show():
             display.show_accuracy(accuracy, stale)
 

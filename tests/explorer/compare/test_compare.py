@@ -8,7 +8,7 @@ from pytest import approx
 from p2sf.lens.lens import AIMS
 from p2sf.lensfile.library import lenses_folder
 from p2sf.messages import Message
-from p2sf_explorer.compare.comparison import answers, resampled
+from p2sf_explorer.compare.comparison import answers, resampled, window_of
 from p2sf_explorer.compare.contrasts import contrasts
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.results.mtf import contrast
@@ -46,7 +46,7 @@ def test_both_stand_in_one_window_and_each_is_its_own_picture(quality):
     found = answers(PAIR, quality, {})
     assert found.a.psf.pixel_um == found.b.psf.pixel_um
     assert found.a.psf.values.shape == found.b.psf.values.shape
-    alone = compute.live(side_b(PAIR), quality, at_least_um=found.a.psf.pixel_um * found.a.psf.values.shape[0])
+    alone = compute.live(side_b(PAIR), quality, least=window_of(found.a))
     assert np.array_equal(found.b.psf.values, alone.psf.values)
 
 

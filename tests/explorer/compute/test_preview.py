@@ -7,8 +7,8 @@ from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.methods import render
 from p2sf.raytrace.fit import fit
 from p2sf_explorer.compute import preview as quick
-from p2sf_explorer.compute.method import ray_window_um
-from p2sf_explorer.compute.preview import best_fit, landing_um, preview_psf
+from p2sf_explorer.compute.method import window_um
+from p2sf_explorer.compute.preview import best_fit, preview_psf
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.state.state import changed
 
@@ -19,7 +19,7 @@ def moving(lens, **changes):
     """Return what moves, its window, and the exact picture in it."""
     setup = paraxial_setup(changed(default_state(lens), **changes))
     made = quick.preview(setup)
-    window = PIXELS, ray_window_um(setup, landing_um(made.rays)) / PIXELS
+    window = PIXELS, window_um(setup, "fitted") / PIXELS
     return made, window, render(setup.lens, setup.source, "traced", *window).values
 
 

@@ -167,6 +167,7 @@ def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qt
     assert not bar.progress.isVisible()
     for number, wd in enumerate((0.0, 0.5, 1.0), 1):
         window.store.update(added_waves=(0.0, 0.0, 0.0, 0.0, wd, 0.0))
+        qtbot.waitUntil(lambda: not window.is_busy(), timeout=20000)
         middle = frame_pixels(window.panels["psf"].map.chart)
         film = np.asarray(Image.open(tmp_path / f"way_{number:04d}.png").convert("RGB"))
         chart = window.panels["psf"].map.chart

@@ -192,8 +192,8 @@ def test_a_slow_method_of_every_lens_has_something_that_stands_in():
 def test_a_window_for_a_wide_picture_shows_a_small_one_as_rays():
     """Beside a B that is blurred over millimetres a sum of waves would be of thousands of rows."""
     sharp = changed(FIRST, field_deg=0.0)
-    assert live(sharp, at_least_um=100.0).psf.method == "seidel"
+    assert live(sharp, least=(0, 100.0)).psf.method == "seidel"
     for quality in ("preview", "settled"):
-        wide = live(sharp, quality, at_least_um=20_000.0).psf
+        wide = live(sharp, quality, least=(0, 20_000.0)).psf
         assert wide.method == "geometric" and wide.values.sum() == pytest.approx(1.0)
         assert wide.values.shape[-1] * wide.pixel_um == pytest.approx(20_000.0)

@@ -56,12 +56,16 @@ def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
     assert found["seidel"][1] == pytest.approx(found["fitted"][1], abs=1e-12)
 
 
-def test_the_figure_goes_grey_when_the_picture_moves_on(measured, qtbot):
-    badge = measured.panels["psf"].badge
-    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+def test_no_figure_of_an_earlier_picture_stands_beside_the_next(measured, qtbot):
+    badge, message = measured.panels["psf"].badge, measured.panels["accuracy"].message
+    qtbot.waitUntil(lambda: "vs Huygens" in badge.text() and "vs Huygens" in message.text(), timeout=30000)
     with measured.store.drag():
         measured.store.update(field_deg=3.0)
-        assert badge._colour == "muted"
+        assert "vs Huygens" not in badge.text() and "R²" not in message.text()
+        assert not any(label.isVisible() for label in measured.panels["accuracy"].labels)
+    known, live = measured.measuring._last, measured.live
+    measured.measuring._on_finished(known.live, known)  # comes late
+    assert known.live.state != live.state and "vs Huygens" not in badge.text() and "R²" not in message.text()
 
 
 def test_a_lesson_claims_what_the_panel_says(measured, qtbot):
@@ -82,7 +86,7 @@ def test_a_figure_answers_for_its_own_picture_only(changes, wide):
     shown = live(state)
     known = Accuracy(shown, shown.psf, shown.psf, 0.9)
     assert fits(known, live(changed(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
-    assert not fits(known, live(changed(state, **changes), at_least_um=wide), False)
+    assert not fits(known, live(changed(state, **changes), least=(0, wide)), False)
 
 
 def test_the_names_of_the_methods_stay_inside_and_take_different_sides(qapp):

@@ -145,6 +145,7 @@
 <message><source>Error</source><translation>Fehler</translation></message>
 <message><source>Every panel by its group (Alt+0)</source><translation>Jede Ansicht nach ihrer Gruppe (Alt+0)</translation></message>
 <message><source>ExP</source><translation>ExP</translation></message>
+<message><source>Exact rays have {exact} λ from peak to valley, the six coefficients {six} λ: these are paraxial, and the rays are too steep for that here; pupil and PSF are of exact rays.</source><translation>Exakte Strahlen haben {exact} λ von Spitze zu Tal, die sechs Koeffizienten {six} λ: diese sind paraxial, und dafür sind die Strahlen hier zu steil; Pupille und PSF zeigen exakte Strahlen.</translation></message>
 <message><source>Exchange A and B</source><translation>A und B vertauschen</translation></message>
 <message><source>Exchange A and B: the controls then move the other one</source><translation>A und B vertauschen: die Regler bewegen dann das andere</translation></message>
 <message><source>Exit</source><translation>Beenden</translation></message>
@@ -863,6 +864,7 @@
 <message><source>nm</source><translation>nm</translation></message>
 <message><source>no</source><translation>keine</translation></message>
 <message><source>no PSF of this lens is sharp enough for the atlas; stop down</source><translation>keine PSF dieses Objektivs ist scharf genug für den Atlas; abblenden</translation></message>
+<message><source>no R² predicted</source><translation>kein R² vorhergesagt</translation></message>
 <message><source>no aperture is stated; the narrowest rim, surface {number}, limits the light</source><translation>keine Öffnung ist angegeben; der engste Rand, Fläche {number}, begrenzt das Licht</translation></message>
 <message><source>no chief ray of an object at {depth} lands {height:.4g} mm from the axis, where the sensor's corner is; take a smaller sensor</source><translation>kein Hauptstrahl eines Objekts bei {depth} landet {height:.4g} mm neben der Achse, wo die Ecke des Sensors ist; einen kleineren Sensor nehmen</translation></message>
 <message><source>no chief ray of this lens's field reaches the sensor; choose a part of the field instead</source><translation>kein Hauptstrahl aus dem Feld dieses Objektivs erreicht den Sensor; stattdessen einen Teil des Feldes wählen</translation></message>
@@ -931,6 +933,7 @@
 <message><source>planning</source><translation>Plan</translation></message>
 <message><source>play is "{name}"; name a slider: {sliders}</source><translation>play ist "{name}"; einen Regler nennen: {sliders}</translation></message>
 <message><source>points {depth} away blur over {size:.2g} mm, which takes {side}² samples of {most}² at most; bring the depths nearer to the focus or stop down</source><translation>Punkte in {depth} Entfernung verschwimmen über {size:.2g} mm, das braucht {side}² Proben von höchstens {most}²; die Abstände näher an den Fokus bringen oder abblenden</translation></message>
+<message><source>predicted R² ≥ {r}</source><translation>vorhergesagt R² ≥ {r}</translation></message>
 <message><source>present field</source><translation>jetziges Feld</translation></message>
 <message><source>preview {fast} / settled {ms} ms</source><translation>Vorschau {fast} / fertig {ms} ms</translation></message>
 <message><source>preview {ms} ms</source><translation>Vorschau {ms} ms</translation></message>
@@ -1019,7 +1022,10 @@
 <message><source>step {k} of {n}</source><translation>Schritt {k} von {n}</translation></message>
 <message><source>stop</source><translation>Blende</translation></message>
 <message><source>stop "{mode}" is unknown; choose "file" or "auto"</source><translation>die Blende "{mode}" ist unbekannt; "file" oder "auto" wählen</translation></message>
+<message><source>stop down</source><translation>abblenden</translation></message>
 <message><source>stop down or go nearer the axis to see waves</source><translation>abblenden oder näher an die Achse gehen, um Wellen zu sehen</translation></message>
+<message><source>stop down to see waves</source><translation>abblenden, um Wellen zu sehen</translation></message>
+<message><source>stop down, or leave clipping off</source><translation>abblenden oder den Randbeschnitt auslassen</translation></message>
 <message><source>stop on surface {number}</source><translation>Blende auf Fläche {number}</translation></message>
 <message><source>stop semi diameter</source><translation>Halbmesser der Blende</translation></message>
 <message><source>stop semi diameter {value:.6g} mm</source><translation>Halbmesser der Blende {value:.6g} mm</translation></message>
@@ -1355,6 +1361,7 @@
 <message><source>{lost} rays lost</source><translation>{lost} Strahlen verloren</translation></message>
 <message><source>{method} follows: its sum of waves takes a moment</source><translation>{method} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
+<message><source>{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto to see ray density</source><translation>{method} bräuchte {count:.2g} Pupillenproben für diese Unschärfe, was zu lange dauert; {remedy} oder auto wählen, um die Strahlendichte zu sehen</translation></message>
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; a smooth fit would miss {tolerance:g}</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; eine glatte Anpassung verfehlte {tolerance:g}</translation></message>
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; {lost} of {count} rays are lost, and a smooth pupil does not describe that</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; {lost} von {count} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
