@@ -25,11 +25,11 @@ from p2sf.raytrace.vignetting import ClearNodes
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, decomposed
 from p2sf_explorer.compute.setup import ParaxialSetup
 
-SAMPLES = {"preview": 128, "settled": 512}  # across the picture; an enlarged panel has some thousand pixels
+SAMPLES = {"preview": 128, "settled": 384}  # across the picture; an enlarged panel has some thousand pixels
 ORDERS = {"preview": 8, "settled": 18}  # of the fit
 RAYS = {"preview": (7, 20), "settled": (16, 44)}  # radii and directions: exact for products of two terms of that order
-RIMS = {"preview": (48, 2), "settled": (128, 4)}  # directions and rounds of `clear_rim`
-RADII = 12  # of the nodes over a clipped pupil
+RIMS = {"preview": (40, 2), "settled": (128, 4)}  # directions and rounds of `clear_rim`
+RADII = {"preview": 7, "settled": 12}  # of the nodes over a clipped pupil
 TURN = np.linspace(0, 2 * np.pi, 241)
 CIRCLE = np.stack([np.sin(TURN), np.cos(TURN)])
 UNSHARP = 1 / 14**2 / 10  # waves²: a tenth of Maréchal's limit
@@ -104,7 +104,7 @@ def pupil_samples(setup: ParaxialSetup, exact: bool, quality: str, clip: bool) -
     if np.isfinite(waves).all() and not (clip and clipped(lens, source, nodes)):
         return whole, waves, None
     rim = clear_rim(lens, source, clip, *RIMS[quality])
-    clear = rim.nodes(RADII)
+    clear = rim.nodes(RADII[quality])
     return clear, displayed_opd(lens, source, clear.xi, clear.eta), rim
 
 
@@ -160,13 +160,25 @@ def projection(quality: str) -> np.ndarray:
 
 def _picture(found: np.ndarray, quality: str, rim: ClearRim | None) -> tuple[np.ndarray, float]:
     """Return the samples of a wavefront up to a pixel beyond the rim, and its peak-to-valley up to the rim itself."""
-    count, order = SAMPLES[quality], ORDERS[quality]
-    waves, excess = _sampled(found, quality), _excess(count) if rim is None else _mirrored(rim.excess(*_right(count)))
-    edge = CIRCLE if rim is None else rim.outline()
-    at_rim = found @ basis(order, *edge[:, : edge.shape[1] // 2 + 1])  # the right half; the left is its mirror image
-    inside = waves[excess <= 0]
-    highest, lowest = (float(f([f(inside, initial=at_rim[0]), f(at_rim)])) for f in (np.max, np.min))
-    return np.where(excess < np.sqrt(2) * 2 / count, waves, np.nan), highest - lowest
+    count = SAMPLES[quality]
+    at_rim = found @ (_circle_basis(quality) if rim is None else basis(ORDERS[quality], *_half(rim.outline())))
+    waves = _sampled(found, quality)
+    inside, beyond = _whole(count) if rim is None else _parts(_mirrored(rim.excess(*_right(count))))
+    highest = np.max(waves, initial=at_rim.max(), where=inside)
+    lowest = np.min(waves, initial=at_rim.min(), where=inside)
+    waves[beyond] = np.nan
+    return waves, float(highest - lowest)
+
+
+def _half(outline: np.ndarray) -> np.ndarray:
+    """Return the right half of an outline; the left is its mirror image."""
+    return outline[:, : outline.shape[1] // 2 + 1]
+
+
+@lru_cache(maxsize=2)
+def _circle_basis(quality: str) -> np.ndarray:
+    """Return the terms on the unit circle, (terms, points)."""
+    return basis(ORDERS[quality], *_half(CIRCLE))
 
 
 def _sampled(found: np.ndarray, quality: str) -> np.ndarray:
@@ -195,10 +207,15 @@ def _power_tables(quality: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 @lru_cache(maxsize=4)
-def _excess(count: int) -> np.ndarray:
-    """Return how far beyond the unit circle the samples lie."""
+def _whole(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return which samples lie inside the unit circle, and which more than a pixel beyond it."""
     xi, eta, _ = disc(count)
-    return np.hypot(xi, eta) - 1
+    return _parts(np.hypot(xi, eta) - 1)
+
+
+def _parts(excess: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return which samples lie inside, and which more than a pixel beyond, given how far beyond the rim they lie."""
+    return excess <= 0, excess >= np.sqrt(2) * 2 / len(excess)
 
 
 def variance_parts(coefficients: Coefficients) -> dict[str, float]:

@@ -50,7 +50,7 @@ def test_the_panel_shows_contours_and_says_their_step(window):
     window.store.update(phase="contour")
     panel = window.panels["pupil"]
     assert "line every" in panel.numbers.text()
-    assert panel.map.indices.shape == (512, 512)
+    assert panel.map.indices.shape == (384, 384)
     with window.store.drag():
         window.store.update(field_deg=8.0)
         assert panel.map.indices.shape == (3 * 128, 3 * 128)

@@ -42,7 +42,7 @@ def test_every_lens_opens_at_a_field_of_its_file(name):
 
 def test_the_relay_opens_with_an_object_its_glass_can_see(window):
     state = default_state("relay")
-    assert abs(paraxial_setup(state).object_height_mm) < 10
+    assert abs(paraxial_setup(state).object_y_mm) < 10
     rims = clear_rims(still(load("relay")))
     assert max(rims) < 25, "the file's 69 mm are more than its glass could have"
     for outline in glass_of(still(load("relay"))).outlines:
