@@ -28,6 +28,7 @@ STRIPS = 8  # of a cell, over which the part inside the edge is averaged
 RINGS = 8  # per step of frequency
 RADII = 128  # of a tabulated curve
 BEYOND = 12.0  # λ/2NA beyond the outermost ray up to which a curve is tabulated
+HALF_PERIOD = 0.5  # of the PSF, which repeats
 GEOMETRIC = 400  # rows and columns of landing points
 
 
@@ -44,15 +45,23 @@ class RingSums:
     across: int
 
     def within(self, radius_um: np.ndarray) -> np.ndarray:
-        """Return the share of all light within each radius, (n,)."""
+        """Return the share of all light within each radius, (n,).
+
+        The sum is periodic. Beyond HALF_PERIOD there are only the wings of a hard edge, with light outside R that falls
+        as 1/R (Lommel 1885).
+        """
         scaled = radius_um * self.step
-        found: np.ndarray = _disc_transform(scaled, self.radius) @ self.sums + _missing(self.across, scaled)
-        return found
+        inside = np.minimum(scaled, HALF_PERIOD)
+        found: np.ndarray = _disc_transform(inside, self.radius) @ self.sums + _missing(self.across, inside)
+        outside = (1 - found) * (HALF_PERIOD / np.maximum(scaled, HALF_PERIOD))
+        return np.clip(1 - outside, 0.0, 1.0)
 
     def tabulated(self) -> tuple[np.ndarray, np.ndarray]:
         """Return RADII + 1 even radii from 0 to beyond the blur, µm, and the share within each, from a kept matrix."""
         scaled, matrix = _kept_transform(self.across)
-        return scaled / self.step, matrix @ self.sums + _missing(self.across, scaled)
+        found = matrix @ self.sums + _missing(self.across, scaled)
+        # Energy rises, to 1 at most: held to that, the sum can only come closer to it.
+        return scaled / self.step, np.clip(np.maximum.accumulate(found), 0.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +155,7 @@ def _disc_transform(radius: np.ndarray, frequency: np.ndarray) -> np.ndarray:
 def _kept_transform(across: int) -> tuple[np.ndarray, np.ndarray]:
     """Return even radii up to BEYOND the blur that needs such a grid, in periods of the PSF, and the matrix of E(R)."""
     top = min(
-        0.5, (2 * max(across - FEWEST, 0) / PER_WAVE + BEYOND) / across
+        HALF_PERIOD, (2 * max(across - FEWEST, 0) / PER_WAVE + BEYOND) / across
     )  # S waves land at S/half = 2S/(step·across)
     scaled = np.linspace(0, top, RADII + 1)
     radius = _rings(fft.next_fast_len(2 * across + 4))[1]
@@ -156,7 +165,7 @@ def _kept_transform(across: int) -> tuple[np.ndarray, np.ndarray]:
 @lru_cache(maxsize=16)
 def _missing_table(across: int) -> tuple[np.ndarray, np.ndarray]:
     """Return what the grid's energy of a uniform disc lacks of the closed form, at radii in periods of the PSF."""
-    scaled = np.linspace(0, 0.5, 4 * RADII + 1)
+    scaled = np.linspace(0, HALF_PERIOD, 4 * RADII + 1)
     found = ring_sums(uniform_disc(), 0.0, across)
     exact = circle_energy(scaled / found.step)
     return scaled, exact - _disc_transform(scaled, found.radius) @ found.sums

@@ -1,5 +1,6 @@
 """The referee of MTF, energy and aiming judged by closed forms, by the stored witness and by its own second road."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -59,6 +60,27 @@ def test_energy_and_contrast_of_a_disc(waves):
     hopkins = ((1 - nu[:, None]) * weight * 2 * chord * np.cos(2 * np.pi * waves * 4 * nu[:, None] * x)).sum(-1) / np.pi
     for along in (found.x, found.y):
         np.testing.assert_allclose(np.abs(along[:: CELLS // 16]), np.abs(hopkins), atol=CLOSED_FORM)
+
+
+def test_energy_is_about_the_centroid():
+    """Of a pupil with coma, whose light lies aside, against the plain sum over a picture around its centroid."""
+    pupil, waves = disc(0.0), 1.5
+    phase = np.zeros((4, 4))
+    # v(u² + v²) = v/2·(2 + T2(u) + T2(v)), v·T2(v) = (T3 + T1)/2, in units of the box
+    phase[0, 1], phase[2, 1], phase[0, 3] = 1.25, 0.5, 0.25
+    pupil = replace(pupil, phase=waves * 1.001**3 * phase)
+    found, pitch = on_grid(pupil, CELLS, False), 0.5
+    axis = (np.arange(160) - 79.5) * pitch
+    # minus the mean slope of the phase over the disc, ⟨∂(ρ³cos θ)/∂η⟩ = ⟨ρ² + 2η²⟩ = 1
+    assert found.centroid_um == pytest.approx(-waves / (CUT_OFF / 2) * 1000, rel=1e-3)
+    picture = np.abs(field_at(pupil, axis, axis + found.centroid_um, CELLS)) ** 2
+    flat = np.abs(field_at(replace(pupil, phase=np.zeros((1, 1))), np.zeros(1), np.zeros(1), CELLS)).item() ** 2
+    share = picture / flat * pitch**2 * np.pi * (CUT_OFF / 2 / 1000) ** 2  # peak of a perfect disc: area/λ²f²
+    distance = np.hypot(axis, axis[:, None])
+    for radius in (10.0, 20.0, 35.0):
+        assert found.energy(radius) == pytest.approx(
+            share[distance <= radius].sum(), abs=3e-3
+        )  # the circle's jagged rim
 
 
 @pytest.mark.parametrize("name", ["asphere", "cooke_triplet", "eye_navarro", "relay"])

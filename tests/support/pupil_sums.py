@@ -268,7 +268,7 @@ def _energy(otf: np.ndarray, step: float, centroid: np.ndarray) -> Callable[[flo
     """Return E(R) = Σ OTF(f)·R·J1(2πRf)/f·df² about the centroid (mm), of R in µm; f is gathered in narrow rings."""
     count = len(otf)
     f = scipy.fft.fftfreq(count, 1 / count) * step
-    shift = np.exp(-2j * np.pi * f * centroid[0]), np.exp(-2j * np.pi * f * centroid[1])
+    shift = np.exp(2j * np.pi * f * centroid[0]), np.exp(2j * np.pi * f * centroid[1])
     turned = ((otf * shift[0]) * shift[1][:, None]).real.ravel()
     distance = np.hypot(f, f[:, None]).ravel()
     ring = (distance * (BINS / step)).astype(int)
