@@ -24,7 +24,6 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.pixel_kernels import RAYS
 from p2sf.pixel_kernels.nodes import hats
-from p2sf.pixel_kernels.pixels import samples_across
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Plan, Scene, Sensor, plan
 from p2sf_explorer.compute.live import Live
@@ -126,7 +125,6 @@ UNMEASURED = {
         "Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones."
     ),
 }
-WIDEST = 1200  # samples along the side of a PSF that a plan is made for
 RAY_NOTE = Message("These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.")
 CORNER = 0.97  # of the way to the outermost chief ray
 TOLERANCE = 0.1  # relative error of a pixel's kernel: less cannot be seen
@@ -274,9 +272,7 @@ def no_plan(plan: Plan) -> Message | None:
     middle, _ = kernels.lights(plan.scene.sensor.corners_mm()[0])[0]
     if 2 * middle.radius * kernels.pixel_um > MOST_SAMPLES:
         return TOO_LARGE
-    rim = plan.scene.sensor.corners_mm()[1]
-    side = (2 * kernels.half_width(rim) + 1) * samples_across(kernels.lights(rim)[0][0], kernels.pixel_um)
-    return TOO_WIDE if side > WIDEST else None
+    return TOO_WIDE if by_rays(plan) else None
 
 
 def by_rays(plan: Plan) -> bool:
