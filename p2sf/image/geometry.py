@@ -6,7 +6,7 @@ from p2sf.pixel_kernels import SensorMap
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.scene.sensor import Sensor
 
-FINER = 2  # times as many heights where rims clip, whose vignetting begins and ends suddenly
+MORE = 4  # heights where rims clip, whose vignetting begins and ends suddenly
 VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is ignored
 
 
@@ -42,7 +42,7 @@ def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:
 
     Between these it is a polynomial of h², or where rims clip, which makes it bend, a monotone cubic.
     """
-    heights = np.linspace(*sensor.corners_mm(), count if not seen.clip else FINER * count)
+    heights = np.linspace(*sensor.corners_mm(), count + MORE * seen.clip)
     light = relative_illumination(seen, heights)
     x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
     square = x * x + (y * y)[:, None]

@@ -13,7 +13,7 @@ from p2sf.raytrace.clear_rim import clear_rim
 from p2sf.raytrace.vignetting import clear_nodes
 
 NODES = 12, 32
-RIM_DIRECTIONS, RIM_ROUNDS = 96, 4  # corners between directions cost 3e-5 of the light, 16⁻⁴ of the radius less
+RIM_DIRECTIONS, RIM_ROUNDS = 96, 3  # corners between directions cost 3e-5 of the light, as do 16⁻³ of the radius
 
 
 @lru_cache(maxsize=256)
