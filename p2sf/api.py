@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +25,7 @@ from p2sf.request import AimChoice, Request, StopChoice, aimed, check_aim, check
 if TYPE_CHECKING:
     from p2sf.database.render import Database
     from p2sf.database_files.provenance import Stored
+    from p2sf.metrics.measures import Energy, LineSpread, Mtf, PupilPart
     from p2sf.psf.methods import Choice
     from p2sf.psf.result import Psf
     from p2sf.pupil.zernike_terms import ZernikeOrder
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 Path = str | os.PathLike[str]
 Method = Literal["auto", "seidel", "fitted", "traced", "huygens", "gaussian"]
+PupilMethod = Literal["auto", "seidel", "fitted", "traced", "huygens"]
 ON_AXIS = Source()
 
 
@@ -295,6 +297,185 @@ def choose_method(
         lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim
     )
     return choose(setup.lens, source, tolerance, clip)
+
+
+def mtf(
+    lens: Lens,
+    source: Source = ON_AXIS,
+    method: PupilMethod = "traced",
+    *,
+    frequency_per_mm: ArrayLike | None = None,
+    spectrum: str | None = None,
+    clip: bool = False,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+    aim: AimChoice | None = None,
+) -> "Mtf":
+    """Compute the modulation transfer function from the pupil: of all light, without a window.
+
+    Parameters
+    ----------
+    lens, source, clip, focus_mm, sensor_shift_um, f_number, stop, aim
+        As for `render`.
+    method : {"traced", "huygens", "fitted", "seidel", "auto"}
+        What describes the pupil: exact rays ("traced" and "huygens" are one here), a fit, the six coefficients, or what
+        `choose_method` chooses.
+    frequency_per_mm : array_like, optional
+        Cycles per mm on the sensor, (n,); even ones up to the cut-off when not given.
+    spectrum : str, optional
+        Of all wavelengths of a spectrum ("d65", "a", "e", "planck:4300", "lines:486,656") as the eye weighs them, with
+        lateral colour; of the source's own wavelength when not given.
+
+    Returns
+    -------
+    Mtf
+        Contrast tangential and sagittal, and that of the same pupil without aberration, which nothing exceeds.
+
+    Raises
+    ------
+    RequestError, GeometryError, GlassError
+        As for `render`; GeometryError also where rays of different parts of the pupil arrive in one direction.
+    SamplingError
+        For a blur too large to be summed.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> lens = p2sf.load_lens("double_gauss_28")
+    >>> found = p2sf.mtf(lens, p2sf.Source(field_deg=10), frequency_per_mm=[0, 5], f_number=5.6, aim="paraxial")
+    >>> [round(float(value), 2) for value in found.sagittal]
+    [1.0, 0.86]
+    """
+    from p2sf.metrics.measures import mtf_of
+
+    camera = {"focus_mm": focus_mm, "sensor_shift_um": sensor_shift_um, "f_number": f_number, "stop": stop, "aim": aim}
+    parts, used = _pupil_parts(lens, source, method, clip, spectrum, camera)
+    return mtf_of(parts, used, frequency_per_mm)
+
+
+def encircled_energy(
+    lens: Lens,
+    source: Source = ON_AXIS,
+    method: PupilMethod = "traced",
+    *,
+    radius_um: ArrayLike | None = None,
+    spectrum: str | None = None,
+    clip: bool = False,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+    aim: AimChoice | None = None,
+) -> "Energy":
+    """Compute the share of all light within radii of its centroid, from the pupil.
+
+    Parameters
+    ----------
+    lens, source, clip, focus_mm, sensor_shift_um, f_number, stop, aim
+        As for `render`.
+    method : {"traced", "huygens", "fitted", "seidel", "auto"}
+        What describes the pupil: exact rays ("traced" and "huygens" are one here), a fit, the six coefficients, or what
+        `choose_method` chooses.
+    radius_um : array_like, optional
+        Radii, µm, (n,); even ones from 0 to beyond the blur when not given.
+    spectrum : str, optional
+        Of all wavelengths of a spectrum ("d65", "a", "e", "planck:4300", "lines:486,656") as the eye weighs them, with
+        lateral colour; of the source's own wavelength when not given.
+
+    Returns
+    -------
+    Energy
+        Shares within the radii, the radii of half and of 80 % of all light, and the RMS distance of rays, µm.
+
+    Raises
+    ------
+    RequestError, GeometryError, GlassError
+        As for `render`; GeometryError also where rays of different parts of the pupil arrive in one direction.
+    SamplingError
+        For a blur too large to be summed.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> lens = p2sf.load_lens("double_gauss_28")
+    >>> found = p2sf.encircled_energy(lens, f_number=5.6, aim="paraxial")
+    >>> round(found.radius_80_um, 1)
+    8.7
+    """
+    from p2sf.metrics.measures import energy_in
+
+    camera = {"focus_mm": focus_mm, "sensor_shift_um": sensor_shift_um, "f_number": f_number, "stop": stop, "aim": aim}
+    parts, used = _pupil_parts(lens, source, method, clip, spectrum, camera)
+    return energy_in(parts, used, radius_um)
+
+
+def line_spread(
+    lens: Lens,
+    source: Source = ON_AXIS,
+    method: PupilMethod = "traced",
+    *,
+    position_um: ArrayLike | None = None,
+    spectrum: str | None = None,
+    clip: bool = False,
+    focus_mm: float | None = None,
+    sensor_shift_um: float = 0.0,
+    f_number: float | None = None,
+    stop: StopChoice = "file",
+    aim: AimChoice | None = None,
+) -> "LineSpread":
+    """Compute the images of a line and of an edge from the pupil: line and edge spread functions.
+
+    Parameters
+    ----------
+    lens, source, clip, focus_mm, sensor_shift_um, f_number, stop, aim
+        As for `render`.
+    method : {"traced", "huygens", "fitted", "seidel", "auto"}
+        What describes the pupil: exact rays ("traced" and "huygens" are one here), a fit, the six coefficients, or what
+        `choose_method` chooses.
+    position_um : array_like, optional
+        Distances from the centroid, µm, (n,); even ones that show the blur when not given.
+    spectrum : str, optional
+        Of all wavelengths of a spectrum ("d65", "a", "e", "planck:4300", "lines:486,656") as the eye weighs them, with
+        lateral colour; of the source's own wavelength when not given.
+
+    Returns
+    -------
+    LineSpread
+        Light per µm of lines along y and along x, and the share of edges that are dark below 0.
+
+    Raises
+    ------
+    RequestError, GeometryError, GlassError
+        As for `render`; GeometryError also where rays of different parts of the pupil arrive in one direction.
+    SamplingError
+        For a blur too large to be summed.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> lens = p2sf.load_lens("double_gauss_28")
+    >>> found = p2sf.line_spread(lens, f_number=5.6, position_um=[0.0], aim="paraxial")
+    >>> round(float(found.edge_x[0]), 3)
+    0.5
+    """
+    from p2sf.metrics.measures import spread_of
+
+    camera = {"focus_mm": focus_mm, "sensor_shift_um": sensor_shift_um, "f_number": f_number, "stop": stop, "aim": aim}
+    parts, used = _pupil_parts(lens, source, method, clip, spectrum, camera)
+    return spread_of(parts, used, position_um)
+
+
+def _pupil_parts(
+    lens: Lens, source: Source, method: str, clip: bool, spectrum: str | None, camera: dict[str, Any]
+) -> "tuple[list[PupilPart], str]":
+    """Return the pupils of a source, one per wavelength, and the method that described them."""
+    from p2sf.colour.spectrum import spectrum_of
+    from p2sf.metrics.measures import parts_of
+
+    setup = set_up_source(lens, source, **camera)
+    return parts_of(setup.lens, setup.source, method, clip, None if spectrum is None else spectrum_of(spectrum))
 
 
 class TradeoffTable(list["MethodCost"]):

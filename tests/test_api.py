@@ -127,7 +127,8 @@ def test_the_library_and_the_command_line_set_a_lens_up_by_one_road():
 def test_every_function_that_takes_a_camera_takes_how_rays_fill_its_pupil():
     takes = {name: set(inspect.signature(getattr(p2sf, name)).parameters) for name in p2sf.__all__ if name[0].islower()}
     cameras = {name for name, parameters in takes.items() if "f_number" in parameters}
-    assert cameras == {"render", "coefficients", "choose_method", "build_database", "zernike"}
+    measures = {"mtf", "encircled_energy", "line_spread"}
+    assert cameras == {"render", "coefficients", "choose_method", "build_database", "zernike"} | measures
     assert {name for name, parameters in takes.items() if "aim" in parameters} == cameras | {"tradeoff"}
 
 

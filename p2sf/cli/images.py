@@ -11,11 +11,12 @@ from p2sf.cli.lookups import is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_samples
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table
 from p2sf.colour.spectrum import WORDS
-from p2sf.errors import RequestError, SamplingError
+from p2sf.errors import P2SFError, RequestError, SamplingError
 from p2sf.io.psf_files import ENDINGS, write_psf
 from p2sf.io.record import describe, facts
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
+from p2sf.metrics.measures import Energy, energy_in, parts_of
 from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
@@ -109,19 +110,22 @@ def psf(
                 path=lens,
             )
         result, about, title = looked_up(lens, request, picture.pixels, picture.pixel_um)
+        energy = None
         aim = about["setup"]["aim"]
     else:
         setup = set_up(find_lens(lens), request)
         if not as_json:
             caution(setup, picture.seidel and picture.sampling != "fft")
         result, about, title = render(setup, picture), describe(setup) if output else {}, heading(setup)
-        aim = setup.lens.aim
+        aim, energy = setup.lens.aim, energy_of(setup, result.method)
     if output:
         write_psf(result, output, about)
     if as_json:
         file = None if output is None else str(output)
-        return print_json({"file": file, "pixels": picture.pixels, "aim": aim, **facts(result), **figures(result)})
-    return print_table(title, ("point spread function", "value", "unit"), summary(result, aim, output))
+        return print_json(
+            {"file": file, "pixels": picture.pixels, "aim": aim, **facts(result), **figures(result, energy)}
+        )
+    return print_table(title, ("point spread function", "value", "unit"), summary(result, aim, output, energy))
 
 
 def _in_colour(
@@ -159,11 +163,27 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     return seidel_psf(six, picture.pixels, picture.pixel_um, sampling=picture.sampling or "mdft")
 
 
-def figures(result: Psf) -> dict[str, Any]:
-    """Return the centroid, from the chief ray, and the radii around it that hold 50 and 80 % of the window's light."""
+def energy_of(setup: Setup, method: str) -> Energy | None:
+    """Return the energy of the pupil that a method describes; None where it describes none that can be summed."""
+    try:
+        parts, used = parts_of(setup.lens, setup.source, method)
+        return energy_in(parts, used)
+    except P2SFError:  # of a fitted shape, of lost rays: what the samples hold is left
+        return None
+
+
+def figures(result: Psf, energy: Energy | None = None) -> dict[str, Any]:
+    """Return the centroid, from the chief ray, and the radii around it that hold 50 and 80 % of the light.
+
+    "share_of" says of which light: of all that the pupil sends, or of that in the samples.
+    """
+    if energy:
+        radii = {"radius_50_um": energy.radius_50_um, "radius_80_um": energy.radius_80_um}
+        return {"centroid_um": [0.0, energy.centroid_um], **radii, "rms_um": energy.rms_um, "share_of": "all light"}
     x, y = centroid(result)
     half, most = (float(radius_of_energy(result, share)) for share in (0.5, 0.8))
-    return {"centroid_um": [float(x), float(y)], "radius_50_um": half, "radius_80_um": most}
+    radii = {"radius_50_um": half, "radius_80_um": most}
+    return {"centroid_um": [float(x), float(y)], **radii, "rms_um": None, "share_of": "the picture's light"}
 
 
 def prediction(error: float | None) -> tuple[float | None, Message | str]:
@@ -173,9 +193,10 @@ def prediction(error: float | None) -> tuple[float | None, Message | str]:
     return error, CAUTIOUS if error > CAUTION else ""
 
 
-def summary(result: Psf, aim: str, output: Path | None) -> list[Row]:
+def summary(result: Psf, aim: str, output: Path | None, energy: Energy | None = None) -> list[Row]:
     """Return the rows that tell a person what was computed."""
-    known, measured = facts(result), figures(result)
+    known, measured = facts(result), figures(result, energy)
+    light = "all light" if energy else "the light in the picture"
     rows: list[Row] = [
         ("method", result.method, ""),
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", ""),
@@ -183,8 +204,9 @@ def summary(result: Psf, aim: str, output: Path | None) -> list[Row]:
         ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else ""),
         ("light in the picture", known["energy"], TOO_COARSE if known["energy"] is None else ""),
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
-        ("radius of 50 % of the light in the picture", measured["radius_50_um"], "µm"),
-        ("radius of 80 % of the light in the picture", measured["radius_80_um"], "µm"),
+        (f"radius of 50 % of {light}", measured["radius_50_um"], "µm"),
+        (f"radius of 80 % of {light}", measured["radius_80_um"], "µm"),
+        *([("RMS radius of the rays", measured["rms_um"], "µm")] if energy else []),
         ("predicted 1 − R²", *prediction(result.predicted_error)),
         ("sampling", result.sampling, ""),
         ("numbers that describe it", result.numbers, ""),

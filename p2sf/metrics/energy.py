@@ -22,7 +22,7 @@ from p2sf.metrics.perfect import circle_energy
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
 
-FEWEST, PER_WAVE = 128, 4.5  # samples across the pupil: two blurs side by side fit into the period of the PSF
+FEWEST, PER_WAVE = 96, 4.5  # samples across the pupil: two blurs side by side fit into the period of the PSF
 MOST_ACROSS = 3072  # 300 MB; beyond, at some 650 waves of slope, the landing points of rays are as exact
 STRIPS = 8  # of a cell, over which the part inside the edge is averaged
 RINGS = 8  # per step of frequency
@@ -133,7 +133,7 @@ def _cells(pupil: FrequencyPupil, centre_um: float, step: float, across: int) ->
     return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)
 def _rings(length: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the ring of every sample of a real transform's half plane, flat, and the mean radius of each ring."""
     along, across = fft.fftfreq(length, 1 / length), np.arange(length // 2 + 1)
@@ -151,7 +151,7 @@ def _disc_transform(radius: np.ndarray, frequency: np.ndarray) -> np.ndarray:
     return table
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)
 def _kept_transform(across: int) -> tuple[np.ndarray, np.ndarray]:
     """Return even radii up to BEYOND the blur that needs such a grid, in periods of the PSF, and the matrix of E(R)."""
     top = min(

@@ -1,7 +1,8 @@
-"""Numbers read off a PSF: peak, centre, energy, profiles, contrast (handbook 6.3).
+"""Numbers read off the samples of a PSF alone: peak, centre, energy, profiles, contrast (handbook 6.3).
 
 Every function takes a `Psf` of any stack shape and works on the light inside its window; ``psf.energy`` says how
-much falls outside.
+much that is, and `resolved` whether samples are close enough. Where the lens is known, `p2sf.metrics.measures` needs
+neither window nor samples.
 """
 
 from collections.abc import Iterator
@@ -42,6 +43,11 @@ class Mtf(NamedTuple):
     frequency_per_mm: np.ndarray
     tangential: np.ndarray
     sagittal: np.ndarray
+
+
+def resolved(psf: Psf, na: float | np.ndarray) -> bool:
+    """Return whether the pitch is at most λ/(4 NA), so that samples hold all that a PSF of this aperture does."""
+    return bool(np.all(psf.pixel_um * 4 * np.asarray(na) <= psf.wavelength_um * (1 + 1e-9)))
 
 
 def strehl(psf: Psf) -> float | np.ndarray | None:
@@ -187,9 +193,9 @@ def profiles(psf: Psf, through: str = "chief") -> Cuts:
 def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None) -> Mtf:
     """Return the contrast of sine patterns, |FT of the PSF| over its value at zero, along y and along x.
 
-    Frequencies are in cycles per mm, by default from 0 to the Nyquist frequency of the pitch. Tangential contrast is
-    that of a pattern that varies along y, the direction of the field. Light outside the window is missing, which
-    raises every contrast by up to its share.
+    Frequencies are in cycles per mm, by default from 0 to the Nyquist frequency of the pitch; beyond it is NaN.
+    Tangential contrast is that of a pattern that varies along y, the direction of the field. Light outside the window
+    is missing, which raises every contrast by up to its share.
     """
     if frequency_per_mm is None:
         frequency_per_mm = np.linspace(0, UM_PER_MM / (2 * psf.pixel_um), max(psf.values.shape[-2:]) + 1)
@@ -197,7 +203,8 @@ def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None) -> Mtf:
     line_y, line_x = (psf.values.sum(axis, dtype=float) for axis in (-1, -2))
     step = np.exp(-2j * np.pi * psf.pixel_um * frequency / UM_PER_MM)
     waves = _powers(step, max(psf.values.shape[-2:]))  # their phase at the window's edge does not change the modulus
-    return Mtf(frequency, _contrast(line_y, waves), _contrast(line_x, waves))
+    known = np.where(np.abs(frequency) * psf.pixel_um <= UM_PER_MM / 2 * (1 + 1e-9), 1.0, np.nan)
+    return Mtf(frequency, known * _contrast(line_y, waves), known * _contrast(line_x, waves))
 
 
 def _contrast(line: np.ndarray, waves: np.ndarray) -> np.ndarray:

@@ -43,11 +43,24 @@ def test_a_folder_that_is_not_there(capsys):
     assert "no_such_folder" in error and "make the folder" in error
 
 
-def test_the_figures_are_measured_on_the_samples(answer, tmp_path):
-    found = answer("psf", "tessar", "--field-deg", 15, "--method", "seidel", "-o", tmp_path / "a.csv")
+def test_the_figures_are_those_of_all_light(answer, tmp_path):
+    """Of a wide window whose share of all light is known, its samples on the circle counted in part."""
+    wide = ("--pixels", 256, "--pixel-um", 0.4, "-o", tmp_path / "a.npz")
+    found = answer("psf", "tessar", "--field-deg", 15, "--method", "seidel", *wide)
+    psf, _ = read_psf(tmp_path / "a.npz")
+    assert found["share_of"] == "all light" and found["centroid_um"][0] == 0
+    assert found["centroid_um"][1] == pytest.approx((psf.values.sum(1) * psf.y_um).sum(), abs=0.1)
+    distance = np.hypot(psf.x_um, (psf.y_um - found["centroid_um"][1])[:, None])
+    for name, share in (("radius_50_um", 0.5), ("radius_80_um", 0.8)):
+        inside = np.clip((found[name] - distance) / psf.pixel_um + 0.5, 0, 1)
+        assert found["energy"] * (psf.values * inside).sum() == pytest.approx(share, abs=0.01)
+
+
+def test_of_a_fitted_shape_the_figures_are_those_of_its_samples(answer, tmp_path):
+    found = answer("psf", "tessar", "--field-deg", 15, "--method", "gaussian", "-o", tmp_path / "a.csv")
     psf, _ = read_psf(tmp_path / "a.csv")
     centre = [(psf.values.sum(0) * psf.x_um).sum(), (psf.values.sum(1) * psf.y_um).sum()]
-    assert found["centroid_um"] == pytest.approx(centre, abs=1e-9)
+    assert found["share_of"] == "the picture's light" and found["centroid_um"] == pytest.approx(centre, abs=1e-9)
     assert 0 < found["radius_50_um"] < found["radius_80_um"]
 
 

@@ -7,11 +7,12 @@ from numpy.polynomial.legendre import leggauss
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics import transfer
-from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
+from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
 from p2sf.metrics.perfect import diffraction_mtf
 from p2sf.metrics.transfer import end_weights, otf_slices
 from p2sf.raytrace.fit import fit
+from tests.support.overlap import overlap
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
 CUT_OFF = 2 * NA / WAVELENGTH_UM
@@ -60,21 +61,6 @@ def test_it_is_the_autocorrelation_of_the_pupil(w):
     for nu, tangential, sagittal in zip((0.03, 0.2, 0.5, 0.9), found.tangential, found.sagittal, strict=True):
         assert abs(abs(overlap(c, 0.0, nu)) - tangential) < 5e-4
         assert abs(abs(overlap(c, nu, 0.0)) - sagittal) < 5e-4
-
-
-def overlap(c, nu_x, nu_y) -> complex:
-    from p2sf.paraxial.wavefront import wavefront
-
-    node, weight = leggauss(400)
-    nu = np.hypot(nu_x, nu_y)
-    across = np.sqrt(1 - nu**2) * np.sin(np.pi / 2 * node)  # perpendicular to the shift, its ends smoothed
-    share = weight * np.pi / 2 * np.sqrt(1 - nu**2) * np.cos(np.pi / 2 * node)
-    half = np.sqrt(1 - across**2) - nu
-    along = half[:, None] * node
-    side = across[:, None] + 0 * along
-    xi, eta = (along, side) if nu_x else (side, along)
-    phase = wavefront(c, xi + nu_x, eta + nu_y) - wavefront(c, xi - nu_x, eta - nu_y)
-    return complex((share * half) @ (np.exp(2j * np.pi * np.asarray(phase)) @ weight) / np.pi)
 
 
 def test_nothing_passes_the_cut_off_and_nothing_is_better_than_perfect():
@@ -128,8 +114,6 @@ def test_every_ray_method_tells_of_the_same_pupil():
     lens = find_lens("cooke_triplet")
     source = Source(field_deg=14)
     exact = mtf_of([PupilPart(pupil_of_rays(lens, source))], "traced")
-    from p2sf.metrics.frequency_pupil import pupil_of_fit
-
     fitted = mtf_of([PupilPart(pupil_of_fit(fit(lens, source, 119)))], "fitted", exact.frequency_per_mm)
     assert np.abs(fitted.tangential - exact.tangential).max() < 2e-3
 

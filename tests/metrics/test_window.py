@@ -15,6 +15,7 @@ from p2sf.metrics.window import (
     peak,
     profiles,
     radius_of_energy,
+    resolved,
     strehl,
 )
 from p2sf.psf.result import Psf
@@ -138,3 +139,14 @@ def test_every_measure_takes_a_stack():
     one = replace(stack, values=stack.values[0, 2])
     assert radius_of_energy(stack)[0, 2] == pytest.approx(float(radius_of_energy(one)))
     np.testing.assert_array_equal(profiles(stack, "peak").along_y[0, 2], profiles(one, "peak").along_y)
+
+
+def test_contrast_beyond_the_nyquist_frequency_is_unknown_and_not_a_mirror_image():
+    psf = seidel_psf(waves(w40=1.0), 64, 2.0)
+    curve = mtf(psf, np.array([0.0, 249.0, 250.0, 251.0, 500.0]))  # Nyquist 250 per mm
+    assert np.isnan(curve.tangential).tolist() == np.isnan(curve.sagittal).tolist() == [False] * 3 + [True] * 2
+
+
+def test_samples_hold_a_psf_up_to_a_pitch_of_a_quarter_of_lambda_over_na():
+    limit = WAVELENGTH_UM / (4 * NA)
+    assert resolved(seidel_psf(waves(), 16, limit), NA) and not resolved(seidel_psf(waves(), 16, 1.01 * limit), NA)

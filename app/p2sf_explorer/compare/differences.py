@@ -10,6 +10,7 @@ from p2sf.messages import Message, Number
 from p2sf.raytrace.field_curves import Foci, Heights
 from p2sf.raytrace.zernike_fit import ZernikeFit
 from p2sf_explorer.compute.live import Refused
+from p2sf_explorer.compute.measured import MeasureRequest
 from p2sf_explorer.results.chromatic import Chromatic
 from p2sf_explorer.results.field import FieldView, exaggeration, grid
 from p2sf_explorer.results.first_order import NONE, Row
@@ -39,7 +40,12 @@ WHY = {
 
 
 def curves(a: Any, b: Any) -> Any:
-    """Return A − B of two views' curves at A's positions, their first entry; beyond B's last there is nothing."""
+    """Return A − B of two views' curves at A's positions, their first entry; beyond B's last there is nothing.
+
+    A message where the curves of one of them are still to be computed.
+    """
+    if isinstance(a, MeasureRequest) or isinstance(b, MeasureRequest):
+        return Message("This is A: the curves of A or of B take longer than a frame.")
     places, *names = (field.name for field in fields(a))
     at, known = getattr(a, places), getattr(b, places)
     same = [n for n in names if np.shape(getattr(a, n)) == at.shape and np.shape(getattr(b, n)) == known.shape]

@@ -10,7 +10,7 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.metrics.window import centroid, mtf, radius_of_energy
+from p2sf.metrics.measures import Energy, energy_in, mtf_of
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import find_stop
 from p2sf.psf.compare import r_squared as fidelity
@@ -19,6 +19,7 @@ from p2sf.psf.result import Psf
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.measured import measure_request, measured_parts
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.state import State, changed
 
@@ -161,7 +162,15 @@ def _spread(axis: str) -> Measure:
 
 
 def _contrast(direction: str) -> Measure:
-    return of_live(lambda live: getattr(mtf(live.psf, np.array([CONTRAST_PER_MM])), direction)[0])
+    def contrast(live: Live) -> float:
+        found = mtf_of(measured_parts(measure_request(live)), "", np.array([CONTRAST_PER_MM]))
+        return float(getattr(found, direction)[0])
+
+    return of_live(contrast)
+
+
+def _energy(live: Live) -> Energy:
+    return energy_in(measured_parts(measure_request(live)), "")
 
 
 MEASURES: dict[str, Measure] = {
@@ -175,8 +184,8 @@ MEASURES: dict[str, Measure] = {
     "strehl": of_live(lambda live: np.asarray(live.psf.strehl, float)),
     "centre_over_peak": of_live(lambda live: live.psf.values[tuple(n // 2 for n in live.psf.values.shape)]
                                 / live.psf.values.max()),
-    "radius_80_um": of_live(lambda live: radius_of_energy(live.psf, 0.8)),
-    "centroid_y_um": of_live(lambda live: centroid(live.psf)[1]),
+    "radius_80_um": of_live(lambda live: _energy(live).radius_80_um),
+    "centroid_y_um": of_live(lambda live: _energy(live).centroid_um),
     "spread_x_um": _spread("x"),
     "spread_y_um": _spread("y"),
     "contrast_tangential": _contrast("tangential"),

@@ -1,15 +1,23 @@
-"""The modulation transfer function of the PSF on screen."""
+"""The modulation transfer function of the picture's pupil."""
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.messages import Message
+from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.measured import MeasureRequest
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.mtf import Contrast
+from p2sf_explorer.results.mtf import Contrast, answer
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
 from p2sf_explorer.widgets.value_edit import MicronEdit
+from p2sf_explorer.workers.panel_jobs import Asking
 
-TIP = "MTF: contrast left of a sine pattern, |FT of the PSF|; grey: a perfect lens, (2/π)(acos ν − ν√(1−ν²))."
+TIP = (
+    "MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same "
+    "pupil without aberration."
+)
 PIXEL_TIP = "Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch)."
 LOOKS = {"perfect lens": ("muted", 1), "sagittal": ("marginal", 2), "tangential": ("chief", 2)}
 
@@ -21,15 +29,42 @@ class MtfPanel(CurvesPanel):
         super().__init__("MTF", TIP, ("cycles per mm on the sensor", "contrast"), LOOKS)
         self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
         self.widget.add_tool(self.pixel)
+        self.asking = Asking(self.widget, answer, self._paint, self._say)
+        self._live: Live | None = None
+        self._legend = ""
 
     def show(self, live: Live) -> None:
-        """Paint the contrasts."""
-        view: Contrast = live.views["mtf"]
+        """Paint the contrasts, or have them computed in the background where they are too slow for a frame."""
+        self._live = live
+        view: Contrast | MeasureRequest = live.views["mtf"]
+        if isinstance(view, MeasureRequest):
+            self.asking.ask(view)
+            return
+        self.asking.forget()
+        self._say(said(self._paint(None, view)))
+
+    def _say(self, text: str) -> None:
+        self.widget.set_readout(f"{self._legend} &nbsp; {text}")
+
+    def _paint(self, asked: MeasureRequest | None, view: Contrast) -> Message:
+        live = self._live
+        if live is None:
+            return view.method
         curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
         self.show_curves(view.frequency_per_mm, curves)
         low, high = signed_range(live, curves, (0.0, 1.04))
         self.set_range((0.0, float(view.frequency_per_mm[-1])), (low, high))
         self._mark(live.state.display.pixel_um, low + 0.91 * (high - low))
+        return view.method
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._legend = self.legend(theme)
+        super().restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.asking.worker.stop()
 
     def _mark(self, pixel_um: float, height: float) -> None:
         """Mark the sensor's Nyquist frequency, with its name at this contrast."""

@@ -1,18 +1,23 @@
 """Sections of the PSF along x and y through the chief ray, and its encircled energy."""
 
+import numpy as np
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
+from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.results.profiles import ProfileCurves
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.results.profiles import ProfileCurves, answer
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
+from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "Left: sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Right: "
-    "encircled energy, the share of the window's light within a radius of its centroid; grey: a perfect lens."
+    "encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is "
+    "that of the rays: the light behind a hard edge has none."
 )
 LOOKS = {"Airy": ("muted", 1), "along x": ("marginal", 2), "along y": ("chief", 2)}
 
@@ -31,21 +36,58 @@ class ProfilesPanel(CurvesPanel):
         row.addWidget(self.chart, 5)
         row.addWidget(self.energy, 3)
         self.widget.set_body(both)
+        self.asking = Asking(self.widget, answer, self._paint, self._say)
+        self._live: Live | None = None
+        self._legend = ""
 
     def show(self, live: Live) -> None:
-        """Paint the sections and the energy."""
+        """Paint the sections and the energy, which a worker computes where it is too slow for a frame."""
+        self._live = live
         view: ProfileCurves = live.views["profiles"]
+        self._show_sections(live, view)
+        self.within.set_data((), ())
+        self.energy.update()
+        if view.pending:
+            self.asking.ask(view)
+            return
+        self.asking.forget()
+        self._say(said(self._paint(view, view)))
+
+    def _say(self, text: str) -> None:
+        self.widget.set_readout(f"{self._legend} &nbsp; {text}")
+
+    def _show_sections(self, live: Live, view: ProfileCurves) -> None:
         curves = {"Airy": view.airy, "along x": view.along_x, "along y": view.along_y}
         self.show_curves(view.position_um, curves)
         half = -float(view.position_um[0])
         self.set_range((-half, half), signed_range(live, curves, (0.0, 1.04)))
         outward = view.position_um >= 0
         self.perfect.set_data(view.position_um[outward], view.perfect_energy[outward])
+
+    def _paint(self, asked: ProfileCurves, view: ProfileCurves) -> Message:
+        """Paint the energy and return what it is a share of."""
+        if self._live is None or not np.isfinite(view.energy).all():
+            return view.method
+        outward = view.position_um >= 0
         self.within.set_data(view.position_um[outward], view.energy[outward])
-        self.energy.set_range((0.0, half), signed_range(live, {"energy": view.energy}, (0.0, 1.04)))
+        half = -float(view.position_um[0])
+        self.energy.set_range((0.0, half), signed_range(self._live, {"energy": view.energy}, (0.0, 1.04)))
         self.energy.update()
+        half_light, most, rms = (f"{radius:.3g}" for radius in view.radii_um)
+        return Message(
+            "R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}",
+            half=half_light,
+            most=most,
+            rms=rms,
+            method=view.method,
+        )
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
+        self._legend = self.legend(theme)
         self.energy.restyle(theme)
         super().restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.asking.worker.stop()

@@ -1,30 +1,47 @@
-"""Contrast against spatial frequency."""
+"""Contrast against spatial frequency, from the pupil of the picture."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.metrics.perfect import diffraction_mtf
-from p2sf.metrics.window import mtf
+from p2sf.messages import Message
+from p2sf.metrics.measures import mtf_of
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts, mtf_is_live
 
-INTERVALS = 512  # eight between two frequencies that 128 samples resolve, so that lobes are drawn smoothly
+INTERVALS = 512
 
 
 @dataclass(frozen=True)
 class Contrast:
-    """Cycles per mm on the sensor; contrast of patterns along y and along x, and of a perfect lens."""
+    """Cycles per mm on the sensor; contrast of patterns along y and along x, and of the same pupil without aberration.
+
+    ``method``: what described the pupil.
+    """
 
     frequency_per_mm: np.ndarray
     tangential: np.ndarray
     sagittal: np.ndarray
     perfect: np.ndarray
+    method: Message
 
 
-def contrast(live: Live) -> Contrast:
-    """Return the MTF of the PSF on screen up to its pitch's Nyquist frequency or the lens's cut-off."""
-    c, wavelength = live.setup.coefficients, live.setup.source.wavelength_um
-    nyquist, cut_off = 500 / live.psf.pixel_um, 2000 * float(c.na) / wavelength
-    found = mtf(live.psf, np.linspace(0, min(nyquist, cut_off), INTERVALS + 1))
-    perfect = diffraction_mtf(found.frequency_per_mm, float(c.na), wavelength)
-    return Contrast(found.frequency_per_mm, found.tangential, found.sagittal, perfect)
+def contrast(live: Live) -> Contrast | MeasureRequest:
+    """Return the MTF up to the cut-off, or the request for it where it is too slow for a frame."""
+    request = measure_request(live)
+    return contrast_of(request) if mtf_is_live(request) else request
+
+
+def contrast_of(request: MeasureRequest) -> Contrast:
+    """Return the MTF of a request. Raises P2SFError where its pupil has none."""
+    parts = measured_parts(request)
+    cut_off = 1000 * max(parts[0].pupil.cut_off_per_um)
+    found = mtf_of(parts, "", np.linspace(0, cut_off, INTERVALS + 1))
+    perfect = np.maximum(found.perfect_tangential, found.perfect_sagittal)
+    return Contrast(found.frequency_per_mm, found.tangential, found.sagittal, perfect, request.method)
+
+
+def answer(request: MeasureRequest, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Contrast:
+    """Return the MTF of a request, for a worker."""
+    return contrast_of(request)

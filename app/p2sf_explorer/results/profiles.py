@@ -1,12 +1,14 @@
 """Sections of the PSF through the chief ray, and its encircled energy."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
 from p2sf.errors import P2SFError
-from p2sf.metrics.window import centroid, encircled_energy
+from p2sf.messages import Message
+from p2sf.metrics.measures import energy_in
 from p2sf.paraxial.wavefront import steepest_polar, wavefront
 from p2sf.psf.fitted import fit
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
@@ -16,11 +18,18 @@ from p2sf.pupil.quadrature import disc_nodes, nodes_for
 from p2sf.pupil.transform import sum_on_line
 from p2sf.raytrace.fit import LEVELS
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.measured import (
+    MeasureRequest,
+    energy_at,
+    energy_is_live,
+    measure_request,
+    measured_parts,
+)
 from p2sf_explorer.compute.sampled import by_coefficients
 
 POINTS = {"preview": 257, "settled": 513}
 FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # two evaluations of Bessel functions meet at FAR, each exact to 1e-12
-FEW_SAMPLES = 128  # a side of a picture whose samples are shared exactly by the circles
+NOTHING = Message("")
 MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
 
 
@@ -28,12 +37,14 @@ Nodes = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Complex amplitude and spatial frequencies along x and y, cycles per µm."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ProfileCurves:
     """Positions in µm from the chief ray; PSF along x and along y over its peak, and the Airy pattern.
 
-    ``energy`` and ``perfect_energy``: share of the light within |position| of the centroid, of the window's light and
-    of all a perfect lens has.
+    ``energy`` and ``perfect_energy``: share of all light within |position| of the centroid, of this picture's pupil and
+    of a perfect lens. Where the energy is too slow for a frame it is NaN, and ``pending`` asks for it. ``radii_um``:
+    what holds half and 80 % of the light, and the RMS distance of rays; ``method``: what described the pupil, or why
+    there is no energy.
     """
 
     position_um: np.ndarray
@@ -42,6 +53,9 @@ class ProfileCurves:
     airy: np.ndarray
     energy: np.ndarray
     perfect_energy: np.ndarray
+    radii_um: tuple[float, float, float] = (np.nan, np.nan, np.nan)
+    method: Message = NOTHING
+    pending: MeasureRequest | None = None
 
 
 def profiles(live: Live) -> ProfileCurves:
@@ -52,7 +66,26 @@ def profiles(live: Live) -> ProfileCurves:
     lines = fine_lines(live, position) if live.quality == "settled" else None
     along_x, along_y = lines or between_samples(psf, position)
     peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl or 0.0)) or 1.0
-    return ProfileCurves(position, along_x / peak, along_y / peak, airy, energy(live, position), perfect)
+    none = np.full(position.size, np.nan)
+    curves = ProfileCurves(position, along_x / peak, along_y / peak, airy, none, perfect)
+    request = measure_request(live)
+    try:
+        return with_energy(curves, request) if energy_is_live(request) else replace(curves, pending=request)
+    except P2SFError as error:  # the sections are there all the same
+        return replace(curves, method=error.message)
+
+
+def with_energy(curves: ProfileCurves, request: MeasureRequest) -> ProfileCurves:
+    """Return the curves with the energy of a request; P2SFError where its pupil has none."""
+    found = energy_in(measured_parts(request), "")
+    within = energy_at(found, np.abs(curves.position_um))
+    radii = found.radius_50_um, found.radius_80_um, found.rms_um
+    return replace(curves, energy=within, radii_um=radii, method=request.method, pending=None)
+
+
+def answer(curves: ProfileCurves, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> ProfileCurves:
+    """Return the curves with the energy that they lack, for a worker."""
+    return with_energy(curves, curves.pending) if curves.pending else curves
 
 
 def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -109,17 +142,6 @@ def fitted_nodes(live: Live) -> Nodes | None:
 def on_axes(psf: Psf) -> int:
     """Return the samples across a window whose corner lies where this one's axes end: lines have no corners."""
     return round(psf.values.shape[-1] / np.sqrt(2))
-
-
-def energy(live: Live, position: np.ndarray) -> np.ndarray:
-    """Return the share of the window's light within |position| of the centroid; from rings of samples while moving."""
-    psf, radius = live.psf, np.abs(position)
-    if live.quality == "settled" and psf.values.shape[-1] <= FEW_SAMPLES:
-        return encircled_energy(psf, radius_um=radius).fraction
-    x, y = centroid(psf)
-    distance = np.hypot(psf.x_um - x, (psf.y_um - y)[:, None]).ravel() / psf.pixel_um
-    rings = np.bincount(np.rint(distance).astype(int), psf.values.ravel()).cumsum()
-    return np.interp(radius / psf.pixel_um, np.arange(rings.size) + 0.5, rings / (rings[-1] or 1.0), left=0.0)
 
 
 @lru_cache(maxsize=8)

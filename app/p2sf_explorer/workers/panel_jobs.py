@@ -54,6 +54,11 @@ class Asking(QObject):
         self.worker.cancel()
         self._tell()
 
+    def forget(self) -> None:
+        """Want nothing that is on its way, since something else is shown; say nothing."""
+        self.asked, self._refusal, self._shown = None, None, None
+        self.worker.cancel()
+
     def again(self) -> None:
         """Paint the present answer once more, for another look at it."""
         if self._shown:

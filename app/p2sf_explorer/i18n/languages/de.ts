@@ -206,7 +206,7 @@
 <message><source>Language</source><translation>Sprache</translation></message>
 <message><source>Largest blur diameter on the sensor that is still called sharp.</source><translation>Größter Unschärfedurchmesser auf dem Sensor, der noch scharf heißt.</translation></message>
 <message><source>Layout</source><translation>Aufbau</translation></message>
-<message><source>Left: sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Right: encircled energy, the share of the window's light within a radius of its centroid; grey: a perfect lens.</source><translation>Links: Schnitte der PSF durch den Hauptstrahl, über ihrer eigenen Spitze; grau: die Airy-Figur (2J₁(v)/v)². Rechts: eingeschlossene Energie, der Anteil des Lichts im Fenster innerhalb eines Radius um den Schwerpunkt; grau: ein perfektes Objektiv.</translation></message>
+<message><source>Left: sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Right: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Links: Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Rechts: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
 <message><source>Length of the lens with its air: from the first vertex to the sensor.</source><translation>Länge des Objektivs mit seiner Luft: vom ersten Scheitel bis zum Sensor.</translation></message>
 <message><source>Lens</source><translation>Objektiv</translation></message>
 <message><source>Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back.</source><translation>Objektiv: eine Zeile je Fläche in der Reihenfolge des Lichts; in eine Zelle tippen, Strg+Z nimmt es zurück.</translation></message>
@@ -223,7 +223,7 @@
 <message><source>Longer back focus than focal length: a wide angle that leaves room for a mirror</source><translation>Schnittweite länger als die Brennweite: ein Weitwinkel, das einem Spiegel Platz lässt</translation></message>
 <message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0,7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
 <message><source>MTF</source><translation>MTF</translation></message>
-<message><source>MTF: contrast left of a sine pattern, |FT of the PSF|; grey: a perfect lens, (2/π)(acos ν − ν√(1−ν²)).</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, |FT der PSF|; grau: ein perfektes Objektiv, (2/π)(acos ν − ν√(1−ν²)).</translation></message>
+<message><source>MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration.</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
 <message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
 <message><source>Make the plan that was cancelled, and the picture by it</source><translation>Den abgebrochenen Plan doch machen und das Bild danach</translation></message>
@@ -331,6 +331,7 @@
 <message><source>Put the source at infinity</source><translation>Die Quelle ins Unendliche setzen</translation></message>
 <message><source>Put the sweep away</source><translation>Durchlauf wegräumen</translation></message>
 <message><source>Qt needs the library libxcb-cursor to open a window on X11; run apt-get install libxcb-cursor0</source><translation>Qt braucht die Bibliothek libxcb-cursor, um auf X11 ein Fenster zu öffnen; apt-get install libxcb-cursor0 ausführen</translation></message>
+<message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts um seinen Schwerpunkt; RMS der Strahlen {rms} µm; {method}</translation></message>
 <message><source>RMS in x</source><translation>RMS in x</translation></message>
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
@@ -481,6 +482,7 @@
 <message><source>This is A: light that A has less of than B cannot be shown as a photograph.</source><translation>Dies ist A: Licht, von dem A weniger hat als B, lässt sich nicht als Foto zeigen.</translation></message>
 <message><source>This is A: one colour less another is no colour.</source><translation>Dies ist A: eine Farbe weniger eine andere ist keine Farbe.</translation></message>
 <message><source>This is A: over the field the pictures of A and of B have windows of their own; PSF shows A − B.</source><translation>Dies ist A: über das Feld haben die Bilder von A und von B eigene Fenster; A − B zeigt die PSF.</translation></message>
+<message><source>This is A: the curves of A or of B take longer than a frame.</source><translation>Das ist A: die Kurven von A oder von B brauchen länger als ein Bild.</translation></message>
 <message><source>This is A: the diagram's points are surfaces, and those of B are others.</source><translation>Dies ist A: die Punkte des Diagramms sind Flächen, und die von B sind andere.</translation></message>
 <message><source>This is A: two lenses drawn to scale have no difference that could be drawn.</source><translation>Dies ist A: zwei maßstäblich gezeichnete Objektive haben keine Differenz, die sich zeichnen ließe.</translation></message>
 <message><source>This is A; B has none: {why}</source><translation>Dies ist A; B hat keines: {why}</translation></message>

@@ -1,0 +1,68 @@
+"""The pupil whose transfer function and energy the panels show, and which of these are too slow for a frame. No Qt."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.messages import Message
+from p2sf.metrics.energy import samples_across
+from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
+from p2sf.metrics.measures import Energy, PupilPart
+from p2sf.metrics.transfer import otf_samples
+from p2sf.paraxial.seidel import Coefficients
+from p2sf_explorer.compute.live import Live
+
+LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
+LIVE_ACROSS = 320  # samples across the pupil whose energy is live: some 10 ms, a blur of 50 waves
+BY_RAYS, BY_COEFFICIENTS = Message("exact rays"), Message("six coefficients")
+
+
+@dataclass(frozen=True)
+class MeasureRequest:
+    """Everything a measure depends on. ``six``: the coefficients' values where they make the picture, else empty."""
+
+    lens: Lens
+    source: Source
+    clip: bool
+    six: tuple[float, ...] = ()
+
+    @property
+    def method(self) -> Message:
+        """Return what described the pupil."""
+        return BY_COEFFICIENTS if self.six else BY_RAYS
+
+
+def measure_request(live: Live) -> MeasureRequest:
+    """Return what is to be measured: the six coefficients where they make the picture, else exact rays."""
+    by_six = live.method == "seidel" or live.setup.altered
+    six = tuple(float(value) for value in vars(live.setup.coefficients).values()) if by_six else ()
+    return MeasureRequest(live.setup.lens, live.setup.source, live.state.optics.clip and not by_six, six)
+
+
+@lru_cache(maxsize=4)
+def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
+    """Return the pupil of a request; P2SFError where there is none."""
+    if request.six:
+        return (PupilPart(pupil_of_coefficients(Coefficients(*map(np.asarray, request.six)))),)
+    return (PupilPart(pupil_of_rays(request.lens, request.source, request.clip)),)
+
+
+def mtf_is_live(request: MeasureRequest) -> bool:
+    """Return whether the transfer function is computed within a frame."""
+    return otf_samples(measured_parts(request)[0].pupil) <= LIVE_SAMPLES
+
+
+def energy_is_live(request: MeasureRequest) -> bool:
+    """Return whether the encircled energy is computed within a frame."""
+    pupil = measured_parts(request)[0].pupil
+    return samples_across(pupil, pupil.centroid_um) <= LIVE_ACROSS
+
+
+def energy_at(found: Energy, radius_um: np.ndarray) -> np.ndarray:
+    """Return the energy within any radii: between the tabulated ones, beyond them 1 − c/R, as of every hard edge."""
+    last, share = float(found.radius_um[-1]), float(found.fraction[-1])
+    inside = np.interp(radius_um, found.radius_um, found.fraction)
+    return np.where(radius_um > last, 1 - (1 - share) * last / np.maximum(radius_um, last), inside)
