@@ -9,7 +9,7 @@ from p2sf.messages import Message
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.pupil import disc, strongest, variance_parts
+from p2sf_explorer.compute.pupil import disc, dominant, pupil_of, strongest, variance_parts
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER, remedy
 from p2sf_explorer.state.state import State, changed, new_state
@@ -60,7 +60,7 @@ def test_what_pulls_against_the_blur_has_no_share_of_it():
     ],
 )
 def test_the_advice_fits_what_is_said_to_blur_most(state, words, advice):
-    blur = live(state).dominant
+    blur = dominant(pupil_of(paraxial_setup(state), True, "settled"))
     assert blur.values["term"] == Message(words)
     assert remedy(paraxial_setup(state)) == advice
 
@@ -101,7 +101,8 @@ def test_the_shares_add_up_to_the_rms_without_tilt(method, quality):
 def test_with_clip_the_pupil_and_its_figures_end_at_the_rims(lens, field, quality, error):
     """Against rays on a grid of 300², kept where they pass; its all-or-nothing edge is wrong by half a cell."""
     state = new_state(lens=lens, field_deg=field, clip=True)
-    pupil, setup = live(state, quality).pupil, paraxial_setup(state)
+    setup = paraxial_setup(state)
+    pupil = pupil_of(setup, True, quality, clip=True)
     xi, eta, inside = pupil_grid(300)
     passed = pencil(setup.lens, setup.source, xi[inside], eta[inside], clip=True).passed
     waves = displayed_opd(setup.lens, setup.source, xi[inside][passed], eta[inside][passed])
@@ -119,7 +120,8 @@ def test_with_clip_the_pupil_and_its_figures_end_at_the_rims(lens, field, qualit
 
 def test_the_outline_is_where_rays_begin_to_be_stopped():
     state = new_state(lens="fast_gauss_f14", field_deg=22.0, clip=True)
-    setup, outline = paraxial_setup(state), live(state).pupil.outline
+    setup = paraxial_setup(state)
+    outline = pupil_of(setup, True, "settled", clip=True).outline
     inner, outer = (pencil(setup.lens, setup.source, *(outline * part), clip=True).passed for part in (0.998, 1.002))
     within = np.hypot(*(1.002 * outline)) < 1
     # Scaled about the pupil's centre, which lies inside; near a corner the rim is as steep as the scaling.
@@ -128,7 +130,7 @@ def test_the_outline_is_where_rays_begin_to_be_stopped():
 
 def test_the_six_coefficients_know_no_rims():
     state = new_state(lens="fast_gauss_f14", field_deg=22.0, clip=True, method="seidel")
-    pupil = live(state).pupil
+    pupil = live(state, "preview").pupil
     assert pupil.clear == 1 and pupil.kind == "six coefficients"
 
 
@@ -138,7 +140,7 @@ def test_lost_rays_leave_a_pupil_of_the_others():
     xi, eta, inside = pupil_grid(200)
     passed = pencil(setup.lens, setup.source, xi[inside], eta[inside]).passed
     assert not passed.all()
-    pupil = live(state).pupil
+    pupil = pupil_of(setup, True, "settled")
     waves = displayed_opd(setup.lens, setup.source, xi[inside], eta[inside])[passed]
     assert pupil.clear == pytest.approx(passed.mean(), abs=0.01) and pupil.clear < 1
     assert pupil.rms == pytest.approx(waves.std(), rel=0.01)  # a grid of 200 squares and an all-or-nothing edge
