@@ -270,7 +270,7 @@ def test_results_show_themselves():
     assert repr(psf).startswith("<Psf: seidel, 16 × 16 samples of 0.5 µm, 550 nm, Strehl ratio 0.0")
     assert psf._repr_png_().startswith(b"\x89PNG")
     assert replace(psf, values=psf.values[None])._repr_png_() is None
-    assert repr(LENS) == "<Lens double_gauss_28: 11 surfaces, stop_semi_diameter 10.5673, aim paraxial>"
+    assert repr(LENS) == "<Lens double_gauss_28: 11 surfaces, stop_semi_diameter 10.5673, aim stop>"
     assert LENS._repr_html_().count("<tr>") == 12 and "N-SSK2" in LENS._repr_html_()
     six = p2sf.coefficients(LENS, p2sf.Source(field_deg=10))
     assert repr(six).startswith("<Coefficients in waves: w40 6.4") and "W22" in six._repr_html_()

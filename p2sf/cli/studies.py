@@ -134,7 +134,7 @@ def paper(*, folder: Folder = Path("paper"), as_json: Json = False) -> None:
     if as_json:
         return print_json(figures)
     title = f"R² against the Huygens sum, {figures['lens']}, {figures['wavelength_nm']} nm"
-    fields = tuple(f"{row['field_deg']:g}°" for row in figures["accuracy"])
+    fields = tuple(f"{row['field_deg']:g}° {row['aim']}" for row in figures["accuracy"])
     methods = figures["accuracy"][0]["r_squared"]
     rows = [(name, *(f"{row['r_squared'][name]:.5f}" for row in figures["accuracy"])) for name in methods]
     print_table(title, ("method", *fields), rows)

@@ -18,8 +18,8 @@ SMALLEST_RADIUS_MM = 1e-30
 
 ApertureKind = Literal["stop_semi_diameter", "entrance_pupil_diameter", "f_number"]
 Aim = Literal["stop", "paraxial"]
-AIMS = ("stop", "paraxial")
-USUAL_AIM: Aim = "paraxial"
+AIMS: tuple[Aim, ...] = ("stop", "paraxial")
+USUAL_AIM: Aim = "stop"
 
 
 @dataclass(frozen=True)

@@ -50,8 +50,12 @@ class Level:
     @property
     def numbers(self) -> int:
         """Return how many coefficients the level has."""
-        even, odd = len(terms(self.map_order)), len(terms(self.map_order, True))
-        return len(terms(self.wave_order)) + even + odd + even * self.weighted
+        return self.unweighted_numbers + len(terms(self.map_order)) * self.weighted
+
+    @property
+    def unweighted_numbers(self) -> int:
+        """Return how many coefficients phase and maps have, without those of a weight."""
+        return len(terms(self.wave_order)) + len(terms(self.map_order)) + len(terms(self.map_order, True))
 
     @property
     def rays(self) -> int:
@@ -146,11 +150,12 @@ def fit(
 ) -> FittedPencil:
     """Fit one source's pencil; the order rises until the residual is small enough, or is fixed by ``numbers``.
 
+    ``numbers``: those of a level, with or without those of its weight, so that one count serves every `Lens.aim`.
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
     traced, rays, sampling, found = 0, None, None, None
     for level in levels(lens.aim):
-        if numbers not in (None, level.numbers):
+        if numbers not in (None, level.numbers, level.unweighted_numbers):
             continue
         if rays is None or sampling != (level.radii, level.directions):
             rays, sampling = _trace(lens, source, level, stop), (level.radii, level.directions)

@@ -23,6 +23,7 @@ from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import QUICK_LEVELS, Choice, choose, render
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.raytrace.fit import levels
 
 PIXELS = 64
 STEEPEST = 80.0  # waves per pupil radius: beyond it a reference takes seconds, and no method is harder to choose
@@ -91,7 +92,7 @@ def _cheaper(lens: Lens, source: Source, choice: Choice, pixel: float):
     """Yield the PSFs of all methods below the chosen one; a fit that lost rays forbid is none."""
     if choice.method != "seidel":
         yield render(lens, source, "seidel", PIXELS, pixel)
-    for level in QUICK_LEVELS:
+    for level in levels(lens.aim)[: len(QUICK_LEVELS)]:
         if choice.method in ("traced", "huygens") or level.numbers < choice.numbers:
             with suppress(GeometryError):
                 yield fitted_psf(lens, source, PIXELS, pixel, level.numbers)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError
+from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import RAYS, Colour, Kernels, Recipe, sensor_map
@@ -28,7 +29,7 @@ def relative(kernel, good) -> float:
 @pytest.mark.parametrize(("name", "degrees", "half"), WIDE)
 def test_rays_and_waves_agree_where_pixels_are_wide(name, degrees, half):
     """Pixels of 32 µm over some 20 samples of λ/2NA: what is left is diffraction at caustics, 1 to 2 % of L2."""
-    lens, angle = find_lens(name), 0.3
+    lens, angle = with_aim(find_lens(name), "paraxial"), 0.3
     pupil = pupil_map(lens, source(degrees), "fitted")
     waves = pixel_kernel(pupil, angle, PixelWindow(half, 32.0, samples_across(pupil, 32.0)))
     rays = ray_kernel(ray_spread(lens, source(degrees)), angle, half, 32.0)
@@ -40,7 +41,7 @@ def test_rays_and_waves_agree_where_pixels_are_wide(name, degrees, half):
 @pytest.mark.parametrize(("name", "degrees", "half"), WIDE)
 def test_a_window_is_as_wide_as_the_rays_land(name, degrees, half):
     """The share of the light is (∂(ξ, η)/∂f)² df, nearly that of the pupil; 5 % for this and for the nodes."""
-    lens = find_lens(name)
+    lens = with_aim(find_lens(name), "paraxial")
     nodes = disc_nodes(60, 240)
     rays = pencil(lens, source(degrees), nodes.xi, nodes.eta)
     distance = 1000 * np.hypot(rays.dx, rays.dy)
@@ -57,7 +58,7 @@ def test_polynomials_that_come_back_beyond_the_rim_are_refused():
 
 
 def test_lost_rays_leave_the_others():
-    lens, near = find_lens("relay"), source(1.0, 94.412)
+    lens, near = with_aim(find_lens("relay"), "paraxial"), source(1.0, 94.412)  # all that fill the stop arrive
     nodes = disc_nodes(60, 240)
     rays = pencil(lens, near, nodes.xi, nodes.eta)
     passed = float(nodes.weight[rays.passed].sum())

@@ -85,7 +85,8 @@ GREY = '[[channel]]\nname = "grey"\nwavelengths_nm = [550]\n'
 @pytest.fixture
 def grey(tmp_path):
     path = tmp_path / "grey.toml"
-    path.write_text(SCENE + GREY)
+    # Up to 20°, within the tessar's field: beyond it no ray reaches parts of its stop.
+    path.write_text(SCENE.replace("60.0", "40.0") + GREY)
     return path
 
 
@@ -102,7 +103,7 @@ def test_a_coloured_picture_in_a_grey_scene_is_its_luminance(grey, tmp_path, cap
 
 
 def test_two_channels_fit_neither_a_colour_picture_nor_a_file(grey, tmp_path, capsys):
-    grey.write_text(SCENE + GREY + GREY.replace("grey", "other").replace("550", "600"))
+    grey.write_text(SCENE.replace("60.0", "40.0") + GREY + GREY.replace("grey", "other").replace("550", "600"))
     write_photo(tmp_path / "rgb.png", np.full((40, 60, 3), 0.5, np.float32))
     assert main(["image", "tessar", str(grey), str(tmp_path / "rgb.png"), "-o", str(tmp_path / "o.png")]) == 2
     assert "has 3 channels and the scene 2; give the scene 1 or 3" in capsys.readouterr().err

@@ -36,12 +36,13 @@ def listed_indices(name: str, wavelength_nm: float) -> list[float]:
 
 @cache
 def prescription_lens(name: str, wavelength_nm: float) -> Lens:
-    """Return a reference lens with exactly the indices the witness used at this wavelength."""
+    """Return a reference lens with exactly the indices the witness used at this wavelength, and its paraxial pupil."""
     data, index = prescriptions()[name], listed_indices(name, wavelength_nm)
     surfaces = tuple(_surface(row, n) for row, n in zip(data["surfaces"], index[1:], strict=True))
     rim = Aperture("stop_semi_diameter", data["stop_semi_diameter"])
     first = ConstantIndex(index[0])
-    return Lens(surfaces, rim, data["stop_surface"], name, wavelengths_nm=(wavelength_nm,), object_medium=first)
+    known = {"name": name, "wavelengths_nm": (wavelength_nm,), "object_medium": first, "aim": "paraxial"}
+    return Lens(surfaces, rim, data["stop_surface"], **known)
 
 
 def _surface(row: dict, index: float) -> Surface:

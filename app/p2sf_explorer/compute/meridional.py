@@ -56,7 +56,7 @@ def meet(surface: Surface, z: float, y: float, cz: float, cy: float) -> Meeting 
     c, k = surface.curvature, surface.conic
     f, g = c * y * y, cz - c * y * cy  # the conic's quadratic for the step from the vertex plane (Welford 1986, §4.3)
     root = g * g - f * c * (1 + k * cz * cz)
-    if root < 0:
+    if not root >= 0:  # nor where the ray is NaN, having no way to its place in the stop
         return None
     step = f / (g + copysign(sqrt(root), cz))
     z, y = step * cz, y + step * cy
@@ -87,7 +87,7 @@ def refracted(slope: float, cz: float, cy: float, before: float, after: float) -
     nz, ny = 1 / length, -slope / length
     incident = before * (cz * nz + cy * ny)
     root = incident**2 + after**2 - before**2
-    if root < 0:
+    if not root >= 0:  # nor where the ray is NaN, having no way to its place in the stop
         return None
     push = sqrt(root) - incident
     return (before * cz + push * nz) / after, (before * cy + push * ny) / after

@@ -15,7 +15,7 @@ from p2sf_explorer.shell.window import MAIN
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.widgets.copying import data_of
 
-TOO_FAR = changed(with_lens(new_state(theme="light"), "relay"), depth_mm=inf, field_deg=1.0)
+TOO_FAR = changed(with_lens(new_state(theme="light", aim="paraxial"), "relay"), depth_mm=inf, field_deg=1.0)
 
 
 @pytest.fixture
