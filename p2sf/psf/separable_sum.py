@@ -26,7 +26,8 @@ from p2sf.pupil.zernike import columns as power_columns
 from p2sf.pupil.zernike import evaluate, evaluate_in_eta, in_square
 from p2sf.raytrace.fit import FittedPencil
 
-MOST_NODES = 2**22
+MOST_NODES = 2**24  # seconds of work
+IN_MEMORY = 2**21  # nodes at all columns at a time: some 100 MB
 PREVIEW = 0.85  # of the settled counts: 1 − R² against the settled sum is below 1e-5 on every stored row
 NEWTON_STEPS = 8
 MORE_NODES = 10  # than the order of a fit's phase: polynomials of twice as high an order along each row
@@ -66,8 +67,13 @@ class FrequencyRows:
         self, phase: np.ndarray, fx: np.ndarray, pixels: int, pixel_um: float, dtype: DTypeLike = np.float64
     ) -> np.ndarray:
         """Return the intensity (y, x) of phases in waves and fx in cycles/µm, (rows, nodes), on a centred grid."""
-        weight, phase, fx = self.on_columns(phase, fx)
-        field = sum_rows(pupil_amplitude(weight, phase, dtype), fx, self.fy, pixels, pixel_um)
+        together = max(1, IN_MEMORY // self.columns)
+        field = np.zeros((pixels, pixels), np.result_type(dtype, np.complex64))
+        for first in range(0, len(self.fy), together):
+            some = slice(first, first + together)
+            part = FrequencyRows(self.fy[some], self.xi[some], self.eta[some], self.weight[some], self.columns)
+            weight, waves, cycles = part.on_columns(phase[some], fx[some])
+            field += sum_rows(pupil_amplitude(weight, waves, dtype), cycles, part.fy, pixels, pixel_um)
         intensity: np.ndarray = field.real**2 + field.imag**2
         return intensity
 

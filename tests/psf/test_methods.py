@@ -144,9 +144,9 @@ def test_a_fit_takes_the_numbers_that_the_tolerance_asks_for():
 
 
 def test_auto_falls_back_on_the_reference_where_rows_need_too_many_samples():
-    """On the axis rings need few directions, where rows need as many as columns: 2048 × 2304 of them here."""
+    """On the axis rings need few directions, where rows need as many as columns: 5120 × 5632 of them here."""
     pair = Surface(20.0, 4.0, ConstantIndex(1.5), conic=-3.0), Surface(-20.0, 10.0, conic=-2.0)
-    lens = Lens(pair, Aperture("stop_semi_diameter", 11.0), 1)
+    lens = Lens(pair, Aperture("stop_semi_diameter", 13.0), 1)
     lens, source = with_sensor(lens, float(image_distance(lens, inf, 0.5876))), Source(inf, 0.0, 0.5876)
     assert choose(lens, source).method == "traced"
     with pytest.raises(SamplingError):

@@ -126,3 +126,15 @@ def test_a_blur_beyond_all_nodes_is_refused_in_words():
     lens, source, _, _ = next(cases("double_gauss_28"))
     with pytest.raises(SamplingError, match="bring the sensor nearer"):
         rows_for(fit(lens, source), 64, 1e4, "settled")
+
+
+@pytest.mark.parametrize("nodes", [None, 24])
+def test_rows_are_summed_in_blocks_of_bounded_memory(monkeypatch, nodes):
+    """Blocks of five rows, the last one smaller, add up to the sum of all, to round-off."""
+    lens, source, _, _ = list(cases("double_gauss_28"))[2]
+    found = fit(lens, source)
+    rows = frequency_rows(found, 64, 80, nodes)
+    phase, fx = found.at_points(rows.xi, rows.eta)
+    whole = rows.intensity(phase, fx, 32, 0.7)
+    monkeypatch.setattr("p2sf.psf.separable_sum.IN_MEMORY", 5 * 80)
+    np.testing.assert_allclose(rows.intensity(phase, fx, 32, 0.7), whole, atol=1e-13 * whole.max())

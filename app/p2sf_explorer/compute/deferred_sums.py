@@ -25,7 +25,7 @@ from p2sf_explorer.state.state import State
 # As many nodes as are summed in some 40 ms, and on a busy machine in a few times that, over so many samples a side.
 MOST_NODES = {"seidel": 100_000, "fitted": 60_000, "traced": 30_000, "huygens": 12_000}
 FEW_SAMPLES = 128
-MOST_IN_PRODUCTS = 2**30  # nodes × samples a side of a sum in rows: a second
+MOST_IN_PRODUCTS = 2**31  # nodes × samples a side of a sum in rows: some seconds
 MOST_ONE_BY_ONE = 2**32  # nodes × samples of a sum ray by ray: some ten seconds
 KEPT = 8
 KEPT_BYTES = 2**25  # of all samples that are kept, 32 MB: four of the largest pictures in float64

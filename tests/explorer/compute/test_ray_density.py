@@ -14,7 +14,7 @@ from p2sf_explorer.compute.warnings import TOGETHER
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import changed, new_state
 
-BLURRED = new_state(depth_mm=800.0, focus_mm=None, field_deg=8.0, method="auto")
+BLURRED = new_state(depth_mm=300.0, focus_mm=None, field_deg=8.0, method="auto")
 
 
 def moments(psf) -> np.ndarray:

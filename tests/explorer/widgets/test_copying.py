@@ -20,7 +20,7 @@ from tests.long.crash import small_disk
 
 
 def test_the_curves_of_the_open_panel_are_copied_as_they_are(window, qtbot):
-    window.store.update(f_number=8.0)  # the brightest point lies on the line
+    window.store.update(f_number=8.0, field_deg=0.0)  # the brightest point lies on the line
     qtbot.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
     rows = list(csv.reader(io.StringIO(QGuiApplication.clipboard().text())))
     column = rows[0].index("along y: share of the peak")
