@@ -115,20 +115,22 @@ def _reference(lens: Lens, source: Source) -> Psf:
 
 
 def database_error(rule: str) -> Measure:
-    """Return the largest error of a database's rule in W31, waves, on the database panel's nodes."""
+    """Return the largest error of a database's rule in W22, waves, as the database panel shows it first."""
 
     def error(state: State) -> float:
         from p2sf_explorer.results.database import answer, question
 
-        return answer(question(_live(state))).largest[rule]["w31"]
+        return answer(question(_live(state))).largest[rule]["w22"]
 
     return error
 
 
 def photo_psfs(state: State) -> float:
-    """Return the number of places on the sensor for which the coarse picture computes a PSF."""
-    rows, columns = _coarse(state).plan.counts
-    return float(rows * columns)
+    """Return how many PSFs the coarse picture computes, as the panel counts them."""
+    from p2sf_explorer.results.image import psf_counts
+
+    count, _ = psf_counts(_coarse(state).plan)
+    return float(str(count.values["count"]))
 
 
 def sharpening_db(state: State) -> float:
