@@ -29,7 +29,7 @@ ORDERS = 6, 18  # the least and the greatest
 FAR_OFF = 30.0  # times the allowed residual: then the next order but one is tried, since the next seldom suffices
 NODES = 16, 44
 REACH_NODES = 24, 48
-FOLDED = 0.1  # of the pupil's area: nodes count that area to some 2 % where the polynomials hold
+FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % where the polynomials hold
 STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 PHASE_RESIDUAL = 2e-4  # waves RMS: 2e-3 of relative L2 in the finest detail, less in a pixel
 POINT_RESIDUAL = 5e-4  # of the pupil radius
@@ -45,7 +45,7 @@ class FrequencyPupil:
     ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``residual_waves`` RMS phase error left.
     ``weight``: of the light by entrance pupil area, even; none for the even light of a paraxial pupil. ``rims``,
     (surfaces, even terms): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
-    ``clear``: the share of the pupil's area that no rim clips.
+    ``energy``: ∫(weight·|∂(ξ, η)/∂f|)² df over the part that no rim clips, which the polynomials must give too.
     """
 
     order: int
@@ -55,7 +55,7 @@ class FrequencyPupil:
     xi: np.ndarray
     weight: np.ndarray
     rims: np.ndarray
-    clear: float
+    energy: float
     reach_um: float
     residual_waves: float
     method: str
@@ -85,10 +85,6 @@ def _rims(lens: Lens, source: Source) -> np.ndarray:
     return np.array([1 - (height / rim) ** 2 for height, rim in zip(heights, limits, strict=False) if np.isfinite(rim)])
 
 
-def _clear_share(rims: np.ndarray) -> float:
-    return float(disc_nodes(*NODES).weight[(rims > 0).all(0)].sum())
-
-
 def _from_seidel(lens: Lens, source: Source, rims: np.ndarray) -> FrequencyPupil:
     six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     scale = -float(six.reduced_slope) / source.wavelength_um
@@ -100,7 +96,8 @@ def _from_seidel(lens: Lens, source: Source, rims: np.ndarray) -> FrequencyPupil
     phase = wavefront(six, nodes.xi, nodes.eta)
     (phase, eta, *forms), (xi,) = _solve(even, [phase, nodes.eta, *rims]), _solve(odd, [nodes.xi])
     edges = np.reshape(forms, (-1, phase.size))
-    made = order, abs(scale), phase, eta, xi, np.empty(0), edges, _clear_share(rims)
+    energy = np.pi * float(nodes.weight[(rims > 0).all(0)].sum()) / scale**2
+    made = order, abs(scale), phase, eta, xi, np.empty(0), edges, energy
     return FrequencyPupil(*made, nan, 0.0, "seidel", 6)
 
 
@@ -128,7 +125,15 @@ def _from_fit(found: FittedPencil, rims: np.ndarray) -> FrequencyPupil:
     (xi_of,), left = _solve(odd_here * share, [share * nodes.xi]), float(np.hypot(residual, found.residual_waves))
     weight_of, rims_of = (np.array(others[part]) for part in (slice(len(light)), slice(len(light), None)))
     forms = waves_of, eta_of, xi_of, weight_of.ravel(), rims_of.reshape(-1, waves_of.size)
-    return FrequencyPupil(order, radius, *forms, _clear_share(rims), nan, left, "fitted", found.numbers)
+    energy = _energy(found, np.asarray((rims > 0).all(0)))
+    return FrequencyPupil(order, radius, *forms, energy, nan, left, "fitted", found.numbers)
+
+
+def _energy(found: FittedPencil, clear: np.ndarray) -> float:
+    """Return ∫weight²/|∂f/∂(ξ, η)| dξ dη over the clear nodes: by Parseval ∫|field|²dx."""
+    nodes = disc_nodes(*NODES)
+    light = found.weight_at(nodes.xi, nodes.eta) ** 2 / np.abs(found.jacobian(nodes.xi, nodes.eta))
+    return float(np.pi * (nodes.weight * light)[clear].sum())
 
 
 @lru_cache(maxsize=8)
@@ -159,16 +164,16 @@ def reach_of(pupil: FrequencyPupil) -> float:
     )
     area = np.abs(xi_u * eta_v - xi_v * eta_u)
     inside = (pupil.eta @ at.even) ** 2 + (pupil.xi @ at.odd) ** 2 <= 1
-    part = np.where(inside & (pupil.rims @ at.even > 0).all(0), at.weight * area, 0.0)
-    if not pupil.clear - FOLDED < part.sum() < pupil.clear + FOLDED:
-        raise GeometryError(
-            "the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its "
-            "area; stop the lens down or reduce the field",
-            share=float(part.sum()) / pupil.clear,
-        )
-    light = part * area
+    light = np.where(inside & (pupil.rims @ at.even > 0).all(0), at.weight * area**2, 0.0)
     if pupil.weight.size:
         light *= (pupil.weight @ at.even) ** 2
+    share = float(np.pi * light.sum() / pupil.radius**2 / pupil.energy)
+    if abs(share - 1) > FOLDED:
+        raise GeometryError(
+            "the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its "
+            "light; stop the lens down or reduce the field",
+            share=share,
+        )
     distance = np.hypot(phase_u, phase_v) / pupil.radius
     order_of = np.argsort(distance)
     within = np.cumsum(light[order_of]) <= (1 - STRAY) * light.sum()

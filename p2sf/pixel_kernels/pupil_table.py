@@ -23,7 +23,7 @@ PupilShift: TypeAlias = tuple[FrequencyPupil, float]  # a pupil, and its lateral
 class PupilTable:
     """Pupils of one wavelength between those fitted at heights × vergences, and their lateral colour.
 
-    ``rows``, (heights · vergences, numbers): of each pupil all FORMS, radius, clear share and lateral colour in mm.
+    ``rows``, (heights · vergences, numbers): of each pupil all FORMS, radius, energy and lateral colour in mm.
     ``like`` is a pupil of the highest order, with the largest residual of all.
     """
 
@@ -39,9 +39,9 @@ class PupilTable:
         weights = np.outer(lagrange(self.heights_mm, height_mm), lagrange(self.vergences, vergence)).ravel()
         row, like = weights @ self.rows, self.like
         sizes = [getattr(like, name).size for name in FORMS]
-        phase, eta, xi, weight, rims, (radius, clear, shift) = np.split(row, np.cumsum(sizes))
-        rims, radius, clear = rims.reshape(like.rims.shape), float(radius), float(clear)
-        made = replace(like, phase=phase, eta=eta, xi=xi, weight=weight, rims=rims, radius=radius, clear=clear)
+        phase, eta, xi, weight, rims, (radius, energy, shift) = np.split(row, np.cumsum(sizes))
+        rims, radius, energy = rims.reshape(like.rims.shape), float(radius), float(energy)
+        made = replace(like, phase=phase, eta=eta, xi=xi, weight=weight, rims=rims, radius=radius, energy=energy)
         return replace(made, reach_um=reach_of(made)), float(shift)
 
 
@@ -60,7 +60,7 @@ def pupil_table(
 def _row(pupil: FrequencyPupil, shift_mm: float, like: FrequencyPupil) -> np.ndarray:
     """Return all numbers of a pupil; zeros stand for terms of higher degree, the last of each form, that it lacks."""
     forms = (_widened(getattr(pupil, name), getattr(like, name).shape[-1]) for name in FORMS)
-    return np.concatenate([*forms, (pupil.radius, pupil.clear, shift_mm)])
+    return np.concatenate([*forms, (pupil.radius, pupil.energy, shift_mm)])
 
 
 def _widened(form: np.ndarray, terms: int) -> np.ndarray:

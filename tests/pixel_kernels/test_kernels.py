@@ -13,12 +13,14 @@ from p2sf.pixel_kernels.pixels import PixelWindow, _binned, half_width, pixel_ke
 from p2sf.pixel_kernels.pupil_table import chebyshev, few_nodes, lagrange, pupil_table
 from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.zernike import basis, basis_by_powers
+from p2sf.raytrace.fit import levels
 from p2sf.scene.reference import exact_pixels
 from p2sf.scene.scene import Channel
 from p2sf.scene.spectrum import reduced
 
 WAVE, PIXEL = 0.5876, 6.0
-FINE = Recipe("fitted", 46, 4.0, 1.0)
+FINE = Recipe("fitted", levels(find_lens("double_gauss_28").aim)[1].numbers, 4.0, 1.0)
+GOOD = FINE.numbers
 
 
 def source(degrees: float) -> Source:
@@ -33,7 +35,7 @@ def relative(kernel, good) -> float:
 def test_the_fft_of_a_fitted_pupil_is_the_huygens_sum_of_exact_rays(degrees):
     """46 numbers leave 2e-4 waves here, 4πσ = 2.5e-3; the rim's linear share of a cell adds as much."""
     lens = find_lens("double_gauss_28")
-    pupil = pupil_map(lens, source(degrees), "fitted", 46)
+    pupil = pupil_map(lens, source(degrees), "fitted", GOOD)
     half = half_width(pupil, PIXEL)
     wide = pixel_kernel(pupil, 0.0, PixelWindow(2 * half, PIXEL, 14))
     kernel = wide[half:-half, half:-half] / wide[half:-half, half:-half].sum()
@@ -59,7 +61,7 @@ def test_a_field_to_the_right_is_the_field_upwards_turned(method):
 
 def test_oblique_directions_are_turned_as_the_reference_is():
     lens, angle = find_lens("cooke_triplet"), 0.7
-    pupil = pupil_map(lens, source(12), "fitted", 46)
+    pupil = pupil_map(lens, source(12), "fitted", GOOD)
     half = half_width(pupil, PIXEL)
     wide = pixel_kernel(pupil, angle, PixelWindow(2 * half, PIXEL, 8))[half:-half, half:-half]
     good = exact_pixels(lens, source(12), angle, half, PIXEL, 0.0)
@@ -126,7 +128,7 @@ def test_kernels_of_a_channel_have_unit_sum_and_carry_lateral_colour():
 
 def test_pupils_between_a_few_are_the_ones_that_rays_give():
     """Four heights and three depths: phase RMS 2e-4 waves, 4πσ = 2.5e-3 of a kernel; at the nodes, the fit itself."""
-    lens, recipe = find_lens("double_gauss_28"), Recipe("fitted", 46)
+    lens, recipe = find_lens("double_gauss_28"), Recipe("fitted", GOOD)
     depths = 1 / chebyshev(1e-5, 2e-4, 3)
     seen = {1 / d: sensor_map(lens, d, WAVE, 16.0) for d in (*depths, 9000.0)}
     table = pupil_table(lambda h, v: own_pupil(seen[v], h, 0.55, recipe), chebyshev(2.0, 15.0, 4), list(seen)[:3])

@@ -96,7 +96,16 @@ def test_a_coloured_picture_in_a_grey_scene_is_its_luminance(grey, tmp_path, cap
     colours[..., 1] = 0.5
     write_photo(tmp_path / "green.png", colours, "srgb", "16")
     out = tmp_path / "out.tif"
-    command = ["image", "tessar", str(grey), str(tmp_path / "green.png"), "-o", str(out), "--deblur", "richardson-lucy"]
+    command = [
+        "image",
+        "cooke_triplet",
+        str(grey),
+        str(tmp_path / "green.png"),
+        "-o",
+        str(out),
+        "--deblur",
+        "richardson-lucy",
+    ]
     assert main([*command, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["deblur"]
     assert read_photo(out).values[15:25, 25:35].mean() == pytest.approx(0.5 * 0.7152, rel=0.02)
@@ -105,13 +114,13 @@ def test_a_coloured_picture_in_a_grey_scene_is_its_luminance(grey, tmp_path, cap
 def test_two_channels_fit_neither_a_colour_picture_nor_a_file(grey, tmp_path, capsys):
     grey.write_text(SCENE.replace("60.0", "40.0") + GREY + GREY.replace("grey", "other").replace("550", "600"))
     write_photo(tmp_path / "rgb.png", np.full((40, 60, 3), 0.5, np.float32))
-    assert main(["image", "tessar", str(grey), str(tmp_path / "rgb.png"), "-o", str(tmp_path / "o.png")]) == 2
+    assert main(["image", "cooke_triplet", str(grey), str(tmp_path / "rgb.png"), "-o", str(tmp_path / "o.png")]) == 2
     assert "has 3 channels and the scene 2; give the scene 1 or 3" in capsys.readouterr().err
     write_photo(tmp_path / "one.png", np.full((40, 60), 0.5, np.float32))
-    assert main(["image", "tessar", str(grey), str(tmp_path / "one.png"), "-o", str(tmp_path / "o.png")]) == 2
+    assert main(["image", "cooke_triplet", str(grey), str(tmp_path / "one.png"), "-o", str(tmp_path / "o.png")]) == 2
     assert "the scene has 2 channels, and a picture file 1 or 3" in capsys.readouterr().err
 
 
 def test_a_plan_says_what_random_points_found(grey, capsys):
-    assert main(["plan", "tessar", str(grey), "--check", "1"]) == 0
+    assert main(["plan", "cooke_triplet", str(grey), "--check", "1"]) == 0
     assert "At 1 random points exact rays find" in capsys.readouterr().out

@@ -52,7 +52,7 @@ def test_the_plan_keeps_its_tolerance_against_exact_rays(planned):
 
 
 def test_a_plan_of_clipped_pencils_keeps_its_tolerance():
-    """A crop of the Double Gauss's corner, where its rims take 5 % of the pupil and 15 % of L2."""
+    """A crop of the Double Gauss's corner, where its rims take 5 % of the pupil and a tenth of L2."""
     lens = find_lens("double_gauss_28")
     scene = Scene(Sensor(40, 40, 8.0, (0.0, 23.5)), GREEN, tolerance=0.1, clip=True)
     clipped = plan(lens, scene)
@@ -61,7 +61,7 @@ def test_a_plan_of_clipped_pencils_keeps_its_tolerance():
     x, y, vergence, channel = verdict.places[0]
     kernel = planned_kernel(replace(clipped, scene=replace(scene, clip=False)), x, y, vergence, channel)
     seen = clipped.sensor_map(vergence)
-    assert distance(kernel, reference_kernel(seen, GREEN[channel], x, y, kernel.shape[0] // 2, 8.0)) > 0.1
+    assert distance(kernel, reference_kernel(seen, GREEN[channel], x, y, kernel.shape[0] // 2, 8.0)) > 0.08
 
 
 def test_a_plan_without_what_it_decided_would_not(planned):

@@ -1181,7 +1181,7 @@
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
-<message><source>the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its area; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihrer Fläche finden; abblenden oder das Feld verkleinern</translation></message>
+<message><source>the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its light; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihres Lichts finden; abblenden oder das Feld verkleinern</translation></message>
 <message><source>the range to play is {value}; give where it begins and where it ends</source><translation>der Bereich zum Abspielen ist {value}; angeben, wo er beginnt und wo er endet</translation></message>
 <message><source>the real stop</source><translation>die wahre Blende</translation></message>
 <message><source>the reference is summed when the sliders rest</source><translation>die Referenz wird summiert, wenn die Regler ruhen</translation></message>
