@@ -68,7 +68,7 @@ def trace_spot(setup: Setup, rings: int, clip: bool) -> tuple[np.ndarray, dict[s
     na = float(numerical_aperture(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop))
     return points, {
         "rms_um": float(found.rms_um),
-        "largest_um": float(np.hypot(*(points - points.mean(axis=0)).T).max()),
+        "largest_um": float(np.hypot(points[:, 0], points[:, 1] - found.centroid_y_um).max()),
         "centroid_y_um": float(found.centroid_y_um),
         "airy_radius_um": float(airy_radius_um(setup.source.wavelength_um, na)) if na else inf,
         "rays": len(all_points),

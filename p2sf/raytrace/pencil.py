@@ -29,6 +29,7 @@ __all__ = [
 ]
 
 MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, all that a mean over symmetric rays consists of
+WEIGHT_ROUNDING = 1e-6  # of the largest term: the weights of aimed rays are differences, good to that
 
 
 @dataclass(frozen=True)
@@ -231,7 +232,8 @@ def spot(lens: Lens, source: Source | Sources, rings: int = 8, clip: bool = Fals
             "no ray reaches the sensor; choose a smaller field or leave {parameter} off", parameter="clip"
         )
     light = np.where(rays.passed, rays.weight, 0.0)
-    centre_x, centre_y = _centroid(x, light), _centroid(y, light)
+    rounding = WEIGHT_ROUNDING if lens.aim == "stop" else MEAN_ROUNDING
+    centre_x, centre_y = _centroid(x, light, rounding), _centroid(y, light, rounding)
     square = _mean((x - centre_x) ** 2 + (y - centre_y) ** 2, light)[..., 0]
     return Spot(x, y, np.sqrt(square), centre_y[..., 0])
 
@@ -244,10 +246,10 @@ def _mean(values: np.ndarray, light: np.ndarray) -> np.ndarray:
     return mean
 
 
-def _centroid(values: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Return the mean, (…, 1); 0 where it is nothing but the rounding of a sum."""
+def _centroid(values: np.ndarray, light: np.ndarray, rounding: float) -> np.ndarray:
+    """Return the mean, (…, 1); 0 where it is nothing but rounding, a share of the largest value."""
     mean = _mean(values, light)
-    return np.where(np.abs(mean) > MEAN_ROUNDING * np.nanmax(np.abs(values), -1, keepdims=True), mean, 0.0)
+    return np.where(np.abs(mean) > rounding * np.nanmax(np.abs(values), -1, keepdims=True), mean, 0.0)
 
 
 def hexapolar(rings: int) -> tuple[np.ndarray, np.ndarray]:
