@@ -236,7 +236,7 @@ def zernike(
     Examples
     --------
     >>> import p2sf
-    >>> found = p2sf.zernike(p2sf.load_lens("telephoto"), p2sf.Source(field_deg=7), aim="paraxial")
+    >>> found = p2sf.zernike(p2sf.load_lens("telephoto"), p2sf.Source(field_deg=7))
     >>> found.terms[6].name, round(float(found.waves[6]), 3), round(found.rms, 3)
     ('coma', -0.057, 0.184)
     """
