@@ -41,6 +41,8 @@ RIM = 64  # intervals of the rim's right half that are traced
 OUTLINE = 2048  # intervals of the outline: chords between them depart from it by 3e-7 of the radius
 PROBE = 33  # points along each axis where slopes are looked for
 
+UNFOLLOWED = "no polynomial follows the rays of this pupil; stop the lens down or reduce the field"
+
 
 @dataclass(frozen=True)
 class Sampling:
@@ -208,9 +210,11 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False) -> FrequencyPu
         inside = disc_nodes(*counts) if whole else clear_nodes(lens, source, counts, clip)
         xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
         rays = pencil(lens, source, xi, eta)
-        data = ray_data(rays)
-        field = data.weight, data.phase, data.fx, data.fy
-        return PupilNodes(xi, eta, _shares(inside.weight, edge), *field, edge[0].size)
+        data, passed = ray_data(rays), rays.passed  # where light is lost, an outline by directions misses a few rays
+        if whole and not passed.all():
+            raise GeometryError(UNFOLLOWED)
+        columns = xi, eta, _shares(inside.weight, edge), data.weight, data.phase, data.fx, data.fy
+        return PupilNodes(*(column[passed] for column in columns), int(passed[-edge[0].size :].sum()))
 
     return _settled(traced, ORDERS, whole)
 
@@ -268,7 +272,7 @@ def _settled(nodes_of: Callable[[Sampling], PupilNodes], orders: tuple[Sampling,
             "stop the lens down or reduce the field"
         )
     if not found.residual_waves < MOST_RESIDUAL:
-        raise GeometryError("no polynomial follows the rays of this pupil; stop the lens down or reduce the field")
+        raise GeometryError(UNFOLLOWED)
     return replace(found, rays=traced)
 
 
