@@ -29,7 +29,7 @@ from p2sf_explorer.compute.sampled import by_coefficients
 
 POINTS = {"preview": 257, "settled": 513}
 FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # two evaluations of Bessel functions meet at FAR, each exact to 1e-12
-NOTHING = Message("")
+NOTHING, LATER = Message(""), Message("the energy follows when the slider rests")
 MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
 
 
@@ -68,6 +68,8 @@ def profiles(live: Live) -> ProfileCurves:
     peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl or 0.0)) or 1.0
     none = np.full(position.size, np.nan)
     curves = ProfileCurves(position, along_x / peak, along_y / peak, airy, none, perfect)
+    if live.quality == "preview":  # some 10 ms, of a frame's 16
+        return replace(curves, method=LATER)
     request = measure_request(live)
     try:
         return with_energy(curves, request) if energy_is_live(request) else replace(curves, pending=request)

@@ -60,8 +60,10 @@ def test_a_drag_paints_sections_of_the_preview(window):
         assert window.live.quality == "preview"
         x, y = window.panels["profiles"].curves["along x"].data()
         assert x.size == 257 and y.max() == pytest.approx(1.0, abs=0.1)
-        radius, energy = window.panels["profiles"].within.data()
-        assert (np.diff(energy) >= 0).all() and energy[-1] > 0.95 and radius[0] == 0
+        assert window.panels["profiles"].within.data()[0].size == 0, "no energy of another picture"
+        assert "follows" in window.panels["profiles"].widget.readout.text()
+    radius, energy = window.panels["profiles"].within.data()
+    assert (np.diff(energy) >= 0).all() and energy[-1] > 0.95 and radius[0] == 0
 
 
 def test_defocus_spreads_the_energy(window):
