@@ -67,7 +67,7 @@ class CompareBar(QFrame):
             button.clicked.connect(lambda _=False, key=key: store.update(shown=key))
         self.swap.clicked.connect(self.exchange)
         self.unpin.clicked.connect(lambda: store.replace(unpin(store.state)))
-        menu = QMenu(self)
+        menu = self._menu = QMenu(self)  # kept: its actions go with it
         self.links = {key: menu.addAction(tr(LINK_WORDS[key])) for key in LINKABLE}
         for key, action in self.links.items():
             action.setCheckable(True)
