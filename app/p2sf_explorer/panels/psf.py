@@ -69,10 +69,14 @@ class PsfPanel:
         self._live = live
         select(self.scale, live.state.display.psf_scale)
         select(self.units, live.state.display.psf_units)
+        self.show_badge(live, None)
+        self._refine(live)
+
+    def _refine(self, live: Live) -> None:
+        """Paint the samples that are there, and ask for finer ones where the panel has more pixels."""
         wanted = self._wanted(live)
         known = self._finer is not None and self._finer[0] == wanted
         self._paint(live, self._finer[1] if self._finer and known else live.psf)
-        self.show_badge(live, None)
         if wanted is None:
             self._finer = None
             self.asking.refuse(NOTHING_FINER)
@@ -93,7 +97,7 @@ class PsfPanel:
 
     def _on_resized(self) -> None:
         if self._live and self._live.quality == "settled":
-            self.show(self._live)
+            self._refine(self._live)  # the badge keeps the R² that is measured
 
     def stop(self) -> None:
         """End the background work for good."""

@@ -68,6 +68,13 @@ def test_no_figure_of_an_earlier_picture_stands_beside_the_next(measured, qtbot)
     assert known.live.state != live.state and "vs Huygens" not in badge.text() and "R²" not in message.text()
 
 
+def test_a_resized_panel_keeps_the_measured_figure(measured, qtbot):
+    panel = measured.panels["psf"]
+    qtbot.waitUntil(lambda: "vs Huygens" in panel.badge.text(), timeout=30000)
+    panel._settled.timeout.emit()
+    assert "vs Huygens" in panel.badge.text()
+
+
 def test_a_lesson_claims_what_the_panel_says(measured, qtbot):
     badge = measured.panels["psf"].badge
     qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
