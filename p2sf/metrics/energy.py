@@ -182,4 +182,4 @@ def landing_points(pupil: FrequencyPupil, centre_um: float) -> LandingPoints:
     radius = np.hypot(x, y - centre_um).ravel()
     order = np.argsort(radius)
     share = np.cumsum(light.ravel()[order])
-    return LandingPoints(radius[order], share / share[-1])
+    return LandingPoints(np.append(0.0, radius[order]), np.append(0.0, share / share[-1]))

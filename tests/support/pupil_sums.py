@@ -64,6 +64,8 @@ class Sums:
         high = 1e-3
         while self.energy(high) < share:
             high *= 1.5
+            if high > 1e6:
+                raise LostRays("the grid is too coarse for this blur")
         return float(brentq(lambda r: self.energy(r) - share, high / 1.5, high, xtol=1e-7 * high))
 
 
@@ -102,7 +104,7 @@ def sums_of(pupil: Pupil, perfect: bool = False, cells: int | None = None) -> Su
 
 def cells_for(slope: float) -> int:
     """Return the number of cells across the pupil for a slope in waves per radius."""
-    return int(2 ** np.ceil(np.log2(np.clip(2 * STEPS * slope, FEWEST, MOST))))
+    return int(2 ** np.ceil(np.log2(np.clip(3 * STEPS * slope, FEWEST, MOST))))
 
 
 def pupil_of(lens: Lens, source: Source, aim: str) -> Pupil:
