@@ -214,7 +214,8 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False) -> FrequencyPu
         if whole and not passed.all():
             raise GeometryError(UNFOLLOWED)
         columns = xi, eta, _shares(inside.weight, edge), data.weight, data.phase, data.fx, data.fy
-        return PupilNodes(*(column[passed] for column in columns), int(passed[-edge[0].size :].sum()))
+        xi, eta, share, weight, phase, fx, fy = (column[passed] for column in columns)
+        return PupilNodes(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
 
     return _settled(traced, ORDERS, whole)
 
