@@ -1,21 +1,29 @@
 """Colours and shapes of the window, light and dark, as named tokens."""
 
+import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPalette
 
 # Colour maps of brightness, readable with every kind of colour blindness (tests/explorer/charts/test_theme.py).
 BRIGHTNESS = {"standard": "inferno", "viridis": "viridis", "cividis": "cividis", "grey": "CET-L1"}
 DONE = "#66"  # opacity of a progress bar's done part, AARRGGBB: its text must be readable on either part
 SPACE = 8  # pixels; every gap of the window is this, or half or twice this
+USUAL_SCREEN = 1920, 1080  # logical pixels of a screen at which type and strokes have their plain size
+SCALES = 0.5, 3.0  # the smallest and the largest type
+SMALL_PX = 11  # type of ticks and labels, the smallest there is
+PIXELS = re.compile(r"(\d+)px")
 
 
 @dataclass(frozen=True)
 class Tokens:
-    """The colours of one theme; the data colours are Okabe and Ito's (2008), which colour-blind people tell apart."""
+    """The look of one theme; the data colours are Okabe and Ito's (2008), which colour-blind people tell apart.
+
+    ``scale`` is the size of type, strokes and paddings, 1.0 for the plain one.
+    """
 
     dark: bool
     window: str
@@ -38,6 +46,16 @@ class Tokens:
     third: str
     mark: str
     brightness: str = BRIGHTNESS["standard"]
+    scale: float = 1.0
+
+    def px(self, plain: float) -> int:
+        """Return a length in whole pixels at this scale, at least one; ``plain`` is that at scale 1."""
+        return max(1, round(plain * self.scale))
+
+    @property
+    def small(self) -> int:
+        """Return the size in pixels of the type of ticks and labels."""
+        return self.px(SMALL_PX)
 
 
 LIGHT = Tokens(
@@ -86,14 +104,20 @@ DARK = Tokens(
 )
 
 
-def tokens(choice: str, colours: str = "standard") -> Tokens:
+def tokens(choice: str, colours: str = "standard", scale: float = 1.0) -> Tokens:
     """Return the tokens of "light", "dark" or "system", with a colour map of `BRIGHTNESS` for the heat maps."""
-    return _with_colours(_theme(choice), colours)
+    return _completed(_theme(choice), colours, scale)
 
 
 @lru_cache(maxsize=8)
-def _with_colours(theme: Tokens, colours: str) -> Tokens:
-    return replace(theme, brightness=BRIGHTNESS[colours])
+def _completed(theme: Tokens, colours: str, scale: float) -> Tokens:
+    return replace(theme, brightness=BRIGHTNESS[colours], scale=scale)
+
+
+def screen_scale(screen: QSize) -> float:
+    """Return the scale of type for a screen of this many logical pixels: 1 up to `USUAL_SCREEN`, 2 on twice that."""
+    wide, tall = USUAL_SCREEN
+    return min(SCALES[1], max(1.0, min(screen.width() / wide, screen.height() / tall)))
 
 
 def _theme(choice: str) -> Tokens:
@@ -139,8 +163,9 @@ def palette(theme: Tokens) -> QPalette:
 
 
 def stylesheet(theme: Tokens) -> str:
-    """Return the style sheet of the window."""
-    return _frames(theme) + _inputs(theme) + _lists(theme)
+    """Return the style sheet of the window; every length in it is written at scale 1."""
+    plain = _frames(theme) + _inputs(theme) + _lists(theme)
+    return PIXELS.sub(lambda length: f"{theme.px(int(length[1])) if int(length[1]) else 0}px", plain)
 
 
 def _frames(t: Tokens) -> str:

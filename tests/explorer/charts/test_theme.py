@@ -1,12 +1,15 @@
 """Colours: the heat maps are told apart with every kind of colour blindness, and the window follows the system."""
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QGuiApplication
 
-from p2sf_explorer.charts.theme import BRIGHTNESS, DARK, DONE, LIGHT, tokens
+from p2sf_explorer.charts.theme import BRIGHTNESS, DARK, DONE, LIGHT, screen_scale, stylesheet, tokens
 from p2sf_explorer.panels import pupil
 from p2sf_explorer.scene3d.widget import WAVES_MAP
 from p2sf_explorer.state.limits import CHOICES
@@ -92,3 +95,32 @@ def test_per_cent_are_read_on_both_parts_of_a_bar(theme):
             TO_XYZ[1] @ np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4) for c in (text, ground)
         )
         assert (light[1] + 0.05) / (light[0] + 0.05) > 4.5
+
+
+def test_every_length_of_the_style_sheet_grows_with_the_scale():
+    """Twice the scale doubles each length exactly, since a whole number needs no rounding."""
+    plain, double = (
+        [int(px) for px in re.findall(r"(\d+)px", stylesheet(replace(LIGHT, scale=scale)))] for scale in (1.0, 2.0)
+    )
+    assert len(plain) > 50 and double == [2 * px for px in plain]
+    assert min(int(px) for px in re.findall(r"font-size: (\d+)px", stylesheet(LIGHT))) == LIGHT.small
+
+
+@pytest.mark.parametrize(
+    ("size", "scale", "least"),
+    [
+        ((1280, 720), 1, 11),
+        ((1920, 1080), 1, 11),
+        ((2560, 1440), 4 / 3, 14),
+        ((3840, 2160), 2, 20),
+        ((800, 8000), 1, 11),
+    ],
+)
+def test_a_larger_screen_has_larger_type(size, scale, least):
+    """14 px at 2560 × 1440 and 20 px at 3840 × 2160 are what can be read there from an arm's length."""
+    assert screen_scale(QSize(*size)) == pytest.approx(scale)
+    assert tokens("light", scale=screen_scale(QSize(*size))).small >= least
+
+
+def test_a_stroke_never_vanishes():
+    assert replace(LIGHT, scale=0.5).px(1) == 1
