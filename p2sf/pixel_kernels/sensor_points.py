@@ -23,8 +23,8 @@ class SensorMap:
     """One object plane seen through one lens: chief rays from the axis to the sensor's corner.
 
     ``heights_mm``: where real chief rays of ``slopes`` land, increasing from 0; ``scale_mm``: paraxial height per
-    unit slope, negative where the image is upright. At the reference wavelength. ``clip``: whether rims clip the
-    pencils of its points.
+    unit slope, negative where the entrance pupil lies beyond the object, as a relay's does. At the reference
+    wavelength. ``clip``: whether rims clip the pencils of its points.
     """
 
     lens: Lens

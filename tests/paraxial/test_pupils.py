@@ -9,6 +9,7 @@ import pytest
 from p2sf.errors import GeometryError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number
+from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import (
     f_number,
@@ -194,3 +195,12 @@ def test_a_lens_without_named_stop_lets_the_rims_decide():
 def test_unknown_stop_mode_is_named():
     with pytest.raises(GeometryError, match='"middle" is unknown'):
         find_stop(middle_lens("tessar"), mode="middle")
+
+
+def test_the_relay_inverts_its_object_and_both_pupils_are_inverted_as_its_title_says():
+    """An object 1 mm below the axis lands 1 mm above it: unit magnification, upside down."""
+    lens = find_lens("relay")
+    rays = paraxial_rays(lens, 95.0, lens.reference_wavelength_um, field="height")
+    assert float(rays.chief_y[-1] + rays.chief_nu[-1] * lens.sensor_mm) == pytest.approx(1.0, abs=1e-12)
+    assert pupils(lens, lens.reference_wavelength_um).upright == -1
+    assert "inverted pupils" in lens.title and "image inverted" in lens.character

@@ -1,4 +1,7 @@
-"""Text and lines on a QPainter, prepared once where they can be. Text is painted as it comes, already translated."""
+"""Text and lines on a QPainter, prepared once where they can be.
+
+Text is painted as it comes, already translated, its numbers as the window's language writes them.
+"""
 
 import re
 from collections.abc import Iterator
@@ -8,6 +11,8 @@ import numpy as np
 from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText, QTransform
+
+from p2sf_explorer.i18n.tr import local
 
 FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
 SHORT, LONG = 5, 24  # letters
@@ -36,9 +41,13 @@ def pen(colour: str, alpha: int = 255, width: float = 1.0) -> QPen:
     return QPen(painted, width)
 
 
-@lru_cache(maxsize=1024)
 def set_text(words: str, size: int = 11) -> QStaticText:
     """Return words laid out once: most of them stand on every frame, and laying out is two thirds of painting."""
+    return _laid_out(local(words), size)
+
+
+@lru_cache(maxsize=1024)
+def _laid_out(words: str, size: int) -> QStaticText:
     text = QStaticText(words)
     text.setTextFormat(Qt.TextFormat.PlainText)
     text.prepare(QTransform(), small_font(size))
@@ -86,6 +95,7 @@ def write(painter: QPainter, room: QRectF, words: str, side: int = 0, size: int 
 
     A number changes with the next frame: to lay it out and keep it takes twice as long as to paint it.
     """
+    words = local(words)
     left = room.left() + (side + 1) / 2 * (room.width() - width_of(words, size)) if side >= 0 else room.left()
     painter.setFont(small_font(size))
     if is_passing(words):

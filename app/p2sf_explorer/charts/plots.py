@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import small_font, width_of
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import local, tr
 
 BRIGHTNESS = "brightness"  # stands for the colour map that the theme has for brightness
 NARROW_PX = 245  # below this width, as beside a lesson, a heat map has no colour bar and no name at the left
@@ -25,7 +25,7 @@ class PlotAxis(pg.AxisItem):
 
     def tickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
         """Return the ticks' labels."""
-        return [text.replace("-", "−") for text in super().tickStrings(values, scale, spacing)]
+        return [local(text.replace("-", "−")) for text in super().tickStrings(values, scale, spacing)]
 
     def tickValues(self, minVal: float, maxVal: float, size: float) -> list[tuple[float, list[float]]]:
         """Return the ticks' places; a logarithmic axis has only whole decades."""
@@ -36,7 +36,7 @@ class PlotAxis(pg.AxisItem):
 
     def logTickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
         """Return decades as numbers near one, as powers of ten elsewhere."""
-        return [f"{10.0**v:g}" if -2 <= v <= 3 else f"1e{v:.0f}".replace("-", "−") for v in values]
+        return [local(f"{10.0**v:g}") if -2 <= v <= 3 else f"1e{v:.0f}".replace("-", "−") for v in values]
 
 
 def plot_widget(bottom: str = "", left: str = "", aspect: bool = False) -> pg.PlotWidget:
@@ -153,7 +153,7 @@ class ColourBar(QWidget):
         for part, text in self._labels:
             y = bar.bottom() - part * bar.height()
             painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + 4, y))
-            painter.drawText(QPointF(self.TICK, y + 4), text)
+            painter.drawText(QPointF(self.TICK, y + 4), local(text))
 
 
 class HeatMap(QWidget):

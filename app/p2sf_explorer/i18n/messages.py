@@ -3,14 +3,12 @@
 from p2sf.errors import P2SFError
 from p2sf.messages import Message, Style
 from p2sf.parameters import control
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import decimal_separator, tr
 
 
 def number(written: str) -> str:
     """Return a number as Python writes it, such as "-0.5" or "inf", as the window's language does."""
-    separator = tr("decimal separator")
-    plain = written.replace("inf", "∞").replace("-", "−")
-    return plain.replace(".", separator) if separator != "decimal separator" else plain
+    return written.replace("inf", "∞").replace("-", "−").replace(".", decimal_separator())
 
 
 WINDOW = Style(translate=tr, parameter=lambda name: tr(control(name)), number=number)

@@ -16,6 +16,7 @@ T = TypeVar("T")
 
 CONTEXT = "p2sf"
 UNITS = "%|[kMGn]?m|[µm]m|cm|ms|s|dB|λ|kB|MiB|GiB|waves?|Wellen?|rays|Strahlen|numbers|Zahlen|PSFs"
+DECIMAL = re.compile(r"(?<![\w.])(\d+)\.(\d+)(?!\d*\.\w)")  # no part of a name, a version or a section
 GAP = re.compile(rf"(?<=[\d∞]) (?=(?:{UNITS})(?![^\W_]))|(?<=[≥≤≈]) (?=[−\d])")
 
 
@@ -36,7 +37,24 @@ def cached_per_language(size: int) -> Callable[[Callable[..., T]], Callable[...,
 def tr(text: str, **values: object) -> str:
     """Return a text in the present language, ``values`` put into its braces; English where there is no other."""
     said = _translated(text)
-    return said.format(**values) if values else said
+    return local(said.format(**values)) if values else said
+
+
+@cached_per_language(1)
+def decimal_separator() -> str:
+    """Return what stands before the decimals of a number in the present language."""
+    found = _translated("decimal separator")
+    return "." if found == "decimal separator" else found
+
+
+def local(text: str) -> str:
+    """Return a text with the decimal separator of the present language in its numbers, names such as "a1.5" kept.
+
+    What is painted and what a readout, an axis, a value field or a table shows comes through here; what is copied or
+    written to a file does not.
+    """
+    separator = decimal_separator()
+    return text if separator == "." or "." not in text else DECIMAL.sub(rf"\1{separator}\2", text)
 
 
 @cached_per_language(4096)

@@ -1,11 +1,11 @@
 """The page of a lesson beside the panels: text, what to try, a question and its answer, Back and Next."""
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QTextDocument
+from PySide6.QtCore import QRectF, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QTextDocument
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
 from p2sf_explorer.charts.theme import SPACE
-from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.lessons.lesson import Lesson
 from p2sf_explorer.widgets.card import chooser, select
 
@@ -29,7 +29,7 @@ class LessonPanel(QFrame):
         self.choice = chooser(numbered, "Choose a lesson", self)
         self.choice.setSizeAdjustPolicy(self.choice.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.exit = tool("Exit", "End the lesson and put everything back as it was before (F3)")
-        self.title, self.count = wrapped("title"), wrapped("muted")
+        self.title, self.count, self.progress = wrapped("title"), wrapped("muted"), StepBar()
         self.about, self.text, self.attempt = (
             wrapped("muted"),
             wrapped("", Qt.TextFormat.RichText),
@@ -74,6 +74,7 @@ class LessonPanel(QFrame):
         column.setContentsMargins(12, 10, 8, 12)
         column.setSpacing(10)
         column.addLayout(head)
+        column.addWidget(self.progress)
         column.addWidget(self.choice)
         column.addWidget(self.area, 1)
         column.addLayout(foot)
@@ -101,20 +102,49 @@ class LessonPanel(QFrame):
         texts = (
             (self.about, lesson.about if number == 0 else ""),
             (self.title, step.title),
-            (self.text, rich(step.text)),
-            (self.attempt, rich(f"**{tr('Try')}** {step.attempt}" if step.attempt else "")),
-            (self.question, step.question),
-            (self.answer, rich(step.answer if told else "")),
+            (self.text, rich(local(step.text))),
+            (self.attempt, rich(local(f"**{tr('Try')}** {step.attempt}") if step.attempt else "")),
+            (self.question, local(step.question)),
+            (self.answer, rich(local(step.answer) if told else "")),
         )
         for label, text in texts:
             label.setText(unbroken(text))
             label.setVisible(bool(text))
         self.reveal.setVisible(bool(step.question) and not told)
         self.count.setText(tr("step {k} of {n}", k=number + 1, n=last + 1))
+        self.progress.show_step(number, last + 1)
         self.back.setEnabled(number > 0)
         self.next.setText(tr("Next") if number < last else tr("Next lesson"))
         if new:
             self.area.verticalScrollBar().setValue(0)
+
+
+class StepBar(QWidget):
+    """A bar of as many parts as the lesson has steps, filled up to the present one."""
+
+    HEIGHT, GAP = 5, 4
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.number, self.count = 0, 1
+        self.setFixedHeight(self.HEIGHT)
+
+    def show_step(self, number: int, count: int) -> None:
+        """Show that step ``number`` (from 0) of ``count`` is on."""
+        self.number, self.count = number, count
+        self.setAccessibleName(tr("step {k} of {n}", k=number + 1, n=count))
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the parts, those to come in the colour of lines."""
+        painter, colours = QPainter(self), self.palette()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(Qt.PenStyle.NoPen)
+        wide = (self.width() - self.GAP * (self.count - 1)) / self.count
+        for k in range(self.count):
+            role = QPalette.ColorRole.Highlight if k <= self.number else QPalette.ColorRole.Mid
+            painter.setBrush(colours.color(role))
+            painter.drawRoundedRect(QRectF(k * (wide + self.GAP), 0, wide, self.HEIGHT), 2, 2)
 
 
 def rich(text: str) -> str:

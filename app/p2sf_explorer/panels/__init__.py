@@ -79,7 +79,14 @@ def tab(group: str, key: str, title: str, handbook: str, panel: str, view: str =
 
 
 REGISTRY = (
-    PanelEntry("layout", "Layout", "p2sf_explorer.panels.layout:LayoutPanel", "2.2", "main"),
+    PanelEntry(
+        "layout",
+        "Layout",
+        "p2sf_explorer.panels.layout:LayoutPanel",
+        "2.2",
+        "main",
+        "p2sf_explorer.results.rays:lens_drawn",
+    ),
     PanelEntry("pupil", "Pupil", "p2sf_explorer.panels.pupil:PupilPanel", "3.1", "main"),
     PanelEntry("psf", "PSF", "p2sf_explorer.panels.psf:PsfPanel", "4.1", "main", "p2sf_explorer.compute.finer:source"),
     PanelEntry("coefficients", "Coefficients", "p2sf_explorer.panels.coefficients:CoefficientsPanel", "3.2", "main"),

@@ -18,7 +18,7 @@ from p2sf_explorer.results.lens_table import Rows
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
-from p2sf_explorer.widgets.surface_table import KEYS, STOP, SurfaceModel
+from p2sf_explorer.widgets.surface_table import KEYS, STOP, LocalNumbers, SurfaceModel
 
 TIP = "Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back."
 ROW = 22  # pixels
@@ -65,6 +65,7 @@ class LensTablePanel:
     def _prepare(self) -> None:
         triggers = QAbstractItemView.EditTrigger
         self.view.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed | triggers.AnyKeyPressed)
+        self.view.setItemDelegate(LocalNumbers(self.view))
         self.view.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.view.setAccessibleName(tr("Surfaces of the lens"))
         self.view.setFrameShape(QTableView.Shape.NoFrame)

@@ -4,8 +4,10 @@ from typing import SupportsFloat
 
 import numpy as np
 
+from p2sf.errors import P2SFError
 from p2sf.messages import Message, Number
 from p2sf.raytrace.pencil import Fan, Spot, opd_fan, ray_fan, spot
+from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.first_order import Row
 from p2sf_explorer.state.scales import significant
@@ -14,6 +16,15 @@ RINGS = {"preview": 6, "settled": 10}
 FAN_RAYS = 41
 ARRIVE = "That arrive, of those traced."
 WITHIN_RIMS = "That pass every rim and arrive, of those traced."
+
+
+def lens_drawn(live: Live) -> Layout:
+    """Return the drawing of lens and rays; P2SFError with a free pupil, in whose picture the lens has no part."""
+    if live.state.what_if.free_pupil:
+        raise P2SFError(
+            'the lens is put aside, the six sliders alone make the picture; switch "Free pupil" off to see it'
+        )
+    return live.layout
 
 
 def spots(live: Live) -> Spot:

@@ -44,7 +44,7 @@ class PanelAccess:
     """How the actions reach the panels and the answer on screen.
 
     ``open`` brings a panel to the front, ``card`` returns its card, ``in_front`` that of the open tab; ``explain``
-    shows why a file was refused; ``detach`` gives the panel in front a window of its own, or takes it back.
+    says why a file was refused; ``detach`` gives the panel in front a window of its own, or takes it back.
     """
 
     live: Callable[[], Live | None]
@@ -116,9 +116,7 @@ class Actions(QObject):
         try:
             self._store.replace(opened(self._store.state, path))
         except P2SFError as error:
-            refused = refusal(path, error)
-            self._panels.explain(refused)
-            self._store.refused.emit(refused.message)
+            self._panels.explain(refusal(path, error))
             return False
         remember(path)
         self._list_recent()

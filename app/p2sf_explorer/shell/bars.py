@@ -214,7 +214,10 @@ def facts(live: Live, frame_ms: float | None) -> str:
 
 
 class Banner(QFrame):
-    """Says why something cannot be done; it hides with the next answer, or by its button."""
+    """Says why something cannot be done; it hides with the next answer, or by its button.
+
+    A remedy that takes one click stands beside it as another button, `remedy`.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -224,13 +227,25 @@ class Banner(QFrame):
         close = QToolButton(self)
         close.setText(tr("Dismiss"))
         close.clicked.connect(self.hide)
+        self.remedy = QToolButton(self)
+        self._run: Callable[[], object] = self.hide
+        self.remedy.clicked.connect(lambda: self._run())
         row = QHBoxLayout(self)
         row.setContentsMargins(12, 6, 8, 6)
         row.addWidget(self.text, 1)
+        row.addWidget(self.remedy)
         row.addWidget(close)
         self.hide()
 
     def say(self, message: Message | P2SFError) -> None:
         """Show a message."""
         self.text.setText(unbroken(said(message)))
+        self.remedy.hide()
         self.show()
+
+    def offer(self, words: str, tip: str, run: Callable[[], object]) -> None:
+        """Offer a remedy beside the message that stands here; words and tip are translated already."""
+        self._run = run
+        self.remedy.setText(words)
+        self.remedy.setToolTip(tip)
+        self.remedy.show()

@@ -28,7 +28,7 @@ from p2sf_explorer.charts.plots import small_font
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.setup import shipped, title
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.shell.lens_cards import LensCard, lens_card
 from p2sf_explorer.widgets.card import paint_chevron
 from p2sf_explorer.widgets.thumbnail import paint_lens
@@ -226,6 +226,6 @@ class CardPainter(QStyledItemDelegate):
             paint_lens(painter, card.drawing, QRectF(room.left(), room.top(), room.width(), PICTURE - 6), self.theme)
         painter.setPen(QColor(self.theme.muted))
         painter.setFont(small_font())
-        painter.drawText(room.adjusted(0, PICTURE + 21, 0, 0), ALIGN, tr(card.facts))
+        painter.drawText(room.adjusted(0, PICTURE + 21, 0, 0), ALIGN, local(tr(card.facts)))
         words = said(card.problem) if card.problem else tr(card.character)
         painter.drawText(room.adjusted(0, PICTURE + 37, 0, 0), ALIGN | Qt.TextFlag.TextWordWrap, words)

@@ -16,7 +16,7 @@ from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.i18n.messages import WINDOW, said
-from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.results.first_order import described_depth, rows
 from p2sf_explorer.shell.lens_cards import shown_title
 from p2sf_explorer.state.scales import signed, significant
@@ -49,7 +49,7 @@ class Page:
         box = self.pixels(room)
         self.painter.setPen(QColor(LIGHT.text))
         how = flags[side] | Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap
-        self.painter.drawText(box, how, unbroken(tr(words)))
+        self.painter.drawText(box, how, unbroken(local(tr(words))))
 
     def pixels(self, room: QRectF) -> QRectF:
         """Return a rectangle in the painter's own unit."""

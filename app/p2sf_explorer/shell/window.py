@@ -6,7 +6,7 @@ from time import perf_counter
 from typing import TypeVar
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDragLeaveEvent, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
@@ -37,7 +37,7 @@ from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.drop import dropped, is_photo
+from p2sf_explorer.widgets.drop import DropFrame, dropped, is_photo
 from p2sf_explorer.workers.deferred import DeferredWorker
 from p2sf_explorer.workers.live_accuracy import AccuracyDisplay, LiveAccuracy, asked_for
 from p2sf_explorer.workers.worker import LatestWins
@@ -103,6 +103,7 @@ class MainWindow(QMainWindow):
         self.measuring = LiveAccuracy(self._panel("psf", PsfPanel).show_badge, self._accuracy_panel, self, measured)
         self.deferred = DeferredWorker(self.store, self.refresh, self)
         self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
+        self.drop_frame = DropFrame(self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
         self.lesson_room = LessonRoom(self.middle, self.main_row, self.column, self.controls.rows)
         self.teaching = LessonController(self.store, self, self.lesson_room)
@@ -248,11 +249,15 @@ class MainWindow(QMainWindow):
         return parts.get(key) or self.panels[key].widget
 
     def _explain(self, refused: Refusal) -> None:
-        """Show in the import report why a file is not opened."""
+        """Say why a file is not opened, in the import report and in the banner, which offers substitute glasses."""
         from p2sf_explorer.panels.import_report import ImportReportPanel
 
         self.open_panel(REPORT_TAB)
-        self._panel(REPORT_TAB, ImportReportPanel).show_refusal(refused)
+        report = self._panel(REPORT_TAB, ImportReportPanel)
+        report.show_refusal(refused)
+        self.refuse(refused.message)
+        if refused.substituted:
+            self.banner.offer(report.accept.text(), report.accept.toolTip(), report.accept.click)
 
     def _read_again(self) -> bool:
         """Show the lens as its file is now; return whether it can be read."""
@@ -325,12 +330,18 @@ class MainWindow(QMainWindow):
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Accept a lens file, a saved state, a snapshot, or a link."""
-        if dropped(event.mimeData()):
+        if found := dropped(event.mimeData()):
             event.acceptProposedAction()
+            self.drop_frame.show_for(found)
+
+    def dragLeaveEvent(self, event: QDragLeaveEvent) -> None:
+        """Take back the frame."""
+        self.drop_frame.hide()
 
     def dropEvent(self, event: QDropEvent) -> None:
         """Open what was dropped."""
         event.acceptProposedAction()
+        self.drop_frame.hide()
         found = dropped(event.mimeData())
         if not found:
             return

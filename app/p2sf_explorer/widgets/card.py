@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
 )
 
 from p2sf_explorer.charts.overlay import Overlay
-from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.widgets.copying import copy_menu
 
 LIST_AIR = 24  # pixels beside the longest line of an open list
@@ -129,6 +129,7 @@ class Card(QFrame):
 
     def set_readout(self, text: str) -> None:
         """Show a line of numbers, as it is; its tooltip has the whole of it where it does not fit."""
+        text = local(text)
         if self.readout.text() != text:
             self.readout.setText(text)
             self.readout.setToolTip(text)

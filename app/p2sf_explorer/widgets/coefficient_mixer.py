@@ -4,14 +4,15 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
-from PySide6.QtWidgets import QLineEdit, QToolTip, QWidget
+from PySide6.QtWidgets import QToolTip, QWidget
 
 from p2sf_explorer.charts.chart import blank_pixmap
 from p2sf_explorer.charts.painting import set_text, write
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import nice, signed
 from p2sf_explorer.state.terms import FORMULAS, TERMS, WORDS
+from p2sf_explorer.widgets.value_edit import ShortField
 
 NAMES = {"w40": "W40", "w31": "W31", "w22": "W22", "w20": "W20", "wd": "Wd", "w11": "W11"}
 SHORT = {
@@ -179,7 +180,7 @@ ROW_TIP = (
 SMALLEST_LIMIT = 0.5  # waves of a full bar, at least: a lens with less is as good as perfect
 
 
-class NumberEdit(QLineEdit):
+class NumberEdit(ShortField):
     """A field to type a number over the mixer; Return, Escape and losing the focus hide it."""
 
     def __init__(self, parent: QWidget):
@@ -344,7 +345,7 @@ class Mixer(QWidget):
         """Open the field over the row's number."""
         rect = self.places.number(self.row).toRect()
         self.edit.setGeometry(rect.left(), rect.center().y() - 13, rect.width(), 26)
-        self.edit.setText(waves(self.values[TERMS[self.row]]).removesuffix(" λ"))
+        self.edit.setText(local(waves(self.values[TERMS[self.row]]).removesuffix(" λ")))
         self.edit.show()
         self.edit.setFocus()
         self.edit.selectAll()

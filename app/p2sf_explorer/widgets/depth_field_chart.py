@@ -11,7 +11,7 @@ from p2sf_explorer.charts.chart import Chart, image_of
 from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.plots import as_indices, lookup, small_font
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.results.database import Atlas, closest, nearest
 from p2sf_explorer.state.scales import short_distance
 
@@ -207,12 +207,12 @@ class AtlasView(QWidget):
         centre, right = Qt.AlignmentFlag.AlignHCenter, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         for row, angle in enumerate(atlas.fields_deg):
             cell = self.cell_rect(row, 0)
-            painter.drawText(QRectF(0, cell.top(), self.LEFT - 5, cell.height()), right, f"{angle:.3g}°")
+            painter.drawText(QRectF(0, cell.top(), self.LEFT - 5, cell.height()), right, local(f"{angle:.3g}°"))
         every = ceil(LABEL_PX / max(1.0, self.cell_rect(0, 0).width()))
         for column in range(0, len(atlas.depths_mm), every):
             cell = self.cell_rect(0, column).adjusted(-30, 0, 30, 0)
             words = short_distance(float(atlas.depths_mm[column]))
-            painter.drawText(QRectF(cell.left(), cell.bottom() + 2, cell.width(), 15), centre, words)
+            painter.drawText(QRectF(cell.left(), cell.bottom() + 2, cell.width(), 15), centre, local(words))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Set the source to the cell under the pointer."""

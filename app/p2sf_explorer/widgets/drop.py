@@ -2,17 +2,67 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QMimeData, QObject, Signal
-from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtCore import QEvent, QMimeData, QObject, QRectF, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QDragEnterEvent,
+    QDragLeaveEvent,
+    QDropEvent,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QPen,
+)
 from PySide6.QtWidgets import QWidget
 
 from p2sf.io.photo_files import READABLE
 from p2sf.messages import Message
 from p2sf_explorer.files.embedded_state import text_inside
 from p2sf_explorer.files.opening import is_file
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.link import is_link
 
 OTHER_PICTURES = (".jpg", ".jpeg", ".gif", ".bmp", ".webp", ".heic", ".avif", ".raw", ".dng", ".cr2", ".nef", ".arw")
+
+
+class DropFrame(QWidget):
+    """A frame over a widget that takes what is dragged over it, with what letting go will do."""
+
+    WIDTH, AIR = 3, 14  # px: of the frame, and around the words
+
+    def __init__(self, parent: QWidget):
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.words = ""
+        self.hide()
+
+    def show_for(self, found: str) -> None:
+        """Frame the parent for a path or a link that is dragged over it."""
+        self.words = tr("Drop to open the link") if is_link(found) else tr("Drop to open {file}", file=Path(found).name)
+        parent = self.parentWidget()
+        if parent:
+            self.setGeometry(parent.rect())
+        self.raise_()
+        self.show()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the frame, and the words on a ground in its middle."""
+        painter, colours = QPainter(self), self.palette()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        accent = colours.color(QPalette.ColorRole.Highlight)
+        half = self.WIDTH / 2
+        veil = QColor(accent)
+        veil.setAlphaF(0.08)
+        painter.setPen(QPen(accent, self.WIDTH))
+        painter.setBrush(veil)
+        painter.drawRoundedRect(QRectF(self.rect()).adjusted(half, half, -half, -half), 6, 6)
+        room = QRectF(painter.fontMetrics().boundingRect(self.words)).adjusted(-self.AIR, -self.AIR, self.AIR, self.AIR)
+        room.moveCenter(QRectF(self.rect()).center())
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(accent)
+        painter.drawRoundedRect(room, 6, 6)
+        painter.setPen(colours.color(QPalette.ColorRole.HighlightedText))
+        painter.drawText(room, Qt.AlignmentFlag.AlignCenter, self.words)
 
 
 class PhotoDrop(QObject):
@@ -28,9 +78,12 @@ class PhotoDrop(QObject):
         super().__init__(widget)
         widget.setAcceptDrops(True)
         widget.installEventFilter(self)
+        self.frame = DropFrame(widget)
 
     def eventFilter(self, _widget: QObject, event: QEvent) -> bool:
         """Take pictures."""
+        if isinstance(event, QDragLeaveEvent | QDropEvent):
+            self.frame.hide()
         if not isinstance(event, QDragEnterEvent | QDropEvent):
             return False
         path = dropped_picture(event.mimeData())
@@ -40,6 +93,8 @@ class PhotoDrop(QObject):
         event.acceptProposedAction()
         if event.type() == QEvent.Type.Drop:
             self.take(Path(path))
+        else:
+            self.frame.show_for(path)
         return True
 
     def take(self, path: Path) -> None:

@@ -8,7 +8,7 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.painting import metrics, width_of, write
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.messages import WINDOW
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import local, tr
 
 PAD = 7.0
 SIZE = 12
@@ -40,7 +40,7 @@ class Readout(QWidget):
 
     def set_text(self, text: str, colour: str | None = None, short: str | tuple[str, ...] = ()) -> None:
         """Show a text as it is, in another token's colour if one is named; the first ``short`` one that fits if not."""
-        self._short = (short,) if isinstance(short, str) else short
+        text, self._short = local(text), (short,) if isinstance(short, str) else short
         if (text, colour or self._colour) != (self._text, self._colour):
             self._text, self._colour = text, colour or self._colour
             self.setAccessibleName(text)

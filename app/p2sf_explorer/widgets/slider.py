@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QAbstractSlider, QSizePolicy, QWidget
 
 from p2sf_explorer.charts.chart import blank_pixmap
 from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.i18n.tr import local
 
 STEPS = 1000
 HANDLE = 7.0
@@ -175,7 +176,7 @@ class Slider(QAbstractSlider):
             painter.drawLine(QPointF(x, middle + 6), QPointF(x, middle + 9))
             wide = painter.fontMetrics().horizontalAdvance(label)
             left = min(max(x - wide / 2, 1.0), self.width() - wide - 1.0)
-            painter.drawText(QPointF(left, middle + 19), label)
+            painter.drawText(QPointF(left, middle + 19), local(label))
 
     def _paint_handle(self, painter: QPainter, middle: float) -> None:
         theme, centre = self._theme, QPointF(self.handle_x(), middle)

@@ -1,9 +1,10 @@
 """The surfaces of a lens as a Qt table model, which shows their entries and passes on what is typed."""
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
+from PySide6.QtCore import QAbstractTableModel, QLocale, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
+from PySide6.QtWidgets import QStyledItemDelegate
 
 from p2sf_explorer.compute.editing import written
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.results.lens_table import COLUMNS, Rows
 
 STOP = COLUMNS.index("conic") + 1
@@ -83,7 +84,8 @@ class SurfaceModel(QAbstractTableModel):
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
             return entries(self._rows, row)[index.column()]
         if role == Qt.ItemDataRole.EditRole and key != "stop":
-            return written(self._rows.lens.surfaces[row], key, full=True)
+            text = written(self._rows.lens.surfaces[row], key, full=True)
+            return text if key == "medium" else local(text)
         return tr(HEADS[key][1]) if role == Qt.ItemDataRole.ToolTipRole else None
 
     def setData(self, index: Index, value: str, role: int = Qt.ItemDataRole.EditRole) -> bool:
@@ -98,6 +100,14 @@ class SurfaceModel(QAbstractTableModel):
         if KEYS[column] == "stop":
             return Qt.AlignmentFlag.AlignCenter
         return WORDS if KEYS[column] in ("medium", "aspheric") else NUMBERS
+
+
+class LocalNumbers(QStyledItemDelegate):
+    """Shows numbers as the window's language writes them; what is copied keeps the decimal point."""
+
+    def displayText(self, value: object, locale: QLocale | QLocale.Language) -> str:
+        """Return the text of a cell."""
+        return local(str(value))
 
 
 def entries(rows: Rows, row: int) -> tuple[str, ...]:

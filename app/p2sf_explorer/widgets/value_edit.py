@@ -1,11 +1,11 @@
 """A number with its unit to type into, and the button that plays its slider."""
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence, QMouseEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import entry
 from p2sf_explorer.store.store import Store
@@ -22,7 +22,26 @@ class PlayButton(QToolButton):
         self.setFixedSize(22, 22)
 
 
-class ValueEdit(QLineEdit):
+STANDARD = QKeySequence.StandardKey
+EDITING = (STANDARD.Copy, STANDARD.Cut, STANDARD.Paste, STANDARD.SelectAll, STANDARD.Undo, STANDARD.Redo)
+
+
+class ShortField(QLineEdit):
+    """A field for a few letters, which leaves the window its shortcuts.
+
+    On X11 a line edit takes Ctrl+E and Ctrl+K, as Emacs has them, which here are the snapshot and the palette.
+    """
+
+    def event(self, event: QEvent) -> bool:
+        """Claim no key with Ctrl but those of copying, pasting and undoing."""
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
+            if event.modifiers() & Qt.KeyboardModifier.ControlModifier and not any(map(event.matches, EDITING)):
+                event.ignore()
+                return True
+        return super().event(event)
+
+
+class ValueEdit(ShortField):
     """A number with its unit; Return commits, Escape goes back, double-click asks for the reset."""
 
     committed = Signal(str)
@@ -38,7 +57,7 @@ class ValueEdit(QLineEdit):
 
     def set_text(self, text: str) -> None:
         """Show a value, unless another is being typed."""
-        self.last = text
+        self.last = text = local(text)
         if not (self.hasFocus() and self.isModified()) and self.text() != text:
             self.setText(text)
 

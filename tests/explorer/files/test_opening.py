@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
-from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtGui import QDragEnterEvent, QDragLeaveEvent, QDropEvent
 from PySide6.QtWidgets import QFileDialog
 
 from p2sf.lensfile.library import lenses_folder
@@ -200,3 +200,32 @@ def test_a_folder_that_cannot_be_written_to_costs_only_the_memory(tmp_path, monk
     monkeypatch.setattr("p2sf_explorer.files.recent.recent_path", lambda: tmp_path / "file" / "recent.json")
     remember(str(tmp_path / "file"))
     assert recent_files() == ()
+
+
+def test_the_banner_itself_accepts_substitutes(window, qtbot, obsolete):
+    drop(window, obsolete)
+    assert window.banner.remedy.isVisible()
+    qtbot.mouseClick(window.banner.remedy, Qt.MouseButton.LeftButton)
+    assert window.live.setup.lens.surfaces[0].medium.label == "SCHOTT N-BK7"
+    assert not window.banner.isVisible()
+    window.commands.open_path("/nowhere/at_all.zmx")
+    assert window.banner.isVisible() and not window.banner.remedy.isVisible(), "nothing to accept"
+
+
+def test_what_is_dragged_over_the_window_is_framed_until_it_leaves_or_falls(window, zemax):
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(zemax))])
+    buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    enter = QDragEnterEvent(QPointF(5, 5).toPoint(), Qt.DropAction.CopyAction, data, buttons, keys)
+    frame = window.drop_frame
+    assert not frame.isVisible()
+    window.dragEnterEvent(enter)
+    assert frame.isVisible() and frame.geometry() == window.rect() and zemax.name in frame.words
+    window.dragLeaveEvent(QDragLeaveEvent())
+    assert not frame.isVisible()
+    drop(window, zemax)
+    assert not frame.isVisible()
+    empty = QMimeData()  # the event does not keep it
+    nothing = QDragEnterEvent(QPointF(5, 5).toPoint(), Qt.DropAction.CopyAction, empty, buttons, keys)
+    window.dragEnterEvent(nothing)
+    assert not frame.isVisible(), "nothing that could be opened"

@@ -5,8 +5,8 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from PySide6.QtCore import QCoreApplication
-from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QTabWidget, QWidget
+from PySide6.QtCore import QCoreApplication, QLocale, Qt
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QTabWidget, QWidget
 
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
@@ -22,6 +22,7 @@ from p2sf_explorer.shell.help import help_text
 from p2sf_explorer.shell.language_switch import LanguageSwitch
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State, new_state
+from p2sf_explorer.widgets.readout import FactTable, Readout
 
 ROOT = Path(__file__).parents[3]
 LETTERS = re.compile(r"[^\W\d_]{3}")
@@ -151,6 +152,32 @@ def test_what_is_sharp_is_said_whole_beside_the_german_curves(german):
     QApplication.processEvents()
     readout = window.panels["depth_of_field"].widget.readout
     assert "scharf von" in readout.text() and readout.sizeHint().width() <= readout.width()
+
+
+def test_every_number_shown_has_a_comma(german):
+    window, _ = german
+    texts = shown(window)
+    for kind in (Readout, QLineEdit):
+        texts |= {part.text() for part in window.findChildren(kind)}
+    for table in window.findChildren(FactTable):
+        texts |= set(table.values)
+    assert sum("," in text for text in texts) > 30
+    assert not {text for text in texts if re.search(r"(?<!\d\.)\b\d+\.\d", text)}
+
+
+def test_a_cell_of_the_lens_table_has_a_comma_and_is_typed_with_either(german):
+    window, _ = german
+    window.open_panel("lens")
+    panel = window.panels["lens"]
+    first = panel.model.index(0, 0)
+    shown_text = panel.view.itemDelegate().displayText(first.data(), QLocale())
+    edited = first.data(Qt.ItemDataRole.EditRole)
+    assert "," in shown_text and "," in edited and "." in first.data(), "copied with a point"
+    assert not panel.model.setData(first, edited), "nothing was changed"
+    for typed in ("55,5", "55.5"):
+        panel.model.setData(first, typed)
+        assert window.live.setup.lens.surfaces[0].radius == 55.5
+        window.store.undo()
 
 
 def test_qts_own_words_are_its_own_or_its_translators(qapp):

@@ -7,7 +7,7 @@ from p2sf.messages import Message
 from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import unbroken
+from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.results.image import plan_notes
 
 
@@ -40,3 +40,24 @@ def test_the_reasons_of_a_plan_name_its_channels_in_german():
     assert {"Farbe Rot", "Farbe Grün", "Farbe Blau"} < set(headings)
     assert refused == "Kanal Grün: x"
     assert Channel("H-alpha", (656.3,), (1.0,)).label == "H-alpha"  # a person's own name
+
+
+@pytest.mark.parametrize(
+    ("english", "german"),
+    [
+        ("RMS 2.63 λ · PV −10.5 λ", "RMS 2,63 λ · PV −10,5 λ"),
+        ("f/2.8 at (0.5, 1.25)", "f/2,8 at (0,5, 1,25)"),
+        ("R² ≥ 0.9984.", "R² ≥ 0,9984."),
+        ("1.5e−3", "1,5e−3"),
+        ("version 0.1.0, section 4.2.1", "version 0.1.0, section 4.2.1"),
+        ("lens_v2.5.zmx, 2.5.toml, F2.8", "lens_v2.5.zmx, 2.5.toml, F2.8"),
+    ],
+)
+def test_german_numbers_have_a_comma_and_names_keep_their_points(qapp, english, german):
+    assert local(english) == english
+    set_language("de")
+    try:
+        assert local(english) == german
+        assert tr("image height {h} mm", h="1.234") == "Bildhöhe 1,234 mm"
+    finally:
+        set_language("en")

@@ -162,3 +162,14 @@ def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, 
     window.store.changed.disconnect(again.follow)
     offer.deleteLater()
     teaching.offer = None
+
+
+def test_the_bar_has_a_part_for_each_step_and_is_filled_up_to_the_present_one(window, panel):
+    count = len(FIRST.steps)
+    assert (panel.progress.number, panel.progress.count) == (0, count)
+    window.teaching.move(1)
+    assert (panel.progress.number, panel.progress.count) == (1, count)
+    picture = panel.progress.grab().toImage()
+    middles = [round((k + 0.5) * picture.width() / count) for k in range(count)]
+    colours = [picture.pixelColor(x, picture.height() // 2).name() for x in middles]
+    assert len(set(colours[:2])) == 1 and len(set(colours[2:])) == 1 and colours[0] != colours[-1]

@@ -204,3 +204,11 @@ def test_the_petzval_radius_is_what_its_tip_says(window):
     sign = -1 if tip.startswith("−") else 1
     assert radius == pytest.approx(sign / float(total), rel=1e-3)
     assert radius == pytest.approx(-float(n[1]) * s.focal_length_mm, rel=0.03), "thick by a few per cent"
+
+
+def test_a_lens_that_is_put_aside_is_not_drawn(window):
+    card = window.panels["layout"].widget
+    window.store.update(free_pupil=True)
+    assert "put aside" in card.overlay.text
+    window.store.update(free_pupil=False)
+    assert not card.overlay.text

@@ -192,7 +192,7 @@ def test_an_earlier_picture_is_marked_until_its_own_is_there(window, qtbot, key)
 
 
 def test_the_top_of_the_map_is_the_field_that_lands_there():
-    """A relay images upright: what lands above the axis comes from the other side than in a camera."""
+    """A relay's entrance pupil lies beyond its object: fields of the other sign than a camera's land above the axis."""
     state = changed(with_lens(FIRST, "relay"), method="seidel", solo=("w31",), depth_mm=96.0, focus_mm=96.0)
     first = live(state, "preview")
     question = replace(field_map.field_map(first), window=(24, first.airy_radius_um / 3))

@@ -1,7 +1,8 @@
 """The keyboard reaches everything: Tab walks through the window, panel by panel, and comes round again."""
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QLineEdit, QWidget
 
@@ -91,3 +92,25 @@ def test_the_maps_frame_follows_the_field_and_the_keys_start_from_it(window, qtb
     window.store.update(field_deg=0.0)  # as by the slider
     qtbot.keyClick(chart, Qt.Key.Key_Right)
     assert chart.choice.number == 14 and chart.grab().toImage() == before, "the frame is back too"
+
+
+@pytest.mark.parametrize("shortcut", ["Ctrl+E", "Ctrl+K", "Ctrl+D", "Ctrl+F"])
+def test_a_field_to_type_in_leaves_the_window_its_shortcuts(window, qtbot, shortcut):
+    """Qt asks the field with the focus first; on X11 a line edit would take Ctrl+E and Ctrl+K for itself."""
+    edit = window.controls.rows["field_deg"].findChild(QLineEdit)
+    edit.setFocus()
+    combination = QKeySequence(shortcut)[0]
+    event = QKeyEvent(QEvent.Type.ShortcutOverride, combination.key(), combination.keyboardModifiers())
+    event.ignore()
+    QApplication.sendEvent(edit, event)
+    assert not event.isAccepted()
+
+
+@pytest.mark.parametrize("shortcut", ["Ctrl+C", "Ctrl+V", "Ctrl+A"])
+def test_a_field_to_type_in_keeps_copying_and_pasting(window, shortcut):
+    edit = window.controls.rows["field_deg"].findChild(QLineEdit)
+    combination = QKeySequence(shortcut)[0]
+    event = QKeyEvent(QEvent.Type.ShortcutOverride, combination.key(), combination.keyboardModifiers())
+    event.ignore()
+    QApplication.sendEvent(edit, event)
+    assert event.isAccepted()

@@ -65,7 +65,13 @@ NAMED = {
     **{"spot": "spots", "ray_fan": "fans", "opd_fan": "fans", "seidel": "sums per surface", "field": "field curves"},
     **{"chromatic": "chromatic shift", "depth_of_field": "depth of field", "image": "image", "database": "database"},
 }
-OF_THE_LENS = {"lens", "first_order", "ybar", "import"}  # data of the lens: nobody expects other waves in them
+OF_THE_LENS = {
+    "layout",
+    "lens",
+    "first_order",
+    "ybar",
+    "import",
+}  # data of the lens: nobody expects other waves in them
 
 
 def test_the_warning_names_every_tab_that_does_not_follow():

@@ -136,6 +136,8 @@
 <message><source>Drag or use the arrow keys to turn the surface; a double-click goes back</source><translation>Ziehen oder die Pfeiltasten drehen die Fläche; ein Doppelklick führt zurück</translation></message>
 <message><source>Drag the line or click, or use the left and right arrow keys: the sensor follows.</source><translation>Die Linie ziehen, klicken oder die Pfeiltasten links und rechts: der Sensor folgt.</translation></message>
 <message><source>Drop every edit and take the lens as its file has it</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
+<message><source>Drop to open the link</source><translation>Loslassen öffnet den Link</translation></message>
+<message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
 <message><source>Each PSF over its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF über ihrer eigenen Spitze, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
 <message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
 <message><source>EnP</source><translation>EnP</translation></message>
@@ -349,7 +351,7 @@
 <message><source>Rear principal plane, from which f′ is measured to F′; from the last vertex.</source><translation>Bildseitige Hauptebene, von der f′ bis F′ zählt; vom letzten Scheitel.</translation></message>
 <message><source>Rear-stop landscape singlet</source><translation>Landschaftslinse mit hinterer Blende</translation></message>
 <message><source>Redo</source><translation>Wiederholen</translation></message>
-<message><source>Relay of two achromats, stop between, upright pupil (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, aufrechte Pupille (synthetisch; nur endliche Objekte)</translation></message>
+<message><source>Relay of two achromats, stop between, inverted pupils (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, umgekehrte Pupillen (synthetisch; nur endliche Objekte)</translation></message>
 <message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
 <message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
@@ -1159,6 +1161,7 @@
 <message><source>the lens has no surfaces; give at least one</source><translation>das Objektiv hat keine Flächen; mindestens eine angeben</translation></message>
 <message><source>the lens has no surfaces; write a [[surface]] for each</source><translation>das Objektiv hat keine Flächen; für jede ein [[surface]] schreiben</translation></message>
 <message><source>the lens has no wavelengths; give at least one</source><translation>das Objektiv hat keine Wellenlängen; mindestens eine angeben</translation></message>
+<message><source>the lens is put aside, the six sliders alone make the picture; switch "Free pupil" off to see it</source><translation>das Objektiv ist beiseitegelegt, allein die sechs Regler machen das Bild; „Freie Pupille“ ausschalten, um es zu sehen</translation></message>
 <message><source>the lens is {value}; give what p2sf.load_lens returns</source><translation>das Objektiv ist {value}; angeben, was p2sf.load_lens liefert</translation></message>
 <message><source>the lens itself</source><translation>ganz vorn am Objektiv</translation></message>
 <message><source>the lens names no stop surface and no semi-diameters; state one of them</source><translation>das Objektiv nennt weder Blendenfläche noch Halbmesser; eines davon angeben</translation></message>
