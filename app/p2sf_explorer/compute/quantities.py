@@ -10,11 +10,13 @@ from p2sf_explorer.state.scales import (
     Linear,
     Logarithmic,
     Vergence,
+    distance_ticks,
     read_distance,
     read_f_number,
     read_number,
     signed,
     significant,
+    ticks,
     written_distance,
 )
 from p2sf_explorer.state.state import State, entry
@@ -29,7 +31,8 @@ class Quantity:
     """One control: ``key`` of the State, and everything a slider and its number need to know.
 
     ``shown`` gives the value to display for a state and its lens (a file's default spelled out); ``buttons``
-    are (label, value, tooltip).
+    are (label, value, tooltip); ``ticks`` are (value, label), those whose label matters most first, and ``marks``
+    values that stand out, such as the fields that the file states.
     """
 
     key: str
@@ -40,7 +43,8 @@ class Quantity:
     read: Callable[[str], float]
     shown: Callable[[State, Ranges], float]
     buttons: tuple[tuple[str, float | None, str], ...] = ()
-    ticks: tuple[tuple[float, str], ...] = ()
+    ticks: Callable[[Ranges], tuple[tuple[float, str], ...]] = lambda ranges: ()
+    marks: Callable[[State, Ranges], tuple[float, ...]] = lambda state, ranges: ()
 
 
 def _plain(key: str) -> Callable[[State, Ranges], float]:
@@ -53,28 +57,45 @@ def _reader(words: str, **units: float) -> Callable[[str], float]:
     return lambda text: read_number(text, words, known)
 
 
-def _f_ticks() -> tuple[tuple[float, str], ...]:
-    return tuple((stop, f"{stop:g}") for stop in (1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0, 32.0))
+def _distances(ranges: Ranges) -> Vergence:
+    return Vergence(ranges.closest_mm, ranges.middle_mm)
+
+
+def _focused(state: State, ranges: Ranges) -> float:
+    return ranges.focused_mm if state.optics.focus_mm is None else state.optics.focus_mm
+
+
+def _shift_text(value: float) -> str:
+    return f"{signed(value, 0)} µm" if value else "0"
+
+
+F_STOPS = tuple((stop, f"{stop:g}") for stop in (2.0, 4.0, 8.0, 16.0, 32.0, 1.4, 2.8, 5.6, 11.0, 22.0))
 
 
 DEPTH = Quantity(
     key="depth_mm",
     title="Depth",
-    tip="Depth: distance from the source to the first vertex. The slider is even in vergence, 1/depth.",
-    scale=lambda ranges: Vergence(ranges.closest_mm),
+    tip="Depth: distance from the source to the first vertex. Half of the slider is from ten focal lengths to ∞; far "
+    "away it is even in dioptres, 1/depth. ▾ is where the lens is focused.",
+    scale=_distances,
     write=written_distance,
     read=read_distance,
     shown=_plain("depth_mm"),
     buttons=(("∞", inf, "Put the source at infinity"),),
+    ticks=lambda ranges: distance_ticks(ranges.closest_mm),
+    marks=lambda state, ranges: (_focused(state, ranges),),
 )
 FIELD = Quantity(
     key="field_deg",
     title="Field",
-    tip="Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field).",
+    tip="Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field). ▾ are the fields "
+    "that the lens file states.",
     scale=lambda ranges: Linear(0.0, ranges.field_deg),
     write=lambda value: f"{signed(value, 2)}°",
     read=_reader("field angle", **{"°": 1.0, "deg": 1.0}),
     shown=_plain("field_deg"),
+    ticks=lambda ranges: tuple((value, f"{text}°") for value, text in ticks(0.0, ranges.field_deg, 5)),
+    marks=lambda state, ranges: ranges.stated_deg,
 )
 WAVELENGTH = Quantity(
     key="wavelength_nm",
@@ -84,18 +105,20 @@ WAVELENGTH = Quantity(
     write=lambda value: f"{value:.1f} nm",
     read=_reader("wavelength", **{"nm": 1.0, "µm": 1e3, "um": 1e3}),
     shown=_plain("wavelength_nm"),
-    ticks=((F_NM, "F"), (D_NM, "d"), (C_NM, "C")),
+    ticks=lambda ranges: ((F_NM, "F"), (D_NM, "d"), (C_NM, "C")),
 )
 FOCUS = Quantity(
     key="focus_mm",
     title="Focus distance",
     tip="Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. "
-    "beyond ∞: nearer to the lens than the image of infinity.",
-    scale=lambda ranges: Vergence(ranges.closest_mm),
+    "beyond ∞: nearer to the lens than the image of infinity. ▾ is where the source is.",
+    scale=_distances,
     write=lambda value: BEYOND if value < 0 else written_distance(value),
     read=read_distance,
-    shown=lambda state, ranges: ranges.focused_mm if state.optics.focus_mm is None else state.optics.focus_mm,
+    shown=_focused,
     buttons=(("∞", inf, "Focus at infinity"), ("file", None, "Put the sensor where the lens file has it")),
+    ticks=lambda ranges: distance_ticks(ranges.closest_mm),
+    marks=lambda state, ranges: (state.optics.depth_mm,),
 )
 SHIFT = Quantity(
     key="sensor_shift_um",
@@ -105,6 +128,7 @@ SHIFT = Quantity(
     write=lambda value: f"{signed(value, 1)} µm",
     read=_reader("sensor shift", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
     shown=_plain("sensor_shift_um"),
+    ticks=lambda ranges: tuple((part * ranges.shift_um, _shift_text(part * ranges.shift_um)) for part in (0, -1, 1)),
 )
 F_NUMBER = Quantity(
     key="f_number",
@@ -115,7 +139,7 @@ F_NUMBER = Quantity(
     read=read_f_number,
     shown=lambda state, ranges: ranges.file_f_number if state.optics.f_number is None else state.optics.f_number,
     buttons=(("file", None, "Open the lens as its file has it"),),
-    ticks=_f_ticks(),
+    ticks=lambda ranges: F_STOPS,
 )
 QUANTITIES = (DEPTH, FIELD, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
 

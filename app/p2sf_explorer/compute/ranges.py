@@ -15,6 +15,8 @@ from p2sf_explorer.state.scales import nice
 
 VISIBLE_NM = (400.0, 700.0)
 SHARES = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+FOCAL_LENGTHS = 10.0  # from the lens to the middle of a slider of distance
+ABOVE_CLOSEST = 1.2  # times the closest distance: the middle is farther than the end
 TELLING_WAVES = 60.0  # of slope: a steeper wavefront is a blur of rays that shows no diffraction
 AS_GOOD_AS_INFINITE_MM = 1e6  # six digits in a file do not distinguish a focus at a kilometre from infinity
 
@@ -34,6 +36,18 @@ def closest_distance(lens: Lens) -> float:
     if focused > 1.5 * closest:
         return closest
     return 0.5 * (focus + focused) if 0 < focus < focused else 0.5 * focused
+
+
+def middle_distance(lens: Lens) -> float | None:
+    """Return the distance in mm for the middle of the sliders of distance: ten focal lengths, or a nearer file's focus.
+
+    Beside the focus a slider must be fine: a photographer's lens is focused at metres, a relay at two focal lengths.
+    None for an afocal lens, which has no such scale.
+    """
+    focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
+    if not isfinite(focal):
+        return None
+    return max(min(FOCAL_LENGTHS * focal, focused_distance(lens)), ABOVE_CLOSEST * closest_distance(lens))
 
 
 def focused_distance(lens: Lens) -> float:

@@ -16,7 +16,14 @@ from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
 from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.request import Request, Setup, set_up, with_field
-from p2sf_explorer.compute.ranges import closest_distance, file_focus, focused_distance, telling_field, wavelength_range
+from p2sf_explorer.compute.ranges import (
+    closest_distance,
+    file_focus,
+    focused_distance,
+    middle_distance,
+    telling_field,
+    wavelength_range,
+)
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.state.what_if import altered
@@ -49,15 +56,20 @@ class ParaxialSetup:
 
 @dataclass(frozen=True)
 class Ranges:
-    """Where each slider of this lens begins and ends."""
+    """Where each slider of this lens begins and ends, and the fields that its file states.
+
+    ``middle_mm``: the distance in the middle of a slider of distance, None where the lens says nothing about it.
+    """
 
     closest_mm: float
+    middle_mm: float | None
     field_deg: float
     wavelength_nm: tuple[float, float]
     f_number: tuple[float, float]
     file_f_number: float
     focused_mm: float
     shift_um: float
+    stated_deg: tuple[float, ...] = ()
 
 
 def load(name: str) -> Lens:
@@ -179,12 +191,14 @@ def ranges(lens: Lens) -> Ranges:
     widest = max(abs(angle) for angle in lens.fields_deg)
     return Ranges(
         closest_mm=closest_distance(lens),
+        middle_mm=middle_distance(lens),
         field_deg=min(75.0, max(5.0, nice(1.25 * widest, (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)) if widest else 5.0)),
         wavelength_nm=wavelength_range(lens),
         f_number=(f_stop / 1.4, max(32.0, 4 * f_stop)) if finite else (1.0, 32.0),
         file_f_number=f_stop if finite else inf,
         focused_mm=file_focus(lens),
         shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,
+        stated_deg=lens.fields_deg,
     )
 
 

@@ -6,21 +6,24 @@ from PySide6.QtWidgets import QMenu, QSizePolicy, QToolButton
 
 from p2sf.errors import P2SFError
 from p2sf.paraxial.wavefront import Coefficients
+from p2sf_explorer.charts.painting import width_of
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import read_number
-from p2sf_explorer.state.state import entry
-from p2sf_explorer.state.terms import TERMS
-from p2sf_explorer.state.what_if import PRESETS, SHORT_NOTE, UNTOUCHED, Preset, of_preset, toggled, with_added
+from p2sf_explorer.state.state import State, entry
+from p2sf_explorer.state.terms import NAMES, TERMS
+from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, Preset, alterations, of_preset, toggled, with_added
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
-from p2sf_explorer.widgets.coefficient_mixer import NAMES, Mixer
+from p2sf_explorer.widgets.coefficient_mixer import Mixer
 
 TIP = "Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves."
 FREE_TIP = "Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients."
 PRESETS_TIP = "Textbook wavefronts, in a free pupil"
 SMALLEST = 250, 186  # pixels: names, numbers and buttons, some forty for the bars, and three buttons below
+NOTE_PX = 12  # size of the card's readout
 RESET_TIP = "Back to the lens's own coefficients: nothing added, muted or solo"
 
 
@@ -42,7 +45,16 @@ class CoefficientsPanel:
         self.reset = self._button("Reset", RESET_TIP)
         self.reset.clicked.connect(lambda: store.update(**UNTOUCHED))
         self.widget.add_footer(self.free, self.presets, self.reset)
+        self.widget.readout.linkActivated.connect(self._take_back)
         self._connect()
+
+    def _take_back(self) -> None:
+        """Take back the latest change by hand; where something else has changed since, all of them."""
+        before = self._store.previous
+        if before and before.what_if != self._store.state.what_if:
+            self._store.undo()
+        else:
+            self._store.update(**UNTOUCHED)
 
     def _connect(self) -> None:
         store, bars = self._store, self.bars
@@ -100,13 +112,30 @@ class CoefficientsPanel:
         self.bars.setEnabled(live.side != "B")  # the sliders move A
         self.free.setChecked(state.what_if.free_pupil)
         self.reset.setEnabled(altered)
-        note = "what-if" if live.side else SHORT_NOTE  # beside a side's name there is less room
+        # "A − B" needs the room, and λ stand at the numbers
         words = "" if live.difference else tr("at {wavelength} nm", wavelength=f"{state.optics.wavelength_nm:.1f}")
-        self._note = tr(note) if altered else ""  # "A − B" needs the room, and λ stand at the numbers
+        self._note = self._altered(state, live.side) if altered else ""
         self.widget.set_readout(self._coloured() or words)
 
+    def _altered(self, state: State, side: str) -> str:
+        """Return what is altered, as much of it as there is room for beside the title, and the link that undoes it.
+
+        On B's side there is no link, since undo moves A.
+        """
+        every = [local(said(message)) for message in alterations(state)]
+        first = every[0] + (" …" if len(every) > 1 else "")
+        before = self._store.previous
+        undo = tr("Undo") if before and before.what_if != state.what_if else tr("Reset")
+        room = self.widget.readout.width() - (0 if side == "B" else width_of(f" · {undo}", NOTE_PX))
+        long = (tr("what-if: {alterations}", alterations=words) for words in (", ".join(every), first))
+        words = next((text for text in long if width_of(text, NOTE_PX) <= room), first)
+        if side == "B":
+            return words
+        return f'{words} · <a href="undo" style="color:{{accent}}">{undo}</a>'
+
     def _coloured(self) -> str:
-        return self._note and f'<span style="color:{self._theme.warning}">{self._note}</span>'
+        note = self._note.format(accent=self._theme.accent)
+        return note and f'<span style="color:{self._theme.warning}">{note}</span>'
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -11,9 +11,8 @@ from p2sf_explorer.compute.setup import prescription, ranges
 from p2sf_explorer.state.limits import ADDED, DRAGGED
 from p2sf_explorer.state.scales import read_number, signed
 from p2sf_explorer.state.state import State
-from p2sf_explorer.state.terms import TERMS
+from p2sf_explorer.state.terms import NAMES, TERMS
 from p2sf_explorer.state.what_if import with_added
-from p2sf_explorer.widgets.coefficient_mixer import NAMES
 
 RATIOS, VERGENCES = ("f_number",), ("depth_mm", "focus_mm")
 USUAL_WAVES = (-2.0, 2.0)

@@ -22,7 +22,7 @@ from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.first_order import OF_A, rows
 from p2sf_explorer.shell.no_answer import UNKNOWN
-from p2sf_explorer.state.scales import Vergence, short_distance, signed
+from p2sf_explorer.state.scales import signed
 from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
@@ -106,6 +106,7 @@ class QuantityRow(QWidget):
         self.buttons = [self._button(*button) for button in quantity.buttons]
         self._scale: Scale | None = None
         self._shown: tuple[float, Scale] | None = None
+        self._before = 0.0
         self._lay_out()
         self._connect()
 
@@ -139,6 +140,22 @@ class QuantityRow(QWidget):
         self.play.clicked.connect(lambda: self.swept.emit(self.quantity.key))
         self.edit.committed.connect(self._on_text)
         self.edit.reset.connect(self.reset)
+        self.slider.cancelled.connect(self._store.cancel)
+        scrub = self.edit.let_scrub()
+        scrub.begun.connect(self._grasp)
+        scrub.moved.connect(self._on_scrub)
+        scrub.ended.connect(self._store.end)
+        scrub.cancelled.connect(self._store.cancel)
+
+    def _grasp(self) -> None:
+        self.grasped.emit(self.quantity.key)  # first: it may end a drag
+        self._store.begin()
+        self._before = self._shown[0] if self._shown else 0.0
+
+    def _on_scrub(self, by: float) -> None:
+        """Move the value from where it was when the hand took hold of the number."""
+        if self._scale:
+            self._store.update(**{self.quantity.key: self._scale.moved(self._before, by)})
 
     def _button(self, label: str, value: float | None, tip: str) -> QPushButton:
         button = QPushButton(tr(label), self)
@@ -157,7 +174,10 @@ class QuantityRow(QWidget):
         scale = self.quantity.scale(limits)
         if scale != self._scale:
             self._scale = scale
-            self._set_marks(scale)
+            self._set_ticks(scale, limits)
+        self.slider.fine_arrows = self.edit.fine_arrows = not state.lesson.name
+        marks = self.quantity.marks(state, limits)
+        self.slider.set_marks(tuple(scale.travel(value) for value in marks if scale.low <= value <= scale.high))
         value = self.quantity.shown(state, limits)
         if (value, scale) == self._shown and self.edit.text() == self.edit.last:
             return
@@ -167,11 +187,9 @@ class QuantityRow(QWidget):
         self.slider.blockSignals(False)
         self.edit.set_text(tr(self.quantity.write(value)) if value < 0 else self.quantity.write(value))
 
-    def _set_marks(self, scale: Scale) -> None:
-        inside = [(v, name) for v, name in self.quantity.ticks if scale.low <= v <= scale.high]
+    def _set_ticks(self, scale: Scale, limits: Ranges) -> None:
+        inside = [(v, name) for v, name in self.quantity.ticks(limits) if scale.low <= v <= scale.high]
         self.slider.set_ticks(tuple((scale.travel(v), name) for v, name in inside))
-        if isinstance(scale, Vergence):
-            self.slider.set_ticks(tuple((part, short_distance(scale.value(part))) for part in (0.0, 0.5, 0.8, 1.0)))
         if self.quantity is WAVELENGTH:
             steps = [k / 24 for k in range(25)]
             self.slider.set_spectrum(tuple((t, visible_colour(scale.value(t))) for t in steps))

@@ -10,6 +10,9 @@ from p2sf_explorer.widgets.command import Command
 
 MOUSE_AND_KEYS = (
     ("← → ↑ ↓, Page Up/Down", "move the slider that has the focus"),
+    ("Shift, Alt", "with wheel, arrows or a dragged number: ten times as coarse, ten times as fine"),
+    ("drag or wheel on a number", "change it; a click types"),
+    ("Escape", "while something is dragged: give up, as it was before"),
     ("double-click", "back to the lens's own value"),
     ("Tab, Shift+Tab", "to the next or the previous control"),
     ("drop a file", "open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, "

@@ -30,6 +30,10 @@ class Linear:
         """Return the travel of this quantity, held inside 0 to 1."""
         return _inside((value - self.low) / (self.high - self.low))
 
+    def moved(self, value: float, by: float) -> float:
+        """Return the quantity ``by`` so much travel farther, also beyond the slider's ends."""
+        return value + by * (self.high - self.low)
+
 
 @dataclass(frozen=True)
 class Logarithmic:
@@ -46,21 +50,41 @@ class Logarithmic:
         """Return the travel of this quantity, held inside 0 to 1."""
         return _inside(log(value / self.low) / log(self.high / self.low))
 
+    def moved(self, value: float, by: float) -> float:
+        """Return the quantity ``by`` so much travel farther, also beyond the slider's ends."""
+        return value * exp(by * log(self.high / self.low))
+
 
 @dataclass(frozen=True)
 class Vergence:
-    """Equal travel, equal change of 1/distance, from the closest distance to infinity."""
+    """Distances from ``low`` to infinity, with ``half`` in the middle of the travel; without it, twice ``low``.
+
+    Equal travel is equal change of 1/(distance + ``offset``), which keeps infinity at a finite travel: far away it is
+    even in dioptres, and the larger the offset, the less of the travel goes to distances near ``low``.
+    """
 
     low: float
+    half: float | None = None
     high: float = inf
+
+    @property
+    def offset(self) -> float:
+        """Return the length added to the distance, mm: (low + offset)/(half + offset) = 1/2."""
+        return 0.0 if self.half is None else self.half - 2 * self.low
 
     def value(self, travel: float) -> float:
         """Return the distance at this travel; infinity at the end."""
-        return inf if travel >= 1 else self.low / (1 - travel)
+        return inf if travel >= 1 else (self.low + self.offset) / (1 - travel) - self.offset
 
     def travel(self, value: float) -> float:
-        """Return the travel of this distance, held inside 0 to 1."""
-        return _inside(1 - self.low / value)
+        """Return the travel of this distance, held inside 0 to 1; 1 for one beyond infinity, which is negative."""
+        if value <= 0:
+            return 1.0
+        return _inside(1 - (self.low + self.offset) / (value + self.offset)) if value > self.low else 0.0
+
+    def moved(self, value: float, by: float) -> float:
+        """Return the distance ``by`` so much travel farther."""
+        return self.value(_inside(self.travel(value) + by))
 
 
 def _inside(travel: float) -> float:
@@ -87,6 +111,13 @@ def short_distance(mm: float, digits: int = 3) -> str:
     if isinf(mm):
         return "∞"
     return f"{mm / 1000:.{digits}g} m" if mm >= 1000 else f"{mm:.{digits}g} mm"
+
+
+def distance_ticks(low: float) -> tuple[tuple[float, str], ...]:
+    """Return round distances from ``low`` mm on and infinity with their texts, those that matter most first."""
+    first = floor(log10(low))
+    rounds = [step * 10.0**decade for step in (1, 2, 5) for decade in range(max(3, first + 3), first - 1, -1)]
+    return tuple((mm, short_distance(mm)) for mm in (inf, *rounds) if mm >= low)
 
 
 def told_apart(distances_mm: list[float]) -> list[str]:

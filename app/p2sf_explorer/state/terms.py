@@ -1,6 +1,7 @@
 """The six coefficients by name: how each is written, what it is called, its shape over the pupil. No Qt in here."""
 
 TERMS = ("w40", "w31", "w22", "w20", "wd", "w11")
+NAMES = {"w40": "W40", "w31": "W31", "w22": "W22", "w20": "W20", "wd": "Wd", "w11": "W11"}
 WORDS = {
     "w40": "spherical aberration",
     "w31": "coma",

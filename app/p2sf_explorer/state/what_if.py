@@ -6,11 +6,11 @@ from typing import Any
 from p2sf.errors import GeometryError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
+from p2sf_explorer.state.scales import signed
 from p2sf_explorer.state.state import State, WhatIf
-from p2sf_explorer.state.terms import TERMS
+from p2sf_explorer.state.terms import NAMES, TERMS
 
 NOTE = "what-if: coefficients altered by hand"
-SHORT_NOTE = "what-if: altered by hand"
 NO_REFERENCE = (
     "what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again"
 )
@@ -69,6 +69,23 @@ def with_added(state: State, term: str, waves: float) -> tuple[float, ...]:
 def toggled(names: tuple[str, ...], term: str) -> tuple[str, ...]:
     """Return the names with one put in or taken out, in the order of `TERMS`."""
     return tuple(name for name in TERMS if (name in names) != (name == term))
+
+
+def alterations(state: State) -> tuple[Message, ...]:
+    """Return what is altered by hand, one short message each, in the order of a reader's interest."""
+    made = state.what_if
+    added = zip(TERMS, made.added_waves, strict=True)
+    return (
+        *(Message("{term} {waves} λ", term=NAMES[t], waves=written_waves(w)) for t, w in added if w),
+        *(Message("{term} muted", term=NAMES[term]) for term in made.muted),
+        *(Message("{term} solo", term=NAMES[term]) for term in made.solo),
+        *((Message("free pupil"),) if made.free_pupil else ()),
+    )
+
+
+def written_waves(value: float) -> str:
+    """Return added waves with their sign, as short as they tell the value."""
+    return ("+" if value > 0 else "") + signed(value, 2 if abs(value) < 10 else 1)
 
 
 def of_preset(preset: Preset) -> dict[str, Any]:

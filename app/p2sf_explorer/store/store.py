@@ -80,6 +80,16 @@ class Store(QObject):
             if moved:
                 self.changed.emit(self.state)
 
+    def cancel(self) -> None:
+        """Give up a drag: the state is as before it, and no step of undo is left."""
+        if self.moving:
+            moved = self.state is not self._before_drag
+            self._before_drag = None
+            if moved:
+                del self._states[self._at :]
+                self._at -= 1
+                self.changed.emit(self.state)
+
     @contextmanager
     def drag(self) -> Iterator["Store"]:
         """Keep a drag open for a block."""
@@ -102,6 +112,11 @@ class Store(QObject):
     def latest(self, wanted: Callable[[State], bool]) -> State | None:
         """Return the latest state, the present one or a step of undo, that is ``wanted``; None where none is."""
         return next((state for state in reversed(self._states[: self._at + 1]) if wanted(state)), None)
+
+    @property
+    def previous(self) -> State | None:
+        """Return the state that `undo` would give back, None where there is none."""
+        return self._states[self._at - 1] if self.can_undo else None
 
     def undo(self) -> None:
         """Take back one step."""

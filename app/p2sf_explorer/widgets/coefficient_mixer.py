@@ -11,10 +11,9 @@ from p2sf_explorer.charts.painting import set_text, write
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import nice, signed
-from p2sf_explorer.state.terms import FORMULAS, TERMS, WORDS
+from p2sf_explorer.state.terms import FORMULAS, NAMES, TERMS, WORDS
 from p2sf_explorer.widgets.value_edit import ShortField
 
-NAMES = {"w40": "W40", "w31": "W31", "w22": "W22", "w20": "W20", "wd": "Wd", "w11": "W11"}
 SHORT = {
     "w40": "spherical",
     "w31": "coma",

@@ -1,6 +1,8 @@
-"""A slider painted directly: travel 0 to 1, ticks, and a gradient in the groove, such as the spectrum."""
+"""A slider painted directly: travel 0 to 1, ticks, marks, and a gradient in the groove, such as the spectrum."""
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from functools import partial
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QFocusEvent,
@@ -11,16 +13,20 @@ from PySide6.QtGui import (
     QPaintEvent,
     QPen,
     QPixmap,
+    QPolygonF,
+    QWheelEvent,
 )
 from PySide6.QtWidgets import QAbstractSlider, QSizePolicy, QWidget
 
 from p2sf_explorer.charts.chart import blank_pixmap
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import local
+from p2sf_explorer.widgets.scrub import REST_MS, claimed, notches, speed
 
 STEPS = 1000
 HANDLE = 7.0
 MARGIN = 9.0
+LABEL_GAP = 5.0  # pixels between the labels of ticks
 MIDDLE = 11.0  # pixels from the top to the middle of groove and handle
 KEYS = Qt.Key
 MOVES = (
@@ -29,10 +35,16 @@ MOVES = (
 )
 
 
-class Slider(QAbstractSlider):
-    """A horizontal slider over 0 to STEPS; a double-click asks for reset, Space for a sweep."""
+ARROWS: dict[int, int] = {KEYS.Key_Left: -1, KEYS.Key_Down: -1, KEYS.Key_Right: 1, KEYS.Key_Up: 1}
 
-    reset = Signal()
+
+class Slider(QAbstractSlider):
+    """A horizontal slider over 0 to STEPS; a double-click asks for reset, Space for a sweep, Escape to give up a drag.
+
+    Shift makes wheel and arrow keys ten times as coarse; with Alt they move by the smallest step.
+    """
+
+    reset, cancelled = Signal(), Signal()
     swept = Signal()
 
     def __init__(self, parent: QWidget | None = None):
@@ -44,10 +56,14 @@ class Slider(QAbstractSlider):
         self.setOrientation(Qt.Orientation.Horizontal)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.fine_arrows = True  # Alt and an arrow move the handle, rather than a lesson
         self._theme = LIGHT
         self._ticks: tuple[tuple[float, str], ...] = ()
+        self._marks: tuple[float, ...] = ()
         self._spectrum: tuple[tuple[float, str], ...] = ()
         self._background: QPixmap | None = None
+        self._rest = QTimer(self, singleShot=True, interval=REST_MS)  # a turn of the wheel is one step of undo
+        self._rest.timeout.connect(partial(self.setSliderDown, False))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -55,10 +71,16 @@ class Slider(QAbstractSlider):
         self._forget_background()
 
     def set_ticks(self, ticks: tuple[tuple[float, str], ...]) -> None:
-        """Mark travels (0 to 1) with a short label under the groove."""
+        """Mark travels (0 to 1) with a label under the groove, unless it would touch the label of an earlier one."""
         self._ticks = ticks
         self.updateGeometry()
         self._forget_background()
+
+    def set_marks(self, marks: tuple[float, ...]) -> None:
+        """Point at these travels (0 to 1) from above the groove."""
+        if marks != self._marks:
+            self._marks = marks
+            self._forget_background()
 
     def set_spectrum(self, colours: tuple[tuple[float, str], ...]) -> None:
         """Paint the groove as a gradient of (travel, colour)."""
@@ -94,9 +116,31 @@ class Slider(QAbstractSlider):
         if event.key() == Qt.Key.Key_Space:
             self.swept.emit()
             return
+        if event.key() == Qt.Key.Key_Escape and self.isSliderDown():
+            self.cancelled.emit()
+            self.setSliderDown(False)
+            return
         if event.key() in MOVES and not self.isSliderDown():
             self.setSliderDown(True)
-        super().keyPressEvent(event)
+        if event.key() in ARROWS:
+            self._step(ARROWS[event.key()], event.modifiers())
+        else:
+            super().keyPressEvent(event)
+
+    def event(self, event: QEvent) -> bool:
+        """Keep the keys that move the handle from the window's shortcuts."""
+        return claimed(event, ARROWS, self.isSliderDown(), self.fine_arrows) or super().event(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Move the handle by the wheel."""
+        self.setSliderDown(True)
+        self._step(notches(event), event.modifiers())
+        self._rest.start()
+        event.accept()
+
+    def _step(self, count: float, modifiers: Qt.KeyboardModifier) -> None:
+        by = count * self.singleStep() * speed(modifiers)
+        self.setValue(self.value() + (round(by) or (by > 0) - (by < 0)))
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:
         """Let go when the key is up, and not while it repeats."""
@@ -149,6 +193,7 @@ class Slider(QAbstractSlider):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_groove(painter, MIDDLE)
         self._paint_ticks(painter, MIDDLE)
+        self._paint_marks(painter, MIDDLE)
         painter.end()
         return background
 
@@ -170,13 +215,23 @@ class Slider(QAbstractSlider):
         font = painter.font()
         font.setPixelSize(10)
         painter.setFont(font)
-        for travel, label in self._ticks:
-            x = self._x(travel)
+        taken: list[tuple[float, float]] = []
+        for travel, english in self._ticks:
+            x, label = self._x(travel), local(english)
             painter.setPen(QPen(QColor(self._theme.muted), 1))
             painter.drawLine(QPointF(x, middle + 6), QPointF(x, middle + 9))
             wide = painter.fontMetrics().horizontalAdvance(label)
             left = min(max(x - wide / 2, 1.0), self.width() - wide - 1.0)
-            painter.drawText(QPointF(left, middle + 19), local(label))
+            if all(left > end or left + wide < start for start, end in taken):
+                taken.append((left - LABEL_GAP, left + wide + LABEL_GAP))
+                painter.drawText(QPointF(left, middle + 19), label)
+
+    def _paint_marks(self, painter: QPainter, middle: float) -> None:
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(self._theme.muted))
+        for travel in self._marks:
+            x, tip = self._x(travel), middle - 5
+            painter.drawPolygon(QPolygonF([QPointF(x - 3.5, tip - 5), QPointF(x + 3.5, tip - 5), QPointF(x, tip)]))
 
     def _paint_handle(self, painter: QPainter, middle: float) -> None:
         theme, centre = self._theme, QPointF(self.handle_x(), middle)

@@ -1,7 +1,7 @@
 """A number with its unit to type into, and the button that plays its slider."""
 
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QKeySequence, QMouseEvent
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QKeySequence, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
 
 from p2sf.errors import P2SFError
@@ -9,6 +9,7 @@ from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import entry
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.scrub import Scrub, claimed, notches
 
 
 class PlayButton(QToolButton):
@@ -42,7 +43,10 @@ class ShortField(QLineEdit):
 
 
 class ValueEdit(ShortField):
-    """A number with its unit; Return commits, Escape goes back, double-click asks for the reset."""
+    """A number with its unit; Return commits, Escape goes back, double-click asks for the reset.
+
+    With a ``scrub`` (`let_scrub`) a drag on it, the wheel and ↑ ↓ move the value; a click starts typing.
+    """
 
     committed = Signal(str)
     reset = Signal()
@@ -53,7 +57,16 @@ class ValueEdit(ShortField):
         self.setFixedWidth(96)
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.last = ""
+        self.scrub: Scrub | None = None
+        self.fine_arrows = True  # Alt and an arrow move the value, rather than a lesson
+        self._typing = False
         self.editingFinished.connect(self._commit)
+
+    def let_scrub(self) -> Scrub:
+        """Have the value follow hand, wheel and arrow keys; return the signals of these moves."""
+        self.scrub = Scrub(self)
+        self.setCursor(Qt.CursorShape.SizeHorCursor)
+        return self.scrub
 
     def set_text(self, text: str) -> None:
         """Show a value, unless another is being typed."""
@@ -62,18 +75,76 @@ class ValueEdit(ShortField):
             self.setText(text)
 
     def _commit(self) -> None:
+        self._type(False)
         if self.isModified() and self.text() != self.last:
             self.setModified(False)
             self.committed.emit(self.text())
             self.setText(self.last)  # in the standard form, also where the number has stayed the same
 
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Get ready to be dragged, unless a number is being typed."""
+        if self.scrub and not self._typing and event.button() == Qt.MouseButton.LeftButton:
+            self.scrub.press(event.position().x())
+        else:
+            super().mousePressEvent(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Move the value, or select what is typed."""
+        if self.scrub and self.scrub.pressed:
+            self.scrub.drag(event.position().x(), event.modifiers())
+        elif not (self.scrub and not self._typing):
+            super().mouseMoveEvent(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """End the move; a click without one starts typing."""
+        if not (self.scrub and self.scrub.pressed):
+            super().mouseReleaseEvent(event)
+        elif not self.scrub.end():
+            self._type(True)
+            self.selectAll()
+
+    def _type(self, typing: bool) -> None:
+        self._typing = typing
+        if self.scrub:
+            self.setCursor(Qt.CursorShape.IBeamCursor if typing else Qt.CursorShape.SizeHorCursor)
+
+    def event(self, event: QEvent) -> bool:
+        """Keep the keys that move the value from the window's shortcuts."""
+        scrub = self.scrub
+        return bool(scrub and claimed(event, UP_DOWN, scrub.active, self.fine_arrows)) or super().event(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Move the value by the wheel."""
+        if self.scrub and self.isEnabled() and not self.isModified():
+            self.scrub.step(notches(event), event.modifiers())
+            event.accept()
+        else:
+            super().wheelEvent(event)
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Take back with Escape what was typed."""
+        """Take back with Escape what was typed or moved; move the value by ↑ and ↓."""
         if event.key() == Qt.Key.Key_Escape:
+            if not (self.scrub and self.scrub.cancel()):
+                self.setModified(False)
+                self.setText(self.last)
+        elif self.scrub and event.key() in UP_DOWN:
             self.setModified(False)
-            self.setText(self.last)
-            return
-        super().keyPressEvent(event)
+            self.scrub.step(UP_DOWN[event.key()], event.modifiers())
+        else:
+            super().keyPressEvent(event)
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Begin to type where the focus comes by a key."""
+        super().focusInEvent(event)
+        if event.reason() != Qt.FocusReason.MouseFocusReason:
+            self._type(True)
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """End moves and typing."""
+        self._type(False)
+        if self.scrub:
+            self.scrub.end()
+        super().focusOutEvent(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Ask for the reset."""
@@ -81,6 +152,8 @@ class ValueEdit(ShortField):
         self.reset.emit()
 
 
+UP_DOWN: dict[int, int] = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1}
+DECADES = 4.0  # of a length, over all of a scrub's travel
 MICRONS = {"": 1.0, "µm": 1.0, "um": 1.0, "mm": 1e3}
 
 
@@ -99,6 +172,16 @@ class MicronEdit(QWidget):
         row.addWidget(QLabel(tr(label), self))
         row.addWidget(self.edit)
         self.edit.committed.connect(self._commit)
+        self._before = 0.0
+        scrub = self.edit.let_scrub()
+        scrub.begun.connect(self._grasp)
+        scrub.moved.connect(lambda by: store.update(**{key: self._before * 10 ** (DECADES * by)}))
+        scrub.ended.connect(store.end)
+        scrub.cancelled.connect(store.cancel)
+
+    def _grasp(self) -> None:
+        self._store.begin()
+        self._before = entry(self._store.state, self._key)
 
     def show_value(self, value: float) -> None:
         """Show the state's value."""

@@ -16,7 +16,7 @@ from p2sf_explorer.playback.play_bar import seconds
 from p2sf_explorer.playback.sweep import changes, present, sweep
 from p2sf_explorer.state.limits import PLAYABLE
 from p2sf_explorer.state.state import new_state
-from p2sf_explorer.widgets.coefficient_mixer import NAMES
+from p2sf_explorer.state.terms import NAMES
 
 
 @pytest.mark.parametrize("key", PLAYABLE[1:])

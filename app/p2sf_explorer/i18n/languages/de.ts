@@ -124,7 +124,7 @@
 <message><source>Depth</source><translation>Objektabstand</translation></message>
 <message><source>Depth of field</source><translation>Schärfentiefe</translation></message>
 <message><source>Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
-<message><source>Depth: distance from the source to the first vertex. The slider is even in vergence, 1/depth.</source><translation>Objektabstand: von der Quelle bis zum ersten Scheitel. Der Regler ist gleichmäßig in der Vergenz, 1/Abstand.</translation></message>
+<message><source>Depth: distance from the source to the first vertex. Half of the slider is from ten focal lengths to ∞; far away it is even in dioptres, 1/depth. ▾ is where the lens is focused.</source><translation>Objektabstand: von der Quelle bis zum ersten Scheitel. Die Hälfte des Reglers reicht von zehn Brennweiten bis ∞; in der Ferne ist er gleichmäßig in Dioptrien, 1/Abstand. ▾ zeigt, worauf das Objektiv fokussiert ist.</translation></message>
 <message><source>Depths</source><translation>Abstände</translation></message>
 <message><source>Deutsch</source><translation>Deutsch</translation></message>
 <message><source>Diffraction-limited: RMS {rms:.3f} λ</source><translation>Beugungsbegrenzt: RMS {rms:.3f} λ</translation></message>
@@ -145,6 +145,7 @@
 <message><source>English</source><translation>English</translation></message>
 <message><source>Entrance pupil</source><translation>Eintrittspupille</translation></message>
 <message><source>Error</source><translation>Fehler</translation></message>
+<message><source>Escape</source><translation>Escape</translation></message>
 <message><source>Every panel by its group (Alt+0)</source><translation>Jede Ansicht nach ihrer Gruppe (Alt+0)</translation></message>
 <message><source>ExP</source><translation>ExP</translation></message>
 <message><source>Exact rays have {exact} λ from peak to valley, the six coefficients {six} λ: these are paraxial, and the rays are too steep for that here; pupil and PSF are of exact rays.</source><translation>Exakte Strahlen haben {exact} λ von Spitze zu Tal, die sechs Koeffizienten {six} λ: diese sind paraxial, und dafür sind die Strahlen hier zu steil; Pupille und PSF zeigen exakte Strahlen.</translation></message>
@@ -163,7 +164,7 @@
 <message><source>Field curves</source><translation>Feldkurven</translation></message>
 <message><source>Field map</source><translation>Feldkarte</translation></message>
 <message><source>Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the present one.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld; ein Rahmen zeigt das jetzige.</translation></message>
-<message><source>Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field).</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld).</translation></message>
+<message><source>Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field). ▾ are the fields that the lens file states.</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld). ▾ sind die Felder, die in der Objektivdatei stehen.</translation></message>
 <message><source>Figures</source><translation>Zahlen</translation></message>
 <message><source>Files</source><translation>Dateien</translation></message>
 <message><source>Film…</source><translation>Film …</translation></message>
@@ -176,7 +177,7 @@
 <message><source>Focal length f′</source><translation>Brennweite f′</translation></message>
 <message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
 <message><source>Focus distance</source><translation>Fokus auf</translation></message>
-<message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. beyond ∞: nearer to the lens than the image of infinity.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s. hinter ∞: näher am Objektiv als das Bild von Unendlich.</translation></message>
+<message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. beyond ∞: nearer to the lens than the image of infinity. ▾ is where the source is.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s. hinter ∞: näher am Objektiv als das Bild von Unendlich. ▾ zeigt, wo die Quelle steht.</translation></message>
 <message><source>Frame</source><translation>Ausschnitt</translation></message>
 <message><source>Free pupil</source><translation>Freie Pupille</translation></message>
 <message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
@@ -393,6 +394,7 @@
 <message><source>Sensor shift Δz away from the lens, on top of focus; it adds defocus Wd = NA²Δz/(2n′λ).</source><translation>Sensorversatz Δz weg vom Objektiv, zusätzlich zur Einstellung; er fügt den Defokus Wd = NA²Δz/(2n′λ) hinzu.</translation></message>
 <message><source>Sensor − image</source><translation>Sensor − Bild</translation></message>
 <message><source>Sharpening</source><translation>Schärfung</translation></message>
+<message><source>Shift, Alt</source><translation>Umschalt, Alt</translation></message>
 <message><source>Shipped lenses</source><translation>Mitgelieferte Objektive</translation></message>
 <message><source>Shortcuts</source><translation>Tastenkürzel</translation></message>
 <message><source>Shortcuts and terms (F1 or ?)</source><translation>Tastenkürzel und Begriffe (F1 oder ?)</translation></message>
@@ -660,6 +662,7 @@
 <message><source>by the axis's PSF</source><translation>mit der PSF der Achse</translation></message>
 <message><source>cannot compare {psf} with {reference}; render both on the same grid</source><translation>{psf} und {reference} sind nicht vergleichbar; beide auf demselben Gitter rechnen</translation></message>
 <message><source>centre_mm has {count} numbers; give two, x and y</source><translation>centre_mm hat {count} Zahlen; zwei angeben, x und y</translation></message>
+<message><source>change it; a click types</source><translation>ändert sie; ein Klick beginnt zu tippen</translation></message>
 <message><source>channel {channel} has a wavelength or weight that is not positive; correct it</source><translation>der Kanal {channel} hat eine Wellenlänge oder ein Gewicht, das nicht positiv ist; berichtigen</translation></message>
 <message><source>channel {channel} has {waves} wavelengths and {weights} weights; give as many of both, at least one</source><translation>der Kanal {channel} hat {waves} Wellenlängen und {weights} Gewichte; von beiden gleich viele angeben, mindestens eines</translation></message>
 <message><source>channel {channel}: {error}</source><translation>Kanal {channel}: {error}</translation></message>
@@ -721,6 +724,7 @@
 <message><source>distortion, %</source><translation>Verzeichnung, %</translation></message>
 <message><source>distortion, third order</source><translation>Verzeichnung, dritte Ordnung</translation></message>
 <message><source>double-click</source><translation>Doppelklick</translation></message>
+<message><source>drag or wheel on a number</source><translation>auf einer Zahl ziehen oder das Rad drehen</translation></message>
 <message><source>drawing and editor settings</source><translation>Einstellungen für Zeichnung und Editor</translation></message>
 <message><source>drawn {times} times</source><translation>{times}fach gezeichnet</translation></message>
 <message><source>drop a file</source><translation>Datei fallen lassen</translation></message>
@@ -1296,13 +1300,15 @@
 <message><source>what is pinned as B must be one state with nothing pinned in it; pin it again</source><translation>was als B gemerkt ist, muss ein einzelner Zustand sein, in dem nichts gemerkt ist; neu merken</translation></message>
 <message><source>what no single term shows</source><translation>was kein einzelnes Glied zeigt</translation></message>
 <message><source>what-if</source><translation>Was wäre wenn</translation></message>
-<message><source>what-if: altered by hand</source><translation>von Hand geändert</translation></message>
+<message><source>what-if: {alterations}</source><translation>was wäre wenn: {alterations}</translation></message>
 <message><source>what-if: coefficients altered by hand</source><translation>Was wäre wenn: Koeffizienten von Hand geändert</translation></message>
 <message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
 <message><source>which P2SF does not trace</source><translation>den P2SF nicht rechnet</translation></message>
+<message><source>while something is dragged: give up, as it was before</source><translation>beim Ziehen: aufgeben, alles wie zuvor</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
 <message><source>whole pupil</source><translation>ganze Pupille</translation></message>
 <message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
+<message><source>with wheel, arrows or a dragged number: ten times as coarse, ten times as fine</source><translation>mit Rad, Pfeilen oder beim Ziehen an einer Zahl: zehnmal so grob, zehnmal so fein</translation></message>
 <message><source>working</source><translation>in Arbeit</translation></message>
 <message><source>wrapped</source><translation>gefaltet</translation></message>
 <message><source>write a finite number</source><translation>eine endliche Zahl schreiben</translation></message>
@@ -1476,6 +1482,8 @@
 <message><source>{surface}: glass "{name}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it</source><translation>{surface}: das Glas "{name}" ist weder ein Name noch ein sechsstelliger Code wie 517642 oder 517.642; berichtigen</translation></message>
 <message><source>{surface}: radius {radius:g} differs from the lens data's; correct one</source><translation>{surface}: der Radius {radius:g} weicht von dem der Linsendaten ab; einen berichtigen</translation></message>
 <message><source>{table} has "{key}", which means nothing here; it takes {keys}</source><translation>{table}: "{key}" bedeutet hier nichts; möglich sind {keys}</translation></message>
+<message><source>{term} muted</source><translation>{term} stumm</translation></message>
+<message><source>{term} solo</source><translation>{term} solo</translation></message>
 <message><source>{there} of words, and the lesson has {count}; say each in its place</source><translation>{there} mit Worten, und die Lektion hat {count}; jeden an seiner Stelle sagen</translation></message>
 <message><source>{value:.1f} nm</source><translation>{value:.1f} nm</translation></message>
 <message><source>{value:z.1f} µm</source><translation>{value:z.1f} µm</translation></message>
