@@ -2,19 +2,19 @@
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QRectF, Qt
+from PySide6.QtCore import QMarginsF, QPointF, QRectF, QSizeF, Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.brightness import stretched
-from p2sf_explorer.charts.painting import set_text, small_font
+from p2sf_explorer.charts.painting import small_font
 from p2sf_explorer.charts.plots import HeatMap, plot_widget, restyle_plot
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.reference import Accuracy, MethodResult
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.panels.psf import PSF_MAP
 from p2sf_explorer.state.scales import nice, significant, written_r_squared
 from p2sf_explorer.store.store import Store
@@ -28,8 +28,12 @@ EMPTY = (
     "difference, and what every method costs in time and error appear here."
 )
 SMALLEST_ERROR = 1e-9
-METHODS_SHARE = 6 / 14  # of the card's width
-ANCHORED = 0.06  # of a label's width, between it and its dot
+Anchor = tuple[float, float]
+MARGIN_PX = 14  # between the outer dots and the edge of their plot
+LETTERS = QMarginsF(4, 4, 4, 4)  # px around the letters of a label, as of every text document of Qt
+LEVELS = tuple(k / 8 for k in range(-4, 13))  # of a label's height, from its top to its dot
+SLANT_COST = 20.0  # px² of covered label that a label would rather have than stand a label's height higher or lower
+ASIDE = 0.04  # of a label's width, between it and its dot
 
 
 class AccuracyPanel:
@@ -63,6 +67,8 @@ class AccuracyPanel:
         self.widget.add_footer(self.message)
         self.message.set_text(tr("the reference is summed when the sliders rest"), "muted")
         self._theme, self._figure = LIGHT, ""
+        self._places: list[tuple[float, float]] = []  # of the methods' dots, in decades of ms and of error
+        self.methods.getPlotItem().getViewBox().sigResized.connect(self._place_labels)
 
     def show(self, live: Live) -> None:
         """Mark what is shown as belonging to an earlier picture until the worker answers."""
@@ -96,13 +102,13 @@ class AccuracyPanel:
         scale = accuracy.live.state.display.psf_scale
         self.reference.show_values(stretched(reference.values / peak, scale), (0.0, 1.0), rect)
         self.reference.means(reference.values / peak, "PSF, peak = 1")
-        self.reference.bar.show_scale(PSF_MAP, "peak = 1", ((0.0, "0"), (1.0, "1")))
+        self.reference.bar.show_scale(PSF_MAP, "% of peak", ((0.0, "0"), (1.0, "100")))
         delta = (psf.values - reference.values) / peak
-        limit = nice(max(1e-6, float(np.abs(delta).max())))
+        limit = common_limit(delta)
         self.difference.show_values(delta, (-limit, limit), rect)
         self.difference.means(delta, "difference, share of the reference's peak")
-        labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
-        self.difference.bar.show_scale(DIFFERENCE_MAP, "of peak", labels)
+        labels = ((0.0, f"−{100 * limit:g}"), (0.5, "0"), (1.0, f"+{100 * limit:g}"))
+        self.difference.bar.show_scale(DIFFERENCE_MAP, "% of peak", labels)
         for chart in (self.reference, self.difference):
             chart.set_extent(count * step / 2)
         self._show_methods(accuracy.results, psf.method)
@@ -114,27 +120,38 @@ class AccuracyPanel:
         self._show_figure(stale)
 
     def _show_methods(self, results: tuple[MethodResult, ...], shown: str) -> None:
+        """Paint a dot and a label for each method."""
         for label in self.labels:
             self.methods.removeItem(label)
         self.labels = []
         brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in results]
-        places = [(np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in results]
-        self.points.setData([x for x, _ in places], [y for _, y in places], brush=brushes, pen=None)  # in decades
-        if not places:
-            return
-        x, y = zip(*places, strict=True)
-        left, right = min(x) - 0.3, max(x) + 0.3
-        self.methods.setRange(xRange=(left, right), yRange=(min(y) - 0.5, max(y) + 0.5), padding=0)
-        box = QRectF(left, min(y) - 0.5, right - left, max(y) - min(y) + 1)
-        size = self.widget.width() * METHODS_SHARE - 70, max(60.0, self.widget.height() - 100.0)  # of its area, pixels
-        dots = [((a - box.x()) / box.width() * size[0], (box.bottom() - b) / box.height() * size[1]) for a, b in places]
-        words = [method_words(method) for method in results]
-        for text, place, anchor in zip(words, places, anchors(words, dots, size), strict=True):
-            label = pg.TextItem(text, self._theme.muted, anchor=anchor)
+        self._places = [
+            (np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in results
+        ]
+        self.points.setData(  # in decades
+            [x for x, _ in self._places], [y for _, y in self._places], brush=brushes, pen=None
+        )
+        for method in results:
+            label = pg.TextItem(local(method_words(method)), self._theme.muted)
             label.setFont(small_font())
-            label.setPos(*place)
             self.methods.addItem(label, ignoreBounds=True)
             self.labels.append(label)
+        self._place_labels()
+
+    def _place_labels(self) -> None:
+        """Show all dots, and put each label where it is clear of dots and other labels in the present size."""
+        if not self._places:
+            return
+        view = self.methods.getPlotItem().getViewBox()
+        size = max(80.0, view.width()), max(60.0, view.height())
+        spans = [with_margin([place[k] for place in self._places], size[k]) for k in (0, 1)]
+        self.methods.setRange(xRange=spans[0], yRange=spans[1], padding=0)
+        (left, right), (low, high) = spans
+        dots = [((x - left) / (right - left) * size[0], (high - y) / (high - low) * size[1]) for x, y in self._places]
+        sizes = [label.boundingRect().size() for label in self.labels]
+        for label, place, anchor in zip(self.labels, self._places, anchors(sizes, dots, size), strict=True):
+            label.setAnchor(anchor)
+            label.setPos(*place)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -146,24 +163,49 @@ class AccuracyPanel:
             label.setColor(theme.muted)
 
 
+def common_limit(delta: np.ndarray) -> float:
+    """Return the power of ten that holds all differences: few scales, so that methods and fields can be compared."""
+    return nice(max(1e-6, float(np.abs(delta).max())), (1,))
+
+
 def method_words(method: MethodResult) -> str:
     """Return a method's name and R²; the reference has no R² against itself."""
     return method.method if method.method == "huygens" else f"{method.method}  R² {written_r_squared(method.r_squared)}"
 
 
-def anchors(words: list[str], dots: list[tuple[float, float]], size: tuple[float, float]) -> list[tuple[float, float]]:
-    """Return the anchor of each label on its dot (pixels, y down): at a side, level, under or over, clear of others."""
+def with_margin(values: list[float], length_px: float) -> tuple[float, float]:
+    """Return a range of at least a decade that holds the values with `MARGIN_PX` to spare at both ends."""
+    low, high = min(values), max(values)
+    spare = max(0.0, 1.0 - (high - low)) / 2
+    low, high = low - spare, high + spare
+    margin = (high - low) * MARGIN_PX / max(1.0, length_px - 2 * MARGIN_PX)
+    return low - margin, high + margin
+
+
+def anchors(labels: list[QSizeF], dots: list[tuple[float, float]], size: tuple[float, float]) -> list[Anchor]:
+    """Return the anchor of each label, from its size, on its dot; all in pixels, y down.
+
+    A label stands at the right or left of its dot, where it covers least of dots and other labels, as level as can be.
+    """
     taken, chosen = [QRectF(x - 5, y - 5, 10, 10) for x, y in dots], []
-    for text, (x, y) in zip(words, dots, strict=True):
-        wide, tall = set_text(text).size().width() + 10, set_text(text).size().height()
-        rects = {(over, down): QRectF(x + 5 - over * (wide + 5), y - down * tall, wide, tall) for over, down in SIDES}
-        inside = [at for at, rect in rects.items() if QRectF(0, -4, size[0], size[1] + 8).contains(rect)]
-        free = [at for at in inside if not any(rects[at].intersects(other) for other in taken)]
-        over, down = (free or inside or list(SIDES))[0]
-        taken.append(rects[over, down])
-        chosen.append((over + (ANCHORED if over else -ANCHORED), down))
+    area = QRectF(0, 0, *size)
+    for label, (x, y) in zip(labels, dots, strict=True):
+
+        def cost(at: Anchor, rect: QRectF) -> float:
+            hidden = surface(rect) - surface(rect & area) + sum(surface(rect & other) for other in taken)
+            return round(hidden + SLANT_COST * abs(at[1] - 0.5), 6)  # so that right is before left where both are free
+
+        rects = {
+            (across, down): QRectF(QPointF(x - across * label.width(), y - down * label.height()), label) - LETTERS
+            for down in LEVELS
+            for across in (-ASIDE, 1 + ASIDE)  # right or left
+        }
+        at, room = min(rects.items(), key=lambda item: cost(*item))
+        taken.append(room)
+        chosen.append(at)
     return chosen
 
 
-LEVELS = (0.5, 0.0, 1.0, -0.6, 1.6)  # level, under, over, and clear of a neighbour that is level
-SIDES = tuple((over, down) for down in LEVELS for over in (0.0, 1.0))  # right or left
+def surface(rect: QRectF) -> float:
+    """Return the area of a rectangle, px²."""
+    return rect.width() * rect.height()

@@ -1,4 +1,4 @@
-"""Write frames as an animated GIF or as numbered PNG files, whole or not at all. No Qt in here."""
+"""Write frames as an animated GIF, an MP4 or numbered PNG files, whole or not at all. No Qt in here."""
 
 import os
 import secrets
@@ -6,10 +6,12 @@ import shutil
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from queue import Empty, Queue
+from tempfile import TemporaryDirectory
 from threading import Event
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from p2sf.errors import ExportError
 from p2sf.files.writing import check_place, write_beside
@@ -18,10 +20,13 @@ from p2sf.messages import Alternatives
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-ENDINGS = (".gif", ".png")
+ENDINGS = (".gif", ".mp4", ".png")
+EVEN = "pad=ceil(iw/2)*2:ceil(ih/2)*2"  # H.264 halves the resolution of colour, so a film has even sides
+CRF = "18"  # the quality at which H.264 shows no loss
 WAITING = 3  # frames between the window and the writer
 PATIENCE_S = 0.1
 PathLike = str | os.PathLike[str]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -63,7 +68,7 @@ class FrameQueue:
 
 
 def check_film(path: PathLike) -> None:
-    """Raise ExportError where a film cannot be written: an unknown ending, or no such folder."""
+    """Raise ExportError where a film cannot be written: an unknown ending, no such folder, an MP4 without ffmpeg."""
     if Path(path).suffix.lower() not in ENDINGS:
         raise ExportError(
             '{path}: a film has no ending "{ending}"; choose {endings}',
@@ -72,11 +77,28 @@ def check_film(path: PathLike) -> None:
             endings=Alternatives(ENDINGS),
         )
     check_place(path)
+    if Path(path).suffix.lower() == ".mp4":
+        _ffmpeg()
+
+
+def _ffmpeg() -> Any:
+    """Return imageio-ffmpeg, which brings ffmpeg with it; ExportError where it is not installed."""
+    try:
+        import imageio_ffmpeg
+
+        imageio_ffmpeg.get_ffmpeg_exe()
+    except (ImportError, RuntimeError) as error:
+        raise ExportError(
+            "MP4 films need imageio-ffmpeg, which is not installed; pip install 'p2sf[mp4]', or choose a GIF"
+        ) from error
+    return imageio_ffmpeg
 
 
 def write_film(frames: Iterator[FilmFrame], path: PathLike, frame_ms: int) -> tuple[Path, ...]:
-    """Write frames as one .gif, or as numbered .png files, whole or not at all; return the paths. ExportError."""
+    """Write frames as a .gif, an .mp4 or numbered .png files, whole or not at all; return the paths. ExportError."""
     check_film(path)
+    if Path(path).suffix.lower() == ".mp4":
+        return (write_beside(path, lambda handle: _write_mp4(frames, handle, frame_ms)),)
     if Path(path).suffix.lower() == ".gif":
         return (write_beside(path, lambda handle: _write_gif(frames, handle, frame_ms)),)
     return _write_pngs(frames, Path(path))
@@ -88,15 +110,43 @@ def _picture(frame: FilmFrame) -> "Image":
     return frombytes("RGB", (frame.width, frame.height), frame.rgb)
 
 
+def _first(found: Iterator[T]) -> T:
+    """Return the first frame; ExportError where there is none."""
+    for frame in found:
+        return frame
+    raise ExportError("there is no frame to write; choose a longer sweep")
+
+
 def _write_gif(frames: Iterator[FilmFrame], handle: BinaryIO, frame_ms: int) -> None:
     """Write a GIF that repeats for ever; each frame has its own 256 colours."""
     from PIL.Image import Dither, Quantize
 
     pictures = (_picture(frame).quantize(256, Quantize.FASTOCTREE, dither=Dither.NONE) for frame in frames)
-    first = next(pictures, None)
-    if first is None:
-        raise ExportError("there is no frame to write; choose a longer sweep")
+    first = _first(pictures)
     first.save(handle, "GIF", save_all=True, append_images=pictures, duration=frame_ms, loop=0)
+
+
+def _write_mp4(frames: Iterator[FilmFrame], handle: BinaryIO, frame_ms: int) -> None:
+    """Write an H.264 film; ffmpeg needs a file of its own, which is copied once it is whole."""
+    first = _first(frames)
+    with TemporaryDirectory() as folder:
+        made = Path(folder) / "film.mp4"
+        writer = _ffmpeg().write_frames(
+            made,
+            (first.width, first.height),
+            fps=1000 / frame_ms,
+            quality=None,
+            macro_block_size=1,
+            output_params=["-crf", CRF, "-vf", EVEN, "-movflags", "+faststart"],
+        )
+        writer.send(None)
+        try:
+            for frame in chain([first], frames):
+                writer.send(frame.rgb)
+        finally:
+            writer.close()
+        with made.open("rb") as film:
+            shutil.copyfileobj(film, handle)
 
 
 def _write_pngs(frames: Iterator[FilmFrame], path: Path) -> tuple[Path, ...]:

@@ -58,7 +58,7 @@ class Filming(QObject):
         return self._worker.busy
 
     def start(self, path: str, subject: QWidget) -> bool:
-        """Film the window or one of its parts to a .gif or numbered .png files; return whether it began."""
+        """Film the window or one of its parts to a .gif, an .mp4 or numbered .png files; return whether it began."""
         try:
             check_film(path)
             self._moments = moments(self._store.state)

@@ -27,7 +27,7 @@ from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.value_edit import ValueEdit
 
-FILMS = "Animated GIF (*.gif);;Numbered PNG frames (*.png)"
+FILMS = "Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)"
 SUBJECTS = (
     ("stack", "all panels"),
     ("psf", "the PSF"),

@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QMouseEvent, QShortcut
 from PySide6.QtWidgets import (
     QButtonGroup,
@@ -25,6 +25,7 @@ OUT_PX = 40  # a tab dragged farther off the bar than this gets a window of its 
 APART = (("Pop out", OWN_WINDOW), ("Put back", "Close the panel's own window and have it back under its tab (Ctrl+D)"))
 ALL = "Every panel by its group (Alt+0)"
 SIZE = 720, 480
+FRAME = 12  # px around a window, where its manager paints a frame
 
 
 class Tabs(QTabWidget):
@@ -182,14 +183,50 @@ class OwnWindow(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.key = key
         QVBoxLayout(self).setContentsMargins(SPACE, SPACE, SPACE, SPACE)
-        self.resize(*SIZE)
+        self.setGeometry(self._first_place(parent))
         for keys in ("Ctrl+D", "Ctrl+W"):
             QShortcut(keys, self, self.close)
+
+    @staticmethod
+    def _first_place(parent: QWidget) -> QRect:
+        """Return where a window opens that has never been moved."""
+        controls = parent.findChild(QWidget, "controls")
+        covered = QRect(controls.mapToGlobal(QPoint()), controls.size()) if controls else QRect()
+        covered.adjust(-FRAME, 0, FRAME, 0)
+        return beside(QSize(*SIZE), parent.frameGeometry(), covered, parent.screen().availableGeometry())
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask for the panel to be put back under its tab."""
         self.closed.emit(self.key)
         event.accept()
+
+
+def beside(size: QSize, window: QRect, controls: QRect, screen: QRect) -> QRect:
+    """Return where a window of its own is put: beside the main window, else over it but not over its controls.
+
+    All in global pixels. Where the screen has too little room the window is made smaller.
+    """
+    rooms = [side for keep in (window, controls) for side in (right_of(keep, screen), left_of(keep, screen))]
+    fits = [room for room in rooms if room.width() >= size.width() and room.height() >= size.height()]
+    room = fits[0] if fits else max(rooms[2:], key=QRect.width)
+    place = QRect(room.topLeft(), size.boundedTo(room.size()))
+    if room is rooms[1]:
+        place.moveTopRight(room.topRight())
+    elif room not in rooms[:2]:
+        place.moveBottomRight(room.intersected(window).bottomRight() if room.intersects(window) else room.bottomRight())
+        place.moveTop(max(place.top(), room.top()))
+        place.moveLeft(max(place.left(), room.left()))
+    return place
+
+
+def right_of(keep: QRect, screen: QRect) -> QRect:
+    """Return what the screen has at the right of a rectangle."""
+    return QRect(QPoint(max(keep.right() + 1, screen.left()), screen.top()), screen.bottomRight())
+
+
+def left_of(keep: QRect, screen: QRect) -> QRect:
+    """Return what the screen has at the left of a rectangle."""
+    return QRect(screen.topLeft(), QPoint(min(keep.left() - 1, screen.right()), screen.bottom()))
 
 
 def page(key: str) -> QWidget:

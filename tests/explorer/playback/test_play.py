@@ -1,5 +1,6 @@
 """A slider that plays, and the film of it: the right values at the right moments, one step of undo, whole files."""
 
+import sys
 from math import inf
 from threading import Event
 
@@ -10,7 +11,7 @@ from PySide6.QtCore import Qt
 from pytest import approx
 
 from p2sf.errors import ExportError, P2SFError
-from p2sf_explorer.playback.film import FilmFrame, FrameQueue, write_film
+from p2sf_explorer.playback.film import FilmFrame, FrameQueue, check_film, write_film
 from p2sf_explorer.playback.filming import frame_of
 from p2sf_explorer.playback.play_bar import seconds
 from p2sf_explorer.playback.sweep import changes, present, sweep
@@ -59,6 +60,28 @@ def test_a_gif_has_every_frame_in_order_and_repeats(tmp_path):
             assert film.convert("RGB").getpixel((1, 1)) == (20 * k,) * 3
 
 
+@pytest.mark.parametrize("size", [(64, 48), (63, 47)])
+def test_an_mp4_has_every_frame_in_order(tmp_path, size):
+    """Read back by ffmpeg; 4 grey levels of 255: H.264 at the quality chosen keeps a flat picture to 2."""
+    ffmpeg = pytest.importorskip("imageio_ffmpeg")
+    wide, tall = size
+    greys = [FilmFrame(wide, tall, bytes([40 * k]) * (3 * wide * tall)) for k in range(5)]
+    write_film(iter(greys), tmp_path / "a.mp4", 80)
+    found = ffmpeg.read_frames(tmp_path / "a.mp4")
+    told = next(found)
+    assert told["size"] == (64, 48) and told["fps"] == approx(12.5, rel=0.01)
+    middles = [np.frombuffer(frame, np.uint8).reshape(48, 64, 3)[20, 20] for frame in found]
+    assert len(middles) == 5
+    for k, middle in enumerate(middles):
+        assert middle.astype(int) == approx(np.full(3, 40 * k), abs=4)
+
+
+def test_an_mp4_without_ffmpeg_is_refused_before_the_first_frame(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(ExportError, match="imageio-ffmpeg"):
+        check_film(tmp_path / "a.mp4")
+
+
 def test_numbered_frames_are_whole_and_exact(tmp_path):
     paths = write_film(iter(frames(3)), tmp_path / "way.png", 80)
     assert [path.name for path in paths] == ["way_0001.png", "way_0002.png", "way_0003.png"]
@@ -66,8 +89,10 @@ def test_numbered_frames_are_whole_and_exact(tmp_path):
     assert Image.open(paths[2]).getpixel((3, 1)) == (40, 40, 40)
 
 
-@pytest.mark.parametrize("ending", [".gif", ".png"])
+@pytest.mark.parametrize("ending", [".gif", ".mp4", ".png"])
 def test_a_cancelled_film_leaves_nothing_and_an_old_one_stays(tmp_path, ending):
+    if ending == ".mp4":
+        pytest.importorskip("imageio_ffmpeg")
     old = tmp_path / f"way{ending}"
     old.write_bytes(b"old")
     reel, cancelled = FrameQueue(), Event()

@@ -1,7 +1,7 @@
 """Groups of tabs, and panels in windows of their own, by mouse and keyboard."""
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, QSize, Qt
+from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel
@@ -11,6 +11,7 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.files.session import last_session
 from p2sf_explorer.files.session_keeper import SessionKeeper
 from p2sf_explorer.panels import GROUPS, REGISTRY
+from p2sf_explorer.shell.tabs import beside
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
@@ -214,3 +215,26 @@ def test_own_windows_stand_where_they_stood_when_opened_again_and_at_the_next_st
     assert window.floating.open["mtf"].size() == QSize(433, 377)
     for filtering in (keeping, again):
         window.removeEventFilter(filtering)
+
+
+SCREENS = {"wide": QRect(0, 0, 3840, 2160), "laptop": QRect(0, 25, 1440, 860), "small": QRect(0, 0, 800, 600)}
+
+
+@pytest.mark.parametrize("screen", SCREENS)
+@pytest.mark.parametrize("left", [0, 1500, 2500])
+def test_a_panel_pops_out_onto_the_screen_and_clear_of_the_controls(screen, left):
+    room = SCREENS[screen]
+    window = QRect(left, room.top(), 1280, 800)
+    controls = QRect(window.left() + 8, window.top() + 60, 292, 700)
+    place = beside(QSize(820, 620), window, controls, room)
+    assert room.contains(place) and not place.intersects(controls)
+    if room.width() == 3840:
+        assert place.size() == QSize(820, 620) and not place.intersects(window), "there is room beside the window"
+
+
+def test_the_window_of_a_panel_opens_clear_of_the_controls(window):
+    window.floating.places.pop("mtf", None)
+    window.store.update(windows=("mtf",))
+    own = window.floating.open["mtf"]
+    controls = QRect(window.controls.mapToGlobal(QPoint()), window.controls.size())
+    assert not own.geometry().intersects(controls)

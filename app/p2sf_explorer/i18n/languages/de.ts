@@ -11,6 +11,7 @@
 <message><source>"{text}" in a claim is no number; write one such as 0.25 or 1e-3</source><translation>"{text}" in einer Behauptung ist keine Zahl; eine wie 0.25 oder 1e-3 schreiben</translation></message>
 <message><source>"{text}" is no claim; write one such as {example}</source><translation>"{text}" ist keine Behauptung; eine schreiben wie {example}</translation></message>
 <message><source>"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none</source><translation>"{text}": "is" braucht eine Toleranz wie ± 0.01, "above" und "below" haben keine</translation></message>
+<message><source>% of peak</source><translation>% der Spitze</translation></message>
 <message><source>0.7 of the pupil</source><translation>0,7 der Pupille</translation></message>
 <message><source>1 node</source><translation>1 Knoten</translation></message>
 <message><source>1 surface</source><translation>1 Fläche</translation></message>
@@ -53,7 +54,7 @@
 <message><source>All at once</source><translation>Alles zugleich</translation></message>
 <message><source>An aperture of NA {na:.2f} is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Eine Öffnung von NA {na:.2f} liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>An aspheric f/2 condenser: a conic and two polynomial terms against spherical aberration</source><translation>Ein asphärischer Kondensor f/2: ein Kegelschnitt und zwei Polynomglieder gegen sphärische Aberration</translation></message>
-<message><source>Animated GIF (*.gif);;Numbered PNG frames (*.png)</source><translation>Animiertes GIF (*.gif);;Nummerierte PNG-Bilder (*.png)</translation></message>
+<message><source>Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)</source><translation>Animiertes GIF (*.gif);;MP4-Film (*.mp4);;Nummerierte PNG-Bilder (*.png)</translation></message>
 <message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
 <message><source>As the system</source><translation>Wie das System</translation></message>
 <message><source>Aspheric plano-convex condenser, f/2 (synthetic)</source><translation>Asphärischer plankonvexer Kondensor, f/2 (synthetisch)</translation></message>
@@ -225,6 +226,7 @@
 <message><source>Link: {count}</source><translation>Gekoppelt: {count}</translation></message>
 <message><source>Longer back focus than focal length: a wide angle that leaves room for a mirror</source><translation>Schnittweite länger als die Brennweite: ein Weitwinkel, das einem Spiegel Platz lässt</translation></message>
 <message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0,7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
+<message><source>MP4 films need imageio-ffmpeg, which is not installed; pip install 'p2sf[mp4]', or choose a GIF</source><translation>MP4-Filme brauchen imageio-ffmpeg, das nicht installiert ist; pip install 'p2sf[mp4]', oder ein GIF wählen</translation></message>
 <message><source>MTF</source><translation>MTF</translation></message>
 <message><source>MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration.</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
