@@ -22,7 +22,7 @@ from p2sf.metrics.perfect import circle_energy
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
 
-FEWEST, PER_WAVE = 96, 4.5  # samples across the pupil: two blurs side by side fit into the period of the PSF
+FEWEST, PER_WAVE = 192, 4.5  # samples across the pupil: two blurs side by side fit into the period of the PSF
 MOST_ACROSS = 3072  # 300 MB; beyond, at some 650 waves of slope, the landing points of rays are as exact
 STRIPS = 8  # of a cell, over which the part inside the edge is averaged
 RINGS = 8  # per step of frequency

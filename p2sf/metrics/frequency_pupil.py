@@ -123,6 +123,10 @@ class FrequencyPupil:
         """Return the frequencies along x and along y from which on nothing is transferred, cycles per µm."""
         return 2 * self.half_x, 2 * self.half_y
 
+    def without_phase(self) -> "FrequencyPupil":
+        """Return the same pupil of a perfect lens, whose light lands in one point but for diffraction."""
+        return replace(self, phase=np.zeros((2, 2)), centroid_um=0.0, rms_um=0.0)
+
     def chords(self, y: np.ndarray) -> np.ndarray:
         """Return the half length of the row at each y, in the box's coordinates; 0 outside the pupil."""
         half: np.ndarray = np.interp(-y, -self.outline_y, self.outline_x, left=0.0, right=0.0)
@@ -304,7 +308,7 @@ def _through(nodes: PupilNodes, order: int, smooth: bool) -> FrequencyPupil:
         edge_x / half_x,
         (edge_y - middle) / half_y,
         centroid,
-        float(np.sqrt(light @ (landing_x**2 + (landing_y - centroid) ** 2))),
+        float(np.sqrt(max(light @ (landing_x**2 + (landing_y - centroid) ** 2), 0.0))),  # < 0 at a fold, refused below
         float(np.sqrt(share @ miss**2 / share.sum() / freedom)) if flat else inf,
         0,
     )

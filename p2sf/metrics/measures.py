@@ -148,31 +148,28 @@ def centroid_of(parts: Parts) -> float:
 def mtf_of(parts: Parts, method: str, frequency_per_mm: ArrayLike | None = None) -> Mtf:
     """Return the contrast at frequencies in cycles per mm, by default FREQUENCIES even ones up to the cut-off."""
     slices = [otf_slices(part.pupil) for part in parts]
-    perfect = [otf_slices(replace(part.pupil, phase=np.zeros((2, 2)), centroid_um=0.0)) for part in parts]
     if frequency_per_mm is None:
         cut_off = max(one.cut_off for both in slices for one in both)
         frequency_per_mm = np.linspace(0, UM_PER_MM * cut_off, FREQUENCIES)
-    frequency = np.abs(np.asarray(frequency_per_mm, dtype=float))
-    curves = []
-    for axis in (1, 0):
-        own = _transfer(parts, [both[axis] for both in slices], frequency / UM_PER_MM)
-        shares = zip((part.share for part in parts), perfect, strict=True)
-        bound = sum(share * np.abs(both[axis].at(frequency / UM_PER_MM)) for share, both in shares)
-        # |Σ PP*| ≤ Σ |P||P*|: the two are sampled differently, and near the cut-off that makes some 1e-5.
-        curves += [np.minimum(np.abs(own), bound), np.asarray(bound)]
-    tangential, perfect_tangential, sagittal, perfect_sagittal = curves
     given = np.asarray(frequency_per_mm, dtype=float)
-    return Mtf(given, tangential, sagittal, perfect_tangential, perfect_sagittal, method)
+    curves = [_transfer(parts, [both[axis] for both in slices], np.abs(given) / UM_PER_MM) for axis in (1, 0)]
+    (tangential, perfect_tangential), (sagittal, perfect_sagittal) = curves
+    return Mtf(given, np.abs(tangential), np.abs(sagittal), perfect_tangential, perfect_sagittal, method)
 
 
-def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -> np.ndarray:
-    """Return Σ share·OTF about the centroid of all parts; along x the centroid is that of the chief ray, 0."""
-    total: np.ndarray | complex = 0.0
+def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return Σ share·OTF about the centroid of all parts, and the same of the pupils without phase.
+
+    Along x the centroid is that of the chief ray, 0.
+    """
+    total, bound = np.zeros(frequency.shape, complex), np.zeros(frequency.shape)
     centre = centroid_of(parts)
     for part, one in zip(parts, slices, strict=True):
+        own, perfect = one.at(frequency)
         aside = part.centroid_um - centre if one.along_y else 0.0
-        total = total + part.share * one.at(frequency) * np.exp(-2j * np.pi * aside * frequency)
-    return np.asarray(total)
+        total += part.share * own * np.exp(-2j * np.pi * aside * frequency)
+        bound += part.share * perfect
+    return total, bound
 
 
 def energy_in(parts: Parts, method: str, radius_um: ArrayLike | None = None) -> Energy:
@@ -229,7 +226,7 @@ def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -
         own = [both[axis] for both in slices]
         step = min(one.step for one in own)
         frequency = step * np.arange(round(max(one.cut_off for one in own) / step) + 1)
-        values = _transfer(parts, own, frequency)
+        values = _transfer(parts, own, frequency)[0]
         found.append((line_spread(values, step, position), edge_spread(values, step, position)))
     (line_x, edge_x), (line_y, edge_y) = found
     return LineSpread(position, line_x, line_y, edge_x, edge_y, centroid_of(parts), method)

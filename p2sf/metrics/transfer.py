@@ -3,6 +3,9 @@
 The transfer function is the autocorrelation of the pupil over spatial frequency (Goodman 2005, eq. 6-28). Along x it is
 the sum over rows of constant fy of each row's own autocorrelation, along y that over columns of constant fx: sums over
 even samples by FFT, with weights that end each line between two samples.
+
+The same sums over the modulus of the pupil are those of the perfect lens. All weights are positive, so the triangle
+inequality |Σ w·P·P′*| ≤ Σ w·|P|·|P′| bounds the one by the other at every lag, whatever error the sums have.
 """
 
 from collections.abc import Callable, Iterator
@@ -11,11 +14,12 @@ from functools import lru_cache
 from math import pi
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebvander
 from scipy import fft
 
 from p2sf.conventions import protected
 from p2sf.errors import SamplingError
-from p2sf.metrics.frequency_pupil import FrequencyPupil, reach_of, uniform_disc
+from p2sf.metrics.frequency_pupil import FrequencyPupil, Reach, reach_of, uniform_disc
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
@@ -25,12 +29,15 @@ FEWEST_SAMPLES, SAMPLES_PER_WAVE = 128, 8.0
 MOST_SAMPLES = 2**25  # of all lines: slopes of some 1500 waves, seconds of work
 AT_ONCE = 2**14  # samples of the lines in one block, so that a block stays in the cache
 END = 3  # samples at the end of a line whose weights differ from 1
+ENDS = np.arange(END)[:, None]
 GREGORY = np.array([1 / 2, 1 / 12, 0.0])  # −B₁, B₂/2, B₃/3: see `end_weights`
 SMALLEST = 1e-6  # of a calibrating contrast: below, both are nothing
 
-LineSum = Callable[[FrequencyPupil, "Counts"], np.ndarray]
 Counts = tuple[int, int]
 """Lines, and samples along each."""
+Sums = tuple[np.ndarray, np.ndarray]
+"""Autocorrelations at even lags, complex, and those of the modulus, real."""
+LineSum = Callable[[FrequencyPupil, Counts], Sums]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,11 +45,12 @@ class OtfSlice:
     """The optical transfer function along one axis.
 
     ``values``: complex, about the light's centroid, at even ``step``s of frequency from 0 on, cycles per µm; 1 at zero,
-    the last at the cut-off.
+    the last at the cut-off. ``perfect``: of the same pupil without phase, by the same sums, which nothing exceeds.
     """
 
     step: float
     values: np.ndarray
+    perfect: np.ndarray
     along_y: bool
 
     @property
@@ -50,26 +58,33 @@ class OtfSlice:
         """Return the frequency from which on nothing is transferred, cycles per µm."""
         return self.step * (self.values.size - 1)
 
-    def at(self, frequency: np.ndarray) -> np.ndarray:
-        """Return the transfer function about its centre at any frequencies, cycles per µm; 0 beyond the cut-off."""
+    def at(self, frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return ``values`` and ``perfect`` at any frequencies, cycles per µm; 0 beyond the cut-off.
+
+        Between lags a spline follows their ratio to the contrast of a disc, which is smooth, and from the last before
+        the cut-off on it stays: there both ratios are those of two vanishing numbers.
+        """
         from scipy.interpolate import make_interp_spline
 
-        inside = frequency <= self.cut_off
-        spline = make_interp_spline(self.step * np.arange(self.values.size), self.values, 5)
-        found: np.ndarray = np.where(inside, spline(np.where(inside, frequency, 0.0)), 0.0)
-        return found
+        relative, lag = np.minimum(frequency / self.cut_off, 1.0), np.linspace(0, 1, self.values.size)[:-1]
+        table = np.stack([self.values.real, self.values.imag, self.perfect], axis=1)[:-1]
+        spline = make_interp_spline(lag, table / circle_contrast(lag)[:, None], 5)
+        real, imaginary, perfect = (spline(np.minimum(relative, lag[-1])) * circle_contrast(relative)[:, None]).T
+        return real + 1j * imaginary, perfect
 
 
 def otf_slices(pupil: FrequencyPupil) -> tuple[OtfSlice, OtfSlice]:
     """Return the transfer function along x and along y. Raises SamplingError where that takes too many samples."""
-    reach = reach_of(pupil)
-    across, along = _counts(reach.in_row, reach.x), _counts(reach.in_column, reach.y)
-    by_rows, by_columns = _row_sum(pupil, across) * _calibration(across, _row_sum), _column_sum(pupil, along)
-    by_columns = by_columns * _calibration(along, _column_sum)
+    across, along = _line_counts(reach_of(pupil))
     return (
-        OtfSlice(2 * pupil.half_x / across[1], by_rows / by_rows[0].real, False),
-        OtfSlice(2 * pupil.half_y / along[1], by_columns / by_columns[0].real, True),
+        _slice(_row_sum, pupil, across, 2 * pupil.half_x, False),
+        _slice(_column_sum, pupil, along, 2 * pupil.half_y, True),
     )
+
+
+def _slice(line_sum: LineSum, pupil: FrequencyPupil, counts: Counts, cut_off: float, along_y: bool) -> OtfSlice:
+    (own, perfect), factor = line_sum(pupil, counts), _calibration(counts, line_sum)
+    return OtfSlice(cut_off / counts[1], own * (factor / own[0].real), perfect * (factor / perfect[0]), along_y)
 
 
 def line_spread(transfer: np.ndarray, step: float, position_um: np.ndarray) -> np.ndarray:
@@ -102,9 +117,14 @@ def _waves(transfer: np.ndarray, step: float, position_um: np.ndarray, first: in
 
 def otf_samples(pupil: FrequencyPupil) -> int:
     """Return how many samples both slices of the transfer function take together."""
-    reach = reach_of(pupil)
-    across, along = _counts(reach.in_row, reach.x), _counts(reach.in_column, reach.y)
+    across, along = _line_counts(reach_of(pupil))
     return across[0] * across[1] + along[0] * along[1]
+
+
+def _line_counts(reach: Reach) -> tuple[Counts, Counts]:
+    """Return the counts of rows, and of columns at fx > 0: those at fx < 0 are the same."""
+    across, along = _counts(reach.in_row, reach.x), _counts(reach.in_column, reach.y)
+    return across, (along[0] // 2, along[1])
 
 
 def _counts(across: float, along: float) -> Counts:
@@ -122,67 +142,112 @@ def _counts(across: float, along: float) -> Counts:
     return lines, samples
 
 
-def _row_sum(pupil: FrequencyPupil, counts: Counts) -> np.ndarray:
-    """Return the sum over rows of their autocorrelations at the lags 0 … counts[1], up to a factor."""
+def _row_sum(pupil: FrequencyPupil, counts: Counts) -> Sums:
+    """Return the sums over rows of their autocorrelations at the lags 0 … counts[1], up to a factor."""
     lines, samples = counts
     angle, step = np.arange(1, lines + 1) * (pi / (lines + 1)), 2 / samples  # rows at Gauss–Chebyshev points
     x, rows_y = (np.arange(samples // 2 + 2) + 0.5) * step, np.cos(angle)
-    length = _even_length(4 * x.size + 2)
-    power = np.zeros(length // 2 + 1, complex)
-    for some in _blocks(lines, x.size):
-        y = rows_y[some]
-        last, weight = end_weights(pupil.chords(y) / step - 0.5)
-        half = _wave(pupil, x, y) * (np.arange(x.size) <= last[:, None])
-        line = np.concatenate([half[:, ::-1], half], axis=1)
-        line[np.arange(y.size), x.size + last - np.arange(END)[:, None]] *= weight
+    half, place = x.size, np.arange(x.size)
+    last, weight = end_weights(pupil.chords(rows_y) / step - 0.5)
+    lines_of = _Lines(pupil, rows_y, x, np.sin(angle), True)
+    length = _even_length(4 * half + 2)
+    total = np.zeros((2, length // 2 + 1), complex)
+    for some, packed in _blocks(lines, half, length):
+        count = some.stop - some.start
+        lines_of.pack(some, place <= last[some, None], packed[:, half : 2 * half])
+        packed[:, :half] = packed[:, 2 * half - 1 : half - 1 : -1]
+        packed[:, 2 * half :] = 0
+        _weigh(packed, half + last[some] - ENDS, weight[:, some])
         # A row is even: its mirror image, weighted at the other end, has the same spectrum at the opposite frequency.
-        spectrum = fft.fft(line, length)
-        turned = np.concatenate([spectrum[:, :1], spectrum[:, : length // 2 - 1 : -1]], axis=1)
-        power += np.einsum("j,jq,jq->q", np.sin(angle[some]), spectrum[:, : length // 2 + 1], turned.conj())
-    sums: np.ndarray = fft.irfft(power, length)[2 * x.size - 1 + np.arange(samples + 1)]
-    return sums
+        spectrum = fft.fft(packed, overwrite_x=True)
+        power = np.empty((len(packed), length // 2 + 1), np.complex64)
+        power[:, 0], power[:, 1:] = spectrum[:, 0], spectrum[:, : length // 2 - 1 : -1]
+        _add_power(total, spectrum[:, : length // 2 + 1], power, count)
+    own, perfect = fft.irfft(total, length)[:, 2 * half - 1 + np.arange(samples + 1)]
+    return own, perfect
 
 
-def _column_sum(pupil: FrequencyPupil, counts: Counts) -> np.ndarray:
-    """Return the sum over columns of their autocorrelations about the centroid, as `_row_sum` does over rows."""
-    lines, samples = counts[0] // 2, counts[1]  # those at fx < 0 are the same
-    angle, step, count = (np.arange(lines) + 0.5) * (pi / (2 * lines)), 2 / samples, samples + 4
-    columns_x, y, place = np.cos(angle), (np.arange(count) - (count - 1) / 2) * step, np.arange(count)
-    length = fft.next_fast_len(2 * count)
-    power = np.zeros(length, complex)
-    for some in _blocks(lines, count):
-        x = columns_x[some]
-        low, high = pupil.columns(x)
-        (top, top_weight), (under, under_weight) = end_weights((high - y[0]) / step), end_weights((y[-1] - low) / step)
-        bottom = count - 1 - under
-        upper = _wave(pupil, x, y).T * ((place <= top[:, None]) & (place >= bottom[:, None]))
-        lower, lines_at, end = upper.copy(), np.arange(x.size), np.arange(END)[:, None]
-        upper[lines_at, top - end] *= top_weight
-        lower[lines_at, bottom + end] *= under_weight
-        spectra = fft.fft(upper, length), fft.fft(lower, length).conj()
-        power += np.einsum("j,jq,jq->q", np.sin(angle[some]), *spectra)
-    sums: np.ndarray = fft.ifft(power)[: samples + 1]
-    return sums
+def _column_sum(pupil: FrequencyPupil, counts: Counts) -> Sums:
+    """Return the sums over columns of their autocorrelations about the centroid, as `_row_sum` does over rows."""
+    lines, samples = counts
+    angle, step, size = (np.arange(lines) + 0.5) * (pi / (2 * lines)), 2 / samples, samples + 4
+    columns_x, place = np.cos(angle), np.arange(size)
+    y = (place - (size - 1) / 2) * step
+    low, high = pupil.columns(columns_x)
+    (top, at_top), (under, at_bottom) = end_weights((high - y[0]) / step), end_weights((y[-1] - low) / step)
+    bottom = size - 1 - under
+    lines_of = _Lines(pupil, columns_x, y, np.sin(angle), False)
+    length = fft.next_fast_len(2 * size)
+    total = np.zeros((2, length), complex)
+    for some, upper in _blocks(lines, size, length):
+        inside = (place <= top[some, None]) & (place >= bottom[some, None])
+        lines_of.pack(some, inside, upper[:, :size])
+        upper[:, size:] = 0
+        lower = upper.copy()
+        _weigh(upper, top[some] - ENDS, at_top[:, some])
+        _weigh(lower, bottom[some] + ENDS, at_bottom[:, some])
+        upper, lower = fft.fft(upper, overwrite_x=True), fft.fft(lower, overwrite_x=True)
+        _add_power(total, upper, lower, some.stop - some.start)
+    own, perfect = fft.ifft(total)[:, : samples + 1]
+    return own, perfect.real
+
+
+class _Lines:
+    """The lines of a pupil at even places, complex64: errors of 1e-7 are far below the rule's.
+
+    Two lines of the modulus are packed as one, the real and the imaginary part: (a + ib)·(a′ + ib′)* has the real part
+    aa′ + bb′, which is their sum.
+    """
+
+    def __init__(self, pupil: FrequencyPupil, lines: np.ndarray, places: np.ndarray, share: np.ndarray, rows: bool):
+        phase = pupil.phase.copy()
+        phase[1, 0] += pupil.centroid_um * pupil.half_y  # about the centroid
+        phase, density = (phase, pupil.density) if rows else (phase.T, pupil.density.T)
+        across, along = (chebvander(at, max(len(phase), len(density)) - 1) for at in (lines, places))
+        self._across, self._phase = across[:, : len(phase)], phase @ along[:, : len(phase)].T
+        # In double precision: coefficients of a pupil that fills its box in part reach 1e10 and cancel.
+        self._weighted = across[:, : len(density)] * np.sqrt(share)[:, None]
+        self._density = density @ along[:, : len(density)].T
+
+    def pack(self, some: slice, inside: np.ndarray, packed: np.ndarray) -> None:
+        """Write lines, and below them half as many with two lines' moduli each; nothing where not ``inside``."""
+        modulus = np.abs(self._weighted[some] @ self._density).astype(np.float32)
+        modulus *= inside
+        own = cosine_sine(self._across[some] @ self._phase, np.float32)
+        own *= modulus
+        count, pairs = len(modulus), len(modulus) // 2
+        packed.real[:count], packed.imag[:count] = own
+        packed.real[count:], packed.imag[count:] = modulus[:pairs], modulus[pairs:]
+
+
+def _weigh(packed: np.ndarray, ends: np.ndarray, weight: np.ndarray) -> None:
+    """Multiply the samples at the ends, (END, lines), of packed lines by their weights."""
+    count, pairs = weight.shape[1], np.arange(weight.shape[1] // 2)
+    packed[np.arange(count), ends] *= weight
+    packed.real[count + pairs, ends[:, : pairs.size]] *= weight[:, : pairs.size]
+    packed.imag[count + pairs, ends[:, pairs.size :]] *= weight[:, pairs.size :]
+
+
+def _add_power(total: np.ndarray, spectrum: np.ndarray, other: np.ndarray, count: int) -> None:
+    """Add Σ spectrum·other* of the first ``count`` lines and of the packed ones; ``other`` is overwritten."""
+    np.conjugate(other, out=other)
+    other *= spectrum
+    total[0] += other[:count].sum(0, dtype=complex)
+    total[1] += other[count:].sum(0, dtype=complex)
+
+
+def _blocks(lines: int, samples: int, length: int) -> Iterator[tuple[slice, np.ndarray]]:
+    """Yield an even number of lines at a time, and room for their spectra and for those of their moduli."""
+    size = max(2, AT_ONCE // samples // 2 * 2)
+    room = np.empty((size + size // 2, length), np.complex64)
+    for start in range(0, lines, size):
+        stop = min(start + size, lines)
+        yield slice(start, stop), room[: 3 * (stop - start) // 2]
 
 
 def _even_length(least: int) -> int:
     length: int = 2 * fft.next_fast_len(-(-least // 2))
     return length
-
-
-def _blocks(lines: int, samples: int) -> Iterator[slice]:
-    size = max(1, AT_ONCE // samples)
-    return (slice(start, start + size) for start in range(0, lines, size))
-
-
-def _wave(pupil: FrequencyPupil, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the pupil function (y, x) about the centroid, complex64: its errors of 1e-7 are far below the rule's."""
-    phase, density = pupil.on_grid(x, y)
-    phase += pupil.centroid_um * pupil.half_y * y[:, None]
-    wave = np.empty(phase.shape, np.complex64)
-    wave.real, wave.imag = cosine_sine(phase, np.float32)
-    wave *= density.astype(np.float32)
-    return wave
 
 
 def end_weights(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -202,10 +267,10 @@ def end_weights(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _calibration(counts: Counts, line_sum: LineSum) -> np.ndarray:
     """Return what a rule's sums over a uniform disc lack of the closed form, at every lag.
 
-    The rows that a lag leaves no longer than nothing end a sum too abruptly, by 1e-4 with few rows, and by as much for
-    any pupil near an ellipse. The factor takes that away, to 1e-6 where nothing aberrates.
+    The lines that a lag leaves no longer than nothing end a sum too abruptly, by 1e-4 where lines are few, and by as
+    much for any pupil near an ellipse. The factor takes that away, to 1e-6 for such a pupil.
     """
-    found = np.abs(line_sum(uniform_disc(), counts))
+    found = line_sum(uniform_disc(), counts)[1]
     found /= found[0]
-    exact = circle_contrast(np.arange(counts[1] + 1) / counts[1])
+    exact = circle_contrast(np.linspace(0, 1, counts[1] + 1))
     return protected(np.divide(exact, found, out=np.ones_like(found), where=found > SMALLEST))

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
-from numpy.polynomial.legendre import leggauss
+from scipy.special import roots_legendre
 
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import with_aim, with_f_number
 from p2sf.lens.source import Source
-from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.metrics import transfer
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
@@ -28,7 +30,7 @@ def defocused(nu: np.ndarray, waves_at_rim: float) -> np.ndarray:
 
     ``nu``: frequency over the cut-off. With δ = 2ν the difference of the two phases is 2Wδx at x from the middle.
     """
-    node, weight = leggauss(4000)
+    node, weight = roots_legendre(4000)
     half = 1 - nu[:, None]
     x = half * node
     chord = np.sqrt(np.maximum(1 - (np.abs(x) + nu[:, None]) ** 2, 0))
@@ -41,7 +43,7 @@ def test_a_perfect_pupil_has_the_closed_form():
     exact = diffraction_mtf(found.frequency_per_mm, NA, WAVELENGTH_UM)
     np.testing.assert_allclose(found.tangential, exact, atol=2e-5)
     np.testing.assert_allclose(found.sagittal, exact, atol=2e-5)
-    np.testing.assert_array_equal(found.tangential, found.perfect_tangential)
+    np.testing.assert_allclose(found.tangential, found.perfect_tangential, atol=1e-7)  # the rounding of float32
 
 
 @pytest.mark.parametrize("defocus", [0.3, 1.0, 7.0, 32.0, 200.0])
@@ -63,14 +65,48 @@ def test_it_is_the_autocorrelation_of_the_pupil(w):
         assert abs(abs(overlap(c, nu, 0.0)) - sagittal) < 5e-4
 
 
-def test_nothing_passes_the_cut_off_and_nothing_is_better_than_perfect():
+def test_nothing_passes_the_cut_off():
     found = contrast(CUT_OFF * np.array([0.3, 0.999, 1.0, 1.001, 2.0, 4.0]), w40=2.0, w31=3.0)
-    assert found.tangential[3:].tolist() == found.sagittal[3:].tolist() == [0, 0, 0]
-    for name in ("double_gauss_28", "petzval", "tessar"):
-        lens = find_lens(name)
-        one = mtf_of([PupilPart(pupil_of_rays(lens, Source(field_deg=lens.fields_deg[1])))], "traced")
-        assert (one.tangential - one.perfect_tangential).max() < 1e-6
-        assert (one.sagittal - one.perfect_sagittal).max() < 1e-6
+    assert found.tangential[2:].tolist() == found.sagittal[2:].tolist() == [0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("aim", ["stop", "paraxial"])
+@pytest.mark.parametrize("name", sorted(set(shipped_lenses()) - {"relay", "fast_gauss_f14"}))  # which take seconds
+def test_nothing_is_better_than_the_same_pupil_without_phase(name, aim):
+    """At the lags by the triangle inequality, to the rounding of float32, and between them; neither is cut to fit.
+
+    Stopped down as well, where a curve comes closest to its bound.
+    """
+    for lens in (with_aim(find_lens(name), aim), with_f_number(with_aim(find_lens(name), aim), 22.0)):
+        for field in lens.fields_deg[:2]:
+            try:
+                pupil = pupil_of_rays(lens, Source(field_deg=field))
+            except GeometryError:  # a pupil that folds has no curve
+                continue
+            for one in otf_slices(pupil):
+                assert (np.abs(one.values) - one.perfect).max() < 2e-7
+                own, perfect = one.at(np.linspace(0, one.cut_off, 5 * one.values.size + 1))
+                assert (np.abs(own) - perfect).max() < 1e-6
+
+
+@pytest.mark.parametrize("lines", [8, 20])
+def test_the_bound_holds_for_sums_far_too_coarse(lines):
+    """30 waves of coma by some lines of 40 samples: no figure is right, and none is above the bound."""
+    pupil = pupil_of_coefficients(waves(w31=10.0, w22=8.0, wd=2.0))
+    for line_sum in (transfer._row_sum, transfer._column_sum):
+        own, perfect = line_sum(pupil, (lines, 40))
+        assert (np.abs(own) <= perfect + 1e-6 * perfect[0]).all()
+
+
+def test_the_perfect_curve_hardly_depends_on_the_sampling():
+    """5e-5 with the fewest lines there are, against 500 of 1000 samples, of a pupil squeezed and weighted unevenly."""
+    pupil = pupil_of_rays(find_lens("reverse_telephoto"), Source(field_deg=30)).without_phase()
+    nu = np.linspace(0, 1, 301)
+    for line_sum in (transfer._row_sum, transfer._column_sum):
+        few, many = (
+            transfer._slice(line_sum, pupil, counts, 1.0, False).at(nu)[1] for counts in ((48, 128), (500, 1000))
+        )
+        assert np.abs(few - many).max() < 1e-4
 
 
 def test_an_end_between_two_samples_is_integrated_exactly():

@@ -16,7 +16,7 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf_explorer.compute.live import Live
 
 LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
-LIVE_ACROSS = 320  # samples across the pupil whose energy is live: some 10 ms, a blur of 50 waves
+LIVE_ACROSS = 384  # samples across the pupil whose energy is live: some 15 ms, a blur of 40 waves
 BY_RAYS, BY_COEFFICIENTS = Message("exact rays"), Message("six coefficients")
 
 
