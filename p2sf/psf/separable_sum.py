@@ -26,7 +26,7 @@ from p2sf.pupil.zernike import columns as power_columns
 from p2sf.pupil.zernike import evaluate, evaluate_in_eta, in_square
 from p2sf.raytrace.fit import FittedPencil
 
-MOST_NODES = 2**24  # seconds of work
+MOST_NODES = 2**26  # some ten seconds of work
 IN_MEMORY = 2**21  # nodes at all columns at a time: some 100 MB
 PREVIEW = 0.85  # of the settled counts: 1 − R² against the settled sum is below 1e-5 on every stored row
 NEWTON_STEPS = 8

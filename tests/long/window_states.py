@@ -15,8 +15,9 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.errors import P2SFError, SamplingError
+from p2sf.errors import P2SFError
 from p2sf.lensfile.library import shipped_lenses
+from p2sf.psf import huygens
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import first_counts, huygens_psf
 from p2sf_explorer.compute.deferred_sums import SumCache, by_rays
@@ -25,7 +26,8 @@ from p2sf_explorer.compute.setup import ParaxialSetup, default_state, prescripti
 from p2sf_explorer.state.state import State, changed
 
 LEAST = 0.99
-SAMPLES = 64  # a side, on which a picture is compared
+SAMPLES, FEW_SAMPLES = 64, 16  # a side, on which a picture is compared; where the reference has many rays
+MOST_RAYS, MOST_PRODUCTS = 2**27, 2**34  # of the reference, which has to reach farther than in the window
 FARTHEST_MM = 1e5
 SHIFT_UM = 50.0  # standard deviation of the sensor's place about the focus
 
@@ -104,24 +106,27 @@ def against_huygens(answer: Live) -> float:
 
 
 def on_samples(answer: Live, samples: int) -> float:
-    """Return R² of a picture on so many of its samples a side about the chief ray's, as far out as Huygens sums."""
+    """Return R² of a picture on so many of its samples a side about the chief ray's, on fewer where there are many rays.
+
+    Where even few of them would take minutes, they lie closer together, about the chief ray.
+    """
     psf, setup, clip = answer.psf, answer.setup, answer.state.optics.clip
     count = psf.values.shape[-1]
     step = count // samples
     while step > 1 and too_many(setup, (samples, psf.pixel_um * step), clip):
-        step //= 2
+        if samples > FEW_SAMPLES:
+            samples, step = samples // 2, step * 2
+        else:
+            step //= 2
     some = slice((count - samples * step) // 2, (count + samples * step) // 2, step)
     reference = huygens_psf(setup.lens, setup.source, samples, psf.pixel_um * step, None, clip=clip)
     return r_squared(psf.values[some, some], reference.values)
 
 
 def too_many(setup: ParaxialSetup, window: tuple[int, float], clip: bool) -> bool:
-    """Return whether the reference refuses a window for its many nodes."""
-    try:
-        first_counts(setup.lens, setup.source, window, clip)
-    except SamplingError:
-        return True
-    return False
+    """Return whether the reference would take minutes for a window."""
+    radii, directions = first_counts(setup.lens, setup.source, window, clip)
+    return radii * directions * window[0] ** 2 > MOST_PRODUCTS
 
 
 def outcomes(states: int, seed: int = 1) -> Iterator[Outcome]:
@@ -150,6 +155,7 @@ def main() -> None:
     parser.add_argument("--states", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
+    huygens.MOST_NODES = MOST_RAYS
     found = []
     for one in outcomes(given.states, given.seed):
         found.append(one)

@@ -15,6 +15,7 @@ from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import changed, new_state
 
 BLURRED = new_state(depth_mm=300.0, focus_mm=None, field_deg=8.0, method="auto")
+TOO_BLURRED = changed(BLURRED, depth_mm=10.0)  # for a sum of waves
 
 
 def moments(psf) -> np.ndarray:
@@ -102,7 +103,7 @@ def test_interpolated_rays_land_where_traced_ones_do():
 
 
 def test_the_window_says_that_it_shows_rays_only():
-    answer = live(BLURRED)
+    answer = live(TOO_BLURRED)
     assert answer.psf.method == "geometric"
     assert "ray density, no diffraction" in str(answer.why)
     assert any("ray density, no diffraction" in str(sentence) for sentence in answer.warnings)
@@ -129,13 +130,13 @@ def test_many_samples_show_blocks_of_rays_and_not_single_ones():
 
 
 def test_ray_density_quotes_no_strehl_ratio():
-    answer = live(BLURRED)
+    answer = live(TOO_BLURRED)
     assert answer.psf.method == "geometric" and answer.psf.strehl is None and answer.psf.predicted_error is None
     assert over_unaberrated(answer.psf, answer.setup).sum() > 0
 
 
 def test_a_blur_of_defocus_is_seen_to_its_rim_and_asks_for_focus():
-    answer = live(BLURRED)
+    answer = live(TOO_BLURRED)
     assert answer.psf.energy == pytest.approx(1)
     assert TOGETHER in [sentence.values.get("remedy") for sentence in answer.warnings]
 

@@ -3,6 +3,7 @@
 from threading import Event
 
 import pytest
+from PySide6.QtCore import QSizeF
 
 from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.compute.live import live
@@ -98,8 +99,7 @@ def test_a_figure_answers_for_its_own_picture_only(changes, wide):
 
 def test_the_names_of_the_methods_stay_inside_and_take_different_sides(qapp):
     """Two dots at one height, the second where the first one's name would reach: the names part company."""
-    first, second, last = anchors(
-        ["seidel R² 0.8", "gaussian R² 0.9", "huygens"], [(20, 20), (90, 20), (310, 80)], (330, 95)
-    )
+    labels = [QSizeF(90, 14), QSizeF(100, 14), QSizeF(60, 14)]
+    first, second, last = anchors(labels, [(20, 20), (90, 20), (310, 80)], (330, 95))
     assert first[0] <= 0 and (second[0] <= 0 or second[1] != first[1])
     assert last[0] > 1  # hangs to the left of its dot: at the right it would run out
