@@ -106,7 +106,7 @@ def against_huygens(answer: Live) -> float:
 
 
 def on_samples(answer: Live, samples: int) -> float:
-    """Return R² of a picture on so many of its samples a side about the chief ray's, on fewer where there are many rays.
+    """Return R² of a picture on so many of its samples a side about the chief ray's, on fewer where rays are many.
 
     Where even few of them would take minutes, they lie closer together, about the chief ray.
     """
