@@ -23,6 +23,7 @@ from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import FrequencyRows, rows_for
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.raytrace.aiming import SUM_AIM_ERROR
 from p2sf.raytrace.fit import FittedPencil, fit, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
@@ -94,7 +95,7 @@ def exact_rows(
 ) -> tuple[FrequencyRows, np.ndarray, np.ndarray]:
     """Return the rows of a fit with exact weights, and exact phase (waves) and fx (cycles/µm), (rows, nodes)."""
     shape = nodes.xi.shape
-    rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel()))
+    rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel(), aim_error=SUM_AIM_ERROR))
     miss = np.repeat(nodes.fy, shape[1])
     miss -= rays.fy
     miss *= rays.y_um

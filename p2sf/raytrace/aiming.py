@@ -5,6 +5,7 @@ See handbook 8.2.
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import sqrt
 from typing import TypeAlias
 
 import numpy as np
@@ -17,27 +18,28 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
 from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike import basis, basis_by_powers, columns, evaluate
+from p2sf.pupil.zernike import basis, basis_by_powers, gradient, powers
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Index, launch, per_ray, run
 
 AIM_STEPS = 12
-AIM_MOVE = 1e-6  # of the pupil's radius: a last Newton step this small leaves its square, far below 1e-9 of the rim
+STEPS_TOGETHER = 2  # of all rays at once; those that need more are fewer, and taken by themselves
+AIM_ERROR = 1e-10  # of the pupil's radius: the most that an entrance point may be off
+SUM_AIM_ERROR = 1e-6  # the same for rays whose phase and frequency are taken as they are, only their cell is off
 DIFFERENCE = 1e-6  # of the pupil's radius: the determinant, and so the weight, is good to that
 ROUNDING_STEP = 1e-8  # of the distances in the lens, for pupils so small that the step would meet their rounding
 CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
 ROUGH_ORDER, ROUGH_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses, from 60 rays
 FINE_ORDER, FINE_NODES = 15, (9, 34)
-FINE_ERROR = 1e-10  # of the pupil's radius, on the rim: the most that an entrance point by the fine map may be off
-FINE_WEIGHT_ERROR = 1e-5
-RIM_RAYS = 9  # by which the fine map is judged
+WEIGHT_ERROR = 1e-5  # the most that a weight by a map may be off, on the rim
+RIM_RAYS = 9  # by which maps are judged
+LAST_MOVE = 0.3  # of the root of the error allowed: a Newton step leaves its square, times the map's curvature
 RIDGE = 1e-12  # added to the normal equations, so that they can be solved however the points lie
 FEW = 24  # rays, below which a map costs more than the steps of Newton's method it saves
-MANY = 512  # rays, from which on a fine map costs less than a step of Newton's method
+MANY = 512  # rays, from which on a map that need not be confirmed ray by ray costs less than a Newton step
 
 Nodes: TypeAlias = np.ndarray  # (ray,)
 Point: TypeAlias = tuple[np.ndarray, np.ndarray]  # x and y, mm
-Form: TypeAlias = list[list[float]]  # a polynomial as `zernike.evaluate` takes it
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,21 +143,50 @@ def pupil_rays(
     xi: ArrayLike,
     eta: ArrayLike,
     stop: Stop | None = None,
+    aim_error: float = AIM_ERROR,
 ) -> PupilRays:
     """Return the rays of a source through points (ξ, η) of the pupil of unit radius, each (ray,).
 
-    ``lens.aim`` "paraxial" fills the paraxial entrance pupil, "stop" sends every ray through (ξ, η) of the stop.
-    The axes of `Sources` come first. Raises GeometryError, GlassError.
+    ``lens.aim`` "paraxial" fills the paraxial entrance pupil, "stop" sends every ray through (ξ, η) of the stop, to
+    ``aim_error`` of the pupil's radius. The axes of `Sources` come first. Raises GeometryError, GlassError.
     """
     enter = entrance(lens, source, stop)
     xi, eta = np.asarray(xi, dtype=float), np.asarray(eta, dtype=float)
     if lens.aim == "paraxial":
         return _through(enter, enter.radius * xi, enter.radius * eta)
-    found = _stop_map(lens, source) if stop is None and xi.size >= MANY and _single(enter) else None
+    found = _stop_map(lens, source, aim_error) if stop is None and xi.size >= MANY and _single(enter) else None
     if found is None:
-        return _aimed(lens, source, enter, stop, xi, eta)
+        return _aimed(lens, source, enter, stop, xi, eta, aim_error)
     x, y, weight = found.at(xi, eta)
     return replace(_through(enter, x, y), weight=weight, stop_surface=int(np.max(enter.stop.surface)))
+
+
+def arriving(
+    lens: Lens,
+    source: Source | Sources,
+    xi: np.ndarray,
+    eta: np.ndarray,
+    stop: Stop | None = None,
+    rims: np.ndarray | None = None,
+    aim_error: float = AIM_ERROR,
+) -> tuple[PupilRays, Beam]:
+    """Return the rays of `pupil_rays` as they enter, and as they arrive at the sensor with the path from the source.
+
+    ``rims``, one per surface, mm, clip all but the last ray, the chief ray, from which differences are taken.
+    """
+    if lens.aim == "stop" and rims is None:
+        few = xi.size < MANY
+        found = _aimed_to_sensor(lens, source, stop, xi, eta) if few else None
+        if not few and stop is None and aim_error > AIM_ERROR and isinstance(source, Source):
+            found = _mapped_to_sensor(lens, source, xi, eta, aim_error)
+        if found is not None:
+            return found
+    rays = pupil_rays(lens, source, xi, eta, stop, aim_error)
+    beam = start(rays)
+    beam.exempt = 1
+    run(lens, beam, rays.index, rims)
+    beam.path += rays.path
+    return rays, beam
 
 
 def _single(enter: Entrance) -> bool:
@@ -185,21 +216,97 @@ def start(rays: PupilRays) -> Beam:
     return beam
 
 
+def _goal(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
+    """Return the points of the stop, mm, that rays through (ξ, η) are to meet."""
+    rim = float(np.max(enter.stop.semi_diameter))
+    return rim * enter.upright * xi, rim * enter.upright * eta
+
+
 def _aimed(
-    lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes
+    lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes, aim_error: float
 ) -> PupilRays:
     """Solve for entrance points whose real rays meet the stop at (ξ, η) of its rim; wide fields by continuation."""
-    rim = float(np.max(enter.stop.semi_diameter))
-    goal = rim * enter.upright * xi, rim * enter.upright * eta
-    found = _newton(lens, enter, goal, _guess(lens, source, enter, stop, xi, eta))
+    goal = _goal(enter, xi, eta)
+    found = _newton(lens, enter, goal, _guess(lens, source, enter, stop, xi, eta), _move_mm(enter, aim_error))
     if found.missed.any():
         found = _by_continuation(lens, enter, goal, _paraxial(enter, xi, eta), found)
         found.x[found.missed] = found.y[found.missed] = np.nan
-    rays = _through(enter, found.x, found.y)
-    area = (rim / enter.radius) ** 2 / found.gain
-    # dΩ = dx dy·cosθ/distance², with 1/cosθ = √(1 + slope²), which is also the distance over that along the axis.
-    oblique = (1 + enter.slope**2) / (1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
-    return replace(rays, weight=area * oblique**1.5, stop_surface=int(np.max(enter.stop.surface)))
+    return _entering(enter, found.x, found.y, found.gain)
+
+
+def _entering(enter: Entrance, x: np.ndarray, y: np.ndarray, gain: np.ndarray) -> PupilRays:
+    """Return aimed rays through these entrance points; ``gain`` = ∂(stop point)/∂(entrance point)."""
+    rays = _through(enter, x, y)
+    area = (float(np.max(enter.stop.semi_diameter)) / enter.radius) ** 2 / gain
+    return replace(rays, weight=area * _oblique(enter, rays), stop_surface=int(np.max(enter.stop.surface)))
+
+
+def _oblique(enter: Entrance, rays: PupilRays) -> np.ndarray:
+    """Return the solid angle of unit area of the pupil's plane about each ray, over that about the chief ray.
+
+    dΩ = dx dy·cosθ/distance², with 1/cosθ = √(1 + slope²), which is also the distance over that along the axis.
+    """
+    square: np.ndarray = (1 + enter.slope**2) / (1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
+    share: np.ndarray = square * np.sqrt(square)
+    return share
+
+
+def _aimed_to_sensor(
+    lens: Lens, source: Source | Sources, stop: Stop | None, xi: Nodes, eta: Nodes
+) -> tuple[PupilRays, Beam] | None:
+    """Aim rays by a step or two of Newton's method, and carry them on; None where these do not do.
+
+    The ray of each guess and its two neighbours, by which the step is found, go on to the sensor. So small a step
+    changes what arrives there in proportion, and the aimed ray itself need not be traced.
+    """
+    enter = entrance(lens, source, stop)
+    at, step = int(np.max(enter.stop.surface)), _difference_mm(enter)
+    (x, y), goal = _guess(lens, source, enter, stop, xi, eta), _goal(enter, xi, eta)
+    for _ in range(STEPS_TOGETHER):
+        launched = _through(enter, *_beside(x, y, step))
+        beam = run(lens, start(launched), enter.index, last=at)
+        move_x, move_y, gain = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
+        if ((np.hypot(move_x, move_y) <= _move_mm(enter, AIM_ERROR)) & (gain > 0)).all():
+            run(lens, beam, enter.index, first=at + 1)
+            beam.path += launched.path
+            return _entering(enter, x + move_x, y + move_y, gain), _between(beam, move_x / step, move_y / step)
+        x, y = x + move_x, y + move_y
+    return None
+
+
+def _mapped_to_sensor(
+    lens: Lens, source: Source, xi: Nodes, eta: Nodes, aim_error: float
+) -> tuple[PupilRays, Beam] | None:
+    """Carry rays to the sensor that only the rough map aims; None where one meets the stop too far from its place."""
+    found, enter = _cached_rough_map(lens, source), entrance(lens, source)
+    if found is None:
+        return None
+    at, rim = int(np.max(enter.stop.surface)), float(np.max(enter.stop.semi_diameter))
+    x, y, weight = found.at(xi, eta)
+    rays = replace(_through(enter, x, y), weight=weight, stop_surface=at)
+    beam, goal = run(lens, start(rays), enter.index, last=at), _goal(enter, xi, eta)
+    if not np.hypot(goal[0] - beam.x, goal[1] - beam.y).max() <= aim_error * rim:
+        return None
+    run(lens, beam, enter.index, first=at + 1)
+    beam.path += rays.path
+    return rays, beam
+
+
+def _between(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
+    """Return rays by linear interpolation between those of `_beside`; one fails if it or a neighbour does."""
+
+    def moved(values: np.ndarray) -> np.ndarray:
+        here, right, up = values
+        between: np.ndarray = here + share_x * (right - here) + share_y * (up - here)
+        return between
+
+    out = Beam(np.stack([moved(v) for v in beam.place]), np.stack([moved(v) for v in beam.ray]))
+    out.path = moved(beam.path)
+    if beam.status.any():
+        for status, surface in zip(beam.status, beam.failed_surface, strict=True):
+            fresh = (out.status == Status.PASSED) & (status != Status.PASSED)
+            out.status[fresh], out.failed_surface[fresh] = status[fresh], surface[fresh]
+    return out
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,21 +319,37 @@ class _Aim:
     missed: np.ndarray
 
 
-def _newton(lens: Lens, enter: Entrance, goal: Point, guess: Point, part: float = 1.0, steps: int = AIM_STEPS) -> _Aim:
-    """Return the entrance points whose rays, at this part of the field slope, meet the stop at ``goal``."""
-    radius, step = float(np.max(enter.radius)), _difference_mm(enter)
+def _newton(
+    lens: Lens,
+    enter: Entrance,
+    goal: Point,
+    guess: Point,
+    enough: float,
+    part: float = 1.0,
+    steps: int = AIM_STEPS,
+) -> _Aim:
+    """Return the entrance points whose rays, at this part of the field slope, meet the stop at ``goal``.
+
+    A step of at most ``enough`` mm is the last one.
+    """
+    step = _difference_mm(enter)
     beam = _at_stop(lens, enter, _beside(*guess, step), part)
     move_x, move_y, gain = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
     far = np.hypot(move_x, move_y)
     # A gain that is not positive belongs to another sheet, where rays of the pupil have crossed.
-    found = _Aim(guess[0] + move_x, guess[1] + move_y, gain, ~((far <= AIM_MOVE * radius) & (gain > 0)))
-    again = (far > AIM_MOVE * radius).any(tuple(range(far.ndim - 1)))
+    found = _Aim(guess[0] + move_x, guess[1] + move_y, gain, ~((far <= enough) & (gain > 0)))
+    again = (far > enough).any(tuple(range(far.ndim - 1)))
     if steps > 1 and again.any():
         some = (goal[0][..., again], goal[1][..., again]), (found.x[..., again], found.y[..., again])
-        better = _newton(lens, enter, *some, part, steps - 1)
+        better = _newton(lens, enter, *some, enough, part, steps - 1)
         for column, new in zip(vars(found).values(), vars(better).values(), strict=True):
             column[..., again] = new
     return found
+
+
+def _move_mm(enter: Entrance, aim_error: float) -> float:
+    """Return the longest last step of Newton's method, mm: it leaves a point off by about its square, in radii."""
+    return LAST_MOVE * sqrt(aim_error) * float(np.max(enter.radius))
 
 
 def _by_continuation(lens: Lens, enter: Entrance, goal: Point, start_at: Point, found: _Aim) -> _Aim:
@@ -235,7 +358,7 @@ def _by_continuation(lens: Lens, enter: Entrance, goal: Point, start_at: Point, 
     some = goal[0][..., lost], goal[1][..., lost]
     guess = start_at[0][..., lost], start_at[1][..., lost]
     for part in CONTINUATION:
-        again = _newton(lens, enter, some, guess, part)
+        again = _newton(lens, enter, some, guess, _move_mm(enter, AIM_ERROR), part)
         guess = again.x, again.y
     better = found.missed[..., lost] & ~again.missed
     for old, new in zip(vars(found).values(), vars(again).values(), strict=True):
@@ -272,11 +395,8 @@ def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | N
     """Return entrance points from which Newton's method starts: by the pupil map, or for few rays the paraxial ones."""
     if xi.size < FEW or not _single(enter):
         return _paraxial(enter, xi, eta)
-    form = _rough_map(lens, enter) if stop else _cached_rough_map(lens, source)
-    if form is None:
-        return _paraxial(enter, xi, eta)
-    square = xi * xi
-    return xi * evaluate(form[0], square, eta), evaluate(form[1], square, eta)
+    found = _rough_map(lens, enter) if stop else _cached_rough_map(lens, source)
+    return _paraxial(enter, xi, eta) if found is None else found.at(xi, eta)[:2]
 
 
 def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
@@ -285,16 +405,45 @@ def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
     return x, y
 
 
+@dataclass(frozen=True, eq=False)
+class StopMap:
+    """Polynomials over the stop: ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ for entrance points x/ξ and y (mm) and weights."""
+
+    table: np.ndarray
+
+    @classmethod
+    def of(cls, x: np.ndarray, y: np.ndarray, weight: np.ndarray, order: int) -> "StopMap":
+        """Return the map of coefficients of `zernike`: of x those of the odd terms, of the others of the even."""
+        odd, even = (powers(order, flag) for flag in (True, False))
+        return cls(np.stack([np.tensordot(part, form, 1).T for part, form in ((x, odd), (y, even), (weight, even))]))
+
+    def at(self, xi: Nodes, eta: Nodes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return entrance points and weights at points of the stop."""
+        _, along, across = self.table.shape
+        values = np.einsum("kbn,bn->kn", self.table @ _powers(xi * xi, across), _powers(eta, along))
+        values[0] *= xi
+        return values[0], values[1], values[2]
+
+
+def _powers(x: np.ndarray, count: int) -> np.ndarray:
+    """Return xᵏ, k = 0 … count − 1, (powers, points)."""
+    out = np.empty((count, x.size))
+    out[0] = 1.0
+    out[1:] = x
+    np.multiply.accumulate(out[1:], axis=0, out=out[1:])
+    return out
+
+
 @lru_cache(maxsize=64)
-def _cached_rough_map(lens: Lens, source: Source) -> tuple[Form, Form] | None:
+def _cached_rough_map(lens: Lens, source: Source) -> StopMap | None:
     return _rough_map(lens, entrance(lens, source))
 
 
-def _rough_map(lens: Lens, enter: Entrance) -> tuple[Form, Form] | None:
-    """Return entrance points x/ξ and y (mm) as polynomials of the stop point, for `evaluate`; None if rays are lost.
+def _rough_map(lens: Lens, enter: Entrance) -> StopMap | None:
+    """Return a map from the stop to the entrance pupil that no ray confirms; None if rays are lost.
 
     Rays through the paraxial pupil land on the stop at scattered points; a least-squares fit over those gives the map
-    from the stop back to the pupil without a search.
+    from the stop back to the pupil without a search. Its own areas give the weights.
     """
     nodes, rim = disc_nodes(*ROUGH_NODES), float(np.max(enter.stop.semi_diameter))
     x, y = (float(enter.radius.item()) * v for v in (nodes.xi, nodes.eta))
@@ -304,55 +453,48 @@ def _rough_map(lens: Lens, enter: Entrance) -> tuple[Form, Form] | None:
         return None
     even, odd = basis_by_powers(ROUGH_ORDER, *(scale * v.ravel() for v in (beam.x, beam.y)))
     across, along = _least_squares(odd, x), _least_squares(even, y)
-    return columns(across, ROUGH_ORDER, odd=True), columns(along, ROUGH_ORDER)
+    odd, even, (odd_xi, odd_eta), (even_xi, even_eta) = _rough_terms()
+    area = (across @ odd_xi) * (along @ even_eta) - (across @ odd_eta) * (along @ even_xi)
+    weight = area / enter.radius**2 * _oblique(enter, _through(enter, across @ odd, along @ even))
+    return StopMap.of(across, along, even @ (nodes.weight * weight), ROUGH_ORDER)
 
 
-@dataclass(frozen=True)
-class StopMap:
-    """Polynomials over the stop: entrance points x/ξ and y (mm), and weights."""
-
-    x: Form
-    y: Form
-    weight: Form
-
-    def at(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return entrance points and weights at points of the stop."""
-        square = xi * xi
-        return xi * evaluate(self.x, square, eta), evaluate(self.y, square, eta), evaluate(self.weight, square, eta)
+@lru_cache(maxsize=1)
+def _rough_terms() -> tuple[np.ndarray, np.ndarray, Point, Point]:
+    """Return the odd and the even terms at the nodes of the rough map, (terms, nodes), and their gradients."""
+    nodes = disc_nodes(*ROUGH_NODES)
+    odd, even = (basis(ROUGH_ORDER, nodes.xi, nodes.eta, flag) for flag in (True, False))
+    slopes = [gradient(ROUGH_ORDER, nodes.xi, nodes.eta, flag) for flag in (True, False)]
+    return odd, even, slopes[0], slopes[1]
 
 
 @lru_cache(maxsize=64)
-def _stop_map(lens: Lens, source: Source) -> StopMap | None:
+def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | None:
     """Return the map through aimed rays that stands for aiming itself; None where rays on the rim disprove it."""
     nodes, turn = disc_nodes(*FINE_NODES), np.linspace(0, np.pi, RIM_RAYS)
-    held = np.sin(turn), np.cos(turn)
-    rays = pupil_rays(lens, source, np.append(nodes.xi, held[0]), np.append(nodes.eta, held[1]))
+    held, enter, count = (np.sin(turn), np.cos(turn)), entrance(lens, source), nodes.xi.size
+    xi, eta = np.append(nodes.xi, held[0]), np.append(nodes.eta, held[1])
+    rays = _aimed(lens, source, enter, None, xi, eta, AIM_ERROR)
     if not np.isfinite(rays.x).all():
         return None
-    count, weights = nodes.xi.size, np.asarray(rays.weight)
-    even, odd = _projections()
-    found = StopMap(
-        columns(odd @ rays.x[:count], FINE_ORDER, odd=True),
-        columns(even @ rays.y[:count], FINE_ORDER),
-        columns(even @ weights[:count], FINE_ORDER),
-    )
-    true = rays.x[count:], rays.y[count:], weights[count:]
-    x, y, light = (mapped - traced for mapped, traced in zip(found.at(*held), true, strict=True))
-    radius = float(entrance(lens, source).radius.item())
-    exact = np.hypot(x, y).max() <= FINE_ERROR * radius and np.abs(light).max() <= FINE_WEIGHT_ERROR
+    true = rays.x, rays.y, np.asarray(rays.weight)
+    (odd, even), (x, y, weight) = _fine_projections(), (column[:count] for column in true)
+    found = StopMap.of(odd @ x, even @ y, even @ weight, FINE_ORDER)
+    off_x, off_y, off = (mapped - column[count:] for mapped, column in zip(found.at(*held), true, strict=True))
+    exact = np.hypot(off_x, off_y).max() <= aim_error * enter.radius.item() and np.abs(off).max() <= WEIGHT_ERROR
     return found if exact else None
 
 
 @lru_cache(maxsize=1)
-def _projections() -> tuple[np.ndarray, np.ndarray]:
-    """Return the matrices from values at the fine map's nodes to coefficients of the even and of the odd terms."""
+def _fine_projections() -> tuple[np.ndarray, np.ndarray]:
+    """Return the matrices from values at the fine map's nodes to coefficients of the odd and of the even terms."""
     nodes = disc_nodes(*FINE_NODES)
-    even, odd = (basis(FINE_ORDER, nodes.xi, nodes.eta, flag) * nodes.weight for flag in (False, True))
-    return even, odd
+    odd, even = (basis(FINE_ORDER, nodes.xi, nodes.eta, flag) * nodes.weight for flag in (True, False))
+    return odd, even
 
 
 def _least_squares(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Return the solution by the normal equations, which lose digits that a guess does not need."""
     normal = rows @ rows.T
-    normal[np.diag_indices_from(normal)] *= 1 + RIDGE
+    normal.flat[:: len(normal) + 1] *= 1 + RIDGE
     return np.linalg.solve(normal, rows @ values)

@@ -12,9 +12,9 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
-from p2sf.raytrace.aiming import PupilRays, Sources, entrance, pupil_rays, start
+from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays
 from p2sf.raytrace.surface import Beam, Status
-from p2sf.raytrace.trace import Trace, lens_rims, run, status_message, trace
+from p2sf.raytrace.trace import Trace, lens_rims, status_message, trace
 
 __all__ = [
     "Pencil",
@@ -93,19 +93,18 @@ def pencil(
     eta: ArrayLike,
     clip: bool = False,
     stop: Stop | None = None,
+    aim_error: float = AIM_ERROR,
 ) -> Pencil:
     """Trace a source's rays through pupil points (ξ, η), each (ray,), to the sensor.
 
     ``clip`` applies the clear semi-diameters of every surface but the stop, whose rim the pupil already represents.
+    ``aim_error``: as `pupil_rays` has it.
     The axes of `Sources` come first. Raises GeometryError where the chief ray does not reach the sensor.
     """
     # The chief ray is traced as the last ray, together with the others.
     xi, eta = np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
-    rays = pupil_rays(lens, source, xi, eta, stop)
-    beam = start(rays)
-    beam.exempt = 1  # the chief ray is the origin of all differences, even where a rim would stop it
-    run(lens, beam, rays.index, lens_rims(lens, keep_stop=False) if clip else None)
-    beam.path += rays.path
+    rims = lens_rims(lens, keep_stop=False) if clip else None
+    rays, beam = arriving(lens, source, xi, eta, stop, rims, aim_error)
     if beam.status.any():
         _blank(beam)
     return _relative_to_chief(beam, rays.weight, xi, eta, rays.index[-1], source.wavelength_um)

@@ -96,15 +96,19 @@ def run(
     rims: np.ndarray | None = None,
     last: int | None = None,
     visit: Callable[[float], None] | None = None,
+    first: int = 1,
 ) -> Beam:
-    """Carry a beam through the lens to the sensor plane, or onto surface ``last``, and return it.
+    """Carry a beam through the lens to the sensor plane, or onto and through surface ``last``, and return it.
 
+    ``first`` > 1 goes on with a beam whose last surface was the one before it.
     ``rims``, one per surface, mm, clip the beam. ``visit(vertex)`` is called on every surface and on the sensor with
     the current vertex's distance from the first; without it, planes between equal media are skipped.
     """
     vertex = 0.0
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        for number, surface in enumerate(lens.surfaces[:last], 1):
+        if first > 1:
+            beam.z -= lens.surfaces[first - 2].thickness
+        for number, surface in enumerate(lens.surfaces[first - 1 : last], first):
             idle = not surface.curvature and not any(surface.aspheric) and rims is None and visit is None
             if number == last or not (idle and _same(index[number - 1], index[number])):
                 _cross(beam, surface, index, number, rims, partial(visit, vertex) if visit else None)

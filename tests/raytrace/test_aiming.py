@@ -166,8 +166,9 @@ def test_many_sources_are_aimed_at_once():
 def test_a_map_that_the_rim_disproves_is_not_used():
     lens = with_aim(find_lens("petzval"), "stop")
     steep = Source(inf, np.tan(np.deg2rad(7.0)), 0.5875618)
-    assert aiming._stop_map(lens, steep) is None
-    assert aiming._stop_map(with_aim(find_lens("cooke_triplet"), "stop"), Source(inf, 0.3, 0.5875618)) is not None
+    assert aiming._stop_map(lens, steep, aiming.AIM_ERROR) is None
+    cooke = with_aim(find_lens("cooke_triplet"), "stop")
+    assert aiming._stop_map(cooke, Source(inf, 0.3, 0.5875618), aiming.AIM_ERROR) is not None
 
 
 def test_a_pupil_of_a_millionth_of_a_millimetre_is_aimed():

@@ -1,7 +1,7 @@
 """The lens drawn to scale: outlines, rays and marks in mm, z from the first vertex. No Qt in here."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, isfinite
 
@@ -10,14 +10,15 @@ import numpy as np
 from p2sf.lens.lens import Lens, indices
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
-from p2sf.raytrace.pencil import pupil_rays
+from p2sf.raytrace.aiming import entrance, pupil_rays
 from p2sf.raytrace.surface import sag_and_slope
 from p2sf_explorer.compute.glass_outlines import Glass, Outline, filling, glass_of, still, vertices, widest_exit
-from p2sf_explorer.compute.meridional import path
+from p2sf_explorer.compute.meridional import aimed, path
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import nice
 
 HEIGHTS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
+AIM_MOVE = 1e-5  # of the stop's rim: a last step of the secant method that leaves far less than can be drawn
 REACH = 3.0  # rays from infinity begin this many lens lengths before the lens, outside any window
 
 
@@ -136,28 +137,78 @@ def _image_point(setup: ParaxialSetup) -> tuple[float, float] | None:
     return vertices(setup.lens)[-2] + distance, float(unit) * setup.source.field_slope
 
 
-RAYS = (("marginal", 0, 1.0), ("marginal", 0, -1.0), ("rim", 1, 1.0), ("rim", 1, -1.0), ("chief", 1, 0.0))
-"""The drawn rays: kind, which source (0 the axial point, 1 the field point), and η in the entrance pupil."""
+RAYS = (
+    ("marginal", False, 1.0),
+    ("marginal", False, -1.0),
+    ("rim", True, 1.0),
+    ("rim", True, -1.0),
+    ("chief", True, 0.0),
+)
+"""The drawn rays: kind, whether from the field point or from that on the axis, and η in the pupil."""
 
 
 def ray_paths(setup: ParaxialSetup, drawn: Drawing, clip: bool = False) -> Iterator[RayPath]:
     """Yield the exact meridional rays of `RAYS`; the chief ray, where the pupil begins, is not clipped."""
     rims = pencil_rims(setup.lens) if clip else None
-    source, etas = setup.source, np.array([1.0, -1.0, 0.0])
-    both = Source(source.depth_mm, np.array([0.0, source.field_slope]), source.wavelength_um)
-    rays = pupil_rays(setup.lens, both, np.zeros(3), etas)
-    origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
-    starts = _start(origins, directions, min(source.depth_mm, REACH * (drawn.right - drawn.left)))
-    index = indices(setup.lens, source.wavelength_um).tolist()
-    for kind, row, eta in RAYS:
-        at = row, etas.tolist().index(eta)
-        start, direction = (a[at][:0:-1].tolist() for a in (starts, directions))  # z, y
-        z, y, passed = path(setup.lens, index, start, direction, None if kind == "chief" else rims)
+    lens, source = setup.lens, setup.source
+    index = indices(lens, source.wavelength_um).tolist()
+    front = -min(source.depth_mm, REACH * (drawn.right - drawn.left))
+    both = [_Entry.of(lens, replace(source, field_slope=s), index) for s in (0.0, source.field_slope)]
+    for kind, oblique, eta in RAYS:
+        entry = both[oblique]
+        start, direction = entry.ray(entry.height(eta), front)
+        z, y, passed = path(lens, index, start, direction, None if kind == "chief" else rims)
         clipped = bool(rims and y and not passed and abs(y[-1]) > rims[len(y) - 1])
         places = np.array([[start[0], *z], [start[1], *y]])
         if clipped:
-            end_at_rim(places, setup.lens, len(z), rims[len(y) - 1] if rims else 0.0)
+            end_at_rim(places, lens, len(z), rims[len(y) - 1] if rims else 0.0)
         yield RayPath(kind, places[0], places[1], passed, clipped)
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """How meridional rays of a source enter a lens.
+
+    ``plane`` and ``radius``: of the paraxial entrance pupil, mm; ``near`` = 1/(object to pupil) per mm; ``slope`` of
+    the chief ray; ``stop``: the surface; ``rim``: its radius, mm, below 0 where the pupil is its inverted image.
+    """
+
+    lens: Lens
+    source: Source
+    index: list[float]
+    plane: float
+    radius: float
+    near: float
+    slope: float
+    stop: int
+    rim: float
+
+    @classmethod
+    def of(cls, lens: Lens, source: Source, index: list[float]) -> "_Entry":
+        """Return how a source's rays enter a lens."""
+        enter = entrance(lens, source)
+        plane, radius, near, side = (float(a.item()) for a in (enter.plane, enter.radius, enter.reach, enter.upright))
+        rim = side * float(enter.stop.semi_diameter)
+        return cls(lens, source, index, plane, radius, near, source.field_slope, int(enter.stop.surface), rim)
+
+    def ray(self, y: float, front: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return z and y of the ray's point in the plane ``front``, and its direction, if it meets the pupil's at y."""
+        slope = self.slope + self.near * y
+        return (front, y + slope * (front - self.plane)), (1.0, slope)
+
+    def height(self, eta: float) -> float:
+        """Return the height in the pupil's plane of the ray through η; NaN where no ray gets there."""
+        guess = eta * self.radius
+        if self.lens.aim == "paraxial":
+            return guess
+        found = aimed(self._landing, eta * self.rim, guess, self.rim / self.radius, AIM_MOVE * abs(self.rim))
+        if found is not None:
+            return found
+        return float(pupil_rays(self.lens, self.source, np.zeros(1), np.array([eta])).y.item())
+
+    def _landing(self, y: float) -> float | None:
+        _, heights, met = path(self.lens, self.index, *self.ray(y, self.plane), last=self.stop)
+        return heights[-1] if met else None
 
 
 @lru_cache(maxsize=32)
@@ -173,11 +224,6 @@ def end_at_rim(places: np.ndarray, lens: Lens, surface: int, rim: float) -> None
     at = vertices(lens)[surface - 1] + sag
     if isfinite(sag) and z < at and end_z > z:
         places[:, -1] = at, y + (at - z) * (end_y - y) / (end_z - z)
-
-
-def _start(origins: np.ndarray, directions: np.ndarray, reach: float) -> np.ndarray:
-    """Return the points of the rays in the plane ``reach`` mm before the first vertex."""
-    return origins - directions * ((origins[..., 2:] + reach) / directions[..., 2:])
 
 
 def marks(setup: ParaxialSetup) -> Iterator[Mark]:

@@ -3,7 +3,7 @@
 The layout draws five rays; arrays of five cost as much as arrays of five hundred, plain numbers a fifth of that.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import copysign, hypot, sqrt
 
 from p2sf.lens.lens import Lens, Surface
@@ -11,6 +11,7 @@ from p2sf.raytrace.surface import sag_and_slope
 
 NEWTON_STEPS = 20
 CLOSE_MM = 1e-12
+AIM_STEPS = 8
 
 Meeting = tuple[float, float, float]
 """Where a ray meets a surface, local to its vertex: z, y and the slope dz/dy there."""
@@ -22,9 +23,11 @@ def path(
     start: Sequence[float],
     direction: Sequence[float],
     rims: Sequence[float] | None = None,
+    last: int | None = None,
 ) -> tuple[list[float], list[float], bool]:
     """Return z and y of a ray on every surface and on the sensor, and whether it got there.
 
+    With ``last`` it ends on that surface, counted from 1.
     ``index``: per space; ``start`` and ``direction`` are (z, y) from the first vertex. A ray that misses a surface
     or is totally reflected ends where it last was; one outside ``rims``, mm per surface, on the surface of that rim.
     """
@@ -40,6 +43,8 @@ def path(
         places[1].append(y)
         if rims is not None and abs(y) > rims[number]:
             return *places, False
+        if number + 1 == last:
+            return *places, True
         turned = refracted(met[2], cz, cy, index[number], index[number + 1])
         if turned is None:
             return *places, False
@@ -48,6 +53,30 @@ def path(
     places[0].append(vertex)
     places[1].append(y + (vertex - z) * cy / cz)
     return *places, True
+
+
+def aimed(
+    landing: Callable[[float], float | None], goal: float, guess: float, gain: float, close: float
+) -> float | None:
+    """Return the height at which a ray enters so that ``landing`` of it is ``goal``, by the secant method.
+
+    ``gain``: about how far a ray lands from where it did if it enters 1 mm higher; ``close``: the last step, where it
+    lands, is at most that long, and what it leaves is far shorter. None where no such ray is found, or
+    where rays have crossed before they land.
+    """
+    y, before, upright = guess, landing(guess), gain > 0
+    for _ in range(AIM_STEPS):
+        if before is None or not gain or (gain > 0) != upright:
+            return None
+        step = (goal - before) / gain
+        y += step
+        if abs(step * gain) <= close:
+            return y
+        after = landing(y)
+        if after is None:
+            return None
+        gain, before = (after - before) / step, after
+    return None
 
 
 def meet(surface: Surface, z: float, y: float, cz: float, cy: float) -> Meeting | None:
