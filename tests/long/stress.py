@@ -31,6 +31,7 @@ from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.shell.memory_trim import REST_MS
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
+from p2sf_explorer.widgets.card import Card
 from tests.support.lens_files import FILES, FOLDER
 from tests.support.monkey import STALL_MS, Ledger, Person
 
@@ -113,6 +114,7 @@ def own_files(folder: Path, seed: int):
         patches.enter_context(patch(RECENT, lambda: folder / "memory" / "recent.json"))
         patches.enter_context(patch.object(QFileDialog, "getOpenFileName", open_name))
         patches.enter_context(patch.object(QFileDialog, "getSaveFileName", lambda *_: (str(next(saved)), "")))
+        patches.enter_context(patch.object(Card, "drag_title", lambda card: None))  # it waits for a real drop
         yield
 
 

@@ -175,6 +175,7 @@ def _frames(t: Tokens) -> str:
     QMainWindow, QWidget#window {{ background: {t.window}; }}
     QFrame#card, QWidget#controls, QFrame#bar {{
         background: {t.card}; border: 1px solid {t.line}; border-radius: 6px; }}
+    Place[target="true"] {{ border: 2px solid {t.accent}; border-radius: 7px; }}
     QLabel {{ background: transparent; border: none; }}
     QLabel#title {{ font-weight: 600; }}
     QLabel#muted, QLabel#readout {{ color: {t.muted}; font-size: 12px; }}
@@ -210,6 +211,7 @@ def _inputs(t: Tokens) -> str:
     QPushButton:hover, QToolButton:hover, QComboBox:hover {{ border: 1px solid {t.muted}; }}
     QPushButton:disabled, QToolButton:disabled {{ color: {t.muted}; background: {t.card}; }}
     QPushButton#small, QToolButton#small {{ padding: 1px 7px; font-size: 12px; min-height: 18px; }}
+    QToolButton#menu {{ padding: 1px 22px 1px 8px; font-size: 12px; min-height: 18px; }}
     QPushButton#group {{ padding: 1px 9px; font-size: 12px; min-height: 17px; background: transparent;
         border: 1px solid transparent; color: {t.muted}; }}
     QPushButton#group:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}

@@ -1,9 +1,9 @@
-"""Keep the window for the next start: its state, its geometry, the sizes of its parts."""
+"""Keep the window for the next start: its state and its geometry."""
 
 from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import QByteArray, QEvent, QObject, QTimer
-from PySide6.QtWidgets import QSplitter, QWidget
+from PySide6.QtWidgets import QWidget
 
 from p2sf_explorer.files.session import keep_session
 from p2sf_explorer.store.store import Store
@@ -15,22 +15,19 @@ LATER_MS = 1500  # after the last change, so that a crash costs no more than tha
 class SessionKeeper(QObject):
     """Writes the session a moment after every change, and when the window closes.
 
-    ``stack`` is the splitter whose sizes are kept, ``open_windows()`` the panels' own windows by their keys;
-    ``geometry`` is as `last_session` returned it.
+    ``open_windows()`` are the panels' own windows by their keys; ``geometry`` is as `last_session` returned it.
     """
 
     def __init__(
         self,
         window: QWidget,
         store: Store,
-        stack: QSplitter,
         open_windows: Callable[[], Mapping[str, QWidget]],
         geometry: dict[str, str],
     ) -> None:
         super().__init__(window)
-        self._window, self._store, self._stack, self._open_windows = window, store, stack, open_windows
+        self._window, self._store, self._open_windows = window, store, open_windows
         window.restoreGeometry(unpacked(geometry.get("window", "")))
-        stack.restoreState(unpacked(geometry.get("stack", "")))
         for key, own in open_windows().items():
             own.restoreGeometry(unpacked(geometry.get(OWN + key, "")))
         self._timer = QTimer(self)
@@ -48,7 +45,7 @@ class SessionKeeper(QObject):
     def keep(self) -> None:
         """Write the session now."""
         self._timer.stop()
-        places = {"window": self._window.saveGeometry(), "stack": self._stack.saveState()}
+        places = {"window": self._window.saveGeometry()}
         places |= {OWN + key: own.saveGeometry() for key, own in self._open_windows().items()}
         keep_session(self._store.state, {name: packed(place) for name, place in places.items()})
 

@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
-from PySide6.QtCore import QEvent, QObject, QTimer
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel, QSplitter, QWidget
 
 from p2sf.errors import P2SFError
@@ -18,26 +18,35 @@ from p2sf_explorer.state.state import State, changed, entry
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
-BESIDE = (0.29, 0.32, 0.39)  # shares of pupil, PSF and coefficients in their row beside a lesson
+PAGE_SHARE = 62, 38  # per cent of the column's height for the page of a lesson, and for the sliders below
 OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
 
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to put back: its lens stays")
 UNTRANSLATED = Message("This lesson has not been translated and stands here as it was written")
 
 
+class SliderColumn(Protocol):
+    """The column of sliders, of which a step may mark one."""
+
+    @property
+    def rows(self) -> Mapping[str, QWidget]:
+        """The rows by the keys of their quantities."""
+
+    def reveal(self, key: str) -> None:
+        """Scroll to a row."""
+
+
 @dataclass(frozen=True)
 class LessonRoom:
     """The parts of the window that a lesson uses.
 
-    ``page`` is the row at whose right end the page of the lesson stands; ``panels`` is the splitter of pupil, PSF and
-    coefficients, which share their room anew beside it; ``offers`` is the column in which the first lesson is offered,
-    under the bar; ``sliders`` are the rows of the controls by their keys, of which a step may mark one.
+    The page of the lesson stands in the ``column`` above the ``sliders``; ``offers`` is the layout in which the first
+    lesson is offered, under the bar.
     """
 
-    page: QBoxLayout
-    panels: QSplitter
+    column: QSplitter
     offers: QBoxLayout
-    sliders: Mapping[str, QWidget]
+    sliders: SliderColumn
 
 
 class LessonController(QObject):
@@ -49,7 +58,6 @@ class LessonController(QObject):
         self.panel: LessonPanel | None = None
         self.offer: Offer | None = None
         self._lessons: dict[str, Lesson] = {}
-        self._sizes: list[int] | None = None
         self._told_untranslated = False
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
@@ -128,8 +136,12 @@ class LessonController(QObject):
             self._tell_untranslated(lesson)
         if self.panel:
             self.panel.setVisible(lesson is not None)
-            self._share_room(lesson is not None)
         self._point(slider)
+
+    @property
+    def active(self) -> bool:
+        """Return whether the page of a lesson is on show."""
+        return self.panel is not None and not self.panel.isHidden()
 
     def _tell_untranslated(self, lesson: Lesson) -> None:
         """Say once that a lesson is in another language than the window, after the picture of its step is there."""
@@ -143,36 +155,21 @@ class LessonController(QObject):
         made.moved.connect(self.move)
         made.asked.connect(self.reveal)
         made.left.connect(self.leave)
-        self._room.page.addWidget(made)
-        self._window.installEventFilter(self)
-        made.fit(self._window.width())
+        self._room.column.insertWidget(0, made)
+        self._room.column.setSizes(list(PAGE_SHARE))
         return made
-
-    def _share_room(self, shown: bool) -> None:
-        """Give the coefficients, which most lessons are about, more room beside the page; undo that without one."""
-        row = self._room.panels
-        if shown and self._sizes is None:
-            self._sizes = row.sizes()
-            row.setSizes([round(share * sum(self._sizes)) for share in BESIDE])
-        elif not shown and self._sizes is not None:
-            row.setSizes(self._sizes)
-            self._sizes = None
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Fit the page to the window's width."""
-        if isinstance(event, QResizeEvent) and self.panel:
-            self.panel.fit(event.size().width())
-        return False
 
     def _point(self, key: str) -> None:
         """Mark the row of one slider, by a line at its left and a bold name."""
-        for name, row in self._room.sliders.items():
+        for name, row in self._room.sliders.rows.items():
             wanted = name == key
             if bool(row.property("pointed")) != wanted:
                 row.setProperty("pointed", wanted)
                 for part in (row, *row.findChildren(QLabel)):
                     part.style().unpolish(part)
                     part.style().polish(part)
+                if wanted:
+                    self._room.sliders.reveal(key)
 
     def offer_once(self) -> None:
         """Offer the first lesson in a line under the bar, at the first start only."""

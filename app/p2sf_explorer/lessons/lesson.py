@@ -17,11 +17,17 @@ from p2sf_explorer.lessons.changes import Changes, LessonError, applied, beside,
 from p2sf_explorer.lessons.claims import Claim, parse_claim
 from p2sf_explorer.state.limits import DRAGGED
 from p2sf_explorer.state.state import State, changed, entry
+from p2sf_explorer.state.workspaces import TEACH, WORKSPACES, with_workspace
 
 FOLDER = Path(__file__).parent
 FENCE = "---"
 FIRST = State()
-PERSONAL = ("theme", "language", "colours")  # a lesson changes the optics and leaves these to whoever sits there
+PERSONAL = (
+    "theme",
+    "language",
+    "colours",
+    "scale_percent",
+)  # a lesson changes the optics and leaves these to whoever sits there
 HEADER = ("title", "about", "lens", "state")
 WORDS = ("try", "ask", "tell")
 STEP = ("set", "move", *WORDS, "claim")
@@ -61,8 +67,10 @@ class Lesson:
     def state(self, number: int, like: State = FIRST) -> State:
         """Return the state at a step (from 0), with the PERSONAL entries of ``like``; P2SFError where there is none."""
         made = changed(default_state(self.lens), **{name: entry(like, name) for name in PERSONAL})
+        made = with_workspace(made, TEACH, WORKSPACES[TEACH])
         for changes in (self.changes, *(step.changes for step in self.steps[: number + 1])):
-            made = applied(made, changes)
+            shown = {"show_rail": True} if {"rail", "tab"} & {name for name, _ in changes} else {}
+            made = applied(changed(made, **shown), changes)
         return changed(made, lesson_name=self.name, lesson_step=number)
 
 

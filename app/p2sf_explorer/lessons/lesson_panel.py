@@ -9,9 +9,6 @@ from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.lessons.lesson import Lesson
 from p2sf_explorer.widgets.card import chooser, select
 
-WIDTHS = 250, 330  # in a narrow window and in a wide one
-SHARE = 0.205  # of the window's width
-
 
 class LessonPanel(QFrame):
     """Shows one step; tells what was pressed: ``chosen`` a lesson's name, ``moved`` −1 or +1, ``asked``, ``left``."""
@@ -85,10 +82,6 @@ class LessonPanel(QFrame):
         self.reveal.clicked.connect(self.asked)
         self.back.clicked.connect(lambda: self.moved.emit(-1))
         self.next.clicked.connect(lambda: self.moved.emit(1))
-
-    def fit(self, window_px: int) -> None:
-        """Take a share of the window's width."""
-        self.setFixedWidth(min(WIDTHS[1], max(WIDTHS[0], round(SHARE * window_px))))
 
     def show_step(self, lesson: Lesson, number: int, told: bool) -> None:
         """Show a step of a lesson, with its answer when it was ``told``."""

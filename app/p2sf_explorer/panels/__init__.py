@@ -56,15 +56,13 @@ class PreparingPanel(Panel, Protocol):
 class PanelEntry:
     """One registered panel: ``panel`` is its module:class, ``view`` the module:function of its view, if it has one.
 
-    ``handbook`` is the section of the theory it leads to, ``place`` is "main" or "tab", ``group`` the one of `GROUPS`
-    among whose tabs it stands.
+    ``handbook`` is the section of the theory it leads to, ``group`` the one of `GROUPS` among whose tabs it stands.
     """
 
     key: str
     title: str
     panel: str
     handbook: str
-    place: str = "tab"
     view: str = ""
     group: str = "Tools"
 
@@ -75,21 +73,11 @@ GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
 def tab(group: str, key: str, title: str, handbook: str, panel: str, view: str = "") -> PanelEntry:
     """Return the entry of a tab; panel and view are module:name in their folders."""
     view = view and f"p2sf_explorer.results.{view}"
-    return PanelEntry(key, title, f"p2sf_explorer.panels.{panel}", handbook, "tab", view, group)
+    return PanelEntry(key, title, f"p2sf_explorer.panels.{panel}", handbook, view, group)
 
 
 REGISTRY = (
-    PanelEntry(
-        "layout",
-        "Layout",
-        "p2sf_explorer.panels.layout:LayoutPanel",
-        "2.2",
-        "main",
-        "p2sf_explorer.results.rays:lens_drawn",
-    ),
-    PanelEntry("pupil", "Pupil", "p2sf_explorer.panels.pupil:PupilPanel", "3.1", "main"),
-    PanelEntry("psf", "PSF", "p2sf_explorer.panels.psf:PsfPanel", "4.1", "main", "p2sf_explorer.compute.finer:source"),
-    PanelEntry("coefficients", "Coefficients", "p2sf_explorer.panels.coefficients:CoefficientsPanel", "3.2", "main"),
+    PanelEntry("psf", "PSF", "p2sf_explorer.panels.psf:PsfPanel", "4.1", "p2sf_explorer.compute.finer:source", "PSF"),
     tab("PSF", "profiles", "Profiles", "6.3", "profiles:ProfilesPanel", "profiles:profiles"),
     tab("PSF", "mtf", "MTF", "6.3", "mtf:MtfPanel", "mtf:contrast"),
     tab("PSF", "through_focus", "Through focus", "3.3", "through_focus:ThroughFocusPanel", "through_focus:strip"),
@@ -99,10 +87,13 @@ REGISTRY = (
     tab("Rays", "spot", "Spot", "8.3", "spot:SpotPanel", "rays:spots"),
     tab("Rays", "ray_fan", "Ray fan", "8.3", "fans:RayFanPanel", "rays:ray_errors"),
     tab("Rays", "opd_fan", "OPD fan", "4.3", "fans:OpdFanPanel", "rays:path_errors"),
+    tab("Aberrations", "coefficients", "Coefficients", "3.2", "coefficients:CoefficientsPanel"),
+    tab("Aberrations", "pupil", "Pupil", "3.1", "pupil:PupilPanel"),
     tab("Aberrations", "seidel", "Seidel per surface", "3.2", "seidel:SeidelPanel", "seidel:per_surface"),
     tab("Aberrations", "zernike", "Zernike", "3.4", "zernike:ZernikePanel", "zernike:zernike"),
     tab("Aberrations", "field", "Field curves", "8.3", "field:FieldPanel", "field:field_curves"),
     tab("Aberrations", "chromatic", "Chromatic shift", "8.3", "chromatic:ChromaticPanel", "chromatic:chromatic"),
+    tab("Lens", "layout", "Layout", "2.2", "layout:LayoutPanel", "rays:lens_drawn"),
     tab("Lens", "lens", "Table", "1.1", "lens_table:LensTablePanel", "lens_table:rows"),
     tab("Lens", "first_order", "First order", "2.1", "first_order:FirstOrderPanel", "first_order:first_order"),
     tab("Lens", "ybar", "y–ȳ", "8.4", "ybar:YBarPanel", "ybar:ybar"),
@@ -119,7 +110,6 @@ REGISTRY = (
         "3D",
         "p2sf_explorer.panels.solid:SolidPanel",
         "8.1",
-        "tab",
         "p2sf_explorer.scene3d.scene:scene",
         "Lens",
     ),

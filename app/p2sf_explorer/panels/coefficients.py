@@ -34,7 +34,8 @@ class CoefficientsPanel:
         self._store, self._theme, self._note = store, LIGHT, ""
         self.widget = Card("Coefficients", TIP)
         self.bars = Mixer(self.widget)
-        self.widget.setMinimumSize(*SMALLEST)
+        self.widget.smallest = SMALLEST
+        self.widget.rescale(1.0)
         self.widget.set_body(self.bars)
         self.free = self._button("Free pupil", FREE_TIP)
         self.free.setCheckable(True)

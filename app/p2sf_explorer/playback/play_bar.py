@@ -30,6 +30,7 @@ from p2sf_explorer.widgets.value_edit import ValueEdit
 FILMS = "Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)"
 SUBJECTS = (
     ("stack", "all panels"),
+    ("stage", "the stage"),
     ("psf", "the PSF"),
     ("pupil", "the pupil"),
     ("layout", "the layout"),

@@ -43,12 +43,14 @@ SNAPSHOT_FILES = (
 class PanelAccess:
     """How the actions reach the panels and the answer on screen.
 
-    ``open`` brings a panel to the front, ``card`` returns its card, ``in_front`` that of the open tab; ``explain``
-    says why a file was refused; ``detach`` gives the panel in front a window of its own, or takes it back.
+    ``open`` brings a panel on show, ``stage`` puts it on the stage, ``card`` returns its card, ``in_front`` that of the
+    stage; ``explain`` says why a file was refused; ``detach`` gives the panel in hand a window of its own, or takes it
+    back.
     """
 
     live: Callable[[], Live | None]
     open: Callable[[str], None]
+    stage: Callable[[str], None]
     card: Callable[[str], Card]
     in_front: Callable[[], Card]
     explain: Callable[[Refusal], None]
@@ -188,7 +190,7 @@ class Actions(QObject):
 
     def everything(self) -> tuple[Command, ...]:
         """Return all commands of the palette."""
-        return (*self.commands, *choices(self._store, self._panels.open, self.open_lens))
+        return (*self.commands, *choices(self._store, self._panels.open, self._panels.stage, self.open_lens))
 
     def copy_picture(self) -> None:
         """Put the picture of the panel in hand on the clipboard."""

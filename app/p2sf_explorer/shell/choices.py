@@ -16,19 +16,21 @@ from p2sf_explorer.widgets.command import Command
 
 COLOURS = {"standard": "Inferno", "viridis": "Viridis", "cividis": "Cividis", "grey": "Grey"}
 THEMES = {"system": "As the system", "light": "Light", "dark": "Dark"}
+Panel = Callable[[str], object]
+"""What is done with a panel by its key."""
 
 
 def choices(
-    store: Store, open_panel: Callable[[str], object], open_lens: Callable[[str], object]
+    store: Store, open_panel: Panel, take_stage: Panel, open_lens: Callable[[str], object]
 ) -> tuple[Command, ...]:
     """Return a command for every panel, lens, preset and appearance that a person may choose."""
-    return (*_panels(open_panel), *_lenses(open_lens), *_presets(store), *appearances(store))
+    panels = (*_panels(open_panel, "Panel"), *_panels(take_stage, "On the stage"))
+    return (*panels, *_lenses(open_lens), *_presets(store), *appearances(store))
 
 
-def _panels(open_panel: Callable[[str], object]) -> Iterator[Command]:
+def _panels(show: Panel, group: str) -> Iterator[Command]:
     for entry in REGISTRY:
-        if entry.place != "main":
-            yield Command(entry.title, partial(open_panel, entry.key), (), "Panel")
+        yield Command(entry.title, partial(show, entry.key), (), group)
 
 
 def _lenses(open_lens: Callable[[str], object]) -> Iterator[Command]:

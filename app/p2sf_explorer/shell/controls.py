@@ -87,7 +87,7 @@ class AimRow(QWidget):
         select(self.aim, state.optics.aim)
 
 
-WIDTH = 292
+WIDTH = 292  # pixels of the column at scale 1
 
 
 class QuantityRow(QWidget):
@@ -229,7 +229,6 @@ class Controls(QWidget):
         super().__init__(parent)
         self.setObjectName("controls")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.setFixedWidth(WIDTH)
         self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in QUANTITIES}
         for row in self.rows.values():
             row.swept.connect(self.swept)
@@ -259,7 +258,8 @@ class Controls(QWidget):
 
     def _column(self) -> QVBoxLayout:
         """Return the column of everything, which scrolls where a screen is too low for it."""
-        page, area, whole = QWidget(), QScrollArea(self), QVBoxLayout(self)
+        self.area = area = QScrollArea(self)
+        page, whole = QWidget(), QVBoxLayout(self)
         column = QVBoxLayout(page)
         column.setContentsMargins(12, 10, 12, 12)
         column.setSpacing(SPACE - 1)
@@ -273,6 +273,10 @@ class Controls(QWidget):
         for part in (area, area.viewport(), page):
             part.setAutoFillBackground(False)
         return column
+
+    def reveal(self, key: str) -> None:
+        """Scroll to the row of a quantity where the column is too low for all."""
+        self.area.ensureWidgetVisible(self.rows[key], 0, self.rows[key].height())
 
     def show_state(self, state: State) -> None:
         """Follow a state."""

@@ -1,33 +1,39 @@
-"""Panels in windows of their own: they follow the state's ``windows``, and closing one takes it out of there."""
+"""Where each panel stands. Panels in windows of their own follow the state's ``windows``; closing one takes it out."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
-from PySide6.QtCore import QByteArray, QObject, Qt
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtCore import QByteArray, QObject
+from PySide6.QtWidgets import QApplication, QWidget
 
-from p2sf_explorer.panels import Panel, PanelEntry
+from p2sf_explorer.panels import Panel
+from p2sf_explorer.shell.stage import Place
 from p2sf_explorer.shell.tabs import OwnWindow
 from p2sf_explorer.store.store import Store
 
 
-class FloatingPanels(QObject):
-    """Moves panels between their page, in ``homes`` by their keys, and a window of their own.
+@dataclass(frozen=True)
+class Home:
+    """Where a panel stands inside the window: its widget, and what that is, "stage", "rail" or "tabs"."""
 
-    ``places`` keeps the geometry that each own window had last. A panel whose tab is not in front is taken out of the
+    widget: Place
+    place: str
+
+
+class FloatingPanels(QObject):
+    """Moves panels to the place where the state has them: on the stage, in the rail, under a tab, in an own window.
+
+    ``places`` keeps the geometry that each own window had last. A panel that is not on show is taken out of the
     window: a new style sheet is computed for every widget inside, shown or not, and most are not shown.
     """
 
-    def __init__(
-        self, window: QWidget, store: Store, homes: dict[str, QWidget], entries: tuple[PanelEntry, ...]
-    ) -> None:
+    def __init__(self, window: QWidget, store: Store, titles: Mapping[str, str]) -> None:
         super().__init__(window)
-        self._window, self._store, self._homes = window, store, homes
-        self._titles = {entry.key: entry.title for entry in entries}
-        self._tabbed = {entry.key for entry in entries if entry.place != "main"}
+        self._window, self._store, self._titles = window, store, titles
         self.open: dict[str, OwnWindow] = {}
         self.places: dict[str, QByteArray] = {}
         self._closing = False
-        self._front = ""
+        self._at: dict[str, QWidget] = {}
         self._out_of_sight = QWidget()
         self.destroyed.connect(self._out_of_sight.deleteLater)  # it is no child of the window, and would outlive it
 
@@ -36,49 +42,59 @@ class FloatingPanels(QObject):
         now = self._store.state.display.windows
         self._store.update(windows=tuple(k for k in now if k != key) if key in now else (*now, key))
 
-    def place(self, key: str, widget: QWidget) -> None:
-        """Put a panel into its own window if it has one, else onto its page if that is in front, else out of sight."""
-        if self._is_behind(key):
-            widget.setParent(self._out_of_sight)
-        else:
-            layout = (self.open.get(key) or self._homes[key]).layout()
-            if layout is not None:
-                layout.addWidget(widget)
-            widget.show()
-        for note in self._homes[key].findChildren(QLabel, "muted", Qt.FindChildOption.FindDirectChildrenOnly):
-            note.setVisible(key in self.open)
+    def follow(
+        self, homes: Mapping[str, Home], wanted: tuple[str, ...], panels: Mapping[str, Panel], turn: Callable[[], None]
+    ) -> None:
+        """Put each panel into its window, if it is one of those ``wanted``, else to its home, else out of sight.
 
-    def _is_behind(self, key: str) -> bool:
-        return key in self._tabbed and key != self._front and key not in self.open
-
-    def bring_up(self, key: str, panels: Mapping[str, Panel], turn: Callable[[str], None]) -> None:
-        """Put the panel of a tab onto its page, ``turn`` to that page, and put the panel before it out of sight.
-
-        In this order, since Qt hands the focus to a widget on the page it turns to, else to the next one anywhere.
+        ``turn`` brings the tab of the state to the front. What comes on show is placed before, and what goes out of
+        sight after it, since Qt hands the focus to a widget on the page it turns to, else to the next one anywhere.
         """
-        before, self._front = self._front, key
-        if before != key:
-            self.place(key, panels[key].widget)
-        turn(key)
-        if before != key and before in panels:
-            self.place(before, panels[before].widget)
+        focused = QApplication.focusWidget()
+        closed = [self._closed(key) for key in [key for key in self.open if key not in wanted]]
+        opened = [self._opened(key) for key in wanted if key not in self.open]
+        behind = [key for key in panels if key not in homes and key not in wanted]
+        for key in (key for key in panels if key not in behind):
+            self._put(key, panels[key].widget, self.open.get(key) or homes[key].widget)
+            panels[key].widget.stand("window" if key in wanted else homes[key].place)
+        for own in opened:
+            own.show()
+        turn()
+        for key in behind:
+            self._put(key, panels[key].widget, self._out_of_sight)
+            panels[key].widget.stand("tabs")
+        for key, home in homes.items():
+            home.widget.show_note(key in self.open)
+        for own in closed:
+            own.close()
+            own.deleteLater()
+        if focused and focused.isVisible() and not focused.hasFocus():
+            focused.setFocus()  # a widget that is moved to another parent loses it
 
-    def follow(self, wanted: tuple[str, ...], panels: Mapping[str, Panel]) -> None:
-        """Open and close windows until the open ones are those wanted."""
-        for key in [key for key in self.open if key not in wanted]:
-            self.places |= self.present_places()
-            closed = self.open.pop(key)
-            self.place(key, panels[key].widget)
-            closed.blockSignals(True)
-            closed.close()
-            closed.deleteLater()
-        for key in (key for key in wanted if key not in self.open):
-            made = OwnWindow(key, self._titles[key], self._window)
-            made.closed.connect(self._on_closed)
-            self.open[key] = made
-            self.place(key, panels[key].widget)
-            made.restoreGeometry(self.places.get(key, QByteArray()))
-            made.show()
+    def _put(self, key: str, card: QWidget, place: QWidget) -> None:
+        if self._at.get(key) is place:
+            return
+        self._at[key] = place
+        layout = place.layout()
+        if layout is None:
+            card.setParent(place)
+        else:
+            layout.addWidget(card)
+            card.show()
+
+    def _opened(self, key: str) -> OwnWindow:
+        """Return a new window for a panel, not yet on show."""
+        self.open[key] = made = OwnWindow(key, self._titles[key], self._window)
+        made.closed.connect(self._on_closed)
+        made.restoreGeometry(self.places.get(key, QByteArray()))
+        return made
+
+    def _closed(self, key: str) -> OwnWindow:
+        """Return the window of a panel, which is to be closed without asking for the panel to be put back."""
+        self.places |= self.present_places()
+        closed = self.open.pop(key)
+        closed.blockSignals(True)
+        return closed
 
     def present_places(self) -> dict[str, QByteArray]:
         """Return the geometry of the open windows."""

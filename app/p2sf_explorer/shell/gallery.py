@@ -21,7 +21,7 @@ LOOK_MS = 50
 
 def states() -> dict[str, State]:
     """Return the states to show: the first picture in both themes, and every other tab."""
-    tabs = [entry.key for entry in REGISTRY if entry.place != "main" and entry.key != State().display.tab]
+    tabs = [entry.key for entry in REGISTRY if entry.key != State().display.tab]
     shown = {"first_light": new_state(theme="light"), "first_dark": new_state(theme="dark")}
     shown["close_up"] = new_state(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
     shown["eye"] = new_state(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")

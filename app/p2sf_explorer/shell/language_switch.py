@@ -36,7 +36,6 @@ class LanguageSwitch(QObject):
         self.window = self._made(old.store.state)
         self.window.store.take_over(old.store)
         self.window.restoreGeometry(old.saveGeometry())
-        self.window.stack.restoreState(old.stack.saveState())
         self.window.setVisible(old.isVisible())
         self.window.refresh(self.window.store.state)
         old.close()

@@ -3,11 +3,10 @@
 from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QCloseEvent, QMouseEvent, QShortcut
+from PySide6.QtGui import QCloseEvent, QMouseEvent, QPaintEvent, QResizeEvent, QShortcut
 from PySide6.QtWidgets import (
     QButtonGroup,
     QHBoxLayout,
-    QLabel,
     QMenu,
     QPushButton,
     QTabWidget,
@@ -19,38 +18,48 @@ from PySide6.QtWidgets import (
 from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import GROUPS, PanelEntry
+from p2sf_explorer.shell.stage import Place
+from p2sf_explorer.widgets.card import paint_chevron
+from p2sf_explorer.widgets.command import Command
 
-OWN_WINDOW = "Open in its own window (double-click the tab or drag it out, or Ctrl+D)"
 OUT_PX = 40  # a tab dragged farther off the bar than this gets a window of its own
-APART = (("Pop out", OWN_WINDOW), ("Put back", "Close the panel's own window and have it back under its tab (Ctrl+D)"))
 ALL = "Every panel by its group (Alt+0)"
 SIZE = 720, 480
 FRAME = 12  # px around a window, where its manager paints a frame
 
 
 class Tabs(QTabWidget):
-    """Every panel has a page; the bar shows those of one group, the buttons before it the groups, the menu all."""
+    """Every panel has a page; the bar shows those of one group, the buttons before it the groups, the menu all.
+
+    ``stage_asked`` and ``detach_asked`` carry the panel that is to have the stage or a window of its own, ``dropped``
+    one whose title was dropped here. Where there is little room one button stands for all groups.
+    """
 
     detach_asked = Signal(str)
+    stage_asked = Signal(str)
     chosen = Signal(str)
+    dropped = Signal(str)
 
     def __init__(self, entries: tuple[PanelEntry, ...], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._groups = {entry.key: entry.group for entry in entries}
         self._last: dict[str, str] = {}
-        self._out, self._apart = False, APART[False]
-        self._pages = {entry.key: page(entry.key) for entry in entries}
+        self._out = False
+        self._elsewhere: tuple[str, ...] = ()
+        self._pages = {entry.key: Place(self) for entry in entries}
         for entry in entries:
+            self._pages[entry.key].setObjectName(entry.key)
+            self._pages[entry.key].dropped.connect(self.dropped)
             self.addTab(self._pages[entry.key], tr(entry.title))
         self.buttons = GroupButtons(tuple(g for g in GROUPS if g in self._groups.values()), self)
         self.buttons.chosen.connect(self.open_group)
-        self.setCornerWidget(self.buttons, Qt.Corner.TopLeftCorner)
         self.menu = self._all_panels(entries)
-        self.setCornerWidget(self._tools(), Qt.Corner.TopRightCorner)
+        self.buttons.all.setMenu(self.menu)
+        self.setCornerWidget(self.buttons, Qt.Corner.TopLeftCorner)
         self.setUsesScrollButtons(True)
         self.tabBar().setAccessibleName(tr("Panels"))
         self.tabBar().setElideMode(Qt.TextElideMode.ElideNone)
-        self.tabBarDoubleClicked.connect(lambda at: self.detach_asked.emit(self._key(at)))
+        self.tabBarDoubleClicked.connect(lambda at: self.stage_asked.emit(self._key(at)))
         self.currentChanged.connect(self._show_group)
         self.tabBar().installEventFilter(self)
         self._show_group()
@@ -68,7 +77,24 @@ class Tabs(QTabWidget):
             self._out = False
         return False
 
-    def pages(self) -> dict[str, QWidget]:
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Have one button for all groups where the buttons and the longest row of tabs do not fit."""
+        bar, sizes = self.tabBar(), dict.fromkeys(self._groups.values(), 0)
+        for key, group in self._groups.items():
+            if key not in self._elsewhere:
+                sizes[group] += bar.tabSizeHint(self.indexOf(self._pages[key])).width()
+        needed = self.buttons.wide() + max(sizes.values())
+        self.buttons.show_all(needed <= event.size().width())
+        super().resizeEvent(event)
+
+    def commands(self) -> tuple[Command, ...]:
+        """Return a command for each group of panels."""
+        return tuple(
+            Command(group, partial(self.open_group, group), (f"Alt+{number}",), "Group of panels")
+            for number, group in enumerate(self.buttons.named, 1)
+        )
+
+    def pages(self) -> dict[str, Place]:
         """Return the page of every panel."""
         return self._pages
 
@@ -80,29 +106,25 @@ class Tabs(QTabWidget):
         page = self.widget(number)
         return page.objectName() if page else ""
 
-    def bring_up(self, key: str) -> None:
-        """Bring a panel to the front, and its group with it, without a signal."""
-        if self.current() != key:
+    def bring_up(self, key: str, elsewhere: tuple[str, ...] = ()) -> None:
+        """Bring a panel to the front, and its group with it, without a signal; no tab for those that are elsewhere."""
+        if (self.current(), self._elsewhere) != (key, elsewhere):
+            self._elsewhere = elsewhere
             self.blockSignals(True)
             self.setTabVisible(self.indexOf(self.pages()[key]), True)
             self.setCurrentWidget(self.pages()[key])
-            self.blockSignals(False)
             self._show_group()
+            self.blockSignals(False)
 
     def detach(self) -> None:
         """Ask for the panel in front in a window of its own, or back."""
         self.detach_asked.emit(self.current())
 
-    def show_apart(self, keys: tuple[str, ...]) -> None:
-        """Name what the button does to the panel in front; ``keys`` are the panels in windows of their own."""
-        if (words := APART[self.current() in keys]) != self._apart:  # checked first: a slider calls this on every move
-            self._apart = words
-            _name(self.apart, *words)
-
     def open_group(self, group: str) -> None:
         """Open the panel of a group that was last in front, else its first."""
-        first = next(key for key, own in self._groups.items() if own == group)
-        self.chosen.emit(self._last.get(group, first))
+        free = [key for key, own in self._groups.items() if own == group and key not in self._elsewhere]
+        last = self._last.get(group, "")
+        self.chosen.emit(last if last in free else free[0])
 
     def _show_group(self) -> None:
         """Show the tabs of the group in front and hide the others."""
@@ -110,7 +132,8 @@ class Tabs(QTabWidget):
         self._last[group] = self.current()
         self.buttons.mark(group)
         for k in range(self.count()):
-            self.setTabVisible(k, self._groups[self._key(k)] == group)
+            key = self._key(k)
+            self.setTabVisible(k, self._groups[key] == group and key not in self._elsewhere)
 
     def _all_panels(self, entries: tuple[PanelEntry, ...]) -> QMenu:
         menu = QMenu(self)
@@ -120,31 +143,22 @@ class Tabs(QTabWidget):
                 menu.addAction(tr(entry.title), partial(self.chosen.emit, entry.key))
         return menu
 
-    def _tools(self) -> QWidget:
-        holder = QWidget(self)
-        row = QHBoxLayout(holder)
-        row.setContentsMargins(0, 1, 0, 3)
-        row.setSpacing(SPACE // 2)
-        self.apart, everything = QToolButton(holder), QToolButton(holder)
-        for button, words in ((self.apart, APART[False]), (everything, ("All", ALL))):
-            button.setObjectName("small")
-            _name(button, *words)
-            row.addWidget(button)
-        everything.setShortcut("Alt+0")
-        self.apart.clicked.connect(self.detach)
-        everything.setMenu(self.menu)
-        everything.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        return holder
 
+class MenuButton(QToolButton):
+    """A small button that opens a menu, with a chevron."""
 
-def _name(button: QToolButton, text: str, tip: str) -> None:
-    button.setText(tr(text))
-    button.setToolTip(tr(tip))
-    button.setAccessibleName(tr(tip))
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setObjectName("menu")
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the button, then the chevron."""
+        super().paintEvent(event)
+        paint_chevron(self)
 
 
 class GroupButtons(QWidget):
-    """One button for each group, one of them checked; Alt+1, Alt+2 … press them."""
+    """One button for each group, one of them checked, or one for ``all``, which names the group in front."""
 
     chosen = Signal(str)
 
@@ -152,23 +166,50 @@ class GroupButtons(QWidget):
         super().__init__(parent)
         self._group = QButtonGroup(self)
         self.named: dict[str, QPushButton] = {}
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, SPACE, 3)
-        row.setSpacing(2)
+        self._row = QHBoxLayout(self)
+        self._row.setContentsMargins(0, 1, SPACE, 3)
+        self._row.setSpacing(2)
         for number, group in enumerate(groups, 1):
             button = QPushButton(tr(group), self)
             button.setObjectName("group")
             button.setCheckable(True)
-            button.setShortcut(f"Alt+{number}")
             button.setToolTip(tr("Panels of the group {group} (Alt+{number})", group=tr(group), number=number))
             button.clicked.connect(lambda _, group=group: self.chosen.emit(group))
             self._group.addButton(button)
             self.named[group] = button
-            row.addWidget(button)
+            self._row.addWidget(button)
+        self.all = MenuButton(self)
+        self.all.setToolTip(tr(ALL))
+        self.all.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.all.setShortcut("Alt+0")
+        self._row.addWidget(self.all)
+        self.show_all(True)
+
+    def wide(self) -> int:
+        """Return the width that a button for each group takes."""
+        parts = [*self.named.values(), self.all]
+        return sum(part.sizeHint().width() + self._row.spacing() for part in parts) + SPACE
+
+    def show_all(self, shown: bool) -> None:
+        """Show a button for each group, or only the one for all."""
+        for button in self.named.values():
+            button.setVisible(shown)
+        self._all_only = not shown
+        self._name_all()
 
     def mark(self, group: str) -> None:
         """Show which group is in front."""
         self.named[group].setChecked(True)
+        self._name_all()
+
+    def _name_all(self) -> None:
+        """Name the button for all panels after the group in front where it stands alone."""
+        group = next((name for name, button in self.named.items() if button.isChecked()), "")
+        words = tr(group if self._all_only and group else "All")
+        if self.all.text() != words:
+            self.all.setText(words)
+            self.all.setAccessibleName(tr(ALL))
+            self.adjustSize()
 
 
 class OwnWindow(QWidget):
@@ -227,18 +268,3 @@ def right_of(keep: QRect, screen: QRect) -> QRect:
 def left_of(keep: QRect, screen: QRect) -> QRect:
     """Return what the screen has at the left of a rectangle."""
     return QRect(screen.topLeft(), QPoint(min(keep.left() - 1, screen.right()), screen.bottom()))
-
-
-def page(key: str) -> QWidget:
-    """Return the page of a tab, with the note to show while its panel stands elsewhere."""
-    made = QWidget()
-    made.setObjectName(key)
-    column = QVBoxLayout(made)
-    column.setContentsMargins(0, 0, 0, 0)
-    note = QLabel(tr("This panel stands in its own window; close that window to have it back here."), made)
-    note.setObjectName("muted")
-    note.setAlignment(Qt.AlignmentFlag.AlignCenter)
-    note.setWordWrap(True)  # so that it fits a narrow place of the grid
-    note.hide()
-    column.addWidget(note)
-    return made

@@ -6,8 +6,8 @@ from time import perf_counter
 from typing import TypeVar
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDragLeaveEvent, QDropEvent, QGuiApplication
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDragLeaveEvent, QDropEvent, QGuiApplication, QKeyEvent
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
@@ -27,16 +27,19 @@ from p2sf_explorer.playback.filming import Filming
 from p2sf_explorer.playback.play_bar import PlayBar
 from p2sf_explorer.shell.actions import Actions, PanelAccess
 from p2sf_explorer.shell.bars import Banner, StatusLine, TopBar
-from p2sf_explorer.shell.controls import Controls
-from p2sf_explorer.shell.floating_panels import FloatingPanels
+from p2sf_explorer.shell.controls import WIDTH, Controls
+from p2sf_explorer.shell.floating_panels import FloatingPanels, Home
 from p2sf_explorer.shell.memory_trim import MemoryTrim
 from p2sf_explorer.shell.no_answer import NO_ANSWER, drawn
 from p2sf_explorer.shell.sharing import Sharing
-from p2sf_explorer.shell.tabs import Tabs, page
+from p2sf_explorer.shell.stage import PanelRoom, ShareSplitter
+from p2sf_explorer.shell.tabs import Tabs
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.link import is_link
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import Display, State
+from p2sf_explorer.state.workspaces import exchanged, kept_in_rail, on_stage, placed, put_to_tabs
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.copying import card_in_hand
 from p2sf_explorer.widgets.drop import DropFrame, dropped, is_photo
 from p2sf_explorer.workers.deferred import DeferredWorker
 from p2sf_explorer.workers.live_accuracy import AccuracyDisplay, LiveAccuracy, asked_for
@@ -45,21 +48,9 @@ from p2sf_explorer.workers.worker import LatestWins
 T = TypeVar("T")
 
 
-def splitter(orientation: Qt.Orientation, widgets: list[QWidget], shares: tuple[int, ...]) -> QSplitter:
-    """Return a splitter whose parts have these shares of its length."""
-    made = QSplitter(orientation)
-    made.setHandleWidth(SPACE)
-    made.setChildrenCollapsible(False)
-    for k, (widget, share) in enumerate(zip(widgets, shares, strict=True)):
-        made.addWidget(widget)
-        made.setStretchFactor(k, share)
-    made.setSizes([100 * share for share in shares])
-    return made
-
-
 ENTRIES = {entry.key: entry for entry in REGISTRY}
-MAIN = tuple(entry.key for entry in REGISTRY if entry.place == "main")
-TABS = tuple(entry for entry in REGISTRY if entry.place != "main")
+DIGIT_MODIFIERS = Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.KeypadModifier
+ALWAYS = "layout", "psf", "coefficients"  # panels that other parts of the window speak to
 
 
 class MainWindow(QMainWindow):
@@ -76,11 +67,13 @@ class MainWindow(QMainWindow):
         self.live: Live | None = None
         self._answers: Answers | None = None
         self.frame_ms: float | None = None
+        self.display = placed(self.store.state.display, tuple(ENTRIES))
+        self._placed_from: Display | None = None
         self._theme: Tokens = tokens(self.store.state.display.theme, self.store.state.display.colours)
         self._styled: dict[str, Tokens] = {}
         self.panels: dict[str, Panel] = {}
         self._make_bars()
-        for key in MAIN:
+        for key in ALWAYS:
             self._build(key)
         self._lay_out()
         self._make_helpers(measured)
@@ -91,9 +84,9 @@ class MainWindow(QMainWindow):
     def _make_bars(self) -> None:
         """Make everything around the panels, and the pages that the panels stand on."""
         self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
-        self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(TABS, self)
-        self.homes = {key: page(key) for key in MAIN} | self.tabs.pages()
-        self.floating = FloatingPanels(self, self.store, self.homes, REGISTRY)
+        self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(REGISTRY, self)
+        self.room = PanelRoom(self.tabs, self)
+        self.floating = FloatingPanels(self, self.store, {entry.key: entry.title for entry in REGISTRY})
         self.compare = CompareBar(self, self.store)
         filming = Filming(self.store, self.refresh, self.is_busy, self._pause_accuracy, self)
         self.play = PlayBar(self.store, filming, self._part, self)
@@ -105,18 +98,19 @@ class MainWindow(QMainWindow):
         self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
         self.drop_frame = DropFrame(self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
-        self.lesson_room = LessonRoom(self.middle, self.main_row, self.column, self.controls.rows)
+        self.lesson_room = LessonRoom(self.left_parts, self.column, self.controls)
         self.teaching = LessonController(self.store, self, self.lesson_room)
         access = PanelAccess(
             live=lambda: self.live,
             open=self.open_panel,
+            stage=self.take_stage,
             card=lambda key: self.panels[key].widget,
-            in_front=lambda: self.panels[self.tabs.current()].widget,
+            in_front=lambda: self.panels[self.display.stage].widget,
             explain=self._explain,
-            detach=self.tabs.detach,
+            detach=self._detach,
         )
         self.commands = Actions(self, self.store, self.top, access)
-        for part in (self.sharing, self.compare, self.play, self.teaching):
+        for part in (self.sharing, self.compare, self.play, self.teaching, self.tabs):
             for command in part.commands():
                 self.commands.add(command)
         self.sharing.fill(self.top.snapshot.menu())
@@ -133,22 +127,30 @@ class MainWindow(QMainWindow):
         self.store.refused.connect(self.refuse)
         self.store.said.connect(self.status.say)
         self.tabs.detach_asked.connect(self.floating.toggle)
+        self.tabs.stage_asked.connect(lambda key: self._move_to("stage", key))
+        self.tabs.dropped.connect(lambda key: self._exchange(key, self.display.tab))
+        self.room.dropped.connect(lambda key, number: self._exchange(key, self._places()[number]))
+        self.room.resized.connect(lambda entries: self.store.update(**entries))
         self.tabs.currentChanged.connect(self._on_tab)
         self.tabs.chosen.connect(self.open_panel)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_scheme)
 
     def _lay_out(self) -> None:
-        self.main_row = splitter(Qt.Orientation.Horizontal, [self.homes[key] for key in MAIN[1:]], (19, 19, 17))
-        self.stack = splitter(Qt.Orientation.Vertical, [self.homes[MAIN[0]], self.main_row, self.tabs], (27, 41, 32))
-        self.middle = QHBoxLayout()
-        self.middle.setSpacing(SPACE)
-        self.middle.addWidget(self.controls)
+        middle = QHBoxLayout()
+        middle.setSpacing(SPACE)
+        self.left = QWidget(self)  # a splitter sets its own largest size, so that another widget has to have it
+        self.left_parts = ShareSplitter(Qt.Orientation.Vertical)
+        self.left_parts.addWidget(self.controls)
+        column = QVBoxLayout(self.left)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.left_parts)
+        middle.addWidget(self.left)
         right = QVBoxLayout()
         right.setSpacing(SPACE)
         right.addWidget(self.compare)
         right.addWidget(self.play)
-        right.addWidget(self.stack, 1)
-        self.middle.addLayout(right, 1)
+        right.addWidget(self.room, 1)
+        middle.addLayout(right, 1)
         body = QWidget(self)
         body.setObjectName("window")
         self.column = QVBoxLayout(body)
@@ -156,7 +158,7 @@ class MainWindow(QMainWindow):
         self.column.setSpacing(SPACE)
         self.column.addWidget(self.top)
         self.column.addWidget(self.banner)
-        self.column.addLayout(self.middle, 1)
+        self.column.addLayout(middle, 1)
         self.column.addWidget(self.status)
         self.setCentralWidget(body)
         self.resize(1440, 900)
@@ -213,9 +215,48 @@ class MainWindow(QMainWindow):
         self.top.show_state(self.store.state, self._theme.dark)
 
     def open_panel(self, key: str) -> None:
-        """Bring a panel to the front."""
-        if key not in MAIN:
-            self.store.update(tab=key)
+        """Bring a panel on show, and to the front of the tabs where it is not on the stage or in the rail."""
+        if key in self.floating.open:
+            self.floating.open[key].raise_()
+        elif key != self.display.stage:
+            self.store.update(**({} if key in self.display.rail else {"tab": key}), show_rail=True)
+
+    def take_stage(self, key: str) -> None:
+        """Put a panel on the stage; what it displaces takes its place."""
+        self.store.update(**on_stage(self.display, key))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Put the satellite of a digit on the stage, unless the digit is typed into a value or a table.
+
+        A table passes on even those keys that begin an edit.
+        """
+        number, typed = event.key() - Qt.Key.Key_0, isinstance(QApplication.focusWidget(), QLineEdit)
+        shown = 1 <= number < len(self._places()) and self.display.show_rail
+        if shown and event.modifiers() in DIGIT_MODIFIERS and not typed:
+            self.take_stage(self._places()[number])
+        else:
+            super().keyPressEvent(event)
+
+    def _places(self) -> tuple[str, ...]:
+        """Return the panels in their order: the stage, the satellites, the tab in front."""
+        return (self.display.stage, *self.display.rail, self.display.tab)
+
+    def _exchange(self, key: str, other: str) -> None:
+        if key in ENTRIES:  # a title may come from another program's window
+            self.store.update(**exchanged(self.display, key, other))
+
+    def _move_to(self, place: str, key: str) -> None:
+        """Put a panel where its card asks for; asked for again, the stage takes the room of the rail, or gives it."""
+        if place == "stage" and key == self.display.stage:
+            self.store.update(show_rail=not self.display.show_rail)
+        else:
+            moves = {"stage": on_stage, "rail": kept_in_rail, "tabs": put_to_tabs}
+            self.store.update(**moves[place](self.display, key))
+
+    def _detach(self) -> None:
+        """Give the panel in hand a window of its own, or take it back."""
+        card = card_in_hand(self, self.panels[self.display.stage].widget)
+        self.floating.toggle(next(key for key, panel in self.panels.items() if panel.widget is card))
 
     def _painted(self, begun: float) -> None:
         self.frame_ms = 1e3 * (perf_counter() - begun)
@@ -245,7 +286,9 @@ class MainWindow(QMainWindow):
 
     def _part(self, key: str) -> QWidget:
         """Return the part of the window that a film shows."""
-        parts: dict[str, QWidget] = {"stack": self.stack, "tabs": self.tabs}
+        parts: dict[str, QWidget] = {"stack": self.room, "stage": self.room.stage, "tabs": self.tabs}
+        if key not in (*parts, *self._visible()):
+            self.open_panel(key)
         return parts.get(key) or self.panels[key].widget
 
     def _explain(self, refused: Refusal) -> None:
@@ -265,31 +308,49 @@ class MainWindow(QMainWindow):
         return not self.banner.isVisible()
 
     def _visible(self) -> tuple[str, ...]:
-        """Return the panels on show: the main ones, the open tab, and those in windows of their own."""
-        return tuple(dict.fromkeys((*MAIN, self.tabs.current(), *self.floating.open)))
+        """Return the panels on show: on the stage, in the rail, in front of the tabs, in windows of their own."""
+        inside = self._places() if self.display.show_rail else (self.display.stage,)
+        return tuple(dict.fromkeys((*inside, *self.floating.open)))
 
     def _wanted(self) -> dict[str, compute.ResultFunction]:
         views = {key: view_of(ENTRIES[key]) for key in self._visible()}
         return {key: view for key, view in views.items() if view}
 
     def _bring_up(self, state: State) -> None:
-        """Bring the state's tab to the front and its panels into their own windows, building each the first time."""
-        pages = self.tabs.pages()
-        key = state.display.tab if state.display.tab in pages else next(iter(pages))
-        apart = tuple(name for name in state.display.windows if name in self.homes)
-        for name in {key, *apart} - set(self.panels):
-            self._build(name)
-        self.floating.follow(apart, self.panels)
-        self.floating.bring_up(key, self.panels, self.tabs.bring_up)
-        self.tabs.show_apart(apart)
+        """Put the state's panels where they stand, building each the first time it is on show."""
+        if state.display is not self._placed_from:  # a slider changes nothing here
+            self._placed_from, self.display = state.display, placed(state.display, tuple(ENTRIES))
+            self._place_panels(self.display)
+        self.controls.setVisible(state.display.show_controls)
+        self.left.setVisible(state.display.show_controls or self.teaching.active)
         for name in self._visible():
             self._style(name)
 
+    def _place_panels(self, display: Display) -> None:
+        apart = tuple(key for key in display.windows if key in ENTRIES)
+        homes = self._homes(display)
+        for key in {*homes, *apart} - set(self.panels):
+            self._build(key)
+        self.room.arrange(display)
+        elsewhere = display.stage, *display.rail
+        self.floating.follow(homes, apart, self.panels, lambda: self.tabs.bring_up(display.tab, elsewhere))
+
+    def _homes(self, display: Display) -> dict[str, Home]:
+        """Return where the panels on show stand inside the window."""
+        homes = {display.stage: Home(self.room.stage, "stage")}
+        if display.show_rail:
+            self.room.make_satellites(len(display.rail))
+            rail = zip(display.rail, self.room.satellites, strict=False)  # those beyond are hidden
+            homes |= {key: Home(place, "rail") for key, place in rail}
+            homes[display.tab] = Home(self.tabs.pages()[display.tab], "tabs")
+        return homes
+
     def _build(self, key: str) -> None:
         self.panels[key] = made = build(ENTRIES[key], self.store)
+        made.widget.key = key
         made.widget.apart_asked.connect(partial(self.floating.toggle, key))
+        made.widget.place_asked.connect(lambda place: self._move_to(place, key))
         made.widget.theory_asked.connect(lambda: self.commands.theory(key))
-        self.floating.place(key, made.widget)
 
     def _on_tab(self) -> None:
         self.store.update(tab=self.tabs.current())
@@ -307,6 +368,7 @@ class MainWindow(QMainWindow):
     def _apply_theme(self) -> None:
         QApplication.setPalette(palette(self._theme))
         self.setStyleSheet(stylesheet(self._theme))
+        self.left.setFixedWidth(self._theme.px(WIDTH))
         self.controls.restyle(self._theme)
         self.status.restyle(self._theme)
 
@@ -315,6 +377,7 @@ class MainWindow(QMainWindow):
         if self._styled.get(key) != self._theme:
             self._styled[key] = self._theme
             self.panels[key].restyle(self._theme)
+            self.panels[key].widget.rescale(self._theme.scale)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """End the background work with the window."""

@@ -16,6 +16,7 @@ CHOICES = {
     "theme": ("system", "light", "dark"),
     "shown": ("a", "b", "difference"),
     "photo_show": ("lens", "sharpened", "axis"),
+    "rail_side": ("right", "bottom"),
     "colours": ("standard", "viridis", "cividis", "grey"),
 }
 # The smallest and the largest value that make sense, and the name and unit of the quantity in a sentence.
@@ -27,6 +28,8 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "wavelength_nm": (100.0, 20000.0, Message("wavelength"), "nm"),
     "f_number": (0.2, 1000.0, Message("f-number"), ""),
     "tolerance": (0.0, 1.0, Message("tolerance R²"), ""),
+    "stage_share": (0.1, 0.95, Message("share of the stage"), ""),
+    "scale_percent": (50.0, 300.0, Message("size of type"), "%"),
     "pixel_um": (0.01, 1000.0, Message("pixel"), "µm"),
     "blur_um": (0.01, 10000.0, Message("blur to tolerate"), "µm"),
     "playback_seconds": (0.1, 600.0, Message("duration of a sweep"), "s"),
@@ -45,10 +48,14 @@ LINKABLE = (*DRAGGED, "method", "added_waves")
 ADDED = "added_"  # before a term's name: the slider that adds waves to it
 PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
 KINDS = {str: Message("a text"), bool: Message("true or false"), int: Message("a whole number")}
-OPTIONAL = ("focus_mm", "f_number", "photo_pixel_um")
+OPTIONAL = ("focus_mm", "f_number", "photo_pixel_um", "scale_percent")
 PLAIN: dict[str, type] = {
     "clip": bool,
     "tab": str,
+    "stage": str,
+    "workspace": str,
+    "show_rail": bool,
+    "show_controls": bool,
     "free_pupil": bool,
     "language": str,
     "photo_source": str,

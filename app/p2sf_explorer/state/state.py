@@ -166,9 +166,15 @@ class WhatIf:
 class Display:
     """How the answer is shown.
 
-    ``windows`` names the panels that stand in windows of their own. ``pixel_um`` is the pixel of a sensor, ``blur_um``
-    the diameter of blur that still counts as sharp, ``spectrum`` the light of the colour PSF (`p2sf.colour.spectrum`).
-    ``language`` is a file of ``i18n/languages``, "en", or "system"; ``colours`` are those of the heat maps.
+    The panel ``stage`` is large; those of ``rail`` stand beside it, on ``rail_side``, and after them the tabs, with
+    ``tab`` in front. ``stage_share`` is the stage's part of the room, ``rail_shares`` those of the rail's parts, () for
+    equal ones. ``workspace`` names the arrangement that these began as (`p2sf_explorer.state.workspaces`). ``windows``
+    names the panels that stand in windows of their own. ``scale_percent`` is the size of type and strokes, None for
+    that which suits the screen.
+
+    ``pixel_um`` is the pixel of a sensor, ``blur_um`` the diameter of blur that still counts as sharp, ``spectrum`` the
+    light of the colour PSF (`p2sf.colour.spectrum`). ``language`` is a file of ``i18n/languages``, "en", or "system";
+    ``colours`` are those of the heat maps.
     """
 
     psf_scale: str = "sqrt"
@@ -177,17 +183,34 @@ class Display:
     theme: str = "system"
     colours: str = "standard"
     language: str = "system"
+    workspace: str = "explore"
+    stage: str = "psf"
+    rail: tuple[str, ...] = ("layout", "coefficients")
+    rail_side: str = "right"
+    rail_shares: tuple[float, ...] = ()
+    stage_share: float = 0.56
+    show_rail: bool = True
+    show_controls: bool = True
     tab: str = "profiles"
     windows: tuple[str, ...] = ()
+    scale_percent: float | None = None
     pixel_um: float = 4.0
     blur_um: float = 30.0
     spectrum: str = "d65"
 
     def __post_init__(self) -> None:
         _check_entries(self)
-        if not isinstance(self.windows, list | tuple) or not all(isinstance(name, str) for name in self.windows):
-            raise P2SFError("the state's windows must be a list of panels' names; correct it or leave it out")
-        object.__setattr__(self, "windows", tuple(self.windows))  # a file has a list
+        for name in ("windows", "rail"):
+            found = getattr(self, name)
+            if not isinstance(found, list | tuple) or not all(isinstance(panel, str) for panel in found):
+                raise P2SFError(
+                    "the state's {name} must be a list of panels' names; correct it or leave it out", name=name
+                )
+            object.__setattr__(self, name, tuple(found))  # a file has a list
+        if not isinstance(self.rail_shares, tuple):
+            raise P2SFError("rail_shares is {value}; give a list of numbers", value=_quoted(self.rail_shares))
+        for share in self.rail_shares:
+            _check_number(share, "rail_shares", (0.0, 1.0), Message("share of a panel beside the stage"), "")
         spectrum_of(self.spectrum)
 
 

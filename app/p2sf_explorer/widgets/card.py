@@ -1,8 +1,9 @@
 """The frame of every panel: a title, tools, a readout, and the picture."""
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPointF, Qt, Signal
+from PySide6.QtCore import QMimeData, QModelIndex, QPersistentModelIndex, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QContextMenuEvent,
+    QDrag,
     QMouseEvent,
     QPainter,
     QPaintEvent,
@@ -12,6 +13,7 @@ from PySide6.QtGui import (
     QResizeEvent,
 )
 from PySide6.QtWidgets import (
+    QApplication,
     QComboBox,
     QFrame,
     QHBoxLayout,
@@ -19,6 +21,7 @@ from PySide6.QtWidgets import (
     QSizePolicy,
     QStyledItemDelegate,
     QStyleOptionViewItem,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -28,22 +31,65 @@ from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.widgets.copying import copy_menu
 
 LIST_AIR = 24  # pixels beside the longest line of an open list
+PANEL_MIME = "application/x-p2sf-panel"  # of a panel's key while its title is dragged
+TALLEST = 200  # pixels at scale 1: a panel that needs more than this is cut, or scrolls, where there is less
+DRAGGED_PX = 240  # width of the small picture under the pointer
+TO_STAGE = "Put this panel on the stage (double-click its title, or drag it there)"
+APART = "Open this panel in its own window, or put it back (Ctrl+D)"
+
+
+class CornerButton(QToolButton):
+    """A small button that paints its sign: "stage", a frame that grows, or "window", one frame before another."""
+
+    def __init__(self, sign: str, tip: str, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._sign = sign
+        self.setObjectName("flat")
+        self.setToolTip(tr(tip))
+        self.setAccessibleName(tr(tip))
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.rescale(1.0)
+
+    def rescale(self, scale: float) -> None:
+        """Take a scale of type."""
+        self.setFixedSize(QSize(round(22 * scale), round(22 * scale)))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the frame of a flat button, then the sign, 10 pixels wide at scale 1."""
+        super().paintEvent(event)
+        painter, unit = QPainter(self), self.width() / 22
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        role = QPalette.ColorRole.WindowText if self.underMouse() else QPalette.ColorRole.PlaceholderText
+        painter.translate(self.width() / 2, self.height() / 2)
+        painter.scale(unit, unit)
+        painter.setPen(QPen(self.palette().color(role), 1.3))
+        if self._sign == "stage":
+            painter.drawRoundedRect(QRectF(-5.5, -5, 11, 10), 1.5, 1.5)
+            painter.fillRect(QRectF(-3.5, -3, 7, 6), self.palette().color(role))
+        else:
+            painter.drawRoundedRect(QRectF(-5.5, -1.5, 7.5, 6.5), 1, 1)
+            painter.drawPolyline(
+                QPolygonF([QPointF(*at) for at in ((-2.5, -1.5), (-2.5, -5), (5.5, -5), (5.5, 2), (2, 2))])
+            )
 
 
 class Card(QFrame):
     """A titled frame; ``readout`` is a line of numbers at the right of the title.
 
-    ``apart_asked``: the panel is to have a window of its own, or to come back from it. ``theory_asked``: the handbook
-    is to open at the panel's section.
+    ``place_asked``: the panel is to stand on the "stage", in the "rail" or under the "tabs". ``apart_asked``: it is to
+    have a window of its own, or to come back from it. ``theory_asked``: the handbook is to open at the panel's section.
+    ``key`` is the panel's, which a drag of the title carries; ``smallest`` is the least size in pixels at scale 1.
     """
 
+    place_asked = Signal(str)
     apart_asked = Signal()
     theory_asked = Signal()
+    key = ""
+    smallest = 180, 120
 
     def __init__(self, title: str, tip: str = "", parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("card")
-        self.setMinimumSize(180, 120)
         self._title = tr(title)
         self.title, self.readout = QLabel(self._title, self), QLabel(self)
         self.note = QLabel(self)
@@ -56,44 +102,137 @@ class Card(QFrame):
         self.readout.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.head = QHBoxLayout()
-        self.head.setSpacing(8)
         self.head.addWidget(self.title)
         self.head.addWidget(self.readout, 1)
+        self.corner = QHBoxLayout()
+        self.corner.setSpacing(0)
+        self.to_stage, self.apart = CornerButton("stage", TO_STAGE, self), CornerButton("window", APART, self)
+        self.to_stage.clicked.connect(lambda: self.place_asked.emit("stage"))
+        self.apart.clicked.connect(self.apart_asked)
+        for button in (self.to_stage, self.apart):
+            self.corner.addWidget(button)
+        self.head.addLayout(self.corner)
         self.under = QHBoxLayout()  # for the tools where they do not fit beside the title
         self.tools: list[QWidget] = []
+        self._place, self._pressed = "tabs", QPointF(-1, -1)
         self.column = QVBoxLayout(self)
-        self.column.setContentsMargins(10, 7, 10, 8)
-        self.column.setSpacing(5)
+        self.column.setSizeConstraint(QVBoxLayout.SizeConstraint.SetNoConstraint)  # see `minimumSizeHint`
+        self.lines = self.column  # of which the title's is one
         self.column.addLayout(self.head)
         self.column.addLayout(self.under)
         self.column.addWidget(self.note)
         self.overlay = Overlay(self)
+        self.rescale(1.0)
+
+    def rescale(self, scale: float) -> None:
+        """Take a scale of type: margins, gaps and the least size follow it."""
+        self._scale = scale
+        self.updateGeometry()
+        self.column.setContentsMargins(*(round(scale * margin) for margin in (10, 7, 8, 8)))
+        self.column.setSpacing(round(5 * scale))
+        self.head.setSpacing(round(8 * scale))
+        for button in (self.to_stage, self.apart):
+            button.rescale(scale)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the least size: as high as the contents need, within reason, and as wide as a narrow rail."""
+        wide, high = (round(self._scale * side) for side in self.smallest)
+        return QSize(wide, max(high, min(self.column.minimumSize().height(), round(TALLEST * self._scale))))
+
+    def stand(self, place: str) -> None:
+        """Take note of the place: "stage", "rail", "tabs", or a "window" of its own."""
+        self._place = place
+        self.to_stage.setVisible(place != "stage")
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Move the tools to a line of their own where they do not fit beside the title, and back where they do."""
         super().resizeEvent(event)
-        parts = [self.title, *(tool for tool in self.tools if not tool.isHidden())]
-        needed = sum(part.sizeHint().width() + self.head.spacing() for part in parts)
-        margins = self.column.contentsMargins()
-        fits = needed <= self.width() - margins.left() - margins.right()
-        before, after = (self.under, self.head) if fits else (self.head, self.under)
+        self._fit_head()
+
+    def _fit_head(self) -> None:
+        """Put tools, and then the readout, on lines of their own where they do not fit beside the title."""
+        gap = self.head.spacing()
+        room = self._title_room() - self.corner.sizeHint().width() - self.title.sizeHint().width() - 2 * gap
+        tools = sum(tool.sizeHint().width() + gap for tool in self.tools if not tool.isHidden())
+        fits = tools <= room
         for tool in self.tools:
-            if before.indexOf(tool) >= 0:
-                before.removeWidget(tool)
-                after.addWidget(tool)
+            if (self.under if fits else self.head).indexOf(tool) >= 0:
+                (self.under if fits else self.head).removeWidget(tool)
+                self._put(tool, fits)
+        words = self.readout.sizeHint().width() if self.readout.text() else 0
+        self._put_readout(words + (tools if fits else 0) <= room)
+
+    def _title_room(self) -> int:
+        """Return the width of the title's line."""
+        margins = self.column.contentsMargins()
+        return self.width() - margins.left() - margins.right()
+
+    def _put_readout(self, beside_title: bool) -> None:
+        if beside_title == (self.head.indexOf(self.readout) >= 0):
+            return
+        if beside_title:
+            self.lines.removeWidget(self.readout)
+            self.head.insertWidget(1, self.readout, 1)
+        else:
+            self.head.removeWidget(self.readout)
+            self.lines.insertWidget(self.lines.indexOf(self.head) + 1, self.readout)
+        side = Qt.AlignmentFlag.AlignRight if beside_title else Qt.AlignmentFlag.AlignLeft
+        self.readout.setAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+
+    def _put(self, tool: QWidget, beside_title: bool) -> None:
+        """Put a tool before the buttons of the corner, or on the line below."""
+        if beside_title:
+            self.head.insertWidget(self.head.indexOf(self.corner), tool)
+        else:
+            self.under.addWidget(tool)
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
-        """Offer the panel's picture, its data, and a window of its own."""
+        """Offer the panel's picture, its data, and its places."""
         menu = copy_menu(self)
         menu.addSeparator()
         menu.addAction(tr("Theory of this panel"), self.theory_asked.emit)
+        menu.addSeparator()
+        if self._place != "stage":
+            menu.addAction(tr("On the stage"), lambda: self.place_asked.emit("stage"))
+        if self._place in ("tabs", "window"):
+            menu.addAction(tr("Keep beside the stage"), lambda: self.place_asked.emit("rail"))
+        if self._place == "rail":
+            menu.addAction(tr("Back to the tabs"), lambda: self.place_asked.emit("tabs"))
         menu.addAction(tr("In its own window, or back") + "\tCtrl+D", self.apart_asked.emit)
         menu.popup(event.globalPos())
 
+    def _on_title(self, place: QPointF) -> bool:
+        return self.head.geometry().contains(place.toPoint())
+
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Ask for a window of its own, or to come back, on a double-click on the title line."""
-        if event.position().y() < self.head.geometry().bottom():
-            self.apart_asked.emit()
+        """Ask for the stage on a double-click on the title line."""
+        if self._on_title(event.position()):
+            self.place_asked.emit("stage")
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Note where the title is taken."""
+        taken = event.button() == Qt.MouseButton.LeftButton and self._on_title(event.position())
+        self._pressed = event.position() if taken else QPointF(-1, -1)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Drag the panel by its title."""
+        far = (event.position() - self._pressed).manhattanLength() >= QApplication.startDragDistance()
+        if self._pressed.x() >= 0 and far and event.buttons() & Qt.MouseButton.LeftButton:
+            self._pressed = QPointF(-1, -1)
+            self.drag_title()
+
+    def drag_title(self) -> None:
+        """Drag a small picture of the panel until it is dropped."""
+        drag = QDrag(self)
+        drag.setMimeData(self.mime_data())
+        drag.setPixmap(self.grab().scaledToWidth(DRAGGED_PX, Qt.TransformationMode.SmoothTransformation))
+        drag.exec(Qt.DropAction.MoveAction)
+
+    def mime_data(self) -> QMimeData:
+        """Return what a drag of the title carries: the panel's key."""
+        data = QMimeData()
+        data.setData(PANEL_MIME, self.key.encode())
+        return data
 
     def add_footer(self, *widgets: QWidget) -> None:
         """Put a line of small widgets under the picture, from the left."""
@@ -106,7 +245,7 @@ class Card(QFrame):
     def add_tool(self, widget: QWidget) -> None:
         """Put a small control at the right end of the title line."""
         self.tools.append(widget)
-        self.head.addWidget(widget)
+        self._put(widget, True)
 
     def show_side(self, side: str, why: str = "") -> None:
         """Name the side of a comparison behind the title; say below, as it is, why no difference is shown."""
@@ -133,6 +272,8 @@ class Card(QFrame):
         if self.readout.text() != text:
             self.readout.setText(text)
             self.readout.setToolTip(text)
+            if self.head.indexOf(self.readout) >= 0:  # it goes back there when the card is resized
+                self._fit_head()
 
 
 def paint_chevron(widget: QWidget) -> None:
@@ -195,19 +336,32 @@ SIDE_PX = 196
 
 
 class SideCard(Card):
-    """A card with title, readout and controls in a column of ``SIDE_PX`` pixels, and the picture beside it."""
+    """A card with title, readout and controls in a column of ``SIDE_PX`` pixels at scale 1, and the picture beside."""
+
+    _strut: QWidget | None = None
 
     def __init__(self, title: str, tip: str = "", parent: QWidget | None = None):
         super().__init__(title, tip, parent)
         self.side, self.whole = QVBoxLayout(), QHBoxLayout()
-        self.side.addStrut(SIDE_PX)
+        self._strut = QWidget(self)
+        self.side.addWidget(self._strut)
         self.side.setSpacing(4)
         self.column.removeItem(self.head)
         self.head.setParent(None)
         self.side.addLayout(self.head)
+        self.lines = self.side
         self.whole.setSpacing(10)
         self.whole.addLayout(self.side)
         self.column.addLayout(self.whole, 1)
+
+    def rescale(self, scale: float) -> None:
+        """Take a scale of type, which widens the column too."""
+        super().rescale(scale)
+        if self._strut:
+            self._strut.setFixedSize(round(SIDE_PX * scale), 0)
+
+    def _title_room(self) -> int:
+        return self._strut.width() if self._strut else 0
 
     def add_line(self, *widgets: QWidget) -> None:
         """Add a line of small controls under the others, as wide as the column."""

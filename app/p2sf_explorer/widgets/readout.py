@@ -1,7 +1,7 @@
 """Numbers that change with every frame, painted directly: a QLabel would lay out the window again for each."""
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
 
 from p2sf.messages import Message
@@ -167,12 +167,15 @@ class FactTable(QWidget):
 class Scrolling(QScrollArea):
     """A scroll area that keeps its contents clear of the scroll bar."""
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.verticalScrollBar().rangeChanged.connect(self._make_room)
+
+    def _make_room(self, first: int, last: int) -> None:
         """Leave a margin beside the bar, and none where there is no bar."""
-        super().resizeEvent(event)
         body = self.widget()
         if body and (layout := body.layout()):
-            layout.setContentsMargins(0, 0, BAR_AIR if self.verticalScrollBar().isVisible() else 0, 0)
+            layout.setContentsMargins(0, 0, BAR_AIR if last > first else 0, 0)
 
 
 def scrolled(table: FactTable, at_foot: bool = True) -> QScrollArea:

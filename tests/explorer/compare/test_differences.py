@@ -46,7 +46,7 @@ def test_every_panel_either_differs_or_says_why():
 def test_in_the_window_every_panel_names_its_side_and_says_why(window):
     window.store.replace(changed(PAIR, shown="difference"))
     for key in (key for key in ENTRIES if key not in STILL):
-        window.store.update(tab=key if ENTRIES[key].place == "tab" else "profiles")
+        window.open_panel(key)
         card = window.panels[key].widget
         assert card.note.isVisible() == (key in WHY)
         assert card.note.text() == str(WHY.get(key, ""))

@@ -80,9 +80,8 @@ def german(only_window):
         made.resize(1440, 900)
         made.show()
         for entry in REGISTRY:
-            if entry.place != "main":
-                made.open_panel(entry.key)
-                made.grab()
+            made.open_panel(entry.key)
+            made.grab()
         help_text(tuple(made.commands.commands))
         for command in made.commands.everything():
             named(command)
@@ -148,7 +147,7 @@ def test_every_label_and_button_fits(german, size):
 def test_what_is_sharp_is_said_whole_beside_the_german_curves(german):
     window, _ = german
     window.resize(1280, 800)
-    window.store.update(tab="depth_of_field", depth_mm=12345.6, focus_mm=15000.0, f_number=8.0)
+    window.store.update(stage="depth_of_field", stage_share=0.8, depth_mm=12345.6, focus_mm=15000.0, f_number=8.0)
     QApplication.processEvents()
     readout = window.panels["depth_of_field"].widget.readout
     assert "scharf von" in readout.text() and readout.sizeHint().width() <= readout.width()

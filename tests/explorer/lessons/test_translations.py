@@ -12,6 +12,7 @@ from p2sf_explorer.lessons import controller as teaching
 from p2sf_explorer.lessons.controller import UNTRANSLATED, LessonController
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, read_lesson, with_words
 from p2sf_explorer.lessons.lesson_panel import LessonPanel
+from p2sf_explorer.shell.controls import WIDTH
 
 NAMES = [path.name for path in lesson_files()]
 NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
@@ -125,7 +126,7 @@ def test_every_title_fits_into_the_list_beside_a_window_of_1280(window, language
     """The box is closed and shows one title; cut off, it is the one thing that says which lesson this is."""
     lessons = found_lessons((FOLDER,), language)[0]
     panel = LessonPanel(tuple(lessons.values()), window)
-    panel.fit(1280)
+    panel.resize(WIDTH, 420)
     panel.show_step(lessons["05_coma"], 0, False)
     panel.show()
     QApplication.processEvents()

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QLineEdit, QWid
 from p2sf_explorer.panels import REGISTRY
 from tests.explorer.panels.test_strip_and_map import filled
 
-TABS = [entry.key for entry in REGISTRY if entry.place != "main" and entry.key != "solid"]
+TABS = [entry.key for entry in REGISTRY if entry.key != "solid"]
 MOST = 200
 
 

@@ -14,9 +14,9 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shipped
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.lens_table import LensTablePanel
 from p2sf_explorer.shell.tabs import Tabs
-from p2sf_explorer.shell.window import TABS
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.readout import BAR_AIR, Readout
 
@@ -170,7 +170,7 @@ def test_the_window_fits_a_screen_of_1920_by_1080_at_twice_the_size(window):
 def test_every_groups_tabs_fit_a_small_window_and_no_column_of_the_lens_is_cut(window, language):
     set_language(language)
     try:
-        tabs, table = Tabs(TABS), LensTablePanel(window.store)
+        tabs, table = Tabs(REGISTRY), LensTablePanel(window.store)
         tabs.setStyleSheet(window.styleSheet())
         tabs.resize(964, 200)  # what a window of 1280 pixels leaves them
         tabs.show()

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel
+from PySide6.QtWidgets import QApplication, QToolButton
 from shiboken6 import isValid
 
 from p2sf.errors import P2SFError
@@ -16,7 +16,7 @@ from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
-TABS = [entry for entry in REGISTRY if entry.place != "main"]
+ELSEWHERE = {"psf", "layout", "pupil", "coefficients"}  # on the stage and in the rail of the test's window
 
 
 def shown(window) -> set[str]:
@@ -28,7 +28,7 @@ def shown(window) -> set[str]:
 @pytest.mark.parametrize("group", GROUPS)
 def test_a_group_shows_its_own_tabs_and_no_other(window, qtbot, group):
     qtbot.mouseClick(window.tabs.buttons.named[group], Qt.MouseButton.LeftButton)
-    assert shown(window) == {entry.key for entry in TABS if entry.group == group}
+    assert shown(window) == {entry.key for entry in REGISTRY if entry.group == group} - ELSEWHERE
     assert window.store.state.display.tab in shown(window)
     assert window.tabs.current() == window.store.state.display.tab
 
@@ -36,7 +36,7 @@ def test_a_group_shows_its_own_tabs_and_no_other(window, qtbot, group):
 def test_alt_and_a_number_opens_a_group(window, qtbot):
     qtbot.waitUntil(window.isActiveWindow)
     QTest.keyClick(window, Qt.Key.Key_4, Qt.KeyboardModifier.AltModifier)
-    own = {entry.key for entry in TABS if entry.group == GROUPS[3]}
+    own = {entry.key for entry in REGISTRY if entry.group == GROUPS[3]}
     qtbot.waitUntil(lambda: window.store.state.display.tab in own)  # a shortcut holds its button down for a moment
 
 
@@ -48,15 +48,18 @@ def test_a_group_remembers_its_panel(window, qtbot):
 
 
 def test_the_menu_reaches_every_panel(window):
-    for entry, action in zip(TABS, [a for a in window.tabs.menu.actions() if not a.isSeparator()], strict=True):
-        assert action.text() in {each.title for each in TABS}, entry
+    for entry, action in zip(REGISTRY, [a for a in window.tabs.menu.actions() if not a.isSeparator()], strict=True):
+        assert action.text() in {each.title for each in REGISTRY}, entry
     window.tabs.menu.actions()[-1].trigger()
     assert window.store.state.display.tab == window.tabs.current()
 
 
 def test_the_tabs_of_each_group_fit_a_small_window(window):
     window.resize(1280, 800)
-    room = window.tabs.width() - window.tabs.buttons.width() - window.tabs.cornerWidget().width()
+    window.store.update(rail_side="bottom", rail=(), stage="psf")
+    QApplication.processEvents()
+    assert window.tabs.buttons.named["PSF"].isVisible()
+    room = window.tabs.width() - window.tabs.buttons.width()
     for group in GROUPS:
         window.tabs.open_group(group)
         bar = window.tabs.tabBar()
@@ -64,12 +67,17 @@ def test_the_tabs_of_each_group_fit_a_small_window(window):
     window.resize(1440, 900)
 
 
-def test_a_double_click_gives_a_tab_its_own_window_and_closing_gives_it_back(window, qtbot):
-    bar = window.tabs.tabBar()
-    place = next(k for k in range(window.tabs.count()) if window.tabs.widget(k).objectName() == "mtf")
-    bar.tabBarDoubleClicked.emit(place)  # QTest's double click on a tab does not reach it offscreen
+def press(card, tip: str, qtbot) -> None:
+    button = next(button for button in card.findChildren(QToolButton) if button.toolTip().startswith(tip))
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def test_its_button_gives_a_panel_its_own_window_and_closing_gives_it_back(window, qtbot):
+    window.open_panel("mtf")
+    press(window.panels["mtf"].widget, "Open this panel in its own window", qtbot)
     assert window.store.state.display.windows == ("mtf",)
     own = window.floating.open["mtf"]
+    assert window.tabs.pages()["mtf"].note.isVisible()
     window.open_panel("profiles")
     before = window.panels["mtf"].curves["tangential"].data()[1].copy()
     window.store.update(field_deg=3.0)
@@ -82,19 +90,7 @@ def test_a_double_click_gives_a_tab_its_own_window_and_closing_gives_it_back(win
     window.store.undo()
     window.store.undo()
     assert "mtf" in window.floating.open, "an undone close opens it again"
-
-
-def test_the_button_says_whether_it_pops_a_panel_out_or_puts_it_back(window, qtbot):
-    window.open_panel("mtf")
-    told = [window.tabs.apart.text()]
-    qtbot.mouseClick(window.tabs.apart, Qt.MouseButton.LeftButton)
-    told.append(window.tabs.apart.text())
-    window.open_panel("profiles")
-    told.append(window.tabs.apart.text())
-    window.open_panel("mtf")
-    assert "back under its tab" in window.tabs.apart.toolTip()
-    qtbot.mouseClick(window.tabs.apart, Qt.MouseButton.LeftButton)
-    assert [*told, window.tabs.apart.text()] == ["Pop out", "Put back", "Pop out", "Pop out"]
+    press(window.panels["mtf"].widget, "Open this panel in its own window", qtbot)
     assert not window.store.state.display.windows
 
 
@@ -142,10 +138,11 @@ def test_a_panel_behind_its_tab_goes_with_its_window(qapp):
 
 def test_a_key_puts_the_panel_into_its_own_window_and_back(window, qtbot):
     qtbot.waitUntil(window.isActiveWindow)
+    window.panels["pupil"].widget.tools[0].setFocus()
     QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
-    assert window.store.state.display.windows == ("profiles",)
-    window.floating.toggle("profiles")
-    assert window.store.state.display.windows == () and window.panels["profiles"].widget.window() is window
+    assert window.store.state.display.windows == ("pupil",)
+    window.floating.toggle("pupil")
+    assert window.store.state.display.windows == () and window.panels["pupil"].widget.window() is window
 
 
 def test_a_tab_behind_is_not_computed(window):
@@ -161,12 +158,13 @@ def test_windows_go_into_the_state_file_and_back():
 
 
 @pytest.mark.parametrize("key", ["layout", "pupil", "psf", "coefficients"])
-def test_a_panel_of_the_grid_leaves_its_place_and_comes_back_to_it(window, qtbot, key):
+def test_a_panel_of_stage_or_rail_leaves_its_place_and_comes_back_to_it(window, qtbot, key):
     card = window.panels[key].widget
-    grid = [home.geometry() for home in window.homes.values()][:4]
-    QTest.mouseDClick(card, Qt.MouseButton.LeftButton, pos=QPoint(30, 12))
+    places = [window.room.stage, *window.room.satellites]
+    home, grid = card.parentWidget(), [place.geometry() for place in places]
+    card.apart_asked.emit()
     assert window.store.state.display.windows == (key,) and card.window() is window.floating.open[key]
-    assert window.homes[key].findChild(QLabel, "muted").isVisible()
+    assert home in places and home.note.isVisible()
     window.store.update(field_deg=4.0)
     assert window.live.state.optics.field_deg == 4.0
     own = window.floating.open[key]
@@ -174,8 +172,8 @@ def test_a_panel_of_the_grid_leaves_its_place_and_comes_back_to_it(window, qtbot
     qtbot.waitUntil(own.isActiveWindow)
     qtbot.keyClick(own, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(lambda: window.store.state.display.windows == ())
-    assert card.window() is window and card.isVisible()
-    assert [home.geometry() for home in window.homes.values()][:4] == grid
+    assert card.window() is window and card.isVisible() and card.parentWidget() is home and not home.note.isVisible()
+    assert [place.geometry() for place in places] == grid
 
 
 def test_a_tab_dragged_off_the_bar_has_its_own_window(window):
@@ -206,12 +204,12 @@ def test_own_windows_stand_where_they_stood_when_opened_again_and_at_the_next_st
     window.store.update(windows=())
     window.store.update(windows=("mtf",))
     assert window.floating.open["mtf"].size() == QSize(433, 377)
-    keeping = SessionKeeper(window, window.store, window.stack, lambda: window.floating.open, {})
+    keeping = SessionKeeper(window, window.store, lambda: window.floating.open, {})
     keeping.keep()
     window.floating.open["mtf"].resize(800, 600)
     state, geometry = last_session()
     assert state.display.windows == ("mtf",)
-    again = SessionKeeper(window, window.store, window.stack, lambda: window.floating.open, geometry)
+    again = SessionKeeper(window, window.store, lambda: window.floating.open, geometry)
     assert window.floating.open["mtf"].size() == QSize(433, 377)
     for filtering in (keeping, again):
         window.removeEventFilter(filtering)

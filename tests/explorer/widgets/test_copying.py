@@ -19,8 +19,8 @@ from p2sf_explorer.widgets.copying import copy_menu, data_of, table
 from tests.long.crash import small_disk
 
 
-def test_the_curves_of_the_open_panel_are_copied_as_they_are(window, qtbot):
-    window.store.update(f_number=8.0, field_deg=0.0)  # the brightest point lies on the line
+def test_the_curves_of_the_panel_on_the_stage_are_copied_as_they_are(window, qtbot):
+    window.store.update(f_number=8.0, field_deg=0.0, stage="profiles")  # the brightest point lies on the line
     qtbot.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
     rows = list(csv.reader(io.StringIO(QGuiApplication.clipboard().text())))
     column = rows[0].index("along y: share of the peak")
@@ -111,7 +111,7 @@ def test_every_column_says_what_it_is(window, key, heads):
 
 
 def test_a_panel_without_numbers_says_so(window, qtbot):
-    window.open_panel("import")
+    window.take_stage("import")
     menu = copy_menu(window.panels["import"].widget)
     assert not menu.actions()[1].isEnabled()
     menu.deleteLater()

@@ -71,6 +71,7 @@
 <message><source>Back focus F′</source><translation>Bildseitiger Brennpunkt F′</translation></message>
 <message><source>Back to file</source><translation>Zurück zur Datei</translation></message>
 <message><source>Back to the lens's own coefficients: nothing added, muted or solo</source><translation>Zurück zu den Koeffizienten des Objektivs: nichts hinzugefügt, stumm oder solo</translation></message>
+<message><source>Back to the tabs</source><translation>Zurück zu den Reitern</translation></message>
 <message><source>Begin or leave a lesson</source><translation>Lektion beginnen oder verlassen</translation></message>
 <message><source>Begin the first lesson (F3)</source><translation>Die erste Lektion beginnen (F3)</translation></message>
 <message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
@@ -92,7 +93,6 @@
 <message><source>Clip at rims</source><translation>Randbeschnitt</translation></message>
 <message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Randbeschnitt: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
 <message><source>Close</source><translation>Schließen</translation></message>
-<message><source>Close the panel's own window and have it back under its tab (Ctrl+D)</source><translation>Das eigene Fenster der Ansicht schließen und sie unter ihrem Reiter wiederhaben (Strg+D)</translation></message>
 <message><source>Close the window</source><translation>Fenster schließen</translation></message>
 <message><source>Coarse</source><translation>Grob</translation></message>
 <message><source>Coefficients</source><translation>Koeffizienten</translation></message>
@@ -190,6 +190,7 @@
 <message><source>Glass or index</source><translation>Glas oder Index</translation></message>
 <message><source>Gram–Schmidt over {percent:.0f} % of the pupil</source><translation>Gram–Schmidt über {percent:.0f} % der Pupille</translation></message>
 <message><source>Grey</source><translation>Grau</translation></message>
+<message><source>Group of panels</source><translation>Gruppe von Ansichten</translation></message>
 <message><source>Handbook</source><translation>Handbuch</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it.</source><translation>Mit dem Zeiger oder den Pfeiltasten einen Ort betrachten: seine PSF und sein Ausschnitt folgen. Die Teilung ziehen oder mit Umschalt und Pfeil links oder rechts verschieben. Ein PNG oder TIFF fallen lassen, um es zu fotografieren.</translation></message>
@@ -204,6 +205,7 @@
 <message><source>Inferno</source><translation>Inferno</translation></message>
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
+<message><source>Keep beside the stage</source><translation>Neben der Bühne behalten</translation></message>
 <message><source>Lagrange invariant</source><translation>Lagrange-Invariante</translation></message>
 <message><source>Lagrange invariant H = {h} mm</source><translation>Lagrange-Invariante H = {h} mm</translation></message>
 <message><source>Landscape</source><translation>Landschaft</translation></message>
@@ -261,15 +263,16 @@
 <message><source>OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included.</source><translation>OPD-Fächer: (optischer Weg des Hauptstrahls − des Strahls)/λ für exakte Strahlen, mit Kippung.</translation></message>
 <message><source>OPD, waves</source><translation>OPD, Wellen</translation></message>
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
+<message><source>On the stage</source><translation>Auf die Bühne</translation></message>
 <message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>Open</source><translation>Öffnen</translation></message>
 <message><source>Open a file…</source><translation>Datei öffnen …</translation></message>
 <message><source>Open a lens file or a saved state (Ctrl+O), or one of the latest</source><translation>Objektivdatei oder gespeicherten Zustand öffnen (Strg+O), oder eine der letzten</translation></message>
 <message><source>Open a lens file or a saved state…</source><translation>Objektivdatei oder gespeicherten Zustand öffnen …</translation></message>
 <message><source>Open a lens or a state</source><translation>Objektiv oder Zustand öffnen</translation></message>
-<message><source>Open in its own window (double-click the tab or drag it out, or Ctrl+D)</source><translation>In einem eigenen Fenster öffnen (Doppelklick auf den Reiter oder ihn herausziehen, oder Strg+D)</translation></message>
 <message><source>Open the file with the substitute glasses listed; the lens then counts as edited</source><translation>Die Datei mit den aufgeführten Ersatzgläsern öffnen; das Objektiv gilt dann als bearbeitet</translation></message>
 <message><source>Open the lens as its file has it</source><translation>Öffnung wie in der Datei</translation></message>
+<message><source>Open this panel in its own window, or put it back (Ctrl+D)</source><translation>Diese Ansicht in einem eigenen Fenster öffnen oder zurückstellen (Strg+D)</translation></message>
 <message><source>P2SF Explorer</source><translation>P2SF Explorer</translation></message>
 <message><source>P2SF lens (*.toml);;Zemax (*.zmx);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;ISET-Objektiv (*.json)</translation></message>
 <message><source>PSF</source><translation>PSF</translation></message>
@@ -331,10 +334,10 @@
 <message><source>Pupil</source><translation>Pupille</translation></message>
 <message><source>Pupil phase</source><translation>Pupillenphase</translation></message>
 <message><source>Pupils</source><translation>Pupillen</translation></message>
-<message><source>Put back</source><translation>Zurück</translation></message>
 <message><source>Put the sensor where the lens file has it</source><translation>Den Sensor dorthin setzen, wo ihn die Datei hat</translation></message>
 <message><source>Put the source at infinity</source><translation>Die Quelle ins Unendliche setzen</translation></message>
 <message><source>Put the sweep away</source><translation>Durchlauf wegräumen</translation></message>
+<message><source>Put this panel on the stage (double-click its title, or drag it there)</source><translation>Diese Ansicht auf die Bühne stellen (Doppelklick auf den Titel, oder dorthin ziehen)</translation></message>
 <message><source>Qt needs the library libxcb-cursor to open a window on X11; run apt-get install libxcb-cursor0</source><translation>Qt braucht die Bibliothek libxcb-cursor, um auf X11 ein Fenster zu öffnen; apt-get install libxcb-cursor0 ausführen</translation></message>
 <message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts um seinen Schwerpunkt; RMS der Strahlen {rms} µm; {method}</translation></message>
 <message><source>RMS in x</source><translation>RMS in x</translation></message>
@@ -962,6 +965,7 @@
 <message><source>quaternary trefoil</source><translation>quartärer Dreiblattfehler</translation></message>
 <message><source>radius</source><translation>Radius</translation></message>
 <message><source>radius, µm</source><translation>Radius, µm</translation></message>
+<message><source>rail_shares is {value}; give a list of numbers</source><translation>rail_shares ist {value}; geben Sie eine Liste von Zahlen an</translation></message>
 <message><source>range_um of {name} is {limits}; write the shortest and the longest wavelength</source><translation>range_um von {name} ist {limits}; die kürzeste und die längste Wellenlänge schreiben</translation></message>
 <message><source>ray density</source><translation>Strahlendichte</translation></message>
 <message><source>rays fill the paraxial entrance pupil</source><translation>Strahlen füllen die paraxiale Eintrittspupille</translation></message>
@@ -1010,8 +1014,10 @@
 <message><source>sensor {key} is {value:g}; give a whole number</source><translation>{key} des Sensors ist {value:g}; eine ganze Zahl angeben</translation></message>
 <message><source>sensor {name} is {count}; give a whole number from 1 to {most}</source><translation>{name} des Sensors ist {count}; eine ganze Zahl von 1 bis {most} angeben</translation></message>
 <message><source>settled {ms} ms</source><translation>fertig {ms} ms</translation></message>
+<message><source>share of a panel beside the stage</source><translation>Anteil einer Ansicht neben der Bühne</translation></message>
 <message><source>share of the light in a pixel</source><translation>Anteil des Lichts in einem Pixel</translation></message>
 <message><source>share of the peak</source><translation>Anteil an der Spitze</translation></message>
+<message><source>share of the stage</source><translation>Anteil der Bühne</translation></message>
 <message><source>sharp from {near} to {far} · hyperfocal distance {focus}</source><translation>scharf von {near} bis {far} · hyperfokal {focus}</translation></message>
 <message><source>sharpened</source><translation>geschärft</translation></message>
 <message><source>sharpened by its PSFs</source><translation>mit seinen PSFs geschärft</translation></message>
@@ -1020,6 +1026,7 @@
 <message><source>sides of the photo cut off</source><translation>Foto seitlich abgeschnitten</translation></message>
 <message><source>six coefficients</source><translation>sechs Koeffizienten</translation></message>
 <message><source>six coefficients keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed</source><translation>sechs Koeffizienten halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}</translation></message>
+<message><source>size of type</source><translation>Schriftgröße</translation></message>
 <message><source>solves and pickups, whose stored values are read</source><translation>Löse- und Übernahmevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 <message><source>source depth</source><translation>Objektabstand</translation></message>
 <message><source>spectral lines have no power per wavelength; take their wavelengths one by one</source><translation>Spektrallinien haben keine Leistung je Wellenlänge; ihre Wellenlängen einzeln nehmen</translation></message>
@@ -1214,6 +1221,7 @@
 <message><source>the spectrum "{kind}" takes no number, not {number:g}; write {examples}</source><translation>das Spektrum "{kind}" hat keine Zahl, auch nicht {number:g}; {examples} schreiben</translation></message>
 <message><source>the spectrum "{text}" holds "{rest}", which is no list of numbers; write {examples}</source><translation>das Spektrum "{text}" enthält "{rest}", was keine Liste von Zahlen ist; {examples} schreiben</translation></message>
 <message><source>the spectrum {name} has no light that the eye sees; choose one with some</source><translation>das Spektrum {name} hat kein Licht, das das Auge sieht; eines mit Licht wählen</translation></message>
+<message><source>the stage</source><translation>die Bühne</translation></message>
 <message><source>the state</source><translation>der Zustand</translation></message>
 <message><source>the state has an unknown entry "{entry}"; known are {known}</source><translation>der Zustand hat einen unbekannten Eintrag "{entry}"; bekannt sind {known}</translation></message>
 <message><source>the state inside {name}</source><translation>der Zustand in {name}</translation></message>
@@ -1221,7 +1229,7 @@
 <message><source>the state's edited lens is not text; leave lens_text out to take the lens as its file has it</source><translation>das bearbeitete Objektiv des Zustands ist kein Text; lens_text weglassen, um das Objektiv zu nehmen, wie es in der Datei steht</translation></message>
 <message><source>the state's group "{group}" is no table; save it again from the explorer</source><translation>die Gruppe "{group}" des Zustands ist keine Tabelle; im Explorer neu speichern</translation></message>
 <message><source>the state's lists are nested too deep; save it again from the explorer</source><translation>die Listen des Zustands sind zu tief verschachtelt; im Explorer neu speichern</translation></message>
-<message><source>the state's windows must be a list of panels' names; correct it or leave it out</source><translation>die Fenster des Zustands müssen eine Liste von Ansichten sein; berichtigen oder weglassen</translation></message>
+<message><source>the state's {name} must be a list of panels' names; correct it or leave it out</source><translation>{name} des Zustands muss eine Liste von Ansichtenamen sein; berichtigen Sie sie oder lassen Sie sie weg</translation></message>
 <message><source>the stop changes with depth or wavelength; a database holds one stop, choose it</source><translation>die Blende wechselt mit Abstand oder Wellenlänge; eine Datenbank enthält eine Blende, diese wählen</translation></message>
 <message><source>the stop is on the object or the image; put it on a surface between</source><translation>die Blende liegt auf dem Objekt oder dem Bild; auf eine Fläche dazwischen legen</translation></message>
 <message><source>the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but a radius of {radius:g} mm ends that surface at {edge:.6g} mm; stop the lens down or move the stop</source><translation>die Blende auf Fläche {surface} hat einen Halbmesser von {rim:.6g} mm, aber ein Radius von {radius:g} mm lässt diese Fläche bei {edge:.6g} mm enden; abblenden oder die Blende versetzen</translation></message>
