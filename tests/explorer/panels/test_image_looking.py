@@ -228,9 +228,9 @@ def test_the_share_of_a_plan_grows_to_where_that_of_its_picture_begins():
         planning(Progress(told.append, lambda: True))()
 
 
-def test_the_stage_of_a_small_window_gives_the_picture_its_height(window, image_panel):
+def test_a_low_panel_in_a_small_window_gives_the_picture_its_height(window, image_panel):
     window.resize(1280, 800)
-    window.take_stage("image")
+    window.store.update(rail=(), rail_side="bottom", stage_share=0.7)
     QApplication.processEvents()
     assert image_panel.split_view.area().height() > 0.85 * image_panel.widget.height()
     assert len(image_panel.split_view.places().details) == 2
