@@ -5,25 +5,41 @@ the background (axes, labels, glass) is painted once, and a thick line is two th
 twenty times faster than an outline that it must fill.
 """
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QPen, QPixmap, QRegion, QResizeEvent
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QColor, QFocusEvent, QImage, QPainter, QPaintEvent, QPen, QPixmap, QRegion, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from p2sf_explorer.charts.painting import fitting, pen, polylines, width_of, write
+from p2sf_explorer.charts.axes import TickMaker, area_of, lock_places, paint_axes, paint_home, paint_lock
+from p2sf_explorer.charts.axes import bottom_ticks as bottom_ticks
+from p2sf_explorer.charts.axes import left_ticks as left_ticks
+from p2sf_explorer.charts.crosshair import box_of, paint_box, paint_crosshair, paint_marks, paint_pin
+from p2sf_explorer.charts.hand import Hand
+from p2sf_explorer.charts.painting import pen, polylines
+from p2sf_explorer.charts.reading import Reading, Samples, curves_at, map_at, place_at, vertex_at
 from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.charts.view import AxisView, Span, panned, steadied, width, zoomed
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import ticks
 
 THICK = ((-0.25, -0.45), (0.25, 0.45))  # offsets of the two thin lines
 Grid = tuple[str, np.ndarray, np.ndarray, np.ndarray]
 """Head, x, y and (y, x) values of a map, as it is copied."""
-Span = tuple[float, float]
-TICK_EVERY_PX = {"bottom": 66, "left": 34}
+FINEST = 1e-6  # of an axis: finer digits of a curve's value are not read
+AIR = 1.04  # of a picture's extent that its axes show
+NEAR_PX = 9.0  # of a pinned marker, within which another press of its key or a click takes it away
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A pinned marker: a place of the data, whose value is read again whenever the data change."""
+
+    x: float
+    y: float
 
 
 class Curve:
@@ -59,11 +75,33 @@ class Curve:
                 painter.drawPolyline(part.translated(*offset))
 
 
-class Chart(QWidget):
-    """Labelled axes over a fixed range, an optional image, and curves; ``aspect`` keeps circles round."""
+class Lockable(Protocol):
+    """A colour bar whose scale can be locked."""
 
+    @property
+    def locked(self) -> bool:
+        """Whether it is."""
+
+    def turn_lock(self, on: bool) -> None:
+        """Lock it, or let it go."""
+
+
+class Chart(QWidget):
+    """Labelled axes over a range, an optional image, and curves; ``aspect`` keeps circles round.
+
+    The wheel zooms, a drag pans, a double-click goes home, a click pins a marker (`charts/hand.py`); where a chart
+    `takes` a drag or ``takes_arrows`` for something else, Shift or the middle button pan. ``viewed``: the range has
+    changed by hand.
+    """
+
+    viewed = Signal()
+    takes_arrows = False
+    over = "bottom"  # the axis that the curves are functions of
     grids: tuple[Grid, ...] = ()  # copied in place of the curves
     columns: tuple[str, str] | None = None  # names of x and y where they are copied, if other than on the axes
+    left_tick_maker: TickMaker | None = None  # in place of round numbers
+    bottom_tick_maker: TickMaker | None = None
+    write_bottom: Callable[[float], str] | None = None  # the words of a place on the bottom axis
 
     def __init__(
         self,
@@ -75,17 +113,25 @@ class Chart(QWidget):
     ):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(120, 90)
         self.theme: Tokens = LIGHT
         self.curves: list[Curve] = []
         self.bottom_ticks: tuple[tuple[float, str], ...] = ()  # in place of round numbers
         self.left_axis = self.left_name = True
-        self._labels, self.round, self._framed = (tr(bottom), tr(left)), aspect, framed
-        self._asked: tuple[Span, Span] = ((0.0, 1.0), (0.0, 1.0))
+        self._labels, self.round, self.framed = (tr(bottom), tr(left)), aspect, framed
+        self.x_axis, self.y_axis = AxisView(), AxisView()
+        self._whole = 0.0  # of both axes, where they change in steps
+        self.samples: Samples | None = None
+        self.bar: Lockable | None = None  # of the image's colours
+        self.ground: int | None = None  # 0xffRRGGBB beyond the image
+        self.pins: tuple[Pin, ...] = ()
         self._scale: tuple[float, float, float, float] | None = None
         self._background: QPixmap | None = None
         self._image: tuple[np.ndarray, tuple[float, float, float, float]] | None = None
+        self.hand = Hand(self)
+        self._name_for_readers()
 
     @property
     def labels(self) -> tuple[str, str]:
@@ -96,22 +142,149 @@ class Chart(QWidget):
         """Give the axes other names."""
         if (tr(bottom), tr(left)) != self._labels:
             self._labels = tr(bottom), tr(left)
+            self._name_for_readers()
             self.forget_background()
 
-    def add_curve(self, token: str, width: float = 1.0, alpha: int = 255) -> Curve:
-        """Return a new curve on top of the others."""
+    def _name_for_readers(self) -> None:
+        bottom, left = self._labels
+        self.setAccessibleName(tr("Plot: {left} over {bottom}", left=left, bottom=bottom) if left else tr("Plot"))
+
+    def add_curve(self, token: str, width: float = 1.0, alpha: int = 255, name: str = "") -> Curve:
+        """Return a new curve on top of the others; its English ``name`` stands in readings and in copied data."""
         self.curves.append(Curve(token, width, alpha))
+        self.curves[-1].name = tr(name) if name else ""
         return self.curves[-1]
 
-    def set_range(self, x: Span, y: Span) -> None:
-        """Show these ranges; the background is painted again only when they change."""
-        if (x, y) != self._asked:
-            self._asked = (x, y)
+    def set_range(self, x: Span, y: Span, steady: str = "") -> None:
+        """Show these ranges where no hand and no lock has set another, those of ``steady`` ("x", "y", "xy") in steps.
+
+        The background is painted again only when they change.
+        """
+        before = self.x_axis.shown, self.y_axis.shown
+        self.x_axis, self.y_axis = self.x_axis.fitted(x, "x" in steady), self.y_axis.fitted(y, "y" in steady)
+        if before != (self.x_axis.shown, self.y_axis.shown):
             self.forget_background()
 
-    def show_pixels(self, pixels: np.ndarray, rect: tuple[float, float, float, float]) -> None:
-        """Show 0xffRRGGBB pixels, rows +y, over (x, y, width, height)."""
-        self._image = np.ascontiguousarray(pixels[::-1]), rect
+    def set_extent(self, half: float, steady: bool = False) -> None:
+        """Show −half to half on both axes, or in ``steady`` steps of 1-2-5 times the whole."""
+        if steady:
+            self._whole = steadied((0.0, self._whole), (0.0, 2 * half))[1]
+            half = self._whole / 2
+        self.set_range((-AIR * half, AIR * half), (-AIR * half, AIR * half))
+
+    @property
+    def moved(self) -> bool:
+        """Return whether zoom or pan has left the whole plot."""
+        return bool(self.x_axis.moved or self.y_axis.moved)
+
+    @property
+    def locked(self) -> bool:
+        """Return whether a scale is locked."""
+        return bool(self.x_axis.locked or self.y_axis.locked or (self.bar and self.bar.locked))
+
+    def takes(self, point: QPointF) -> bool:
+        """Return whether a press at a pixel is the chart's own, and does not pan or pin; for subclasses."""
+        return False
+
+    def zoom(self, about: QPointF, factor: float, axes: str = "xy") -> None:
+        """Show ``factor`` times as much about a pixel, along one axis or both; circles stay round."""
+        (x, y), at = self.ranges(), self.from_pixels(about)
+        axes = "xy" if self.round else axes
+        self._move(
+            *(zoomed(span, v, factor) if name in axes else None for name, span, v in zip("xy", (x, y), at, strict=True))
+        )
+
+    def pan(self, by: QPointF) -> None:
+        """Move the picture by some pixels."""
+        area, (x, y) = self.area, self.ranges()
+        self._move(panned(x, -by.x() / area.width() * width(x)), panned(y, by.y() / area.height() * width(y)))
+
+    def _move(self, x: Span | None, y: Span | None) -> None:
+        axes = (self.x_axis.moved_to(x) if x else self.x_axis), (self.y_axis.moved_to(y) if y else self.y_axis)
+        stuck = (bool(x) and axes[0] is self.x_axis) or (bool(y) and axes[1] is self.y_axis)
+        if not stuck:  # both or neither, or circles would not stay round
+            self._see(*axes)
+
+    def go_home(self) -> None:
+        """Show the whole plot, or what is locked."""
+        self._see(self.x_axis.at_home(), self.y_axis.at_home())
+
+    def turn_lock(self, axes: str) -> None:
+        """Lock the scale of "x", "y", "xy" or "all", colours too, as it is, or let it follow the data again."""
+        x, y = self.x_axis, self.y_axis
+        on = not {"x": x.locked, "y": y.locked, "xy": x.locked or y.locked}.get(axes, self.locked)
+        if axes == "all" and self.bar:
+            self.bar.turn_lock(on)
+        self._see(x if axes == "y" else x.with_lock(on), y if axes == "x" else y.with_lock(on))
+
+    def _see(self, x: AxisView, y: AxisView) -> None:
+        if (x, y) != (self.x_axis, self.y_axis):
+            self.x_axis, self.y_axis = x, y
+            self.forget_background()
+            self.viewed.emit()
+
+    def pin(self, point: QPointF) -> bool:
+        """Pin a marker at a pixel, or take away the one that is there; return whether one was pinned."""
+        for pin, reading in self.pinned():
+            if (self._pixel(reading.place) - point).manhattanLength() < NEAR_PX:
+                self._keep_pins(tuple(other for other in self.pins if other != pin))
+                return False
+        found = self.read(*self.from_pixels(point))
+        if found:
+            self._keep_pins((*self.pins, Pin(*found.place)))
+        return found is not None
+
+    def unpin_last(self) -> bool:
+        """Remove the last marker; return whether there was one."""
+        return self._keep_pins(self.pins[:-1])
+
+    def unpin_all(self) -> bool:
+        """Remove all markers; return whether there were any."""
+        return self._keep_pins(())
+
+    def _keep_pins(self, pins: tuple[Pin, ...]) -> bool:
+        changed, self.pins = pins != self.pins, pins
+        if changed:
+            self.update()
+        return changed
+
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return what the plot says at a place of its data; curves at their own samples if it may ``snap`` to those."""
+        if self.samples is not None:
+            return map_at(self.samples, x, y, self.reading_labels)
+        labels, curves = self.reading_labels, self.readable()
+        if self.over == "path":
+            return vertex_at(curves, x, y, self.pixel_size(), labels)
+        flat = self.over == "bottom"
+        least = FINEST * width((self.y_axis if flat else self.x_axis).home)
+        found = curves_at(curves, labels, x if flat else y, self.over, snap, self.write_bottom, least)
+        return found or place_at(x, y, labels)
+
+    @property
+    def reading_labels(self) -> tuple[str, str]:
+        """Return the names of x and y as they are read, with their units."""
+        return (tr(self.columns[0]), tr(self.columns[1])) if self.columns else self.labels
+
+    def readable(self) -> list[Curve]:
+        """Return the curves that are read: those with names, else all but lines of the ground."""
+        shown = [curve for curve in self.curves if curve.x.size and curve.token not in ("line", "card")]
+        return [curve for curve in shown if curve.name] or shown
+
+    def pinned(self) -> list[tuple[Pin, Reading]]:
+        """Return the markers with what they read at present."""
+        found = ((pin, self.read(pin.x, pin.y, snap=False)) for pin in self.pins)
+        return [(pin, reading) for pin, reading in found if reading]
+
+    def crosshair(self) -> Reading | None:
+        """Return what stands under the pointer."""
+        at = self.hand.at
+        return self.read(*self.from_pixels(at)) if at and self.area.contains(at) else None
+
+    def show_pixels(
+        self, pixels: np.ndarray, rect: tuple[float, float, float, float], samples: Samples | None = None
+    ) -> None:
+        """Show 0xffRRGGBB pixels, rows +y, over (x, y, width, height), and what is read in their place."""
+        self._image, self.samples = (np.ascontiguousarray(pixels[::-1]), rect), samples
         self.update()
 
     def restyle(self, theme: Tokens) -> None:
@@ -127,25 +300,29 @@ class Chart(QWidget):
     @property
     def area(self) -> QRectF:
         """Return the rectangle of the data, in pixels."""
-        if not self._framed:
-            return QRectF(self.rect())
-        left = (44 if self.left_axis else 8) + (16 if self._labels[1] and self.left_name else 0)
-        bottom = 20 + (16 if self._labels[0] else 0)
-        return QRectF(left, 5, max(10, self.width() - left - 9), max(10, self.height() - bottom - 5))
+        return area_of(self, self._labels) if self.framed else QRectF(self.rect())
 
     def ranges(self) -> tuple[Span, Span]:
         """Return the shown ranges: those set, one of them widened where circles must be round."""
+        return self._rounded(self.x_axis.shown, self.y_axis.shown)
+
+    def _rounded(self, across: Span, up: Span) -> tuple[Span, Span]:
         if not self.round:
-            return self._asked
-        area, ((left, right), (low, high)) = self.area, self._asked
-        scale = max((right - left) / area.width(), (high - low) / area.height())
-        x, y, across, up = (left + right) / 2, (low + high) / 2, scale * area.width(), scale * area.height()
-        return (x - across / 2, x + across / 2), (y - up / 2, y + up / 2)
+            return across, up
+        area = self.area
+        scale = max(width(across) / area.width(), width(up) / area.height())
+        half = scale * area.width() / 2, scale * area.height() / 2
+        x, y = (across[0] + across[1]) / 2, (up[0] + up[1]) / 2
+        return (x - half[0], x + half[0]), (y - half[1], y + half[1])
+
+    def magnification(self) -> tuple[float, float]:
+        """Return how many times larger than the whole plot the picture is along x and y."""
+        home, shown = self._rounded(self.x_axis.home, self.y_axis.home), self.ranges()
+        return width(home[0]) / width(shown[0]), width(home[1]) / width(shown[1])
 
     def per_pixel(self) -> float:
         """Return the length of one pixel along x, in data."""
-        (low, high), _ = self.ranges()
-        return (high - low) / self.area.width()
+        return width(self.ranges()[0]) / self.area.width()
 
     def to_pixels(self, x: Any, y: Any) -> tuple[Any, Any]:
         """Return the pixels of data, numbers or arrays as they come."""
@@ -155,6 +332,14 @@ class Chart(QWidget):
             self._scale = area.left() - left * wide, wide, area.bottom() + low * tall, tall
         x0, wide, y0, tall = self._scale
         return x0 + x * wide, y0 - y * tall
+
+    def _pixel(self, place: tuple[float, float]) -> QPointF:
+        return QPointF(*(float(v) for v in self.to_pixels(*place)))
+
+    def pixel_size(self) -> tuple[float, float]:
+        """Return the size of one pixel in data."""
+        area, (x, y) = self.area, self.ranges()
+        return width(x) / area.width(), width(y) / area.height()
 
     def from_pixels(self, point: QPointF) -> tuple[float, float]:
         """Return the data coordinates of a pixel."""
@@ -167,6 +352,16 @@ class Chart(QWidget):
         self._background = self._scale = None
         super().resizeEvent(event)
 
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show the focus."""
+        super().focusInEvent(event)
+        self.update()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Show that the focus has gone."""
+        super().focusOutEvent(event)
+        self.update()
+
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint background, image, curves, and what lies above."""
         if self._background is None or self._background.devicePixelRatio() != self.devicePixelRatioF():
@@ -176,18 +371,57 @@ class Chart(QWidget):
             painter.setClipRegion(QRegion(self.rect()) - QRegion((image & self.area).toRect().adjusted(2, 2, -2, -2)))
         painter.drawPixmap(0, 0, self._background)
         painter.setClipRect(self.area)
+        if image and self.ground is not None and not image.contains(self.area):
+            painter.fillRect(self.area, QColor.fromRgb(self.ground))
         if image and self._image:
             painter.drawImage(image, image_of(self._image[0]))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         for curve in self.curves:
             curve.paint(painter, self)
         self.paint_over(painter)
+        painter.setClipping(False)
+        self._paint_readings(painter)
+        self._paint_buttons(painter)
 
     def paint_background(self, painter: QPainter) -> None:
         """Paint what belongs to the background beside the axes; for subclasses."""
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint what lies above the curves; for subclasses."""
+
+    def _paint_readings(self, painter: QPainter) -> None:
+        """Paint the pinned markers that are on screen, and the crosshair."""
+        if not self.pins and not self.hand.at:
+            return
+        boxes: list[QRectF] = []
+        for number, (_, read) in enumerate(self.pinned(), 1):
+            reading = replace(read, head=f"{number}  {read.head}")
+            if self.area.contains(self._pixel(reading.place)):
+                boxes.append(box_of(reading, self, boxes))
+                paint_marks(painter, self, reading)
+                paint_pin(painter, self, reading.place)
+                paint_box(painter, self, reading, boxes[-1], pinned=True)
+        if found := self.crosshair():
+            paint_crosshair(painter, self, found)
+            paint_marks(painter, self, found)
+            paint_box(painter, self, found, box_of(found, self, boxes))
+
+    def _paint_buttons(self, painter: QPainter) -> None:
+        """Paint the locks that are closed, and all buttons while the pointer or the focus is here; and the focus."""
+        here = self.hand.at is not None or self.hasFocus()
+        if not here and not self.locked:
+            return
+        closed = {"x": self.x_axis.locked, "y": self.y_axis.locked, "xy": self.x_axis.locked or self.y_axis.locked}
+        for name, room in lock_places(self).items():
+            if name == "home" and self.moved and here:
+                paint_home(painter, room, QColor(self.theme.muted))
+            elif name != "home" and (here or closed[name]):
+                colour = self.theme.accent if closed[name] else self.theme.muted
+                paint_lock(painter, room, QColor(colour), bool(closed[name]))
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(self.theme.accent), self.theme.scale))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5))
 
     def _image_rect(self, rect: tuple[float, float, float, float]) -> QRectF:
         x, y, width, height = rect
@@ -198,7 +432,7 @@ class Chart(QWidget):
         background = blank_pixmap(self, self.theme.card)
         painter = QPainter(background)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if self._framed:
+        if self.framed:
             paint_axes(painter, self, self._labels)
         self.paint_background(painter)
         painter.end()
@@ -218,53 +452,3 @@ def image_of(pixels: np.ndarray, form: QImage.Format = QImage.Format.Format_RGB3
     """Return an image over the memory of (rows, columns) 0xAARRGGBB pixels, which must outlive it."""
     rows, columns = pixels.shape
     return QImage(pixels.data, columns, rows, 4 * columns, form)
-
-
-def paint_axes(painter: QPainter, chart: Chart, labels: tuple[str, str]) -> None:
-    """Paint two axes, their ticks and labels."""
-    area, theme = chart.area, chart.theme
-    painter.setPen(QPen(QColor(theme.line), 1))
-    painter.drawLine(area.bottomLeft(), area.bottomRight())
-    for value, text in bottom_ticks(chart):
-        x = float(chart.to_pixels(value, 0.0)[0])
-        _tick(painter, theme, QPointF(x, area.bottom()), QPointF(x, area.bottom() - 4))
-        middle = min(x, chart.width() - width_of(text) / 2)  # so that the last one is not cut off
-        write(painter, QRectF(middle - 40, area.bottom() + 3, 80, 15), text)
-    write(painter, QRectF(area.left(), area.bottom() + 18, area.width(), 16), fitting(labels[0], area.width() + 18))
-    if chart.left_axis:
-        _paint_left(painter, chart, labels[1])
-
-
-def left_ticks(chart: Chart) -> Sequence[tuple[float, str]]:
-    """Return the left axis's ticks and their labels."""
-    return ticks(*chart.ranges()[1], chart.area.height() / TICK_EVERY_PX["left"])
-
-
-def bottom_ticks(chart: Chart) -> Sequence[tuple[float, str]]:
-    """Return the bottom axis's ticks and their labels; where circles are round as close as those of the left axis."""
-    every: float = TICK_EVERY_PX["bottom"]
-    if chart.round:
-        every = max(width_of(text) for _, text in left_ticks(chart)) + 14
-    return chart.bottom_ticks or ticks(*chart.ranges()[0], chart.area.width() / every)
-
-
-def _paint_left(painter: QPainter, chart: Chart, label: str) -> None:
-    area, theme = chart.area, chart.theme
-    painter.setPen(QPen(QColor(theme.line), 1))
-    painter.drawLine(area.bottomLeft(), area.topLeft())
-    for value, text in left_ticks(chart):
-        y = float(chart.to_pixels(0.0, value)[1])
-        _tick(painter, theme, QPointF(area.left(), y), QPointF(area.left() + 4, y))
-        write(painter, QRectF(area.left() - 60, y - 8, 55, 16), text, side=1)
-    if not chart.left_name:
-        return
-    painter.setPen(QColor(theme.muted))
-    painter.rotate(-90)
-    write(painter, QRectF(-area.bottom() - 40, 0, area.height() + 80, 16), fitting(label, area.height() + 10))
-    painter.rotate(90)
-
-
-def _tick(painter: QPainter, theme: Tokens, start: QPointF, end: QPointF) -> None:
-    painter.setPen(QPen(QColor(theme.line), 1))
-    painter.drawLine(start, end)
-    painter.setPen(QColor(theme.muted))

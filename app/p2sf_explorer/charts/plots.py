@@ -1,80 +1,29 @@
 """Plots in the look of the window: axes, heat maps, colour bars."""
 
-from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
-from math import ceil, floor
+from math import ceil
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QHelpEvent, QLinearGradient, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolTip, QWidget
 
+from p2sf_explorer.charts.axes import LOCK_PX, paint_lock
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.painting import small_font, width_of
+from p2sf_explorer.charts.colour_scale import ColourScale, ScaleLock
+from p2sf_explorer.charts.painting import width_of, write
+from p2sf_explorer.charts.reading import Samples
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.charts.view import Span, steadied
+from p2sf_explorer.i18n.tr import tr
 
 BRIGHTNESS = "brightness"  # stands for the colour map that the theme has for brightness
 NARROW_PX = 245  # below this width, as beside a lesson, a heat map has no colour bar and no name at the left
+Rect = tuple[float, float, float, float]
+"""x, y, width, height in the data."""
 EMPTY = 255  # the index of a colour table that is kept for "no value"
-
-
-class PlotAxis(pg.AxisItem):
-    """An axis that writes a true minus sign."""
-
-    def tickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
-        """Return the ticks' labels."""
-        return [local(text.replace("-", "−")) for text in super().tickStrings(values, scale, spacing)]
-
-    def tickValues(self, minVal: float, maxVal: float, size: float) -> list[tuple[float, list[float]]]:
-        """Return the ticks' places; a logarithmic axis has only whole decades."""
-        if not self.logMode:
-            return super().tickValues(minVal, maxVal, size)
-        step = max(1, ceil((maxVal - minVal) / 5))
-        return [(float(step), [float(k) for k in range(ceil(minVal), floor(maxVal) + 1, step)])]
-
-    def logTickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
-        """Return decades as numbers near one, as powers of ten elsewhere."""
-        return [local(f"{10.0**v:g}") if -2 <= v <= 3 else f"1e{v:.0f}".replace("-", "−") for v in values]
-
-
-def plot_widget(bottom: str = "", left: str = "", aspect: bool = False) -> pg.PlotWidget:
-    """Return a plot with labelled axes, without menus and panning."""
-    plot = pg.PlotWidget(axisItems={side: PlotAxis(side) for side in ("bottom", "left")})
-    item = plot.getPlotItem()
-    item.setMenuEnabled(False)
-    item.hideButtons()
-    item.setMouseEnabled(False, False)
-    view = item.getViewBox()
-    view.setDefaultPadding(0.02)
-    # Nothing is drawn outside its range, and antialiased lines cost three times as much under a clip.
-    view.setFlag(view.GraphicsItemFlag.ItemClipsChildrenToShape, False)
-    item.layout.setContentsMargins(0, 4, 8, 0)
-    plot.setFrameShape(pg.QtWidgets.QFrame.Shape.NoFrame)
-    plot.setMinimumSize(120, 90)
-    plot.viewport().setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)  # spares the repaint of what lies behind
-    if aspect:
-        item.setAspectLocked(True)
-    for side, text in (("bottom", bottom), ("left", left)):
-        axis = item.getAxis(side)
-        axis.setStyle(tickFont=small_font(), tickLength=-4, tickTextOffset=4)
-        axis.enableAutoSIPrefix(False)
-        axis.setCacheMode(axis.CacheMode.DeviceCoordinateCache)  # an axis changes far less often than what it frames
-        if text:
-            axis.setLabel(tr(text))
-            axis.label.setFont(small_font())
-    return plot
-
-
-def restyle_plot(plot: pg.PlotWidget, theme: Tokens) -> None:
-    """Give a plot the colours of a theme."""
-    item = plot.getPlotItem()
-    plot.setBackground(QColor(theme.card))
-    for side in ("bottom", "left"):
-        axis = item.getAxis(side)
-        axis.setPen(pg.mkPen(theme.line))
-        axis.setTextPen(pg.mkPen(theme.muted))
 
 
 @lru_cache(maxsize=8)
@@ -100,9 +49,13 @@ def as_indices(values: np.ndarray, low: float, high: float) -> np.ndarray:
 
 
 class ColourBar(QWidget):
-    """A vertical colour bar with a few labelled values and a unit on top; it widens for long labels and stays wide."""
+    """A vertical colour bar with a few labelled values, a unit on top and a lock below, which keeps its ends.
 
-    WIDTH, TICK = 62, 22  # px: the least, and from the left edge to a label
+    It widens for long labels and stays wide. ``turned``: the lock was closed or opened.
+    """
+
+    turned = Signal()
+    WIDTH, TICK = 62, 22  # px at scale 1: the least, and from the left edge to a label
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -111,10 +64,44 @@ class ColourBar(QWidget):
         self._theme, self._name, self._unit = LIGHT, "CET-L4", ""
         self._labels: tuple[tuple[float, str], ...] = ()
         self._wide = self.WIDTH
+        self._scale: ColourScale | None = None
+        self._lock: ScaleLock | None = None
+        self._automatic: Span = (0.0, 1.0)
 
     def sizeHint(self) -> QSize:
         """Return a width with room for bar and labels."""
         return QSize(self._wide, 120)
+
+    @property
+    def locked(self) -> bool:
+        """Return whether pictures to come keep the ends of the bar."""
+        return self._lock is not None
+
+    @property
+    def top(self) -> float:
+        """Return the value at the upper end."""
+        return self._scale.high if self._scale else 1.0
+
+    def turn_lock(self, on: bool) -> None:
+        """Keep the ends as they are, or have them follow the pictures again."""
+        if on != self.locked:
+            self._lock = ScaleLock.of(self._scale) if on and self._scale else None
+            self.update()
+            self.turned.emit()
+
+    def settled(self, scale: ColourScale) -> tuple[ColourScale, float]:
+        """Show the scale for a picture and return it, locked or in coarse steps, with the factor of the values."""
+        found = self._lock.applied(scale) if self._lock else None
+        if found is None:
+            self._lock = None
+            if scale.steady:
+                self._automatic = steadied(self._automatic, (scale.low, scale.high))
+                scale = replace(scale, low=self._automatic[0], high=self._automatic[1])
+            found = scale, 1.0
+        self._scale = found[0]
+        unit = "locked peak" if found[0].relative and self.locked else found[0].unit
+        self.show_scale(found[0].name, unit, found[0].labels())
+        return found
 
     def show_scale(self, name: str, unit: str, labels: tuple[tuple[float, str], ...]) -> None:
         """Show a colour map with labels at parts (0 bottom to 1 top) of the bar; ``unit`` is translated here."""
@@ -125,49 +112,82 @@ class ColourBar(QWidget):
 
     def _widen(self) -> None:
         """Take the room the labels need and keep it, or the map beside would change its size with every label."""
-        need = ceil(self.TICK + max((width_of(text) for _, text in self._labels), default=0)) + 2
+        size, px = self._theme.tick, self._theme.px
+        widest = max((width_of(text, size) for _, text in self._labels), default=0)
+        need = max(px(self.WIDTH), ceil(px(self.TICK) + widest) + 2, ceil(width_of(tr(self._unit), size)) + px(5))
         if need > self._wide:
             self._wide = need
             self.updateGeometry()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
+        if theme.scale != self._theme.scale:
+            self._wide = 0
         self._theme = theme
+        self._widen()
         self.update()
+
+    def lock_place(self) -> QRectF:
+        """Return the rectangle of the lock."""
+        side = self._theme.px(LOCK_PX)
+        return QRectF(self._theme.px(9.5) - side / 2, self.height() - side - 2, side, side)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Turn the lock."""
+        if event.button() == Qt.MouseButton.LeftButton and self._scale and self.lock_place().contains(event.position()):
+            self.turn_lock(not self.locked)
+        else:
+            super().mousePressEvent(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the bar."""
-        painter = QPainter(self)
-        painter.fillRect(self.rect(), QColor(self._theme.card))
-        painter.setFont(small_font())
-        bar = QRectF(4, 22, 11, self.height() - 46)
+        painter, theme, size = QPainter(self), self._theme, self._theme.tick
+        painter.fillRect(self.rect(), QColor(theme.card))
+        bar = QRectF(theme.px(4), theme.px(22), theme.px(11), self.height() - theme.px(46))
         gradient = QLinearGradient(bar.bottomLeft(), bar.topLeft())
-        table = lookup(named(self._name, self._theme))
+        table = lookup(named(self._name, theme))
         for k in range(17):
             gradient.setColorAt(k / 16, QColor.fromRgb(int(table[min(254, round(254 * k / 16))])))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(gradient)
         painter.drawRect(bar)
-        painter.setPen(QPen(QColor(self._theme.muted)))
-        painter.drawText(QPointF(3, 12), tr(self._unit))
+        painter.setPen(QPen(QColor(theme.muted), theme.scale))
+        write(painter, QRectF(theme.px(3), 0, self.width(), theme.px(16)), tr(self._unit), -1, size)
         for part, text in self._labels:
             y = bar.bottom() - part * bar.height()
-            painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + 4, y))
-            painter.drawText(QPointF(self.TICK, y + 4), local(text))
+            painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + theme.px(4), y))
+            room = QRectF(theme.px(self.TICK), y - theme.px(8), self.width(), theme.px(16))
+            write(painter, room, text, -1, size)
+        if self._scale:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            colour = QColor(theme.accent if self.locked else theme.muted)
+            paint_lock(painter, self.lock_place(), colour, self.locked)
+
+    def event(self, event: QEvent) -> bool:
+        """Say what the lock does."""
+        if isinstance(event, QHelpEvent) and self._scale and self.lock_place().contains(QPointF(event.pos())):
+            QToolTip.showText(event.globalPos(), tr("Lock the colours: other pictures keep the ends of the bar"), self)
+            return True
+        return super().event(event)
 
 
 class HeatMap(QWidget):
-    """An image in physical coordinates with its colour bar; curves go on ``chart``."""
+    """An image in physical coordinates with its colour bar; curves go on ``chart``.
+
+    ``resized``: the picture has other pixels than before, by its size or by zooming.
+    """
 
     resized = Signal()
 
     def __init__(self, bottom: str, left: str, parent: QWidget | None = None):
         super().__init__(parent)
         self.chart, self.bar = Chart(bottom, left, aspect=True), ColourBar(self)
+        self.chart.bar = self.bar
         self.indices = np.zeros((1, 1), np.uint8)
         self.values: np.ndarray | None = None
         self.quantity, self._name = "", "CET-L4"
-        self._rect: tuple[float, float, float, float] | None = None
+        self._rect: Rect | None = None
+        self._shown: tuple[np.ndarray, Rect, ColourScale, np.ndarray | None] | None = None
         self._mapped: tuple[str, Tokens] | None = None
         self._table = lookup(self._name)
         self.row = QHBoxLayout(self)
@@ -175,11 +195,13 @@ class HeatMap(QWidget):
         self.row.setSpacing(0)
         self.row.addWidget(self.chart, 1)
         self.row.addWidget(self.bar)
+        self.bar.turned.connect(self._again)
+        self.chart.viewed.connect(self.resized)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Hide the colour bar and the left axis's name where there is little room, so that the picture has it."""
         super().resizeEvent(event)
-        wide = event.size().width() >= NARROW_PX
+        wide = event.size().width() >= self.chart.theme.px(NARROW_PX)
         if wide != self.chart.left_name:
             self.chart.left_name = wide
             self.bar.setVisible(wide)
@@ -188,30 +210,49 @@ class HeatMap(QWidget):
 
     @property
     def device_pixels(self) -> float:
-        """Return how many pixels of the screen the picture has along its shorter side."""
-        area = self.chart.area
-        return min(area.width(), area.height()) * self.devicePixelRatioF()
+        """Return how many pixels of the screen the whole picture has along its shorter side, at the present zoom."""
+        area, zoom = self.chart.area, max(self.chart.magnification())
+        return min(area.width(), area.height()) * self.devicePixelRatioF() * zoom
 
-    def show_values(
-        self, values: np.ndarray, levels: tuple[float, float], rect: tuple[float, float, float, float]
-    ) -> None:
+    def show_map(self, values: np.ndarray, rect: Rect, scale: ColourScale, painted: np.ndarray | None = None) -> None:
+        """Show rows +y of ``values`` over (x, y, width, height) in a scale's colours, or ``painted`` in their place.
+
+        Values are read and copied as they are here; where colours are locked, in the locked unit.
+        """
+        self._shown = values, rect, scale, painted
+        used, factor = self.bar.settled(scale)
+        self.set_map(scale.name)
+        looked = values if painted is None else painted
+        self.indices = as_indices(used.parts(looked * factor if factor != 1 else looked), 0.0, 1.0)
+        self._rect = rect
+        self.chart.ground = int(self._table[127 if used.signed else 0]) if scale.grounded else None
+        self.chart.show_pixels(self._table[self.indices], rect)
+        self.means(values * factor if factor != 1 else values, scale.quantity)
+
+    def _again(self) -> None:
+        if self._shown:
+            self.show_map(*self._shown)
+
+    def show_values(self, values: np.ndarray, levels: tuple[float, float], rect: Rect) -> None:
         """Show rows +y of ``values`` over (x, y, width, height)."""
         self.indices, self._rect = as_indices(values, *levels), rect
-        self.means(values, "")
         self.chart.show_pixels(self._table[self.indices], rect)
+        self.means(values, "")
 
     def means(self, values: np.ndarray, quantity: str) -> None:
-        """Set what is copied: ``values`` before they were stretched, and their quantity with its unit, in English."""
+        """Set what is read and copied: ``values`` before they were stretched, their quantity and unit in English."""
         self.values, self.quantity = values, quantity
+        if self._rect:
+            self.chart.samples = Samples(values, self._rect, tr(quantity) if quantity else "")
 
     @property
-    def rect_shown(self) -> tuple[float, float, float, float] | None:
+    def rect_shown(self) -> Rect | None:
         """Return the rectangle of the values: x, y, width, height."""
         return self._rect
 
-    def set_extent(self, half: float) -> None:
-        """Show −half to half on both axes."""
-        self.chart.set_range((-1.04 * half, 1.04 * half), (-1.04 * half, 1.04 * half))
+    def set_extent(self, half: float, steady: bool = False) -> None:
+        """Show −half to half on both axes, or in ``steady`` steps of 1-2-5 times the whole."""
+        self.chart.set_extent(half, steady)
 
     def set_map(self, name: str) -> None:
         """Use a colour map by name."""
@@ -225,5 +266,7 @@ class HeatMap(QWidget):
         self.chart.restyle(theme)
         self.bar.restyle(theme)
         self.set_map(self._name)
-        if self._rect:
-            self.chart.show_pixels(self._table[self.indices], self._rect)
+        if self._shown:
+            self._again()
+        elif self._rect:
+            self.chart.show_pixels(self._table[self.indices], self._rect, self.chart.samples)

@@ -15,6 +15,7 @@ SPACE = 8  # pixels; every gap of the window is this, or half or twice this
 USUAL_SCREEN = 1920, 1080  # logical pixels of a screen at which type and strokes have their plain size
 SCALES = 0.5, 3.0  # the smallest and the largest type
 SMALL_PX = 11  # type of ticks and labels, the smallest there is
+TICK_PX, LABEL_PX = 12, 13  # type in plots: of ticks, of names and readings
 PIXELS = re.compile(r"(\d+)px")
 
 
@@ -56,6 +57,16 @@ class Tokens:
     def small(self) -> int:
         """Return the size in pixels of the type of ticks and labels."""
         return self.px(SMALL_PX)
+
+    @property
+    def tick(self) -> int:
+        """Return the size in pixels of the type of a plot's ticks."""
+        return self.px(TICK_PX)
+
+    @property
+    def label(self) -> int:
+        """Return the size in pixels of the type of names and readings in plots."""
+        return self.px(LABEL_PX)
 
 
 LIGHT = Tokens(

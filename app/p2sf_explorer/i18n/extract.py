@@ -26,6 +26,7 @@ ERROR = "P2SFError"
 LESSONS = Path(p2sf_explorer.__file__).parent / "lessons"
 # Fields of dataclasses that are translated where they are shown.
 SHOWN = {
+    "ColourScale": ("unit", "quantity"),
     "Command": ("title", "group"),
     "PanelEntry": ("title", "group"),
     "Parameter": ("control",),

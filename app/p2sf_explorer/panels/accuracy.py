@@ -1,20 +1,24 @@
 """How good the picture is: the Huygens reference, the difference, and every method's time against its error."""
 
+from math import ceil, floor
+
 import numpy as np
-import pyqtgraph as pg
-from PySide6.QtCore import QMarginsF, QPointF, QRectF, QSizeF, Qt
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
+from PySide6.QtGui import QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.charts.brightness import stretched
-from p2sf_explorer.charts.painting import small_font
-from p2sf_explorer.charts.plots import HeatMap, plot_widget, restyle_plot
-from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.colour_scale import ColourScale
+from p2sf_explorer.charts.painting import set_text, write
+from p2sf_explorer.charts.plots import HeatMap
+from p2sf_explorer.charts.reading import RAISED, Reading, closest, value_of
+from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.reference import Accuracy, MethodResult
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.psf import PSF_MAP
 from p2sf_explorer.state.scales import nice, significant, written_r_squared
 from p2sf_explorer.store.store import Store
@@ -30,7 +34,7 @@ EMPTY = (
 SMALLEST_ERROR = 1e-9
 Anchor = tuple[float, float]
 MARGIN_PX = 14  # between the outer dots and the edge of their plot
-LETTERS = QMarginsF(4, 4, 4, 4)  # px around the letters of a label, as of every text document of Qt
+DOT_PX = 4.5  # radius
 LEVELS = tuple(k / 8 for k in range(-4, 13))  # of a label's height, from its top to its dot
 SLANT_COST = 20.0  # px² of covered label that a label would rather have than stand a label's height higher or lower
 ASIDE = 0.04  # of a label's width, between it and its dot
@@ -45,12 +49,7 @@ class AccuracyPanel:
         self.difference = HeatMap("picture − reference, µm", "y, µm", self.widget)
         self.reference.set_map(PSF_MAP)
         self.difference.set_map(DIFFERENCE_MAP)
-        self.methods = plot_widget("time of one PSF, ms", "relative L2 error")
-        self.methods.getPlotItem().setLogMode(True, True)
-        self.methods.getPlotItem().getViewBox().setDefaultPadding(0.15)
-        self.points = pg.ScatterPlotItem(size=9)
-        self.methods.addItem(self.points)
-        self.labels: list[pg.TextItem] = []
+        self.methods = MethodsChart()
         self.message = Readout(self.widget, pill=True, colour="text")
         self.body = QWidget(self.widget)
         self.body.setVisible(False)
@@ -66,9 +65,9 @@ class AccuracyPanel:
         self.widget.set_body(self.empty)
         self.widget.add_footer(self.message)
         self.message.set_text(tr("the reference is summed when the sliders rest"), "muted")
-        self._theme, self._figure = LIGHT, ""
-        self._places: list[tuple[float, float]] = []  # of the methods' dots, in decades of ms and of error
-        self.methods.getPlotItem().getViewBox().sigResized.connect(self._place_labels)
+        self._figure = ""
+        for heat in (self.reference, self.difference):
+            heat.chart.columns = "x, µm", "y, µm"
 
     def show(self, live: Live) -> None:
         """Mark what is shown as belonging to an earlier picture until the worker answers."""
@@ -88,8 +87,7 @@ class AccuracyPanel:
     def _show_figure(self, stale: bool) -> None:
         """Say what was measured, and nothing of an earlier picture but that it is one."""
         self.message.set_text(tr("earlier picture") if stale else self._figure, "muted" if stale else "text")
-        for label in self.labels:
-            label.setVisible(not stale)
+        self.methods.show_labels(not stale)
 
     def show_accuracy(self, accuracy: Accuracy, stale: bool) -> None:
         """Paint reference, difference and methods."""
@@ -100,18 +98,19 @@ class AccuracyPanel:
         start = -(count // 2 + 0.5) * step
         rect, peak = (start, start, count * step, count * step), float(reference.values.max())
         scale = accuracy.live.state.display.psf_scale
-        self.reference.show_values(stretched(reference.values / peak, scale), (0.0, 1.0), rect)
-        self.reference.means(reference.values / peak, "PSF, peak = 1")
-        self.reference.bar.show_scale(PSF_MAP, "% of peak", ((0.0, "0"), (1.0, "100")))
-        delta = (psf.values - reference.values) / peak
+        brightness = ColourScale(
+            PSF_MAP, 0.0, 100.0, "% of peak", "PSF, % of the peak", scale, measure="peak", grounded=True
+        )
+        self.reference.show_map(100 * reference.values / peak, rect, brightness)
+        delta = 100 * (psf.values - reference.values) / peak
         limit = common_limit(delta)
-        self.difference.show_values(delta, (-limit, limit), rect)
-        self.difference.means(delta, "difference, share of the reference's peak")
-        labels = ((0.0, f"−{100 * limit:g}"), (0.5, "0"), (1.0, f"+{100 * limit:g}"))
-        self.difference.bar.show_scale(DIFFERENCE_MAP, "% of peak", labels)
+        about = ColourScale(
+            DIFFERENCE_MAP, -limit, limit, "% of peak", "difference, % of the peak", measure="difference", grounded=True
+        )
+        self.difference.show_map(delta, rect, about)
         for chart in (self.reference, self.difference):
-            chart.set_extent(count * step / 2)
-        self._show_methods(accuracy.results, psf.method)
+            chart.set_extent(count * step / 2, steady=True)
+        self.methods.show_methods(accuracy.results, psf.method)
         r2 = written_r_squared(accuracy.r_squared)
         wide, seconds = significant(count * step, 3), f"{reference.seconds:.2f}"
         first = tr("{method} vs Huygens: R² {r} in {wide} µm", method=psf.method, r=r2, wide=wide)
@@ -119,53 +118,96 @@ class AccuracyPanel:
         self._figure = f"{first} · {second}"
         self._show_figure(stale)
 
-    def _show_methods(self, results: tuple[MethodResult, ...], shown: str) -> None:
-        """Paint a dot and a label for each method."""
-        for label in self.labels:
-            self.methods.removeItem(label)
-        self.labels = []
-        brushes = [pg.mkBrush(self._theme.chief if r.method == shown else self._theme.marginal) for r in results]
-        self._places = [
-            (np.log10(max(r.milliseconds, 1e-3)), np.log10(max(r.relative_l2, SMALLEST_ERROR))) for r in results
-        ]
-        self.points.setData(  # in decades
-            [x for x, _ in self._places], [y for _, y in self._places], brush=brushes, pen=None
-        )
-        for method in results:
-            label = pg.TextItem(local(method_words(method)), self._theme.muted)
-            label.setFont(small_font())
-            self.methods.addItem(label, ignoreBounds=True)
-            self.labels.append(label)
-        self._place_labels()
-
-    def _place_labels(self) -> None:
-        """Show all dots, and put each label where it is clear of dots and other labels in the present size."""
-        if not self._places:
-            return
-        view = self.methods.getPlotItem().getViewBox()
-        size = max(80.0, view.width()), max(60.0, view.height())
-        spans = [with_margin([place[k] for place in self._places], size[k]) for k in (0, 1)]
-        self.methods.setRange(xRange=spans[0], yRange=spans[1], padding=0)
-        (left, right), (low, high) = spans
-        dots = [((x - left) / (right - left) * size[0], (high - y) / (high - low) * size[1]) for x, y in self._places]
-        sizes = [label.boundingRect().size() for label in self.labels]
-        for label, place, anchor in zip(self.labels, self._places, anchors(sizes, dots, size), strict=True):
-            label.setAnchor(anchor)
-            label.setPos(*place)
-
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        self._theme = theme
-        for part in (self.reference, self.difference, self.message):
+        for part in (self.reference, self.difference, self.methods, self.message):
             part.restyle(theme)
-        restyle_plot(self.methods, theme)
-        for label in self.labels:
-            label.setColor(theme.muted)
+
+
+class MethodsChart(Chart):
+    """A dot and a label for each method, over decades of milliseconds and of error."""
+
+    def __init__(self) -> None:
+        super().__init__("time of one PSF, ms", "relative L2 error")
+        self.bottom_tick_maker = self.left_tick_maker = decades
+        self.results: tuple[MethodResult, ...] = ()
+        self.places: list[tuple[float, float]] = []  # of the dots, in decades of ms and of error
+        self.rects: list[QRectF] = []  # of the labels, px
+        self.shown, self.labelled = "", True
+
+    def show_methods(self, results: tuple[MethodResult, ...], shown: str) -> None:
+        """Show methods, that of the picture on screen in a colour of its own."""
+        self.results, self.shown = results, shown
+        self.places = [
+            (float(np.log10(max(r.milliseconds, 1e-3))), float(np.log10(max(r.relative_l2, SMALLEST_ERROR))))
+            for r in results
+        ]
+        self._fit()
+        self.update()
+
+    def show_labels(self, on: bool) -> None:
+        """Show the labels, or only the dots."""
+        self.labelled = on
+        self.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the margins about the dots."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        if self.places:
+            size = self.area.width(), self.area.height()
+            x, y = (with_margin([place[k] for place in self.places], size[k]) for k in (0, 1))
+            self.set_range(x, y)
+
+    def rows_of_data(self) -> list[list[str]]:
+        """Return the methods as rows: name, milliseconds, relative error, R²."""
+        rows = [[r.method, f"{r.milliseconds:.9g}", f"{r.relative_l2:.9g}", f"{r.r_squared:.9g}"] for r in self.results]
+        return [["", *self.labels, "R²"], *rows] if rows else []
+
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return the method whose dot is nearest."""
+        number = closest(np.array(self.places).reshape(-1, 2), np.array([x, y]), self.pixel_size())
+        if number is None:
+            return None
+        method, place = self.results[number], self.places[number]
+        token = "chief" if method.method == self.shown else "marginal"
+        time = value_of(tr("time"), method.milliseconds, self.labels[0], token, mark=place)
+        return Reading(*place, method.method, (time, value_of(self.labels[1], method.relative_l2, "", token)), "")
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the dots, and the labels where they are clear of dots and of each other."""
+        dots = [tuple(float(v) for v in self.to_pixels(*place)) for place in self.places]
+        painter.setPen(Qt.PenStyle.NoPen)
+        for method, (x, y) in zip(self.results, dots, strict=True):
+            painter.setBrush(QColor(self.theme.chief if method.method == self.shown else self.theme.marginal))
+            painter.drawEllipse(QPointF(x, y), DOT_PX * self.theme.scale, DOT_PX * self.theme.scale)
+        self.rects = self._label_rects([(x - self.area.left(), y - self.area.top()) for x, y in dots])
+        painter.setPen(QColor(self.theme.muted))
+        for method, rect in zip(self.results if self.labelled else (), self.rects, strict=False):
+            write(painter, rect, method_words(method), -1, self.theme.tick)
+
+    def _label_rects(self, dots: list[tuple[float, float]]) -> list[QRectF]:
+        sizes = [set_text(method_words(method), self.theme.tick).size() for method in self.results]
+        found = anchors(sizes, dots, (self.area.width(), self.area.height()))
+        corners = [
+            QPointF(x - across * size.width(), y - down * size.height()) + self.area.topLeft()
+            for (across, down), size, (x, y) in zip(found, sizes, dots, strict=True)
+        ]
+        return [QRectF(corner, size) for corner, size in zip(corners, sizes, strict=True)]
+
+
+def decades(low: float, high: float, most: float) -> list[tuple[float, str]]:
+    """Return whole decades with their values: numbers near one, powers of ten elsewhere."""
+    step = max(1, ceil((high - low) / max(1.0, most)))
+    shown = range(ceil(low), floor(high) + 1, step)
+    return [(float(k), f"{10.0**k:g}" if -2 <= k <= 3 else "10" + str(k).translate(RAISED)) for k in shown]
 
 
 def common_limit(delta: np.ndarray) -> float:
     """Return the power of ten that holds all differences: few scales, so that methods and fields can be compared."""
-    return nice(max(1e-6, float(np.abs(delta).max())), (1,))
+    return nice(max(1e-4, float(np.abs(delta).max())), (1,))
 
 
 def method_words(method: MethodResult) -> str:
@@ -196,7 +238,7 @@ def anchors(labels: list[QSizeF], dots: list[tuple[float, float]], size: tuple[f
             return round(hidden + SLANT_COST * abs(at[1] - 0.5), 6)  # so that right is before left where both are free
 
         rects = {
-            (across, down): QRectF(QPointF(x - across * label.width(), y - down * label.height()), label) - LETTERS
+            (across, down): QRectF(QPointF(x - across * label.width(), y - down * label.height()), label)
             for down in LEVELS
             for across in (-ASIDE, 1 + ASIDE)  # right or left
         }

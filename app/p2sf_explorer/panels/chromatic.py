@@ -1,5 +1,7 @@
 """Longitudinal colour: the focus of each wavelength on the axis."""
 
+from math import inf
+
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import C_NM, D_NM, F_NM
@@ -8,7 +10,7 @@ from p2sf_explorer.results.chromatic import Chromatic
 from p2sf_explorer.state.scales import signed
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
-from p2sf_explorer.widgets.chart_card import NotedChart, around, legend
+from p2sf_explorer.widgets.chart_card import NotedChart, legend, reach
 
 TIP = (
     "Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and "
@@ -39,10 +41,10 @@ class ChromaticPanel:
         ends = view.wavelength_nm[[0, -1]]
         for side, curve in zip((-1, 1), self.band, strict=True):
             curve.set_data(ends, (side * view.depth_of_focus_um,) * 2)
-        low, high = around(view.shift_um, least=1.0)
-        self.chart.set_range((float(ends[0]), float(ends[1])), (low, high))
+        low, high = reach(view.shift_um, least=1.0)
+        self.chart.set_range((float(ends[0]), float(ends[1])), (low, high), steady="y")
         here = live.state.optics.wavelength_nm
-        names = [(nm, high - 0.07 * (high - low), name, "muted", 0) for nm, name in LINES if ends[0] <= nm <= ends[1]]
+        names = [(nm, inf, name, "muted", 0) for nm, name in LINES if ends[0] <= nm <= ends[1]]
         self.chart.show_notes(names, ((here, "muted"),))
         self._say(view)
 

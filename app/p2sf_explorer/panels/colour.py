@@ -1,5 +1,7 @@
 """The colour PSF: the image of a point of a chosen spectrum, in the colours of a screen."""
 
+from dataclasses import replace
+
 import numpy as np
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QPainter
@@ -7,6 +9,7 @@ from PySide6.QtGui import QColor, QPainter
 from p2sf.conventions import NM_PER_UM
 from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.reading import Reading, Samples, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
@@ -30,7 +33,7 @@ class SpectrumChart(Chart):
 
     def __init__(self) -> None:
         super().__init__("wavelength, nm", "chief ray, µm")
-        self.shift = self.add_curve("text", 2)
+        self.shift = self.add_curve("text", 2, name="chief ray")
         self.colours: Colours | None = None
 
     def show_colours(self, colours: Colours) -> None:
@@ -41,8 +44,20 @@ class SpectrumChart(Chart):
         self.shift.set_data(nm[order], shift[order])
         largest = max(1.0, float(np.abs(shift).max()))
         low, high = min(400.0, float(colours.wavelength_nm.min())), max(700.0, float(colours.wavelength_nm.max()))
-        self.set_range((low, high), (-1.15 * largest, 1.15 * largest))
+        self.set_range((low, high), (-1.15 * largest, 1.15 * largest), steady="y")
         self.update()
+
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return where the chief ray lands, and the luminance of the spectrum's nearest part."""
+        reading, shown = super().read(x, y, snap), self.colours
+        if reading is None or shown is None:
+            return reading
+        number = int(np.abs(shown.wavelength_nm - x).argmin())
+        named = value_of(
+            tr("luminance"), float(shown.luminance[number] / shown.luminance.max()), tr("luminance, peak = 1")
+        )
+        at = tr("at {wavelength} nm", wavelength=f"{shown.wavelength_nm[number]:.1f}")
+        return replace(reading, values=(*reading.values, replace(named, text=f"{named.text} {at}")))
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint the bars along the bottom."""
@@ -57,6 +72,7 @@ class SpectrumChart(Chart):
             painter.fillRect(box, QColor.fromRgbF(*map(float, hue)))
 
 
+BLACK = 0xFF000000
 EMPTY_NM = (400.0, 700.0)  # the range of the axis before there is a spectrum
 
 
@@ -66,6 +82,7 @@ class ColourPanel:
     def __init__(self, store: Store):
         self._store = store
         self.picture = Chart("x, µm", "y, µm", aspect=True)
+        self.picture.ground = BLACK
         self.spectrum = SpectrumChart()
         self.airy = self.picture.add_curve("#ffffff", 1, 150)
         self.spectrum.set_range(EMPTY_NM, (-1.0, 1.0))
@@ -97,7 +114,7 @@ class ColourPanel:
             return
         if self.found is None:
             half = asked.window[0] * asked.window[1] / 2
-            self.picture.set_range((-half, half), (-half, half))
+            self.picture.set_extent(half, steady=True)
         self.asking.ask(asked)
         if changed:
             self.asking.again()
@@ -106,9 +123,10 @@ class ColourPanel:
         self.found = asked, found
         count, step = asked.window
         start = -(count // 2 + 0.5) * step
-        self.picture.show_pixels(pixels(found.psf, self._scale), (start, start, count * step, count * step))
-        half = count * step / 2
-        self.picture.set_range((-half, half), (-half, half))
+        rect, luminance = (start, start, count * step, count * step), found.psf.xyz[..., 1]
+        seen = Samples(luminance / (float(luminance.max()) or 1.0), rect, tr("luminance, peak = 1"))
+        self.picture.show_pixels(pixels(found.psf, self._scale), rect, seen)
+        self.picture.set_extent(count * step / 2, steady=True)
         self.spectrum.show_colours(found)
         spread = float(np.ptp(found.psf.shift_um))
         count_said = tr("{count} wavelengths", count=len(found.psf.wavelengths_um))

@@ -7,13 +7,13 @@ from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.parts import KINDS
 from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Grid
-from p2sf_explorer.charts.plots import ColourBar, as_indices
+from p2sf_explorer.charts.colour_scale import ColourScale
+from p2sf_explorer.charts.plots import ColourBar
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.database import LOSSY, NODES, Atlas, DatabaseRequest, DatabaseResult, answer
-from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.terms import WORDS
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
@@ -25,7 +25,6 @@ TIP = (
     "drag on a map or the atlas, or use the arrow keys and Enter, to set the source."
 )
 VALUE_MAP, ERROR_MAP = "CET-D1A", "viridis"
-DECADES = 6  # of the error map below its largest value
 RULES = {"table1": "table 1 of the paper", "linear": "linear"}
 ERRORS = {"table1": "error of table 1 of the paper", "linear": "error of linear interpolation"}
 
@@ -40,8 +39,8 @@ class DatabasePanel:
         self.term = chooser(names, "Which coefficient", self.widget)
         self.term.setCurrentIndex(KINDS.index("w22"))
         self.rule = chooser(tuple((r, RULES[r]) for r in LOSSY), "Which interpolation the error is of", self.widget)
-        self.map, self.error, self.atlas = DepthFieldMap(), DepthFieldMap(), AtlasView()
         self.bars = ColourBar(), ColourBar()
+        self.map, self.error, self.atlas = DepthFieldMap(self.bars[0]), DepthFieldMap(self.bars[1]), AtlasView()
         self.note = QLabel()
         self._lay_out()
         for box in (self.term, self.rule):
@@ -112,24 +111,19 @@ class DatabasePanel:
 
     def _paint_map(self, found: DatabaseResult, term: str) -> None:
         """Paint signed square roots: near and far differ by a thousand waves."""
-        values = found.maps[term]
-        limit = nice(max(1e-6, float(np.nanmax(np.abs(values)))))
-        scaled = np.sign(values) * np.sqrt(np.abs(values) / limit)
-        self.map.show_map(as_indices(scaled, -1.0, 1.0), VALUE_MAP, *places(found))
-        self.map.grids = (grid_of(found, f"{name(term)}, λ", values),)
-        parts = (-1, -0.5, 0.5, 1)
-        labels = tuple(((1 + p) / 2, short(p * abs(p) * limit, "+")) for p in parts)
-        self.bars[0].show_scale(VALUE_MAP, "λ", (*labels, (0.5, "0")))
+        values, head = found.maps[term], f"{name(term)}, λ"
+        top = max(1e-6, float(np.nanmax(np.abs(values))))
+        scale = ColourScale(VALUE_MAP, -top, top, "λ", head, "sqrt", measure="waves", steady=True)
+        self.map.show_map(values, scale, *places(found))
+        self.map.grids = (grid_of(found, head, values),)
 
     def _paint_error(self, found: DatabaseResult, term: str, rule: str) -> None:
         """Paint decades of the error."""
-        values = found.errors[rule][term]
-        top = np.log10(nice(max(1e-9, float(np.nanmax(values)))))
-        scaled = (np.log10(np.maximum(values, 1e-30)) - top) / DECADES + 1
-        self.error.show_map(as_indices(scaled, 0.0, 1.0), ERROR_MAP, *places(found))
-        self.error.grids = (grid_of(found, f"{tr(ERRORS[rule])}, {name(term)}, λ", values),)
-        labels = tuple((part, short(10 ** (top + DECADES * (part - 1)))) for part in (0, 0.5, 1))
-        self.bars[1].show_scale(ERROR_MAP, "λ", labels)
+        values, head = found.errors[rule][term], f"{tr(ERRORS[rule])}, {name(term)}, λ"
+        top = max(1e-9, float(np.nanmax(values)))
+        scale = ColourScale(ERROR_MAP, 0.0, top, "λ", f"{tr('error')}, λ", "log", measure="error", steady=True)
+        self.error.show_map(values, scale, *places(found))
+        self.error.grids = (grid_of(found, head, values),)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -30,6 +30,7 @@ class DepthChart(NotedChart):
     def __init__(self) -> None:
         super().__init__("depth, even in 1/depth", "blur, µm")
         self.sharp: tuple[float, float] | None = None
+        self.bottom_tick_maker, self.write_bottom = depth_ticks, written_depth
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint the shade, then lines and text."""
@@ -72,18 +73,29 @@ class DepthOfFieldPanel:
         self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {sentence(view)}")
 
     def _frame(self, view: DepthOfField, edges: tuple[float, float]) -> None:
-        """Show the ranges, and depths for ticks."""
-        self.chart.set_range(edges, (0.0, highest(view)))
-        places = [edges[0] + part * (edges[1] - edges[0]) for part in TICKS]
-        ticks = tuple(zip(places, told_apart([1 / near if near else inf for near in places]), strict=True))
-        if ticks != self.chart.bottom_ticks:
-            self.chart.bottom_ticks = ticks
-            self.chart.forget_background()
+        """Show the ranges."""
+        self.chart.set_range(edges, (0.0, highest(view)), steady="y")
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme = theme
         self.chart.restyle(theme)
+
+
+def depth_ticks(low: float, high: float, most: float) -> list[tuple[float, str]]:
+    """Return five steps along an axis of 1/depth in 1/mm, written as depths."""
+    places = [low + part * (high - low) for part in TICKS]
+    return list(zip(places, told_apart([depth_of(near) for near in places]), strict=True))
+
+
+def depth_of(near: float) -> float:
+    """Return the depth in mm of 1/depth; infinity at zero."""
+    return 1 / near if near else inf
+
+
+def written_depth(near: float) -> str:
+    """Return a place on an axis of 1/depth, 1/mm, as a depth."""
+    return f"{tr('depth')} {written_distance(depth_of(near))}"
 
 
 def sharp_range(view: DepthOfField, highest_near: float) -> tuple[float, float] | None:

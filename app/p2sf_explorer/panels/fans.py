@@ -4,12 +4,12 @@ import numpy as np
 
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.rays import Fan
-from p2sf_explorer.state.scales import nice
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
 
 LOOKS = {"sagittal, along ξ": ("marginal", 2), "tangential, along η": ("chief", 2)}
 PLACES = {"paraxial": "place in the entrance pupil, pupil radii", "stop": "place in the stop, stop radii"}
+SMALLEST = 1e-3  # µm or waves at the end of the axis
 RAY_TIP = "Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil."
 OPD_TIP = "OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included."
 
@@ -29,8 +29,8 @@ class FanPanel(CurvesPanel):
         self.show_curves(fan.pupil, dict(zip(LOOKS, lines, strict=True)))
         both = np.abs(np.concatenate(lines))
         peak = float(np.nanmax(both)) if np.isfinite(both).any() else 0.0
-        limit = nice(max(peak, 1e-3), (1, 1.5, 2, 3, 5, 7))
-        self.set_range((-1.02, 1.02), (-limit, limit))
+        limit = max(peak, SMALLEST)
+        self.set_range((-1.02, 1.02), (-limit, limit), steady="y")
 
 
 class RayFanPanel(FanPanel):

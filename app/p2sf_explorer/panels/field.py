@@ -9,7 +9,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.field import FieldView
 from p2sf_explorer.state.scales import signed
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.chart_card import ChartsCard, NotedChart, around, legend
+from p2sf_explorer.widgets.chart_card import ChartsCard, NotedChart, legend, reach
 
 TIP = (
     "Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image "
@@ -32,7 +32,9 @@ class FieldPanel:
     def __init__(self, store: Store):
         self.focus = Chart("focus behind the sensor, mm", "field, °")
         self.distortion = Chart("distortion, %", "field, °")
+        self.focus.over = self.distortion.over = "left"
         self.grid = NotedChart(aspect=True, framed=False)
+        self.grid.over, self.grid.columns = "path", ("x, of the edge", "y, of the edge")
         self.curves = {
             name: chart.add_curve(token, width)
             for name, chart, token, width in (
@@ -70,7 +72,7 @@ class FieldPanel:
         shown = {"S": view.real.sagittal, "T": view.real.tangential}
         for name, values in (*shown.items(), ("third S", view.third.sagittal), ("third T", view.third.tangential)):
             self.curves[name].set_data(values, at)
-        self.focus.set_range(around(*shown.values(), least=1e-3), (0.0, top))
+        self.focus.set_range(reach(*shown.values(), least=1e-3), (0.0, top), steady="x")
         self.zeros[0].set_data((0, 0), (0, top))
         self.focus.update()
 
@@ -78,7 +80,7 @@ class FieldPanel:
         real, third = (100 * part for part in (view.heights.distortion, view.heights.third_order_distortion))
         self.curves["real"].set_data(real, at)
         self.curves["third"].set_data(third, at)
-        self.distortion.set_range(around(real, least=1e-3), (0.0, top))
+        self.distortion.set_range(reach(real, least=1e-3), (0.0, top), steady="x")
         self.zeros[1].set_data((0, 0), (0, top))
         self.distortion.update()
 

@@ -1,7 +1,7 @@
 """The field map: PSFs over the picture."""
 
 import numpy as np
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 
 from p2sf.conventions import degrees_from_slope
@@ -34,8 +34,12 @@ class MapChart(TilesChart):
         self.fields_deg = np.zeros(0)
         self.choice = Cursor()
         self._taken, self._field = 0, 0.0
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.takes_arrows = True
         self.setAccessibleName(tr("Field map"))
+
+    def takes(self, point: QPointF) -> bool:
+        """Return whether a press chooses a picture."""
+        return self.tile_at(point) is not None
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Go to the field of the picture under the pointer."""

@@ -85,6 +85,10 @@ class LayoutChart(Chart):
             curve.set_data(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
         self.update()
 
+    def takes(self, point: QPointF) -> bool:
+        """Return whether a press takes hold of the source."""
+        return self.live is not None and self.handle.near(self, self.live, point)
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fit the lens to the new size."""
         super().resizeEvent(event)

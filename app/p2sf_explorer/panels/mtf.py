@@ -1,5 +1,7 @@
 """The modulation transfer function of the picture's pupil."""
 
+from math import inf
+
 from p2sf.conventions import UM_PER_MM
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
@@ -26,7 +28,7 @@ class MtfPanel(CurvesPanel):
     """Tangential and sagittal contrast and the diffraction limit."""
 
     def __init__(self, store: Store):
-        super().__init__("MTF", TIP, ("cycles per mm on the sensor", "contrast"), LOOKS)
+        super().__init__("MTF", TIP, ("frequency on the sensor, 1/mm", "contrast"), LOOKS)
         self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
         self.widget.add_tool(self.pixel)
         self.asking = Asking(self.widget, answer, self._paint, self._say)
@@ -52,9 +54,9 @@ class MtfPanel(CurvesPanel):
             return view.method
         curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
         self.show_curves(view.frequency_per_mm, curves)
-        low, high = signed_range(live, curves, (0.0, 1.04))
-        self.set_range((0.0, float(view.frequency_per_mm[-1])), (low, high))
-        self._mark(live.state.display.pixel_um, low + 0.91 * (high - low))
+        usual, steady = (0.0, 1.04), "xy" if live.difference else "x"
+        self.set_range((0.0, float(view.frequency_per_mm[-1])), signed_range(live, curves, usual), steady)
+        self._mark(live.state.display.pixel_um)
         return view.method
 
     def restyle(self, theme: Tokens) -> None:
@@ -66,12 +68,12 @@ class MtfPanel(CurvesPanel):
         """End the worker's thread."""
         self.asking.worker.stop()
 
-    def _mark(self, pixel_um: float, height: float) -> None:
-        """Mark the sensor's Nyquist frequency, with its name at this contrast."""
+    def _mark(self, pixel_um: float) -> None:
+        """Mark the sensor's Nyquist frequency, with its name at the upper edge."""
         self.pixel.show_value(pixel_um)
         nyquist = nyquist_per_mm(pixel_um)
         text = " " + tr("Nyquist {f}", f=f"{nyquist:.3g}")
-        self.chart.show_notes(((nyquist, height, text, "text", -1),), ((nyquist, "text"),))
+        self.chart.show_notes(((nyquist, inf, text, "text", -1),), ((nyquist, "text"),))
 
 
 def nyquist_per_mm(pixel_um: float) -> float:

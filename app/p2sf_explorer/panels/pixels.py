@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
@@ -18,7 +18,7 @@ TIP = (
     "over square pixels, the middle one centred on the chief ray."
 )
 NAMES = ("this lens, µm", "perfect lens, µm", "on the pixels, µm")
-MEANINGS = ("PSF, peak = 1", "PSF, peak = 1", "share of the light in a pixel")
+MEANINGS = (("PSF, peak = 1", "peak"), ("PSF, peak = 1", "peak"), ("share of the light in a pixel", "of light"))
 PIXEL_TIP = "Pixel pitch of the sensor."
 
 
@@ -29,6 +29,7 @@ class BesidePanel:
         self.maps = tuple(HeatMap(words, "y, µm") for words in NAMES)
         for heat in self.maps:
             heat.set_map(BRIGHTNESS)
+            heat.chart.columns = "x, µm", "y, µm"
         self.widget = ChartsCard("Perfect lens and pixels", TIP, self.maps, (1, 1, 1))
         self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
         self.widget.add_tool(self.pixel)
@@ -38,18 +39,16 @@ class BesidePanel:
         view: Beside = live.views["beside"]
         self.pixel.show_value(view.pixel_um)
         half = view.real.shape[0] * view.sample_um / 2
-        top = float(view.pixels.max()) or 1.0
-        shown = ((view.real, view.sample_um), (view.perfect, view.sample_um), (view.pixels / top, view.pixel_um))
-        for heat, (values, step), means in zip(self.maps, shown, MEANINGS, strict=True):
+        shown = ((view.real, view.sample_um), (view.perfect, view.sample_um), (view.pixels, view.pixel_um))
+        for heat, (values, step), (means, unit) in zip(self.maps, shown, MEANINGS, strict=True):
             start = -(values.shape[0] // 2 + 0.5) * step
             rect = (start, start, values.shape[0] * step, values.shape[0] * step)
-            heat.show_values(stretched(np.asarray(values, float), live.state.display.psf_scale), (0.0, 1.0), rect)
-            heat.means(values, means)
-            heat.set_extent(half)
-        self.maps[2].means(view.pixels, MEANINGS[2])
-        for heat in self.maps[:2]:
-            heat.bar.show_scale(BRIGHTNESS, "peak", ((0.0, "0"), (1.0, "1")))
-        self.maps[2].bar.show_scale(BRIGHTNESS, "of light", ((0.0, "0"), (1.0, f"{100 * top:.3g} %")))
+            top = 1.0 if unit == "peak" else float(view.pixels.max()) or 1.0
+            scale = ColourScale(
+                BRIGHTNESS, 0.0, top, unit, means, live.state.display.psf_scale, measure=means, grounded=True
+            )
+            heat.show_map(np.asarray(values, float), rect, scale)
+            heat.set_extent(half, steady=True)
         self._say(live, view)
 
     def _say(self, live: Live, view: Beside) -> None:

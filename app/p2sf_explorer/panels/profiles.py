@@ -8,6 +8,7 @@ from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.profiles import ProfileCurves, answer
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
@@ -29,6 +30,7 @@ class ProfilesPanel(CurvesPanel):
         super().__init__("PSF profiles", TIP, ("distance from the chief ray, µm", "share of the peak"), LOOKS)
         self.energy = Chart("radius, µm", "energy within")
         self.perfect, self.within = self.energy.add_curve("muted"), self.energy.add_curve("third", 2)
+        self.perfect.name, self.within.name = tr("perfect lens"), tr("this lens")
         both = QWidget(self.widget)
         row = QHBoxLayout(both)
         row.setContentsMargins(0, 0, 0, 0)
@@ -60,7 +62,8 @@ class ProfilesPanel(CurvesPanel):
         curves = {"Airy": view.airy, "along x": view.along_x, "along y": view.along_y}
         self.show_curves(view.position_um, curves)
         half = -float(view.position_um[0])
-        self.set_range((-half, half), signed_range(live, curves, (0.0, 1.04)))
+        steady = "xy" if live.difference else "x"
+        self.set_range((-half, half), signed_range(live, curves, (0.0, 1.04)), steady)
         outward = view.position_um >= 0
         self.perfect.set_data(view.position_um[outward], view.perfect_energy[outward])
 
@@ -71,7 +74,8 @@ class ProfilesPanel(CurvesPanel):
         outward = view.position_um >= 0
         self.within.set_data(view.position_um[outward], view.energy[outward])
         half = -float(view.position_um[0])
-        self.energy.set_range((0.0, half), signed_range(self._live, {"energy": view.energy}, (0.0, 1.04)))
+        steady = "xy" if self._live.difference else "x"
+        self.energy.set_range((0.0, half), signed_range(self._live, {"energy": view.energy}, (0.0, 1.04)), steady)
         self.energy.update()
         half_light, most, rms = (f"{radius:.3g}" for radius in view.radii_um)
         return Message(

@@ -6,7 +6,7 @@ from PySide6.QtCore import QTimer
 from p2sf.messages import Message
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
-from p2sf_explorer.charts.brightness import DECADES, stretched
+from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.deferred_sums import SumRequest
@@ -112,17 +112,15 @@ class PsfPanel:
         if live.difference:
             show_signed(self.map, live.difference.psf, rect, state.display.psf_scale, "of peak")
         else:
-            self.map.set_map(PSF_MAP)
-            self.map.show_values(stretched(psf.values / peak, state.display.psf_scale), (0.0, 1.0), rect)
-            self.map.means(psf.values * (top_value(state, psf, peak) / peak), QUANTITIES[unit_of(state, psf)])
-            self.map.bar.show_scale(PSF_MAP, UNIT_WORDS[unit_of(state, psf)], labels(state, psf, peak))
+            top = top_value(state, psf, peak)
+            self.map.show_map(psf.values * (top / peak), rect, colour_scale(state, psf, peak))
         self.airy.token = self.arrow.token = "muted" if live.difference else WHITE
         self._frame(count * step / 2, live)
 
     def _frame(self, half: float, live: Live) -> None:
         if half != self._half:
             self._half = half
-            self.map.set_extent(half)
+            self.map.set_extent(half, steady=True)
         if live.airy_radius_um != self._airy:
             self._airy = live.airy_radius_um
             turn = np.linspace(0, 2 * np.pi, 73)
@@ -200,13 +198,6 @@ UNIT_WORDS = {"peak": "peak = 1", "sum": "per pixel", "strehl": "Strehl"}
 QUANTITIES = {"peak": "PSF, peak = 1", "sum": "PSF, sum = 1", "strehl": "PSF, perfect peak = 1"}
 
 
-def decade(top: float, decades: int) -> str:
-    """Return ``top``·10^−decades as it is usually written."""
-    if top == 1.0 and decades:
-        return "10⁻" + "⁰¹²³⁴⁵⁶⁷⁸⁹"[decades]
-    return f"{top * 10.0**-decades:.2g}".replace("e-0", "e−")
-
-
 def top_value(state: State, psf: Psf, peak: float) -> float:
     """Return the brightest sample in the chosen units."""
     units = unit_of(state, psf)
@@ -221,10 +212,22 @@ def unit_of(state: State, psf: Psf) -> str:
     return "peak" if units == "strehl" and psf.strehl is None else units
 
 
-def labels(state: State, psf: Psf, peak: float) -> tuple[tuple[float, str], ...]:
-    """Return the colour bar's labels: parts of the bar and the value there in the chosen units."""
-    top = top_value(state, psf, peak)
-    if state.display.psf_scale == "log":
-        return tuple((1 - k / DECADES, decade(top, k)) for k in range(DECADES + 1))
-    power = 2 if state.display.psf_scale == "sqrt" else 1
-    return tuple((part, f"{top * part**power:.2g}") for part in (0.0, 0.25, 0.5, 0.75, 1.0))
+def colour_scale(state: State, psf: Psf, peak: float) -> ColourScale:
+    """Return how the picture is coloured: up to its peak, in the chosen units.
+
+    Pictures whose pixels differ are compared by their light per µm², or by their Strehl ratios.
+    """
+    unit, top = unit_of(state, psf), top_value(state, psf, peak)
+    per_area = {"peak": peak, "sum": 1.0, "strehl": psf.pixel_um**2}[unit] / psf.pixel_um**2
+    return ColourScale(
+        PSF_MAP,
+        0.0,
+        top,
+        unit=UNIT_WORDS[unit],
+        quantity=QUANTITIES[unit],
+        stretch=state.display.psf_scale,
+        measure="strehl" if unit == "strehl" else "light per area",
+        absolute=per_area,
+        relative=unit == "peak",
+        grounded=True,
+    )

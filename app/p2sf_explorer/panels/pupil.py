@@ -5,6 +5,7 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QPainter, QPainterPath
 
 from p2sf_explorer.charts.chart import Chart, Curve
+from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.contour import contours, interval
 from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.plots import HeatMap
@@ -14,7 +15,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.pupil import CIRCLE
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.camera import Camera
-from p2sf_explorer.state.scales import nice, significant
+from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser, select
 from p2sf_explorer.widgets.readout import Readout
@@ -23,8 +24,8 @@ WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-CBC1"
 MODES = (("waves", "W, waves"), ("contour", "contours"), ("surface", "surface"), ("wrapped", "wrapped"))
 SIGNED = ("waves", "contour", "surface")  # which can show a difference
 AXES = {
-    "paraxial": ("ξ, pupil radii", "η, towards the field"),
-    "stop": ("ξ, stop radii", "η, towards the field"),
+    "paraxial": ("ξ, pupil radii", "η, pupil radii (towards the field)"),
+    "stop": ("ξ, stop radii", "η, stop radii (towards the field)"),
 }
 TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
 
@@ -65,7 +66,6 @@ class PupilPanel:
         self.numbers = Readout(self.widget, pill=True, colour="text")
         self.widget.set_body(self.map)
         self.widget.add_footer(self.numbers)
-        self._map = ""
 
     def show(self, live: Live) -> None:
         """Paint the wavefront."""
@@ -77,21 +77,15 @@ class PupilPanel:
         select(self.mode, mode)
         self.surface.setVisible(mode == "surface")
         self.map.chart.setVisible(mode != "surface")
-        self._use_map(WRAPPED_MAP if mode == "wrapped" else WAVES_MAP)
         if mode == "wrapped":
-            phase = np.mod(pupil.waves, 1.0)
-            self._paint(phase, (0.0, 1.0), ((0.0, "0"), (0.5, "½"), (1.0, "1")))
-            self.map.means(phase, "W modulo 1, waves")
+            self.map.show_map(np.mod(pupil.waves, 1.0), DISC, WRAPPED)
         else:
-            limit = self._limit(pupil.waves)
-            labels = ((0.0, f"−{limit:g}"), (0.5, "0"), (1.0, f"+{limit:g}"))
             step = interval(pupil.peak_to_valley)
-            shown = contours(pupil.waves, step) if mode == "contour" else pupil.waves
-            self._paint(shown, (-limit, limit), labels)
-            self.map.means(pupil.waves, "W, waves")
+            bands = contours(pupil.waves, step) if mode == "contour" else None
+            self.map.show_map(pupil.waves, DISC, waves_scale(pupil.waves), bands)
             if mode == "surface":
                 camera = Camera(live.state.camera.surface_turn_deg, live.state.camera.surface_tilt_deg)
-                self.surface.show_waves(pupil.waves, limit, live.quality, camera)
+                self.surface.show_waves(pupil.waves, self.map.bar.top, live.quality, camera)
         rms, peak_to_valley = (significant(value, 3) for value in (pupil.rms, pupil.peak_to_valley))
         numbers = tr("RMS {r} λ · PV {p} λ", r=rms, p=peak_to_valley)
         if pupil.clear < 1:
@@ -105,16 +99,14 @@ class PupilPanel:
         self.surface.restyle(theme)
         self.numbers.restyle(theme)
 
-    @staticmethod
-    def _limit(waves: np.ndarray) -> float:
-        peak = np.nanmax(np.abs(waves)) if np.isfinite(waves).any() else 0.0
-        return nice(max(float(peak), 0.05), (1, 1.5, 2, 3, 5, 7))
 
-    def _use_map(self, name: str) -> None:
-        if name != self._map:
-            self._map = name
-            self.map.set_map(name)
+def waves_scale(waves: np.ndarray) -> ColourScale:
+    """Return how a wavefront is coloured: about zero, as far as it reaches, in coarse steps."""
+    peak = float(np.nanmax(np.abs(waves))) if np.isfinite(waves).any() else 0.0
+    top = max(peak, LEAST_WAVES)
+    return ColourScale(WAVES_MAP, -top, top, "λ", "W, waves", measure="waves", steady=True)
 
-    def _paint(self, values: np.ndarray, levels: tuple[float, float], labels: tuple[tuple[float, str], ...]) -> None:
-        self.map.show_values(values, levels, (-1.0, -1.0, 2.0, 2.0))
-        self.map.bar.show_scale(self._map, "λ", labels)
+
+LEAST_WAVES = 0.05  # of a full bar
+DISC = (-1.0, -1.0, 2.0, 2.0)  # the square about the pupil: x, y, width, height in its radii
+WRAPPED = ColourScale(WRAPPED_MAP, 0.0, 1.0, "λ", "W modulo 1, waves", measure="wrapped")

@@ -7,11 +7,12 @@ from PySide6.QtCore import QEvent, QPointF, QRectF
 from PySide6.QtGui import QColor, QMouseEvent, QPainter
 
 from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.reading import Reading, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.seidel import PerSurface
-from p2sf_explorer.state.scales import nice, signed
+from p2sf_explorer.state.scales import signed
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
 
@@ -44,6 +45,7 @@ HUES = {"w40": "#0072b2", "w31": "#d55e00", "w22": "#009e73", "petzval": "#cc79a
     "c1": "#56b4e9",
     "c2": "#8c8c8c",
 }
+SMALLEST = 0.1  # waves at the end of the axis
 CUT_PX = 6  # from the end of the axis to the cut in a bar that goes on
 WIDTH, GROUP = 0.62, 0.84  # of a bar alone, and of a group of them, of the distance to the next
 
@@ -98,7 +100,7 @@ class BarsChart(Chart):
     """The bars; the store is told the surface under the pointer, and the surface that it tells is shaded."""
 
     def __init__(self, store: Store):
-        super().__init__("surface", "waves")
+        super().__init__("surface", "coefficient, waves")
         self._store = store
         self.zero = self.add_curve("line")
         self.bars: tuple[Bar, ...] = ()
@@ -112,8 +114,8 @@ class BarsChart(Chart):
         count = len(view.waves["w40"])
         last = count + 1.5
         heights = [abs(bar.height) for bar in bars if not (grouped and bar.term in MOVING)]
-        limit = nice(max(0.1, *heights), (1, 1.5, 2, 3, 5, 7))
-        self.set_range((0.3, last + 0.7), (-limit, limit))
+        limit = max(SMALLEST, *heights)
+        self.set_range((0.3, last + 0.7), (-limit, limit), steady="y")
         self.zero.set_data((0.3, last + 0.7), (0, 0))
         names = tuple((k, f"{k} {tr('stop')}" if k == view.stop_surface else str(k)) for k in range(1, count + 1))
         ticks = (*names, (last, tr("sum")))
@@ -121,6 +123,16 @@ class BarsChart(Chart):
             self.bottom_ticks = ticks
             self.forget_background()
         self.update()
+
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return the bar whose place is nearest."""
+        bar = min(self.bars, key=lambda bar: abs(bar.x - x), default=None)
+        if bar is None:
+            return None
+        head = tr("surface {number}", number=bar.surface) if bar.surface else tr("sum")
+        token = HUES[bar.term] if self.grouped else "positive" if bar.height >= 0 else "negative"
+        value = value_of(NAMES[bar.term], bar.height, self.labels[1], token, mark=(bar.x, bar.height))
+        return Reading(bar.x, bar.height, head, (value,), "")
 
     def rows_of_data(self) -> list[list[str]]:
         """Return the bars as rows: coefficient, surface, waves."""

@@ -8,17 +8,18 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 from p2sf.raytrace.pencil import Spot
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import polygon
+from p2sf_explorer.charts.reading import Reading, closest, point_reading
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.rays import figures, landed
-from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.terms import FILLED
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.readout import FactTable
 
 TIP = "Spot diagram: where exact rays, evenly spread over the pupil, meet the sensor; no diffraction."
+SPOT_AXES = ("x, µm", "y, µm")
 AXIS_PX = 60  # pixels of the axis and its label beside the square
 
 
@@ -39,14 +40,22 @@ class SpotChart(Chart):
         """Return the points as rows: x and y in µm."""
         return [[*self.labels], *([f"{x:.9g}", f"{y:.9g}"] for x, y in self.points)] if len(self.points) else []
 
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return the ray that lands nearest."""
+        number = closest(self.points, np.array([x, y]), self.pixel_size())
+        if number is None:
+            return None
+        landed_x, landed_y = self.points[number].tolist()
+        return point_reading(landed_x, landed_y, SPOT_AXES, "marginal", tr("ray"))
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the chart about square."""
-        self.setMaximumWidth(max(200, event.size().height() + AXIS_PX))
+        self.setMaximumWidth(max(200, event.size().height() + self.theme.px(AXIS_PX)))
         super().resizeEvent(event)
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint the points."""
-        pen = QPen(QColor(self.theme.marginal), 3)
+        pen = QPen(QColor(self.theme.marginal), 3 * self.theme.scale)
         pen.setCapStyle(Qt.PenCapStyle.RoundCap)
         painter.setPen(pen)
         painter.drawPoints(polygon(*self.to_pixels(*self.points.T)))
@@ -78,8 +87,7 @@ class SpotPanel:
         turn = np.linspace(0, 2 * np.pi, 73)
         self.chart.airy.set_data(live.airy_radius_um * np.cos(turn), live.airy_radius_um * np.sin(turn))
         farthest = max(float(np.abs(points).max()), 2 * live.airy_radius_um)
-        half = nice(1.1 * farthest, (1, 1.5, 2, 3, 4, 5, 6, 8))
-        self.chart.set_range((-half, half), (-half, half))
+        self.chart.set_range((-farthest, farthest), (-farthest, farthest), steady="xy")
         self.facts.show_rows(figures(spot, live.airy_radius_um, live.state.optics.clip))
         self.widget.set_readout(tr(FILLED[live.setup.lens.aim]))
 

@@ -1,5 +1,7 @@
 """Through focus: PSFs at several sensor positions, and the sensor, which can be dragged."""
 
+from math import inf
+
 import numpy as np
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
@@ -33,14 +35,17 @@ class StripChart(TilesChart):
 
     def __init__(self, store: Store):
         super().__init__("sensor shift, µm", "")
+        self.takes_arrows = True
         self._store = store
         self.left_axis = False
         self.sensor_um = 0.0
         self._held = False
-        self.setMouseTracking(True)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Sensor position"))
         self.setToolTip(tr(STRIP_TIP))
+
+    def takes(self, point: QPointF) -> bool:
+        """Return whether a press moves the sensor."""
+        return self.area.contains(point)
 
     def show_sensor(self, shift_um: float) -> None:
         """Show the position of the sensor."""
@@ -137,7 +142,7 @@ class ThroughFocusPanel:
         self.chart.means(zip(heads, found.light, strict=True), asked.window[1])
         names = (("S", "marginal"), ("T", "positive"), (tr("best"), "text"))
         foci = zip(names, (found.sagittal, found.tangential, found.best), strict=True)
-        self.chart.show_notes((x, 0.93, f"▾ {name}", token, 0) for (name, token), x in foci if np.isfinite(x))
+        self.chart.show_notes((x, inf, f"▾ {name}", token, 0) for (name, token), x in foci if np.isfinite(x))
         wide = asked.window[0] * asked.window[1]
         best = tr("best {shift} µm", shift=signed(found.best, 1))
         pictures = tr("pictures {wide} µm wide", wide=f"{wide:.3g}")

@@ -1,12 +1,16 @@
 """The y–ȳ diagram."""
 
 import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter
 
+from p2sf_explorer.charts.painting import write
+from p2sf_explorer.charts.reading import Reading, closest, point_reading
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.ybar import YBar, field_free
-from p2sf_explorer.state.scales import nice, signed
+from p2sf_explorer.state.scales import signed
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import NotedChart
@@ -15,50 +19,69 @@ TIP = (
     "y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses "
     "ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image."
 )
+FAR_LINE = (-1e9, 1e9)  # the axes have no end
 FAR = 3.0  # times the largest of the other heights
 
 
+class YBarChart(NotedChart):
+    """A polygon through the surfaces, each with a dot and its number."""
+
+    def __init__(self) -> None:
+        super().__init__("chief ray ȳ, mm", "marginal ray y, mm")
+        self.over = "path"
+        self.axes = [self.add_curve("line") for _ in range(2)]
+        self.path = self.add_curve("marginal", 2, name="surfaces in the order of the light")
+        self.names: tuple[str, ...] = ()
+
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return the nearest point, under the name of its surface."""
+        points = np.stack([self.path.x, self.path.y], axis=-1)
+        number = closest(points, np.array([x, y]), self.pixel_size())
+        if number is None:
+            return None
+        return point_reading(
+            float(points[number, 0]), float(points[number, 1]), self.labels, "marginal", self.names[number]
+        )
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the dots and, above or under them, the names: of neighbours that are close one above, one under."""
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(self.theme.chief))
+        px, last, tall = self.theme.px, -np.inf, self.theme.px(16)
+        for x, y, name in zip(*self.to_pixels(self.path.x, self.path.y), self.names, strict=True):
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.drawEllipse(QPointF(x, y), px(3), px(3))
+            under = abs(x - last) < px(24)
+            last = -np.inf if under else x
+            painter.setPen(QColor(self.theme.muted))
+            room = QRectF(x - px(60), y + px(4) if under else y - px(4) - tall, px(120), tall)
+            write(painter, room, name, 0, self.theme.tick)
+
+
 class YBarPanel:
-    """A polygon through the surfaces, each with its number, and a mark at the stop."""
+    """The polygon, and a mark at the stop."""
 
     def __init__(self, store: Store):
         self.widget = Card("y–ȳ diagram", TIP)
-        self.chart = NotedChart("chief ray ȳ, mm", "marginal ray y, mm")
-        self.axes = [self.chart.add_curve("line") for _ in range(2)]
-        self.path = self.chart.add_curve("marginal", 2)
-        self.path.name = tr("surfaces in the order of the light")
-        self.points = self.chart.add_curve("chief", 2)
+        self.chart = YBarChart()
+        self.axes, self.path = self.chart.axes, self.chart.path
         self.widget.set_body(self.chart)
 
     def show(self, live: Live) -> None:
         """Paint the diagram of the present source."""
         view: YBar = live.views["ybar"]
         self.path.set_data(view.chief_y, view.y)
+        self.chart.names = tuple(f"▪{tr(name)}" if k == view.stop else tr(name) for k, name in enumerate(view.names))
         near = slice(int(view.names[0] == "object" and far_off(view)), None)
-        (left, right), (low, high) = (span(values[near]) for values in (view.chief_y, view.y))
-        self.chart.set_range((left, right), (low, high))
-        self.axes[0].set_data((left, right), (0, 0))
-        self.axes[1].set_data((0, 0), (low, high))
-        self._mark(view, (right - left) / 90, (high - low) / 30)
+        self.chart.set_range(span(view.chief_y[near]), span(view.y[near]), steady="xy")
+        self.axes[0].set_data(FAR_LINE, (0, 0))
+        self.axes[1].set_data((0, 0), FAR_LINE)
+        self.chart.update()
         invariant = float(live.setup.rays.invariant) * live.setup.source.field_slope
         if field_free(view):
             self.widget.set_readout(tr("the source is on the axis: no chief ray, so the diagram is a line"))
             return
         self.widget.set_readout(f"{tr('Lagrange invariant H = {h} mm', h=signed(invariant, 4))} · {tr('stop ▪')}")
-
-    def _mark(self, view: YBar, wide: float, tall: float) -> None:
-        notes, last = [], -np.inf
-        for k, (x, y, name) in enumerate(zip(view.chief_y, view.y, view.names, strict=True)):
-            under = abs(x - last) < 2 * wide  # where the neighbour's name is above
-            last = -np.inf if under else x
-            text = f"▪{tr(name)}" if k == view.stop else tr(name)
-            notes.append((x, y - 2.4 * tall if under else y + 2.4 * tall, text, "muted", 0))
-        crosses = [
-            np.array([[x - wide / 4, x + wide / 4, np.nan], [y, y, np.nan]])
-            for x, y in zip(view.chief_y, view.y, strict=True)
-        ]
-        self.points.set_data(*np.concatenate(crosses, axis=1))
-        self.chart.show_notes(notes)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -66,10 +89,10 @@ class YBarPanel:
 
 
 def span(values: np.ndarray) -> tuple[float, float]:
-    """Return a range with round ends and a margin around the values, zero within it."""
+    """Return a range with a margin around the values, zero within it."""
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
-    step = nice(max(high - low, 1e-6) / 8)
-    return float(step * np.floor(low / step - 0.3)), float(step * np.ceil(high / step + 0.7))
+    air = 0.14 * max(high - low, 1e-6)
+    return low - air, high + air
 
 
 def far_off(view: YBar) -> bool:

@@ -7,11 +7,13 @@ from PySide6.QtGui import QColor, QPainter
 from p2sf.messages import Message, Number
 from p2sf.raytrace.zernike_fit import ZernikeFit
 from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.reading import Reading, parted, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import WINDOW
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.zernike import ZernikeView, csv_rows, rows
-from p2sf_explorer.state.scales import nice, significant
+from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser
 from p2sf_explorer.widgets.chart_card import ChartsCard
@@ -22,9 +24,11 @@ TIP = (
     "θ from +x. Percent: share of the variance without piston and tilt, which do not blur."
 )
 CHOICES = (("noll", "Noll, RMS waves"), ("fringe", "Fringe, peak waves"))
-UNITS = {"noll": "waves RMS", "fringe": "waves peak"}
+UNITS = {"noll": "RMS, waves", "fringe": "peak, waves"}
 WIDTH = 0.7  # of a bar, of the distance to the next
 BLURRING = 4  # the first term behind piston and tilt, in both orders
+ROUND_OFF = 1e-12  # of the largest term
+SMALLEST = 1e-3  # waves at the end of the axis
 TABLE_PX = 390
 
 
@@ -90,11 +94,23 @@ class TermsChart(Chart):
         """Show the bars of the terms that blur."""
         self.fit = fit
         self.name_axes("term", UNITS[fit.order])
-        limit = nice(max(float(np.abs(fit.waves[BLURRING - 1 :]).max()), 1e-3), (1, 1.5, 2, 3, 5, 7))
+        limit = max(float(np.abs(fit.waves[BLURRING - 1 :]).max()), SMALLEST)
         ends = BLURRING - 0.7, len(fit.waves) + 0.7
-        self.set_range(ends, (-limit, limit))
+        self.set_range(ends, (-limit, limit), steady="y")
         self.zero.set_data(ends, (0, 0))
         self.update()
+
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return the term whose bar is nearest."""
+        if self.fit is None:
+            return None
+        number = min(max(BLURRING, round(x)), len(self.fit.waves))
+        waves = float(self.fit.waves[number - 1])
+        waves = waves if abs(waves) > ROUND_OFF * float(np.abs(self.fit.waves).max()) else 0.0
+        token = "positive" if waves >= 0 else "negative"
+        name = parted(self.labels[1])[0]
+        value = value_of(name, waves, self.labels[1], token, mark=(float(number), waves))
+        return Reading(float(number), waves, tr("term {number}", number=number), (value,), "")
 
     def bars(self) -> list[tuple[int, QRectF]]:
         """Return the number and the rectangle, in pixels, of each bar that is not zero."""

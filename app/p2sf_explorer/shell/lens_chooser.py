@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from p2sf_explorer.charts.plots import small_font
+from p2sf_explorer.charts.painting import small_font
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.setup import shipped, title
 from p2sf_explorer.i18n.messages import said

@@ -1,6 +1,6 @@
 """The frame of every panel: a title, tools, a readout, and the picture."""
 
-from PySide6.QtCore import QMimeData, QModelIndex, QPersistentModelIndex, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QMimeData, QModelIndex, QPersistentModelIndex, QPoint, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QContextMenuEvent,
     QDrag,
@@ -26,6 +26,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.widgets.copying import copy_menu
@@ -189,6 +190,8 @@ class Card(QFrame):
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         """Offer the panel's picture, its data, and its places."""
         menu = copy_menu(self)
+        if chart := chart_at(self, event.pos()):
+            chart.hand.fill(menu, chart.mapFrom(self, event.pos()))
         menu.addSeparator()
         menu.addAction(tr("Theory of this panel"), self.theory_asked.emit)
         menu.addSeparator()
@@ -274,6 +277,14 @@ class Card(QFrame):
             self.readout.setToolTip(text)
             if self.head.indexOf(self.readout) >= 0:  # it goes back there when the card is resized
                 self._fit_head()
+
+
+def chart_at(widget: QWidget, point: QPoint) -> Chart | None:
+    """Return the chart under a pixel."""
+    found = widget.childAt(point)
+    while found is not None and not isinstance(found, Chart):
+        found = found.parentWidget()
+    return found
 
 
 def paint_chevron(widget: QWidget) -> None:

@@ -1,6 +1,7 @@
 """A card of several charts side by side, charts with notes, and legends."""
 
 from collections.abc import Iterable
+from math import isfinite
 
 import numpy as np
 from PySide6.QtCore import QRectF
@@ -11,7 +12,6 @@ from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import write
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import nice
 from p2sf_explorer.widgets.card import Card
 
 
@@ -36,7 +36,7 @@ def legend(looks: dict[str, str], theme: Tokens) -> str:
 
 
 Note = tuple[float, float, str, str, int]
-"""Place x, y, text as it is, token, and side: −1 left, 0 middle, 1 right end."""
+"""Place x, y (infinite for the upper edge), text as it is, token, and side: −1 left, 0 middle, 1 right end."""
 
 
 class NotedChart(Chart):
@@ -56,26 +56,29 @@ class NotedChart(Chart):
         """Paint lines and text above the curves."""
         for x, token in self.uprights:
             at = float(self.to_pixels(x, 0.0)[0])
-            painter.fillRect(QRectF(at - 0.5, self.area.top(), 1, self.area.height()), self._colour(token))
+            wide = self.theme.scale
+            painter.fillRect(QRectF(at - wide / 2, self.area.top(), wide, self.area.height()), self._colour(token))
         for x, y, words, token, side in self.notes:
-            left, top = (float(v) for v in self.to_pixels(x, y))
+            left, top = (float(v) for v in self.to_pixels(x, y if isfinite(y) else 0.0))
+            tall = self.theme.px(16)
+            top = top if isfinite(y) else self.area.top() + tall / 2
             painter.setPen(self._colour(token))
-            write(painter, QRectF(left - 60 * (side + 1), top - 8, 120, 16), words, side)
+            write(painter, QRectF(left - 60 * (side + 1), top - tall / 2, 120, tall), words, side, self.theme.tick)
 
     def _colour(self, token: str) -> QColor:
         return QColor(getattr(self.theme, token))
 
 
-def around(*parts: np.ndarray, least: float) -> tuple[float, float]:
-    """Return a range with round ends and a margin around all finite numbers, including zero unless it is far away.
-
-    ``least`` is the smallest span.
-    """
+def reach(*parts: np.ndarray, least: float) -> tuple[float, float]:
+    """Return the ends of all finite numbers, zero included unless it is far away; ``least`` is the smallest span."""
     both = np.concatenate([np.ravel(part) for part in parts])
     both = both[np.isfinite(both)]
     low, high = (float(both.min()), float(both.max())) if both.size else (0.0, 0.0)
     wide = max(high - low, least)
     if low - 2 * wide < 0 < high + 2 * wide:
         low, high = min(low, 0.0), max(high, 0.0)
-    step = nice(max(high - low, least) / 8)
-    return float(step * (np.floor(low / step) - 1)), float(step * (np.ceil(high / step) + 1))
+    air = max(0.0, least - (high - low)) / 2 + AIR * wide
+    return low - air, high + air
+
+
+AIR = 0.04  # of the span, beyond either end

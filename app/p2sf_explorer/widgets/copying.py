@@ -5,14 +5,14 @@ import io
 from typing import Protocol, cast
 
 import numpy as np
-import pyqtgraph as pg
 from PySide6.QtCore import QBuffer, QIODevice, QMimeData, Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QGuiApplication, QPixmap
 from PySide6.QtWidgets import QApplication, QMenu, QTableView, QWidget
 
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.plots import HeatMap
+from p2sf_explorer.charts.reading import pin_rows
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.readout import FactTable
 
@@ -52,13 +52,20 @@ def png_of(widget: QWidget) -> bytes:
     """Return a widget's picture as PNG."""
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    widget.grab().save(buffer, "PNG", QUICKLY)
+    picture_of(widget).save(buffer, "PNG", QUICKLY)
     return bytes(buffer.data().data())
+
+
+def picture_of(widget: QWidget) -> QPixmap:
+    """Return a widget's picture with its pinned markers, without the crosshair of the moment."""
+    for chart in widget.findChildren(Chart):
+        chart.hand.point(None)
+    return widget.grab()
 
 
 def copy_picture(widget: QWidget) -> None:
     """Put a widget's picture on the clipboard."""
-    QGuiApplication.clipboard().setPixmap(widget.grab())
+    QGuiApplication.clipboard().setPixmap(picture_of(widget))
 
 
 def copy_data(widget: QWidget) -> bool:
@@ -80,7 +87,7 @@ def data_of(widget: QWidget) -> str:
     overlay = widget.findChild(Overlay, options=Qt.FindChildOption.FindDirectChildrenOnly)
     if overlay and overlay.text:
         return ""
-    tables = [rows for rows in map(table, [widget, *widget.findChildren(QWidget)]) if rows]
+    tables = [rows for part in [widget, *widget.findChildren(QWidget)] for rows in (table(part), markers(part)) if rows]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\r\n")
     for number, rows in enumerate(tables):
@@ -102,23 +109,14 @@ def table(widget: QWidget) -> Rows:
         return _of_chart(widget)
     if isinstance(widget, FactTable):
         return [[name, value] for (name, _, _), value in zip(widget.rows, widget.values, strict=True)]
-    if isinstance(widget, pg.PlotWidget):
-        return _of_plot(widget)
     return _of_view(widget) if isinstance(widget, QTableView) else []
 
 
-def _of_plot(plot: pg.PlotWidget) -> Rows:
-    """Return bars, points and lines of a plot as columns x and y, one item after the other."""
-    item = plot.getPlotItem()
-    head = [item.getAxis(side).labelText for side in ("bottom", "left")]
-    rows: Rows = []
-    for part in item.items:
-        if isinstance(part, pg.BarGraphItem):
-            rows += [[_number(x), _number(y)] for x, y in zip(part.opts["x"], part.opts["height"], strict=True)]
-        elif isinstance(part, pg.ScatterPlotItem | pg.PlotDataItem | pg.PlotCurveItem):
-            x, y = (() if values is None else values for values in part.getData())
-            rows += [[_number(a), _number(b)] for a, b in zip(x, y, strict=True)]
-    return [head, *rows] if rows else []
+def markers(widget: QWidget) -> Rows:
+    """Return the pinned markers of a chart, heads first."""
+    if not isinstance(widget, Chart):
+        return []
+    return pin_rows([reading for _, reading in widget.pinned()], widget.reading_labels)
 
 
 def _of_heat_map(heat: HeatMap) -> Rows:

@@ -7,6 +7,8 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import NotedChart, legend
 
+ENDLESS = (-1e9, 1e9)
+
 
 class CurvesPanel:
     """A card with named curves; ``curves`` maps an English name to (colour token, line width)."""
@@ -27,10 +29,10 @@ class CurvesPanel:
             self.curves[name].set_data(x, values)
         self.chart.update()
 
-    def set_range(self, x: tuple[float, float], y: tuple[float, float]) -> None:
-        """Show these ranges, with a line at zero."""
-        self.chart.set_range(x, y)
-        self.zero.set_data(x, (0.0, 0.0))
+    def set_range(self, x: tuple[float, float], y: tuple[float, float], steady: str = "") -> None:
+        """Show these ranges, those of ``steady`` axes in coarse steps, with a line at zero."""
+        self.chart.set_range(x, y, steady)
+        self.zero.set_data(ENDLESS, (0.0, 0.0))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

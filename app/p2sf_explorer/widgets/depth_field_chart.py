@@ -1,23 +1,24 @@
 """Charts over depth and field on which the source can be set: a map with its nodes, an atlas of PSFs."""
 
+from dataclasses import replace
 from math import ceil, inf
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 
-from p2sf_explorer.charts.chart import Chart, image_of
+from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.cursor import Cursor, paint_cursor
-from p2sf_explorer.charts.plots import as_indices, lookup, small_font
-from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.charts.plots import EMPTY, ColourBar, as_indices, lookup
+from p2sf_explorer.charts.reading import Reading, Samples, worded_both
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.database import Atlas, closest, nearest
 from p2sf_explorer.state.scales import short_distance
 
 PER_METRE = 1000.0
 ATLAS_MAP = "inferno"
-LABEL_PX = 54.0  # the width of a depth's label, with a margin
 
 
 Ends = tuple[tuple[float, float], tuple[float, float]]
@@ -30,25 +31,40 @@ class DepthFieldMap(Chart):
     taken = Signal()
     released = Signal()
 
-    def __init__(self) -> None:
+    def __init__(self, bar: ColourBar) -> None:
         super().__init__("1/depth, 1/m (0 is ∞)", "field, °")
+        self.takes_arrows = True
+        self.bar = self.colours = bar
         self.point: tuple[float, float] | None = None
         self.nodes: tuple[np.ndarray, np.ndarray] = (np.array([]), np.array([]))
         self.choice = Cursor()
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Map over depth and field"))
         self.ends: Ends = ((0.0, 1.0), (0.0, 1.0))
+        self._shown: tuple[np.ndarray, ColourScale, Ends, tuple[np.ndarray, np.ndarray]] | None = None
+        bar.turned.connect(self._again)
 
-    def show_map(self, indices: np.ndarray, name: str, ends: Ends, nodes: tuple[np.ndarray, np.ndarray]) -> None:
-        """Show colour indices, rows +field, between ``ends`` of 1/depth in 1/m and of field in degrees."""
-        self.ends, self.nodes = ends, nodes
+    def show_map(
+        self, values: np.ndarray, scale: ColourScale, ends: Ends, nodes: tuple[np.ndarray, np.ndarray]
+    ) -> None:
+        """Show values, rows +field, between ``ends`` of 1/depth in 1/m and of field in degrees."""
+        self._shown, self.ends, self.nodes = (values, scale, ends, nodes), ends, nodes
         (left, right), (low, high) = ends
-        rows, columns = indices.shape
+        rows, columns = values.shape
         wide, tall = (right - left) / (columns - 1), (high - low) / (rows - 1)
-        table = lookup(name).copy()
-        table[255] = QColor(self.theme.faint).rgb()
+        used, _ = self.colours.settled(scale)
+        table = lookup(scale.name).copy()
+        table[EMPTY] = QColor(self.theme.faint).rgb()
         self.set_range((left - wide, right + wide), (low - tall, high + tall))
-        self.show_pixels(table[indices], (left - wide / 2, low - tall / 2, columns * wide, rows * tall))
+        rect = (left - wide / 2, low - tall / 2, columns * wide, rows * tall)
+        self.show_pixels(table[as_indices(used.parts(values), 0.0, 1.0)], rect, Samples(values, rect, scale.quantity))
+
+    def _again(self) -> None:
+        if self._shown:
+            self.show_map(*self._shown)
+
+    def takes(self, point: QPointF) -> bool:
+        """Return whether a press sets the source."""
+        return True
 
     def show_point(self, depth_mm: float, field_deg: float) -> None:
         """Mark the present source; the keys choose from there on."""
@@ -79,12 +95,13 @@ class DepthFieldMap(Chart):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take hold of the source."""
-        self.taken.emit()
-        self._pick(event.position())
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.taken.emit()
+            self._pick(event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Carry it along."""
-        if event.buttons():
+        if event.buttons() & Qt.MouseButton.LeftButton:
             self._pick(event.position())
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
@@ -118,40 +135,40 @@ class DepthFieldMap(Chart):
         self.picked.emit(PER_METRE / near if near > 1e-9 * right else inf, angle)
 
 
-class AtlasView(QWidget):
-    """PSFs in a grid, depth to the right and field upwards; a click, a drag or the arrow keys choose a cell."""
+class AtlasView(Chart):
+    """PSFs in a grid, depth to the right and field upwards; a click, a drag or the arrow keys choose a cell.
+
+    A cell is one wide and one high in the chart's data, the first one from −½ to ½.
+    """
 
     picked = Signal(float, float)
     taken = Signal()
     released = Signal()
-    LEFT, BOTTOM = 42.0, 17.0  # pixels for the labels
 
-    def __init__(self, parent: QWidget | None = None):
-        super().__init__(parent)
-        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    def __init__(self) -> None:
+        super().__init__("depth", "", aspect=True)
+        self.takes_arrows = True
+        self.bottom_tick_maker, self.left_tick_maker = self._depth_ticks, self._field_ticks
         self.setAccessibleName(tr("Atlas of PSFs over depth and field"))
         self.setMinimumSize(150, 90)
         self.atlas: Atlas | None = None
         self.cell: tuple[int, int] | None = None
-        self._theme, self._source = LIGHT, (inf, 0.0)
-        self._indices = np.zeros((1, 1), np.uint8)
-        self._colour()
-
-    def sizeHint(self) -> QSize:
-        """Return a size that shows the PSFs."""
-        return QSize(340, 150)
+        self._source = (inf, 0.0)
 
     def show_atlas(self, atlas: Atlas | None) -> None:
         """Show an atlas, or an empty field."""
         self.atlas = atlas
         if atlas:
             fields, depths, size, _ = atlas.psfs.shape
-            mosaic = atlas.psfs[::-1, :, ::-1].transpose(0, 2, 1, 3).reshape(fields * size, depths * size)
-            self._indices = as_indices(np.sqrt(mosaic), 0.0, 1.0)
-            self._colour()
+            mosaic = atlas.psfs.transpose(0, 2, 1, 3).reshape(fields * size, depths * size)
+            rect = (-0.5, -0.5, float(depths), float(fields))
+            table = lookup(ATLAS_MAP).copy()
+            table[EMPTY] = QColor(self.theme.faint).rgb()
+            self.set_range((-0.5, depths - 0.5), (-0.5, fields - 0.5))
+            samples = Samples(mosaic, rect, tr("PSF, peak = 1"))
+            self.show_pixels(table[as_indices(np.sqrt(mosaic), 0.0, 1.0)], rect, samples)
         self.show_point(*self._source)
-        self.update()
+        self.forget_background()
 
     def show_point(self, depth_mm: float, field_deg: float) -> None:
         """Frame the cell nearest to the present source, none when it is off the atlas."""
@@ -163,20 +180,29 @@ class AtlasView(QWidget):
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        self._theme = theme
-        self._colour()
-        self.update()
+        super().restyle(theme)
+        self.show_atlas(self.atlas)
 
-    def _colour(self) -> None:
-        table = lookup(ATLAS_MAP).copy()
-        table[255] = QColor(self._theme.faint).rgb()
-        self._pixels = np.ascontiguousarray(table[self._indices])
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return the sample at a place, with its depth, its field and its place on the sensor."""
+        found = super().read(x, y, snap)
+        if found is None or self.atlas is None or self.samples is None:
+            return None
+        row, column = (min(max(round(v), 0), count - 1) for v, count in zip((y, x), self._shape(), strict=True))
+        size, pitch = self.atlas.psfs.shape[-1], self.atlas.pixel_um
+        middle = pitch * (1 - size % 2) / 2  # sample N//2 is the chief ray's, half a sample beside the cell's middle
+        inside = [(v - cell) * size * pitch - middle for v, cell in ((found.x, column), (found.y, row))]
+        depth, angle = short_distance(float(self.atlas.depths_mm[column])), f"{self.atlas.fields_deg[row]:.3g}°"
+        place = worded_both(inside, ("x, µm", "y, µm"))
+        return replace(found, head=f"{depth}, {angle}: {place}")
 
-    def area(self) -> QRectF:
-        """Return the rectangle of the cells: square ones, as large as fit."""
-        fields, depths = self._shape()
-        side = min((self.width() - self.LEFT - 4) / depths, (self.height() - self.BOTTOM - 2) / fields)
-        return QRectF(self.LEFT, 1, side * depths, side * fields)
+    def _depth_ticks(self, low: float, high: float, most: float) -> list[tuple[float, str]]:
+        every = ceil((high - low) / max(1.0, most))
+        depths = self.atlas.depths_mm[::every] if self.atlas else ()
+        return [(float(k * every), short_distance(float(depth))) for k, depth in enumerate(depths)]
+
+    def _field_ticks(self, low: float, high: float, most: float) -> list[tuple[float, str]]:
+        return [(float(k), f"{angle:.3g}°") for k, angle in enumerate(self.atlas.fields_deg)] if self.atlas else []
 
     def _shape(self) -> tuple[int, int]:
         """Return the numbers of fields and of depths."""
@@ -184,44 +210,29 @@ class AtlasView(QWidget):
 
     def cell_rect(self, row: int, column: int) -> QRectF:
         """Return the rectangle of the PSF of a field (row) and a depth (column)."""
-        area, (fields, depths) = self.area(), self._shape()
-        side = area.width() / depths
-        return QRectF(area.left() + column * side, area.top() + (fields - 1 - row) * side, side, side)
+        (left, top), (right, bottom) = self.to_pixels(column - 0.5, row + 0.5), self.to_pixels(column + 0.5, row - 0.5)
+        return QRectF(left, top, right - left, bottom - top)
 
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint PSFs, labels and the frame of the present cell."""
-        painter = QPainter(self)
-        painter.fillRect(self.rect(), QColor(self._theme.card))
-        if not self.atlas:
-            return
-        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
-        painter.drawImage(self.area(), image_of(self._pixels))
-        self._paint_labels(painter, self.atlas)
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the frame of the present cell."""
         if self.cell:
-            painter.setPen(QPen(QColor("#ffffff"), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor("#ffffff"), 2 * self.theme.scale))
             painter.drawRect(self.cell_rect(*self.cell))
 
-    def _paint_labels(self, painter: QPainter, atlas: Atlas) -> None:
-        painter.setFont(small_font())
-        painter.setPen(QColor(self._theme.muted))
-        centre, right = Qt.AlignmentFlag.AlignHCenter, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-        for row, angle in enumerate(atlas.fields_deg):
-            cell = self.cell_rect(row, 0)
-            painter.drawText(QRectF(0, cell.top(), self.LEFT - 5, cell.height()), right, local(f"{angle:.3g}°"))
-        every = ceil(LABEL_PX / max(1.0, self.cell_rect(0, 0).width()))
-        for column in range(0, len(atlas.depths_mm), every):
-            cell = self.cell_rect(0, column).adjusted(-30, 0, 30, 0)
-            words = short_distance(float(atlas.depths_mm[column]))
-            painter.drawText(QRectF(cell.left(), cell.bottom() + 2, cell.width(), 15), centre, local(words))
+    def takes(self, point: QPointF) -> bool:
+        """Return whether a press chooses a cell."""
+        return self.area.contains(point)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Set the source to the cell under the pointer."""
-        self.taken.emit()
-        self._pick(event.position())
+        if event.button() == Qt.MouseButton.LeftButton and self.takes(event.position()):
+            self.taken.emit()
+            self._pick(event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Follow the pointer from cell to cell."""
-        if event.buttons():
+        if event.buttons() & Qt.MouseButton.LeftButton:
             self._pick(event.position())
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
@@ -229,11 +240,8 @@ class AtlasView(QWidget):
         self.released.emit()
 
     def _pick(self, place: QPointF) -> None:
-        if self.atlas:
-            area, (fields, depths) = self.area(), self._shape()
-            column = int((place.x() - area.left()) / area.width() * depths)
-            row = fields - 1 - int((place.y() - area.top()) / area.height() * fields)
-            self._choose(row, column)
+        column, row = self.from_pixels(place)
+        self._choose(round(row), round(column))
 
     def _choose(self, row: int, column: int) -> None:
         if self.atlas:

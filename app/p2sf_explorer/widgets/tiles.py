@@ -10,7 +10,10 @@ from PySide6.QtGui import QPainter
 from p2sf.conventions import centred_axis
 from p2sf_explorer.charts.chart import image_of
 from p2sf_explorer.charts.plots import BRIGHTNESS, as_indices, lookup, named
+from p2sf_explorer.charts.reading import Reading, Samples, parted, value_of, worded_both
 from p2sf_explorer.widgets.chart_card import NotedChart
+
+LOCAL = ("x, µm", "y, µm")
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,8 @@ class TilesChart(NotedChart):
 
     def side_px(self) -> float:
         """Return the side of a picture in pixels."""
-        return float(max(4.0, min(0.94 * self.side / self.per_pixel(), self.area.height() / self.rows - 3)))
+        tall = self.magnification()[1] * self.area.height() / self.rows - 3
+        return float(max(4.0, min(0.94 * self.side / self.per_pixel(), tall)))
 
     def room(self, each: Tile) -> QRectF:
         """Return the rectangle of a tile in pixels."""
@@ -62,6 +66,22 @@ class TilesChart(NotedChart):
     def tile_at(self, point: QPointF) -> int | None:
         """Return the number of the tile under a point."""
         return next((k for k, each in enumerate(self.tiles) if self.room(each).contains(point)), None)
+
+    def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
+        """Return the sample of the picture at a place, with its place within the picture."""
+        point = QPointF(*(float(v) for v in self.to_pixels(x, y)))
+        number = self.tile_at(point)
+        if number is None or number >= len(self.grids):
+            return None
+        (head, at, _, values), room = self.grids[number], self.room(self.tiles[number])
+        title, _, quantity = head.partition(": y, µm")[0].rpartition(": ")
+        count = len(values)
+        inside = Samples(values, (room.left(), room.bottom(), room.width(), -room.height()), quantity)
+        row, column = inside.nearest(point.x(), point.y()) or (count // 2, count // 2)
+        place = self.from_pixels(QPointF(*inside.centre(row, column)))
+        local = worded_both((float(at[column]), float(at[row])), LOCAL)
+        value = value_of(parted(quantity)[0], float(values[row, column]), quantity, mark=place)
+        return Reading(*place, f"{title}: {local}", (value,), "")
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint the pictures, then lines and text."""

@@ -74,7 +74,7 @@ def test_the_panel_shows_bars_table_and_figures(window, panel):
 
 def test_the_chooser_switches_the_order_and_its_unit(panel):
     choose(panel, "fringe")
-    assert panel.chart.labels[1] == "waves peak"
+    assert panel.chart.labels[1] == "peak, waves"
     assert any(value.startswith("Z8: −0.193") for value in panel.table.values)  # coma, √8 times Noll's −0.0685
 
 

@@ -97,7 +97,8 @@ def test_the_contrast_fills_its_axis_and_marks_the_sensors_nyquist(window):
     window.store.update(tab="mtf", pixel_um=5.0, f_number=8.0)
     panel = window.panels["mtf"]
     (low, high), _ = panel.chart.ranges()
-    assert (low, high) == (0.0, panel.curves["tangential"].data()[0][-1])
+    cut_off = panel.curves["tangential"].data()[0][-1]
+    assert low == 0.0 and 0.35 * high <= cut_off <= high, "an axis in steps of 1-2-5"
     assert panel.chart.uprights == ((100.0, "text"),)  # 1/(2·5 µm)
 
 

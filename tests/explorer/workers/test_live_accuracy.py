@@ -63,7 +63,7 @@ def test_no_figure_of_an_earlier_picture_stands_beside_the_next(measured, qtbot)
     with measured.store.drag():
         measured.store.update(field_deg=3.0)
         assert "vs Huygens" not in badge.text() and "R²" not in message.text()
-        assert not any(label.isVisible() for label in measured.panels["accuracy"].labels)
+        assert not measured.panels["accuracy"].methods.labelled
     known, live = measured.measuring._last, measured.live
     measured.measuring._on_finished(known.live, known)  # comes late
     assert known.live.state != live.state and "vs Huygens" not in badge.text() and "R²" not in message.text()

@@ -226,6 +226,10 @@
 <message><source>Link all</source><translation>Alles koppeln</translation></message>
 <message><source>Link none</source><translation>Nichts koppeln</translation></message>
 <message><source>Link: {count}</source><translation>Gekoppelt: {count}</translation></message>
+<message><source>Lock the colours: other pictures keep the ends of the bar</source><translation>Farben festhalten: andere Bilder behalten die Enden der Farbskala</translation></message>
+<message><source>Lock the scale</source><translation>Skala festhalten</translation></message>
+<message><source>Lock the scale of this axis (L: all of this plot)</source><translation>Skala dieser Achse festhalten (L: alle dieses Diagramms)</translation></message>
+<message><source>Lock the scale of this plot (L)</source><translation>Skala dieses Diagramms festhalten (L)</translation></message>
 <message><source>Longer back focus than focal length: a wide angle that leaves room for a mirror</source><translation>Schnittweite länger als die Brennweite: ein Weitwinkel, das einem Spiegel Platz lässt</translation></message>
 <message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0,7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
 <message><source>MP4 films need imageio-ffmpeg, which is not installed; pip install 'p2sf[mp4]', or choose a GIF</source><translation>MP4-Filme brauchen imageio-ffmpeg, das nicht installiert ist; pip install 'p2sf[mp4]', oder ein GIF wählen</translation></message>
@@ -279,6 +283,7 @@
 <message><source>PSF data or window…</source><translation>PSF-Daten oder Fenster …</translation></message>
 <message><source>PSF over the field</source><translation>PSF über das Feld</translation></message>
 <message><source>PSF profiles</source><translation>PSF-Profile</translation></message>
+<message><source>PSF, % of the peak</source><translation>PSF, % der Spitze</translation></message>
 <message><source>PSF, peak = 1</source><translation>PSF, Spitze = 1</translation></message>
 <message><source>PSF, perfect peak = 1</source><translation>PSF, perfekte Spitze = 1</translation></message>
 <message><source>PSF, sum = 1</source><translation>PSF, Summe = 1</translation></message>
@@ -307,6 +312,7 @@
 <message><source>Picture of one panel</source><translation>Bild einer Ansicht</translation></message>
 <message><source>Pictures (*.png *.tif *.tiff)</source><translation>Bilder (*.png *.tif *.tiff)</translation></message>
 <message><source>Pin B</source><translation>B merken</translation></message>
+<message><source>Pin a marker here</source><translation>Hier eine Marke setzen</translation></message>
 <message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>
 <message><source>Pin what is on screen as B, to compare with it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen (Strg+B)</translation></message>
 <message><source>Pixel</source><translation>Pixel</translation></message>
@@ -320,6 +326,8 @@
 <message><source>Play or pause (Space on a slider)</source><translation>Abspielen oder anhalten (Leertaste auf einem Regler)</translation></message>
 <message><source>Play or pause the last slider</source><translation>Letzten Regler abspielen oder anhalten</translation></message>
 <message><source>Play this slider (Space)</source><translation>Diesen Regler abspielen (Leertaste)</translation></message>
+<message><source>Plot</source><translation>Diagramm</translation></message>
+<message><source>Plot: {left} over {bottom}</source><translation>Diagramm: {left} über {bottom}</translation></message>
 <message><source>Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW).</source><translation>Punktbildfunktion: das Licht einer Punktquelle auf dem Sensor, |FT{P}|² der Pupille P = A·exp(i2πW).</translation></message>
 <message><source>Points</source><translation>Punkte</translation></message>
 <message><source>Pop out</source><translation>Lösen</translation></message>
@@ -345,6 +353,7 @@
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
 <message><source>RMS {r} λ</source><translation>RMS {r} λ</translation></message>
 <message><source>RMS {r} λ · PV {p} λ</source><translation>RMS {r} λ · PV {p} λ</translation></message>
+<message><source>RMS, waves</source><translation>RMS, Wellen</translation></message>
 <message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
 <message><source>Radius, mm</source><translation>Radius, mm</translation></message>
 <message><source>Ray fan</source><translation>Strahlfächer</translation></message>
@@ -358,6 +367,7 @@
 <message><source>Rear-stop landscape singlet</source><translation>Landschaftslinse mit hinterer Blende</translation></message>
 <message><source>Redo</source><translation>Wiederholen</translation></message>
 <message><source>Relay of two achromats, stop between, inverted pupils (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, umgekehrte Pupillen (synthetisch; nur endliche Objekte)</translation></message>
+<message><source>Remove the markers</source><translation>Marken entfernen</translation></message>
 <message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
 <message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
@@ -472,6 +482,8 @@
 <message><source>The stop seen from the sensor: its diameter, and its place from the last vertex.</source><translation>Die Blende vom Sensor aus gesehen: ihr Durchmesser und ihr Ort vom letzten Scheitel.</translation></message>
 <message><source>The surface whose rim limits the light: the least |rim/y| on the way of the marginal ray, or the file's choice.</source><translation>Die Fläche, deren Rand das Licht begrenzt: das kleinste |Rand/y| auf dem Weg des Randstrahls, oder wie es die Datei sagt.</translation></message>
 <message><source>The wavefront as a surface; drag it or use the arrow keys to turn it</source><translation>Die Wellenfront als Fläche; durch Ziehen oder mit den Pfeiltasten zu drehen</translation></message>
+<message><source>The whole plot</source><translation>Das ganze Diagramm</translation></message>
+<message><source>The whole plot (Home, double-click)</source><translation>Das ganze Diagramm (Pos1, Doppelklick)</translation></message>
 <message><source>The window began with this lesson, so there is nothing to put back: its lens stays</source><translation>Das Fenster begann mit dieser Lektion, also gibt es nichts zurückzuholen: ihr Objektiv bleibt</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Theory</source><translation>Theorie</translation></message>
@@ -568,6 +580,8 @@
 <message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
+<message><source>Zoom in</source><translation>Vergrößern</translation></message>
+<message><source>Zoom out</source><translation>Verkleinern</translation></message>
 <message><source>Z{number}: {waves} λ · {share}</source><translation>Z{number}: {waves} λ · {share}</translation></message>
 <message><source>[aperture] states {count} of {names}; keep exactly one</source><translation>[aperture] gibt {count} von {names} an; genau eines behalten</translation></message>
 <message><source>[sensor] lacks {missing}; add it</source><translation>in [sensor] fehlt {missing}; hinzufügen</translation></message>
@@ -687,6 +701,7 @@
 <message><source>coarse</source><translation>grob</translation></message>
 <message><source>coatings, polarisation, scatter</source><translation>Beschichtungen, Polarisation, Streuung</translation></message>
 <message><source>coefficient</source><translation>Koeffizient</translation></message>
+<message><source>coefficient, waves</source><translation>Koeffizient, Wellen</translation></message>
 <message><source>coefficients of {name} are not up to {count} numbers; correct them</source><translation>die Koeffizienten von {name} sind nicht bis zu {count} Zahlen; berichtigen</translation></message>
 <message><source>colour {channel}</source><translation>Farbe {channel}</translation></message>
 <message><source>colour {short} − {long} nm</source><translation>Farbe {short} − {long} nm</translation></message>
@@ -704,7 +719,6 @@
 <message><source>correct the line</source><translation>die Zeile berichtigen</translation></message>
 <message><source>could not be aimed at its place in the stop, surface {surface}</source><translation>ließ sich nicht auf seinen Ort in der Blende richten, Fläche {surface}</translation></message>
 <message><source>curvature</source><translation>Krümmung</translation></message>
-<message><source>cycles per mm on the sensor</source><translation>Perioden je mm auf dem Sensor</translation></message>
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
 <message><source>decimal separator</source><translation>,</translation></message>
 <message><source>defocus</source><translation>Defokus</translation></message>
@@ -720,7 +734,7 @@
 <message><source>diameter</source><translation>Durchmesser</translation></message>
 <message><source>did you mean {glasses}?</source><translation>ist {glasses} gemeint?</translation></message>
 <message><source>did you mean {name}?</source><translation>ist {name} gemeint?</translation></message>
-<message><source>difference, share of the reference's peak</source><translation>Differenz, Anteil der Spitze der Referenz</translation></message>
+<message><source>difference, % of the peak</source><translation>Differenz, % der Spitze</translation></message>
 <message><source>diffracts</source><translation>beugt</translation></message>
 <message><source>distance</source><translation>Abstand</translation></message>
 <message><source>distance "{name}" has no value in [variable distances]; add it</source><translation>der Abstand "{name}" hat keinen Wert in [variable distances]; hinzufügen</translation></message>
@@ -746,6 +760,7 @@
 <message><source>entrance pupil diameter</source><translation>Durchmesser der Eintrittspupille</translation></message>
 <message><source>entrance pupil diameter {value:.6g} mm</source><translation>Durchmesser der Eintrittspupille {value:.6g} mm</translation></message>
 <message><source>equal energy</source><translation>gleiche Energie</translation></message>
+<message><source>error</source><translation>Fehler</translation></message>
 <message><source>error of linear interpolation</source><translation>Fehler der linearen Interpolation</translation></message>
 <message><source>error of table 1 of the paper</source><translation>Fehler von Tabelle 1 des Aufsatzes</translation></message>
 <message><source>every chief ray meets the sensor on the axis, so it holds no picture; move the stop</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse, also enthält er kein Bild; die Blende verschieben</translation></message>
@@ -784,6 +799,7 @@
 <message><source>found</source><translation>gefunden</translation></message>
 <message><source>free pupil</source><translation>freie Pupille</translation></message>
 <message><source>free some space or choose another disk</source><translation>Platz schaffen oder einen anderen Datenträger wählen</translation></message>
+<message><source>frequency on the sensor, 1/mm</source><translation>Ortsfrequenz auf dem Sensor, 1/mm</translation></message>
 <message><source>from</source><translation>von</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
 <message><source>geometric: ray density, no diffraction; {percent:.0f} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts der Pupille im Bild</translation></message>
@@ -856,11 +872,15 @@
 <message><source>lines F d C</source><translation>Linien F d C</translation></message>
 <message><source>listed nd</source><translation>verzeichnetes nd</translation></message>
 <message><source>lists are nested too deep or a number is too long; this is no lens file</source><translation>Listen sind zu tief verschachtelt oder eine Zahl ist zu lang; das ist keine Objektivdatei</translation></message>
+<message><source>locked peak</source><translation>feste Spitze</translation></message>
 <message><source>log</source><translation>log</translation></message>
 <message><source>logarithm of brightness</source><translation>Logarithmus der Helligkeit</translation></message>
+<message><source>luminance</source><translation>Leuchtdichte</translation></message>
+<message><source>luminance, peak = 1</source><translation>Leuchtdichte, Spitze = 1</translation></message>
 <message><source>make the folder first or choose another</source><translation>den Ordner zuerst anlegen oder einen anderen wählen</translation></message>
 <message><source>marginal ray y, mm</source><translation>Randstrahl y, mm</translation></message>
 <message><source>marginal rays, axial point</source><translation>Randstrahlen, Achspunkt</translation></message>
+<message><source>marker</source><translation>Marke</translation></message>
 <message><source>measure "{measure}" is unknown; choose one of {choices}</source><translation>das Maß "{measure}" ist unbekannt; eines von {choices} wählen</translation></message>
 <message><source>medium {name} cannot be written to a file; give an index, a glass name or nd and vd</source><translation>das Medium {name} lässt sich nicht in eine Datei schreiben; einen Index, einen Glasnamen oder nd und vd angeben</translation></message>
 <message><source>medium {name} has no line in a Zemax file; save as TOML, or give nd and vd</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei; als TOML speichern oder nd und vd angeben</translation></message>
@@ -927,6 +947,7 @@
 <message><source>passes</source><translation>kommt durch</translation></message>
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
+<message><source>peak, waves</source><translation>Spitze, Wellen</translation></message>
 <message><source>pentafoil</source><translation>Fünfblattfehler</translation></message>
 <message><source>per pixel</source><translation>je Pixel</translation></message>
 <message><source>perfect lens</source><translation>ideale Linse</translation></message>
@@ -967,6 +988,7 @@
 <message><source>radius, µm</source><translation>Radius, µm</translation></message>
 <message><source>rail_shares is {value}; give a list of numbers</source><translation>rail_shares ist {value}; geben Sie eine Liste von Zahlen an</translation></message>
 <message><source>range_um of {name} is {limits}; write the shortest and the longest wavelength</source><translation>range_um von {name} ist {limits}; die kürzeste und die längste Wellenlänge schreiben</translation></message>
+<message><source>ray</source><translation>Strahl</translation></message>
 <message><source>ray density</source><translation>Strahlendichte</translation></message>
 <message><source>rays fill the paraxial entrance pupil</source><translation>Strahlen füllen die paraxiale Eintrittspupille</translation></message>
 <message><source>rays fill the real stop</source><translation>Strahlen füllen die wirkliche Blende</translation></message>
@@ -1058,6 +1080,7 @@
 <message><source>surface</source><translation>Fläche</translation></message>
 <message><source>surface is not a list of tables; head every surface with [[surface]]</source><translation>surface ist keine Liste von Tabellen; jede Fläche mit [[surface]] überschreiben</translation></message>
 <message><source>surface number</source><translation>Flächennummer</translation></message>
+<message><source>surface {number}</source><translation>Fläche {number}</translation></message>
 <message><source>surface {number} (auto)</source><translation>Fläche {number} (gefunden)</translation></message>
 <message><source>surface {number} (file)</source><translation>Fläche {number} (Datei)</translation></message>
 <message><source>surface {number} has no rim to be the stop; give it a semi-diameter first</source><translation>Fläche {number} hat keinen Rand, der Blende sein könnte; ihr zuerst einen Halbmesser geben</translation></message>
@@ -1097,6 +1120,7 @@
 <message><source>tangential, along η</source><translation>tangential, längs η</translation></message>
 <message><source>telecentric flag</source><translation>Kennzeichen der Telezentrie</translation></message>
 <message><source>term</source><translation>Term</translation></message>
+<message><source>term {number}</source><translation>Term {number}</translation></message>
 <message><source>terms</source><translation>Terme</translation></message>
 <message><source>tertiary astigmatism</source><translation>tertiärer Astigmatismus</translation></message>
 <message><source>tertiary coma</source><translation>tertiäre Koma</translation></message>
@@ -1264,6 +1288,7 @@
 <message><source>this is not JSON ({reason}); correct the line</source><translation>das ist kein JSON ({reason}); die Zeile berichtigen</translation></message>
 <message><source>this is not TOML ({reason}); {remedy}</source><translation>das ist kein TOML ({reason}); {remedy}</translation></message>
 <message><source>this is the older surfaceArray form, convert it in ISET</source><translation>das ist die ältere Form surfaceArray, in ISET umwandeln</translation></message>
+<message><source>this lens</source><translation>dieses Objektiv</translation></message>
 <message><source>this lens is for near objects, so choose a nearer depth</source><translation>dieses Objektiv ist für nahe Objekte, also einen kleineren Objektabstand wählen</translation></message>
 <message><source>this lens, µm</source><translation>diese Linse, µm</translation></message>
 <message><source>this stands before the first step; begin a step with a line ## and its title</source><translation>das steht vor dem ersten Schritt; einen Schritt mit einer Zeile ## und seinem Titel beginnen</translation></message>
@@ -1271,6 +1296,7 @@
 <message><source>tilt</source><translation>Verkippung</translation></message>
 <message><source>tilt of the 3D view</source><translation>Neigung der 3D-Ansicht</translation></message>
 <message><source>tilt of the wavefront's surface</source><translation>Neigung der Wellenfrontfläche</translation></message>
+<message><source>time</source><translation>Zeit</translation></message>
 <message><source>time of one PSF, ms</source><translation>Zeit einer PSF, ms</translation></message>
 <message><source>titles, sessions and computing settings</source><translation>Titel, Sitzungen und Recheneinstellungen</translation></message>
 <message><source>to</source><translation>bis</translation></message>
@@ -1310,9 +1336,9 @@
 <message><source>what is pinned as B must be one state with nothing pinned in it; pin it again</source><translation>was als B gemerkt ist, muss ein einzelner Zustand sein, in dem nichts gemerkt ist; neu merken</translation></message>
 <message><source>what no single term shows</source><translation>was kein einzelnes Glied zeigt</translation></message>
 <message><source>what-if</source><translation>Was wäre wenn</translation></message>
-<message><source>what-if: {alterations}</source><translation>was wäre wenn: {alterations}</translation></message>
 <message><source>what-if: coefficients altered by hand</source><translation>Was wäre wenn: Koeffizienten von Hand geändert</translation></message>
 <message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
+<message><source>what-if: {alterations}</source><translation>was wäre wenn: {alterations}</translation></message>
 <message><source>which P2SF does not trace</source><translation>den P2SF nicht rechnet</translation></message>
 <message><source>while something is dragged: give up, as it was before</source><translation>beim Ziehen: aufgeben, alles wie zuvor</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
@@ -1332,11 +1358,13 @@
 <message><source>write the number {number} without quotation marks</source><translation>die Zahl {number} ohne Anführungszeichen schreiben</translation></message>
 <message><source>write {number} with a decimal point, not "{found}"</source><translation>{number} mit Dezimalpunkt schreiben, nicht "{found}"</translation></message>
 <message><source>write {units} or no unit</source><translation>{units} oder keine Einheit schreiben</translation></message>
+<message><source>x, of the edge</source><translation>x, des Randes</translation></message>
 <message><source>x, µm</source><translation>x, µm</translation></message>
 <message><source>x, µm from the chief ray</source><translation>x, µm vom Hauptstrahl</translation></message>
 <message><source>y of the paraxial chief ray on the sensor; in focus, the magnification times the object height.</source><translation>y des paraxialen Hauptstrahls auf dem Sensor; scharf gestellt der Abbildungsmaßstab mal die Objekthöhe.</translation></message>
 <message><source>y of the source, negative below the axis; none at infinity. A field stated as an object height counts towards −y.</source><translation>y der Quelle, negativ unter der Achse; keines im Unendlichen. Ein als Objekthöhe angegebenes Feld zählt nach −y.</translation></message>
 <message><source>y, mm</source><translation>y, mm</translation></message>
+<message><source>y, of the edge</source><translation>y, des Randes</translation></message>
 <message><source>y, µm</source><translation>y, µm</translation></message>
 <message><source>y, µm (towards the axis)</source><translation>y, µm (zur Achse hin)</translation></message>
 <message><source>y, µm (towards the field)</source><translation>y, µm (zum Feld hin)</translation></message>
@@ -1514,7 +1542,8 @@
 <message><source>±{half} µm depth of focus</source><translation>±{half} µm Fokustiefe</translation></message>
 <message><source>Δn at d unknown, the file does not tell the index it wants</source><translation>Δn bei d unbekannt, die Datei nennt den gewünschten Index nicht</translation></message>
 <message><source>Δn at d {value:+.5f}</source><translation>Δn bei d {value:+.5f}</translation></message>
-<message><source>η, towards the field</source><translation>η, zum Feld hin</translation></message>
+<message><source>η, pupil radii (towards the field)</source><translation>η, Pupillenradien (zum Feld hin)</translation></message>
+<message><source>η, stop radii (towards the field)</source><translation>η, Blendenradien (zum Feld hin)</translation></message>
 <message><source>λ</source><translation>λ</translation></message>
 <message><source>λ/2NA/{fineness:g}</source><translation>λ/2NA/{fineness:g}</translation></message>
 <message><source>ξ, pupil radii</source><translation>ξ, Pupillenradien</translation></message>
