@@ -2,7 +2,7 @@
 
 import io
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from p2sf import __version__
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import ExportError
 from p2sf.files.writing import write_beside
-from p2sf.interchange.psf_cube import Cube
+from p2sf.interchange.psf_cube import Cube, PsfArray
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import pupils
 
@@ -22,17 +22,35 @@ ARCSECONDS = 180 * 3600 / np.pi
 
 def write_fits(cube: Cube, path: str | os.PathLike[str]) -> Path:
     """Write a cube as one image (x, y, wavelength, field, depth in FITS order) and a table per axis; ExportError."""
+    return write_image(cube, path, keywords(cube))
+
+
+def write_image(
+    cube: PsfArray,
+    path: str | os.PathLike[str],
+    header: Iterable[tuple[str, object, str]],
+    tables: Mapping[str, Mapping[str, np.ndarray]] | None = None,
+) -> Path:
+    """Write PSFs as one image with a ``header`` of (keyword, value, comment), a table per axis and more ``tables``."""
     try:
         from astropy.io import fits
     except ImportError as error:
         raise ExportError("FITS files need astropy, which is not installed; pip install 'p2sf[fits]'") from error
     image = fits.PrimaryHDU(cube.values)
-    for keyword, value, comment in keywords(cube):
+    for keyword, value, comment in header:
         image.header[keyword] = (value, comment)
-    tables = [_axis_table(fits, *axis) for axis in _axes(cube)]
+    parts = [_axis_table(fits, *axis) for axis in _axes(cube)]
+    for name, columns in (tables or {}).items():
+        made = [fits.Column(name=key, format=_form(column), array=column) for key, column in columns.items()]
+        parts.append(fits.BinTableHDU.from_columns(made, name=name))
     content = io.BytesIO()  # astropy refuses a handle that was opened to create a file
-    fits.HDUList([image, *tables]).writeto(content)
+    fits.HDUList([image, *parts]).writeto(content)
     return write_beside(path, lambda handle: handle.write(content.getbuffer()))
+
+
+def _form(column: np.ndarray) -> str:
+    """Return the FITS format of a column: double, or text as wide as its longest."""
+    return "D" if column.dtype.kind == "f" else f"{column.dtype.itemsize // 4}A"
 
 
 def keywords(cube: Cube) -> list[tuple[str, object, str]]:
@@ -51,7 +69,7 @@ def keywords(cube: Cube) -> list[tuple[str, object, str]]:
         ("DIFFLMT", middle / width * ARCSECONDS, "[arcsec] lambda/D in object space"),
         ("NORMALIZ", "unit sum in the window", "PSF normalization"),
         ("BUNIT", "fraction", "of the light in the window, per pixel"),
-        *_axis_keywords(cube),
+        *axis_keywords(cube),
         ("INSTRUME", lens.name[:60], "lens"),
         ("AIM", cube.stored.meta["aim"], "exact rays fill the stop/paraxial pupil"),
         ("METHOD", cube.stored.database.method, "method of computing the PSF"),
@@ -60,7 +78,7 @@ def keywords(cube: Cube) -> list[tuple[str, object, str]]:
     ]
 
 
-def _axis_keywords(cube: Cube) -> Iterator[tuple[str, object, str]]:
+def axis_keywords(cube: PsfArray) -> Iterator[tuple[str, object, str]]:
     """Yield where the chief ray lies: sample N//2 counted from 0, that is N//2 + 1 from 1."""
     for axis, name in ((1, "X"), (2, "Y")):
         yield f"CTYPE{axis}", f"{name} (field along +Y)" if axis == 2 else name, "sensor axis"
@@ -74,7 +92,7 @@ def _pupil_metres(lens: Lens) -> float:
     return float(pupils(lens, lens.reference_wavelength_um).entrance_diameter) / UM_PER_MM
 
 
-def _axes(cube: Cube) -> Iterator[tuple[str, str, np.ndarray]]:
+def _axes(cube: PsfArray) -> Iterator[tuple[str, str, np.ndarray]]:
     yield "WAVELENGTH", "nm", cube.wavelengths_nm
     yield "FIELD", "deg", cube.fields_deg
     yield "DEPTH", "mm", cube.depths_mm

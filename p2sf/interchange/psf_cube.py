@@ -3,6 +3,7 @@
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -15,6 +16,30 @@ from p2sf.errors import DatabaseError
 
 MOST_BYTES = 1 << 31
 DEFAULT = Sampling()
+
+
+class PsfArray(Protocol):
+    """PSFs (depth, field, wavelength, y, x) float32, their pitch, and the values along the first three axes."""
+
+    @property
+    def values(self) -> np.ndarray:
+        """The PSFs."""
+
+    @property
+    def pixel_um(self) -> float:
+        """The distance between samples, µm."""
+
+    @property
+    def depths_mm(self) -> np.ndarray:
+        """The depths, mm."""
+
+    @property
+    def fields_deg(self) -> np.ndarray:
+        """The field angles, degrees."""
+
+    @property
+    def wavelengths_nm(self) -> np.ndarray:
+        """The wavelengths, nm."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from p2sf import __version__
 from p2sf.files.writing import write_beside
-from p2sf.interchange.psf_cube import Cube
+from p2sf.interchange.psf_cube import Cube, PsfArray
 from p2sf.io.record import CONVENTIONS
 
 # Row 0 is the lowest y; a reader that honours the TIFF tag turns the picture up.
@@ -16,11 +16,15 @@ ORIENTATION = (274, "H", 1, 4, True)
 
 def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
     """Write a cube as float32 pages, depth as frames, field as slices, wavelength as channels; ExportError."""
+    about = {"method": cube.stored.meta["method"], "aim": cube.stored.meta["aim"]}
+    return write_pages(cube, path, {**about, "lens": cube.stored.meta["lens"]["name"]})
+
+
+def write_pages(cube: PsfArray, path: str | os.PathLike[str], about: dict[str, object]) -> Path:
+    """Write PSFs as the pages of an ImageJ hyperstack, ``about`` in its Info; ExportError."""
     import tifffile
 
-    about = {"conventions": CONVENTIONS, "pixel_um": cube.pixel_um, "method": cube.stored.meta["method"]}
-    about["aim"] = cube.stored.meta["aim"]
-    about["lens"] = cube.stored.meta["lens"]["name"]
+    info = {"conventions": CONVENTIONS, "pixel_um": cube.pixel_um, **about}
     metadata = {
         "axes": "TZCYX",
         "unit": "um",
@@ -28,7 +32,7 @@ def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
         "max": float(cube.values.max()),
         "min": 0.0,
         "Labels": labels(cube),
-        "Info": json.dumps(about, ensure_ascii=False),
+        "Info": json.dumps(info, ensure_ascii=False),
     }
     per_um = 1 / cube.pixel_um
     return write_beside(
@@ -45,7 +49,7 @@ def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
     )
 
 
-def labels(cube: Cube) -> list[str]:
+def labels(cube: PsfArray) -> list[str]:
     """Return what each page shows, in page order."""
     axes = product(cube.depths_mm.tolist(), cube.fields_deg.tolist(), cube.wavelengths_nm.tolist())
     return [f"depth {depth:g} mm, field {field:g} deg, {colour:g} nm" for depth, field, colour in axes]

@@ -50,6 +50,40 @@ def pixel_kernel(
     The field lies ``angle`` radians from +y towards +x. ``shift_um``: where the point's chief ray
     lands, x and y (up) from the centre of the middle pixel. Raises SamplingError for a window too large.
     """
+    binned = _binned(sampled_light(pupil, angle, window, shift_um), window.size, window.samples)
+    kernel: np.ndarray = np.ascontiguousarray(binned[::-1]) / binned.sum(dtype=float).astype(np.float32)
+    return kernel
+
+
+def part_filled_kernel(pupil: FrequencyPupil, window: PixelWindow, fill_factor: float) -> np.ndarray:
+    """Return the share of a point's light that each pixel's sensitive square receives, (size, size) float32, row 0 top.
+
+    The square, ``fill_factor`` of the pixel's area, lies in its middle; the field is along +y, the chief ray in the
+    middle pixel's centre. The light is convolved with the square by its transform, sinc·sinc, which is exact for
+    samples finer than λ/4NA, where every spatial frequency of the light is below theirs: ``window.samples`` from
+    `samples_across` at a fineness of 2, and odd, so that one lies in each pixel's centre. Raises SamplingError.
+    """
+    import scipy.fft
+
+    light = sampled_light(pupil, 0.0, window)
+    wide = window.samples * fill_factor**0.5  # of the square, in samples
+    count = len(light)
+    down, across = (np.sinc(wide * f).astype(np.float32) for f in (np.fft.fftfreq(count), np.fft.rfftfreq(count)))
+    spectrum = scipy.fft.rfft2(light)
+    spectrum *= down[:, None] * across
+    spread = scipy.fft.irfft2(spectrum, light.shape, overwrite_x=True)
+    centres = slice(window.samples // 2, None, window.samples)
+    kernel: np.ndarray = spread[centres, centres][::-1] * np.float32(wide**2 / light.sum(dtype=float))
+    return kernel
+
+
+def sampled_light(
+    pupil: FrequencyPupil, angle: float, window: PixelWindow, shift_um: tuple[float, float] = (0.0, 0.0)
+) -> np.ndarray:
+    """Return the light at ``window.samples``² points of every pixel, (size·samples,)² float32, row 0 at the bottom.
+
+    As in `pixel_kernel`. Raises SamplingError for a window too large.
+    """
     import scipy.fft
 
     count, pitch = window.size * window.samples, window.pixel_um / window.samples
@@ -67,10 +101,8 @@ def pixel_kernel(
     origin = corner - shift_um[0], corner - shift_um[1]
     field = _field(turned(pupil, angle), side, 1 / (side * pitch), origin)
     plane = scipy.fft.ifft2(field, overwrite_x=True)[:count, :count]
-    light = plane.real**2 + plane.imag**2
-    binned = _binned(light, window.size, window.samples)
-    kernel: np.ndarray = np.ascontiguousarray(binned[::-1]) / binned.sum(dtype=float).astype(np.float32)
-    return kernel
+    light: np.ndarray = plane.real**2 + plane.imag**2
+    return light
 
 
 def _binned(light: np.ndarray, size: int, samples: int) -> np.ndarray:

@@ -21,6 +21,7 @@ TRACED = 40, 120  # steps of radius, and of direction over half the disc: exact 
 FINER = 5  # times as many cells either way, with rays interpolated between the exact ones
 STRAY = 2e-3  # of the light may land outside the window, as of a sum of waves
 RINGS = 2048
+CELLS = 7  # along the side of a pixel, in which rays are counted where part of it is sensitive
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +124,17 @@ def ray_kernel(
 
     As `pixels.pixel_kernel`, from rays. Raises GeometryError where no ray lands in the window.
     """
+    total = _landing(spread, angle, half, pixel_um, shift_um)
+    if not total.any():
+        raise GeometryError("no ray lands within {half} pixels of the chief ray; take larger pixels", half=half)
+    kernel: np.ndarray = (total / total.sum()).astype(np.float32)
+    return kernel
+
+
+def _landing(
+    spread: RaySpread, angle: float, half: int, pixel_um: float, shift_um: tuple[float, float] = (0.0, 0.0)
+) -> np.ndarray:
+    """Return the share of all light that lands on each pixel, (2·half + 1,)², row 0 at the top."""
     size, sine, cosine = 2 * half + 1, sin(angle), cos(angle)
     total = np.zeros(size * size)
     for across in (spread.x_um, -spread.x_um):
@@ -132,7 +144,19 @@ def ray_kernel(
         inside = (column >= 0) & (column < size) & (row >= 0) & (row < size)
         place = (row[inside] * size + column[inside]).astype(np.intp)
         total += np.bincount(place, spread.light[inside], total.size)
-    if not total.any():
-        raise GeometryError("no ray lands within {half} pixels of the chief ray; take larger pixels", half=half)
-    kernel: np.ndarray = (total / total.sum()).astype(np.float32).reshape(size, size)
+    return total.reshape(size, size)
+
+
+def part_filled_rays(spread: RaySpread, half: int, pixel_um: float, fill_factor: float) -> np.ndarray:
+    """Return the share of a point's light that each pixel's sensitive square receives, as `pixels.part_filled_kernel`.
+
+    From rays counted in `CELLS`² cells of every pixel, each cell with the part of it that is sensitive.
+    """
+    size, side = 2 * half + 1, fill_factor**0.5
+    fine = _landing(spread, 0.0, CELLS * half + CELLS // 2, pixel_um / CELLS)
+    edges = np.linspace(-0.5, 0.5, CELLS + 1)
+    inside = np.clip(edges, -side / 2, side / 2)
+    part = CELLS * np.diff(inside)
+    cells = fine.reshape(size, CELLS, size, CELLS)
+    kernel: np.ndarray = np.einsum("iajb,a,b->ij", cells, part, part)
     return kernel

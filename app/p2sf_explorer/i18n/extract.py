@@ -20,7 +20,13 @@ import p2sf_explorer
 from p2sf.lensfile.library import lenses_folder
 from p2sf_explorer.i18n.language import texts
 
-UNREACHED = ("p2sf.cli", "p2sf.studies", "p2sf.database_files", "p2sf.interchange")  # by any window
+UNREACHED = (
+    "p2sf.cli",
+    "p2sf.studies",
+    "p2sf.database_files",
+    "p2sf.interchange.iset",
+    "p2sf.interchange.psf_cube",
+)  # by any window
 FIELD, LETTERS = re.compile(r"\{[^{}]*\}"), re.compile(r"[^\W\d_]{2}")
 ERROR = "P2SFError"
 LESSONS = Path(p2sf_explorer.__file__).parent / "lessons"

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence, QShortcut
@@ -30,6 +31,9 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.copying import card_in_hand, copy_data, copy_picture, png_of
+
+if TYPE_CHECKING:
+    from p2sf_explorer.exporting.set_dialog import SetDialog
 
 COPIED, NO_DATA = Message("The panel's data are on the clipboard"), Message("This panel has no numbers")
 STATE_FILES = "Explorer states (*.json)"
@@ -66,6 +70,7 @@ class Actions(QObject):
         self.commands: list[Command] = []
         self.palette: Palette | None = None
         self.handbook: Handbook | None = None
+        self.set_dialog: SetDialog | None = None
         for command in self._first():
             self.add(command)
         top.lens_chosen.connect(self.open_lens)
@@ -87,6 +92,7 @@ class Actions(QObject):
             Command("Choose a shipped lens…", self._top.lens.open_gallery, ("Ctrl+L",), "Files"),
             Command("Save the lens as it is now…", self.ask_save_lens, ("Ctrl+Shift+S",), "Files"),
             Command("Snapshot: PSF data or picture, with the state…", self.ask_snapshot, ("Ctrl+E",), "Files"),
+            Command("Export a set of PSFs…", self.ask_set, ("Ctrl+Alt+E",), "Files"),
             Command("Autofocus: best RMS wavefront", self.autofocus, ("Ctrl+F",), "Lens"),
             Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+D",), "Files"),
             Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
@@ -168,6 +174,20 @@ class Actions(QObject):
             named = path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0]
             self.save(named, picture_of)
 
+    def ask_set(self) -> None:
+        """Ask what a set of PSFs is to hold."""
+        if self.set_dialog is None:
+            from p2sf_explorer.exporting.set_dialog import SetDialog
+
+            self.set_dialog = SetDialog(self._store, self._window)
+            self.set_dialog.ended.connect(self._store.said)
+        self.attempt(self.set_dialog.open_for)
+
+    def stop(self) -> None:
+        """End background work with the window."""
+        if self.set_dialog:
+            self.set_dialog.stop()
+
     def help(self) -> None:
         """Show shortcuts and what they do."""
         page = self._window.findChild(HelpPage) or HelpPage(help_text(tuple(self.commands)), self._window)
@@ -221,6 +241,7 @@ class Actions(QObject):
     def _menu(self) -> QMenu:
         menu = QMenu(self._window)
         menu.addAction(tr("PSF data or window…") + "\tCtrl+E", self.ask_snapshot)
+        menu.addAction(tr("Set of PSFs…") + "\tCtrl+Alt+E", self.ask_set)
         pictures = menu.addMenu(tr("Picture of one panel"))
         for entry in REGISTRY:
             pictures.addAction(tr(entry.title), partial(self._ask_panel, entry.key))

@@ -382,6 +382,7 @@ class MainWindow(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """End the background work with the window."""
         self.play.stop()
+        self.commands.stop()
         self.measuring.stop()
         self.deferred.stop()
         self.memory_trim.stop()

@@ -79,6 +79,7 @@
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
 <message><source>C II lateral colour</source><translation>C II Farbquerfehler</translation></message>
 <message><source>Cancel</source><translation>Abbrechen</translation></message>
+<message><source>Cancelled; nothing was written</source><translation>Abgebrochen; nichts wurde geschrieben</translation></message>
 <message><source>Cemented achromat f/6, 20 mm</source><translation>Verkitteter Achromat f/6, 20 mm</translation></message>
 <message><source>Centroid y</source><translation>Schwerpunkt y</translation></message>
 <message><source>Checkerboard</source><translation>Schachbrett</translation></message>
@@ -131,6 +132,7 @@
 <message><source>Diffraction-limited: RMS {rms:.3f} λ</source><translation>Beugungsbegrenzt: RMS {rms:.3f} λ</translation></message>
 <message><source>Dismiss</source><translation>Ausblenden</translation></message>
 <message><source>Distance to the next vertex, mm; the last one to the sensor.</source><translation>Abstand zum nächsten Scheitel, mm; der letzte zum Sensor.</translation></message>
+<message><source>Distances with their units, ∞ among them, with semicolons between: 2 m; 500 mm; ∞</source><translation>Abstände mit ihren Einheiten, auch ∞, mit Semikolons dazwischen: 2 m; 500 mm; ∞</translation></message>
 <message><source>Do not ask again</source><translation>Nicht mehr fragen</translation></message>
 <message><source>Double Gauss, 28 degree field, f/3, 100 mm</source><translation>Doppel-Gauß, 28 Grad Feld, f/3, 100 mm</translation></message>
 <message><source>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</source><translation>Einen Regler ziehen: Objektiv, Pupille und PSF folgen. Über einem Namen steht seine Definition.</translation></message>
@@ -139,6 +141,7 @@
 <message><source>Drop every edit and take the lens as its file has it</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
 <message><source>Drop to open the link</source><translation>Loslassen öffnet den Link</translation></message>
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
+<message><source>Each PSF is what the pixels of a sensor receive of one point's light, the chief ray on the middle pixel. With each go the place of its chief ray on the sensor and the light that is captured. Coefficients altered by hand are left out.</source><translation>Jede PSF ist, was die Pixel eines Sensors vom Licht eines Punktes bekommen, der Hauptstrahl auf dem mittleren Pixel. Dazu kommen der Ort ihres Hauptstrahls auf dem Sensor und das aufgefangene Licht. Von Hand geänderte Koeffizienten bleiben außen vor.</translation></message>
 <message><source>Each PSF over its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF über ihrer eigenen Spitze, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
 <message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
 <message><source>EnP</source><translation>EnP</translation></message>
@@ -155,19 +158,25 @@
 <message><source>Exit</source><translation>Beenden</translation></message>
 <message><source>Exit pupil</source><translation>Austrittspupille</translation></message>
 <message><source>Explorer states (*.json)</source><translation>Zustände des Explorers (*.json)</translation></message>
+<message><source>Export a set of PSFs</source><translation>Einen Satz PSFs exportieren</translation></message>
+<message><source>Export a set of PSFs…</source><translation>Einen Satz PSFs exportieren …</translation></message>
+<message><source>Export…</source><translation>Exportieren …</translation></message>
 <message><source>FFT of {samples} × {samples} pupil samples</source><translation>FFT aus {samples} × {samples} Pupillenproben</translation></message>
 <message><source>FITS files need astropy, which is not installed; pip install 'p2sf[fits]'</source><translation>FITS-Dateien brauchen astropy, das nicht installiert ist; pip install 'p2sf[fits]'</translation></message>
 <message><source>Farthest ray</source><translation>Fernster Strahl</translation></message>
 <message><source>Fast double Gauss f/1.4, 50 mm</source><translation>Lichtstarker Doppel-Gauß f/1,4, 50 mm</translation></message>
 <message><source>Fast on a narrow field: very good on axis, the curved field bends away quickly</source><translation>Lichtstark bei kleinem Feld: sehr gut auf der Achse, das gewölbte Bildfeld biegt sich rasch weg</translation></message>
 <message><source>Field</source><translation>Feld</translation></message>
+<message><source>Field angles in degrees, with semicolons between: 0; 7; 14</source><translation>Feldwinkel in Grad, mit Semikolons dazwischen: 0; 7; 14</translation></message>
 <message><source>Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
 <message><source>Field curves</source><translation>Feldkurven</translation></message>
 <message><source>Field map</source><translation>Feldkarte</translation></message>
 <message><source>Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the present one.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld; ein Rahmen zeigt das jetzige.</translation></message>
 <message><source>Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field). ▾ are the fields that the lens file states.</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld). ▾ sind die Felder, die in der Objektivdatei stehen.</translation></message>
+<message><source>Fields</source><translation>Felder</translation></message>
 <message><source>Figures</source><translation>Zahlen</translation></message>
 <message><source>Files</source><translation>Dateien</translation></message>
+<message><source>Fill factor</source><translation>Füllfaktor</translation></message>
 <message><source>Film…</source><translation>Film …</translation></message>
 <message><source>Find a command, a panel, a lens or a preset</source><translation>Befehl, Ansicht, Objektiv oder Vorgabe finden</translation></message>
 <message><source>Find a command…</source><translation>Befehl finden …</translation></message>
@@ -194,6 +203,7 @@
 <message><source>Handbook</source><translation>Handbuch</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it.</source><translation>Mit dem Zeiger oder den Pfeiltasten einen Ort betrachten: seine PSF und sein Ausschnitt folgen. Die Teilung ziehen oder mit Umschalt und Pfeil links oder rechts verschieben. Ein PNG oder TIFF fallen lassen, um es zu fotografieren.</translation></message>
+<message><source>How much of a pixel's area is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
 <message><source>Image</source><translation>Bild</translation></message>
 <message><source>Image height</source><translation>Bildhöhe</translation></message>
@@ -260,6 +270,7 @@
 <message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
 <message><source>Noll, RMS waves</source><translation>Noll, RMS-Wellen</translation></message>
 <message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
+<message><source>NumPy (*.npz);;TIFF stack for ImageJ (*.tif);;FITS (*.fits);;MATLAB and Octave (*.mat);;Table of figures (*.csv)</source><translation>NumPy (*.npz);;TIFF-Stapel für ImageJ (*.tif);;FITS (*.fits);;MATLAB und Octave (*.mat);;Tabelle der Werte (*.csv)</translation></message>
 <message><source>Numerical accuracy</source><translation>Numerische Genauigkeit</translation></message>
 <message><source>Numerical aperture</source><translation>Numerische Apertur</translation></message>
 <message><source>Nyquist {f}</source><translation>Nyquist {f}</translation></message>
@@ -316,8 +327,11 @@
 <message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>
 <message><source>Pin what is on screen as B, to compare with it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen (Strg+B)</translation></message>
 <message><source>Pixel</source><translation>Pixel</translation></message>
+<message><source>Pixel pitch</source><translation>Pixelabstand</translation></message>
 <message><source>Pixel pitch of the sensor.</source><translation>Pixelabstand des Sensors.</translation></message>
 <message><source>Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch).</source><translation>Pixelabstand des Sensors; seine Nyquist-Frequenz ist 1/(2 Abstand).</translation></message>
+<message><source>Pixels a side</source><translation>Pixel je Seite</translation></message>
+<message><source>Pixels along each side of every PSF; auto holds the widest one</source><translation>Pixel entlang jeder Seite jeder PSF; auto fasst die breiteste</translation></message>
 <message><source>Pixels at the field point, or the field</source><translation>Pixel am Feldpunkt, oder das Feld</translation></message>
 <message><source>Places</source><translation>Orte</translation></message>
 <message><source>Plan it after all</source><translation>Doch noch planen</translation></message>
@@ -408,6 +422,7 @@
 <message><source>Sensor shift</source><translation>Sensorversatz</translation></message>
 <message><source>Sensor shift Δz away from the lens, on top of focus; it adds defocus Wd = NA²Δz/(2n′λ).</source><translation>Sensorversatz Δz weg vom Objektiv, zusätzlich zur Einstellung; er fügt den Defokus Wd = NA²Δz/(2n′λ) hinzu.</translation></message>
 <message><source>Sensor − image</source><translation>Sensor − Bild</translation></message>
+<message><source>Set of PSFs…</source><translation>Satz PSFs …</translation></message>
 <message><source>Sharpening</source><translation>Schärfung</translation></message>
 <message><source>Shift, Alt</source><translation>Umschalt, Alt</translation></message>
 <message><source>Shipped lenses</source><translation>Mitgelieferte Objektive</translation></message>
@@ -461,6 +476,7 @@
 <message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The achromat's plain companion: same focal length and aperture, one glass</source><translation>Das schlichte Gegenstück zum Achromaten: gleiche Brennweite und Öffnung, ein Glas</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; {remedy}.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; {remedy}.</translation></message>
+<message><source>The distance between pixels, µm</source><translation>Der Abstand der Pixel, µm</translation></message>
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>The human eye, 60 dioptres, with its image in the vitreous (n' = 1.3377)</source><translation>Das menschliche Auge, 60 Dioptrien, mit dem Bild im Glaskörper (n' = 1,3377)</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
@@ -549,6 +565,8 @@
 <message><source>Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves.</source><translation>Wellenfrontkoeffizienten: der Höchstwert jedes Glieds von W(ρ, θ) an diesem Feld, in Wellen.</translation></message>
 <message><source>Wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>Wavelength λ in vacuum; the index of each glass n(λ) follows it. F, d and C are Fraunhofer's lines.</source><translation>Wellenlänge λ im Vakuum; der Brechungsindex n(λ) jedes Glases folgt ihr. F, d und C sind Fraunhofers Linien.</translation></message>
+<message><source>Wavelengths</source><translation>Wellenlängen</translation></message>
+<message><source>Wavelengths in nm, with semicolons between: 486.1; 587.6; 656.3</source><translation>Wellenlängen in nm, mit Semikolons dazwischen: 486,1; 587,6; 656,3</translation></message>
 <message><source>Wd</source><translation>Wd</translation></message>
 <message><source>Wd = 0: a line towards the field</source><translation>Wd = 0: eine Linie zum Feld hin</translation></message>
 <message><source>Wd = −2 W40: rim rays meet on the axis</source><translation>Wd = −2 W40: Randstrahlen treffen sich auf der Achse</translation></message>
@@ -615,6 +633,7 @@
 <message><source>a row has {count} columns; write radius, thickness, index, diameter</source><translation>eine Zeile hat {count} Spalten; Radius, Dicke, Index, Durchmesser schreiben</translation></message>
 <message><source>a row of aspherical data needs number, radius, conic; complete it</source><translation>eine Zeile asphärischer Daten braucht Nummer, Radius, Kegelschnitt; ergänzen</translation></message>
 <message><source>a row of lens data needs number, radius and distance; complete it</source><translation>eine Zeile der Linsendaten braucht Nummer, Radius und Abstand; ergänzen</translation></message>
+<message><source>a set of PSFs needs a depth, a field and a wavelength at least; give one of each</source><translation>ein Satz PSFs braucht mindestens einen Abstand, ein Feld und eine Wellenlänge; je eines angeben</translation></message>
 <message><source>a sharp core in a wide halo</source><translation>ein scharfer Kern in weitem Hof</translation></message>
 <message><source>a stack of no PSFs has no width of its own; give the pixel in µm</source><translation>ein Stapel ohne PSFs hat keine eigene Breite; das Pixel in µm angeben</translation></message>
 <message><source>a surface that is not round</source><translation>eine Fläche, die nicht rund ist</translation></message>
@@ -787,6 +806,7 @@
 <message><source>fields beside the y axis are turned onto it, which a round lens does not notice</source><translation>Felder neben der y-Achse werden auf sie gedreht, was ein rundes Objektiv nicht merkt</translation></message>
 <message><source>fields given as {kind} are kept as angles at the entrance pupil</source><translation>als {kind} gegebene Felder werden als Winkel an der Eintrittspupille geführt</translation></message>
 <message><source>file</source><translation>Datei</translation></message>
+<message><source>fill factor</source><translation>Füllfaktor</translation></message>
 <message><source>fitted</source><translation>fitted</translation></message>
 <message><source>fitted while the slider moves, {method} when it rests</source><translation>fitted, solange der Regler sich bewegt, {method}, wenn er ruht</translation></message>
 <message><source>fitted: polynomial from real rays</source><translation>fitted: Polynom aus wahren Strahlen</translation></message>
@@ -960,6 +980,7 @@
 <message><source>piston</source><translation>Kolbenterm</translation></message>
 <message><source>pixel</source><translation>Pixel</translation></message>
 <message><source>pixel of the photo</source><translation>Pixel des Fotos</translation></message>
+<message><source>pixels a side</source><translation>Pixel je Seite</translation></message>
 <message><source>pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}</source><translation>Pixel von {pixel:g} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin:.0%}</translation></message>
 <message><source>place in the entrance pupil, pupil radii</source><translation>Ort in der Eintrittspupille, Pupillenradien</translation></message>
 <message><source>place in the stop, stop radii</source><translation>Ort in der Blende, Blendenradien</translation></message>
@@ -1178,6 +1199,7 @@
 <message><source>the file is over {size:g} MB; a prescription is far smaller</source><translation>die Datei ist über {size:g} MB groß; ein Objektiv ist viel kleiner</translation></message>
 <message><source>the file states no aperture, no stop and no semi-diameter; add one of them</source><translation>die Datei nennt weder Öffnung noch Blende noch Halbmesser; eines davon hinzufügen</translation></message>
 <message><source>the file's object is at {distance:.6g} mm; ask for this depth to see the file's image</source><translation>das Objekt der Datei liegt bei {distance:.6g} mm; mit diesem Objektabstand entsteht das Bild der Datei</translation></message>
+<message><source>the fill factor is {fill:g}; give a part above 0 and up to 1</source><translation>der Füllfaktor ist {fill:g}; einen Teil über 0 und bis 1 angeben</translation></message>
 <message><source>the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
 <message><source>the fourth column as the rim's diameter</source><translation>die vierte Spalte als Durchmesser des Rands</translation></message>
 <message><source>the free pupil has no lens</source><translation>die freie Pupille hat kein Objektiv</translation></message>
@@ -1221,6 +1243,8 @@
 <message><source>the picture has the shape ({shape}), but the scene's sensor wants {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
+<message><source>the pixel is {pixel:g} µm; give a pitch above 0</source><translation>das Pixel misst {pixel:g} µm; einen Abstand über 0 angeben</translation></message>
+<message><source>the point at {depth:g} mm, slope {slope:.4g}, {wave:g} nm: {error}</source><translation>der Punkt bei {depth:g} mm, Steigung {slope:.4g}, {wave:g} nm: {error}</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
 <message><source>the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its light; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihres Lichts finden; abblenden oder das Feld verkleinern</translation></message>
 <message><source>the range to play is {value}; give where it begins and where it ends</source><translation>der Bereich zum Abspielen ist {value}; angeben, wo er beginnt und wo er endet</translation></message>
@@ -1382,6 +1406,7 @@
 <message><source>{command}: {what} is missing; complete the command</source><translation>{command}: {what} fehlt; den Befehl ergänzen</translation></message>
 <message><source>{count:.3g} PSF samples exceed {most:.3g}; ask for fewer pixels or fewer PSFs</source><translation>{count:.3g} PSF-Proben sind mehr als {most:.3g}; weniger Pixel oder weniger PSFs verlangen</translation></message>
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
+<message><source>{count} PSFs of {pixels}² pixels are {size:.1f} GiB; ask for fewer, or for fewer pixels a side</source><translation>{count} PSFs von {pixels}² Pixeln sind {size:.1f} GiB; weniger verlangen, oder weniger Pixel je Seite</translation></message>
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
 <message><source>{count} kept</source><translation>{count} behalten</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
@@ -1491,6 +1516,7 @@
 <message><source>{percent:.1f} %</source><translation>{percent:.1f} %</translation></message>
 <message><source>{percent} % of the pupil</source><translation>{percent} % der Pupille</translation></message>
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
+<message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>
 <message><source>{pupil_samples} pupil samples are too few for {pixels} PSF samples by FFT; give an even number of at least {least}</source><translation>{pupil_samples} Pupillenproben sind zu wenige für {pixels} PSF-Proben mit der FFT; eine gerade Zahl ab {least} angeben</translation></message>

@@ -1,0 +1,178 @@
+"""The dialog that exports a set of PSFs: what it holds, its pixels, how far it is, and a button that stops it."""
+
+from dataclasses import asdict
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import (
+    QDialog,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from p2sf.errors import P2SFError
+from p2sf.messages import Message
+from p2sf_explorer.exporting.set_request import SetRequest, SetTexts, count_of, first_texts, read_request, work
+from p2sf_explorer.files.snapshot import side_car
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.value_edit import ShortField
+from p2sf_explorer.workers.worker import LatestWins
+
+WIDTH = 560
+FILES = (
+    "NumPy (*.npz);;TIFF stack for ImageJ (*.tif);;FITS (*.fits);;MATLAB and Octave (*.mat);;Table of figures (*.csv)"
+)
+ABOUT = (
+    "Each PSF is what the pixels of a sensor receive of one point's light, the chief ray on the middle pixel. With "
+    "each go the place of its chief ray on the sensor and the light that is captured. Coefficients altered by hand "
+    "are left out."
+)
+LABELS = {  # of the fields, in their order, and their tips
+    "depths": ("Depths", "Distances with their units, ∞ among them, with semicolons between: 2 m; 500 mm; ∞"),
+    "fields": ("Fields", "Field angles in degrees, with semicolons between: 0; 7; 14"),
+    "wavelengths": ("Wavelengths", "Wavelengths in nm, with semicolons between: 486.1; 587.6; 656.3"),
+    "pixel": ("Pixel pitch", "The distance between pixels, µm"),
+    "fill": ("Fill factor", "How much of a pixel's area is sensitive: a square in its middle"),
+    "pixels": ("Pixels a side", "Pixels along each side of every PSF; auto holds the widest one"),
+}
+
+
+class SetDialog(QDialog):
+    """Asks what a set of PSFs holds and writes it in the background; ``ended`` tells of every end but a cancelled one.
+
+    The set is of the lens as it is when Export is pressed.
+    """
+
+    ended = Signal(object)  # a Message or P2SFError
+
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._store = store
+        self.setWindowTitle(tr("Export a set of PSFs"))
+        self.edits = {key: ShortField(self) for key in LABELS}
+        self.count, self.note, self.bar = QLabel(self), QLabel(self), QProgressBar(self)
+        self.export, self.stop_button = QPushButton(tr("Export…"), self), QPushButton(tr("Close"), self)
+        self.worker = LatestWins(self)
+        self.worker.finished.connect(self._on_finished)
+        self.worker.failed.connect(self._on_failed)
+        self.worker.progressed.connect(lambda _, part: self.bar.setValue(round(100 * part)))
+        self._running = False
+        self._lay_out()
+        self.export.clicked.connect(self._ask_path)
+        self.stop_button.clicked.connect(self._stop)
+
+    def _lay_out(self) -> None:
+        form = QFormLayout()
+        form.setLabelAlignment(Qt.AlignmentFlag.AlignLeft)
+        for key, (label, tip) in LABELS.items():
+            edit = self.edits[key]
+            edit.setToolTip(local(tr(tip)))
+            edit.setAccessibleName(tr(label))
+            edit.textChanged.connect(self._recount)
+            form.addRow(tr(label), edit)
+        about = QLabel(tr(ABOUT), self)
+        for text in (about, self.note, self.count):
+            text.setObjectName("muted")
+            text.setWordWrap(True)
+        self.bar.setVisible(False)
+        self.export.setDefault(True)
+        foot = QHBoxLayout()
+        foot.addWidget(self.count, 1)
+        foot.addWidget(self.stop_button)
+        foot.addWidget(self.export)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(16, 14, 16, 14)
+        column.setSpacing(12)
+        column.addWidget(about)
+        column.addLayout(form)
+        column.addWidget(self.note)
+        column.addWidget(self.bar)
+        column.addLayout(foot)
+        self.setFixedWidth(WIDTH)
+
+    def open_for(self) -> None:
+        """Show the dialog; the fields keep what was typed for the same lens."""
+        if not self._running and self.property("lens") != self._store.state.optics.lens:
+            self.setProperty("lens", self._store.state.optics.lens)
+            for key, text in asdict(first_texts(self._store.state)).items():
+                self.edits[key].setText(local(text))
+        self.note.clear()
+        self.show()
+        self.raise_()
+        self.activateWindow()
+
+    def texts(self) -> SetTexts:
+        """Return what stands in the fields."""
+        return SetTexts(**{key: edit.text() for key, edit in self.edits.items()})
+
+    def _recount(self) -> None:
+        self.count.setText(tr("{count} PSFs", count=count_of(self.texts())))
+
+    def _ask_path(self) -> None:
+        try:
+            read_request(self._store.state, self.texts(), "set.npz")
+        except P2SFError as error:
+            self.note.setText(said(error))
+            return
+        first = f"{Path(self._store.state.optics.lens).stem}_psfs.npz"
+        path, chosen = QFileDialog.getSaveFileName(self, tr("Export a set of PSFs"), first, tr(FILES))
+        if path:
+            self.write(path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0])
+
+    def write(self, path: str) -> bool:
+        """Make the set and write it; return whether that has begun."""
+        try:
+            request = read_request(self._store.state, self.texts(), path)
+        except P2SFError as error:
+            self.note.setText(said(error))
+            return False
+        self._show_running(True)
+        self.note.clear()
+        self.worker.submit(request, work(request))
+        return True
+
+    def _show_running(self, on: bool) -> None:
+        self._running = on
+        self.bar.setValue(0)
+        self.bar.setVisible(on)
+        self.export.setEnabled(not on)
+        self.stop_button.setText(tr("Cancel") if on else tr("Close"))
+        for edit in self.edits.values():
+            edit.setEnabled(not on)
+
+    def _stop(self) -> None:
+        if not self._running:
+            self.close()
+            return
+        self.worker.cancel()
+        self._show_running(False)
+        self.note.setText(tr("Cancelled; nothing was written"))
+
+    def _on_finished(self, request: SetRequest, path: Path) -> None:
+        self._show_running(False)
+        done = Message("Saved {name}, and its state as {beside}", name=path.name, beside=side_car(path).name)
+        self.note.setText(said(done))
+        self.ended.emit(done)
+
+    def _on_failed(self, request: SetRequest, why: Message) -> None:
+        self._show_running(False)
+        self.note.setText(said(why))
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.worker.stop()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Cancel what is running with the dialog."""
+        if self._running:
+            self._stop()
+        super().closeEvent(event)
