@@ -30,6 +30,7 @@ LAYERS = (
     "p2sf_explorer.widgets",
     "p2sf_explorer.compare p2sf_explorer.lessons p2sf_explorer.scene3d",
     "p2sf_explorer.panels p2sf_explorer.playback p2sf_explorer.exporting",
+    "p2sf_explorer.docking",
     "p2sf_explorer.shell",
     "p2sf_explorer.__main__",
     "p2sf.cli",

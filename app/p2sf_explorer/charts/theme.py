@@ -222,7 +222,13 @@ def _inputs(t: Tokens) -> str:
     QPushButton:hover, QToolButton:hover, QComboBox:hover {{ border: 1px solid {t.muted}; }}
     QPushButton:disabled, QToolButton:disabled {{ color: {t.muted}; background: {t.card}; }}
     QPushButton#small, QToolButton#small {{ padding: 1px 7px; font-size: 12px; min-height: 18px; }}
+    QPushButton#segment {{ padding: 3px 9px; color: {t.muted}; background: transparent;
+        border: 1px solid transparent; }}
+    QPushButton#segment:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}
+    QPushButton#segment:hover, QPushButton#segment:focus {{ border: 1px solid {t.accent}; }}
     QToolButton#menu {{ padding: 1px 22px 1px 8px; font-size: 12px; min-height: 18px; }}
+    QToolButton#menu[bare="true"] {{ padding: 1px 12px; background: transparent; border: 1px solid transparent; }}
+    QToolButton#menu:hover, QToolButton#menu:focus {{ border: 1px solid {t.accent}; }}
     QPushButton#group {{ padding: 1px 9px; font-size: 12px; min-height: 17px; background: transparent;
         border: 1px solid transparent; color: {t.muted}; }}
     QPushButton#group:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}

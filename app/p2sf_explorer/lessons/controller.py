@@ -15,6 +15,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from p2sf_explorer.lessons.lesson_panel import LessonPanel, tool
 from p2sf_explorer.state.state import State, changed, entry
+from p2sf_explorer.state.workspaces import Workspace, arrangement
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
@@ -78,6 +79,12 @@ class LessonController(QObject):
             if faults:  # after the picture of the step, which takes the banner away
                 QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
         return self._lessons
+
+    def arranged(self) -> Workspace | None:
+        """Return how the step under way arranges the window, None without one."""
+        place = self.store.state.lesson
+        lesson = self.lessons().get(place.name) if place.name else None
+        return arrangement(lesson.state(min(place.step, len(lesson.steps) - 1)).display) if lesson else None
 
     def toggle(self) -> None:
         """Begin the first lesson, or leave the one under way."""

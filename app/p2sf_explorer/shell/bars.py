@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
@@ -12,6 +12,7 @@ from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import DARK, LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.docking.workspace_bar import WorkspaceBar
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.shell.lens_cards import shown_title
@@ -31,7 +32,6 @@ METHOD_WORDS = {
     "traced": "traced: exact wavefront",
     "huygens": "huygens: the reference sum",
 }
-NARROW = 1100  # pixels: below, as on a small screen at twice the size, some words are left out
 TOLERANCES = (0.9, 0.95, 0.99, 0.999, 0.9999)
 METHOD_TIP = "Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough."
 TOLERANCE_TIP = "Tolerance: the R² against the Huygens reference that auto must promise."
@@ -48,7 +48,9 @@ class TopBar(QFrame):
     def __init__(self, store: Store, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("bar")
-        self._store, self._dark = store, False
+        self._store, self._pinned = store, False
+        self.workspaces: WorkspaceBar | None = None
+        self._shown: tuple[object, ...] = ()
         self.lens = LensChooser(self)
         self.lens.chosen.connect(self.lens_chosen)
         self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or one of the latest", None)
@@ -66,36 +68,51 @@ class TopBar(QFrame):
         self.named = QLabel(tr("Method"), self)
         self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
         self.tolerance.activated.connect(lambda: store.update(tolerance=float(self.tolerance.currentData())))
-        self.undo = self._tool("Undo", "Take back one step (Ctrl+Z)", store.undo)
-        self.redo = self._tool("Redo", "Take the step again (Ctrl+Shift+Z)", store.redo)
+        self.undo = self._tool("↶", "Undo: take back one step (Ctrl+Z)", store.undo)
+        self.redo = self._tool("↷", "Redo: take the step again (Ctrl+Shift+Z)", store.redo)
         self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it (Ctrl+B)", None)
         self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
-        self.lessons = self._tool(
-            "Lessons", "Lessons, from a point of light to a photograph: begin or leave (F3)", None
-        )
-        self.theme = self._tool("Light", "Light or dark", self._turn_theme)
         self.more = self._tool("More", "Report, command palette, colours, theme, language", None)
         self.more.setMenu(QMenu(self))
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.help = self._tool("?", "Shortcuts and terms (F1 or ?)", self.help_asked.emit)
         self._lay_out()
-        self._write(False)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Write less in a narrow window."""
-        super().resizeEvent(event)
-        self._write(event.size().width() < NARROW)
-
-    def _write(self, narrow: bool) -> None:
-        """Write Undo and Redo, in a narrow window as arrows and without the word before the methods."""
-        self.named.setVisible(not narrow)
-        for button, arrow, words in ((self.undo, "↶", "Undo"), (self.redo, "↷", "Redo")):
-            button.setText(arrow if narrow else tr(words))
+        for button, words in ((self.undo, "Undo"), (self.redo, "Redo")):
             button.setAccessibleName(tr(words))
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show less in a narrow window."""
+        super().resizeEvent(event)
+        self.fit()
+
+    def minimumSizeHint(self) -> QSize:
+        """Return a width at which hardly anything is left out of the bar."""
+        return QSize(0, super().minimumSizeHint().height())
+
+    def fit(self) -> None:
+        """Leave out as much as it takes: the word before the methods, the buttons of workspaces, at last other tools.
+
+        What is left out stays in the menus, under its keys, and in the command palette.
+        """
+        margins = self._row.contentsMargins()
+        room = self.width() - margins.left() - margins.right()
+        for less in range(4):
+            self.named.setVisible(less < 1)
+            if self.workspaces:
+                self.workspaces.make_narrow(less > 1)
+            for tool in (self.undo, self.redo, self.snapshot, self.help):
+                tool.setVisible(less < 3)
+            self.pin.setVisible(less < 3 and not self._pinned)
+            parts = [item for k in range(self._row.count()) if (item := self._row.itemAt(k)) and not item.isEmpty()]
+            needed = sum(part.minimumSize().width() + self._row.spacing() for part in parts)
+            title = (self.lens.sizeHint().width() - self.lens.minimumSizeHint().width()) // 5  # as much as can be read
+            if needed + (title if less < 2 else 0) <= room:
+                return
+
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
+        self._row = row = QHBoxLayout(self)
         row.setContentsMargins(10, 6, 10, 6)
+        row.setSizeConstraint(QHBoxLayout.SizeConstraint.SetNoConstraint)  # see `fit`
         row.setSpacing(6)
         row.addWidget(self.lens)
         row.addWidget(self.open)
@@ -105,8 +122,16 @@ class TopBar(QFrame):
         row.addWidget(self.method)
         row.addWidget(self.tolerance)
         row.addStretch(1)
-        for tool in (self.undo, self.redo, self.pin, self.snapshot, self.lessons, self.theme, self.more, self.help):
+        for tool in (self.undo, self.redo, self.pin, self.snapshot, self.more, self.help):
             row.addWidget(tool)
+
+    def put_workspaces(self, bar: WorkspaceBar) -> None:
+        """Put the workspaces into the middle of the bar."""
+        self.workspaces = bar
+        at = self._row.indexOf(self.undo)
+        self._row.insertWidget(at, bar)
+        self._row.insertStretch(at + 1, 1)
+        self.fit()
 
     def _tool(self, text: str, tip: str, action: Callable[[], object] | None) -> QToolButton:
         button = QToolButton(self)
@@ -142,14 +167,15 @@ class TopBar(QFrame):
             self.tolerance.addItem(f"R² ≥ {state.optics.tolerance:g}", str(state.optics.tolerance))
         select(self.tolerance, str(state.optics.tolerance))
         self.tolerance.setVisible(state.optics.method == "auto")
+        if self.workspaces:
+            self.workspaces.mark(state.display.workspace)
         self.undo.setEnabled(self._store.can_undo)
         self.redo.setEnabled(self._store.can_redo)
-        self.pin.setVisible(state.compare.pinned is None)
-        self.theme.setText(tr("Light") if dark else tr("Dark"))
-        self._dark = dark
-
-    def _turn_theme(self) -> None:
-        self._store.update(theme="light" if self._dark else "dark")
+        self._pinned = state.compare.pinned is not None
+        shown = state.optics.lens_text is None, state.optics.method, self._pinned
+        if shown != self._shown:  # a slider moves none of these
+            self._shown = shown
+            self.fit()
 
 
 class StatusLine(QWidget):

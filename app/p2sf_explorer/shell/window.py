@@ -16,6 +16,10 @@ from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live, Refused
+from p2sf_explorer.docking.floating_panels import FloatingPanels, Home
+from p2sf_explorer.docking.stage import PanelRoom, ShareSplitter
+from p2sf_explorer.docking.tabs import Tabs
+from p2sf_explorer.docking.workspace_bar import WorkspaceBar, Workspaces
 from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.files.opening import REPORT_TAB, Refusal
 from p2sf_explorer.i18n.messages import said
@@ -28,16 +32,13 @@ from p2sf_explorer.playback.play_bar import PlayBar
 from p2sf_explorer.shell.actions import Actions, PanelAccess
 from p2sf_explorer.shell.bars import Banner, StatusLine, TopBar
 from p2sf_explorer.shell.controls import WIDTH, Controls
-from p2sf_explorer.shell.floating_panels import FloatingPanels, Home
 from p2sf_explorer.shell.memory_trim import MemoryTrim
 from p2sf_explorer.shell.no_answer import NO_ANSWER, drawn
 from p2sf_explorer.shell.sharing import Sharing
-from p2sf_explorer.shell.stage import PanelRoom, ShareSplitter
-from p2sf_explorer.shell.tabs import Tabs
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.state import Display, State
-from p2sf_explorer.state.workspaces import exchanged, kept_in_rail, on_stage, placed, put_to_tabs
+from p2sf_explorer.state.workspaces import exchanged, kept_in_rail, on_show, on_stage, placed, put_to_tabs
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.copying import card_in_hand
 from p2sf_explorer.widgets.drop import DropFrame, dropped, is_photo
@@ -109,15 +110,16 @@ class MainWindow(QMainWindow):
             explain=self._explain,
             detach=self._detach,
         )
+        self.workspaces = Workspaces(self.store, self.teaching, self)
+        self.top.put_workspaces(WorkspaceBar(self.workspaces, self.top))
         self.commands = Actions(self, self.store, self.top, access)
-        for part in (self.sharing, self.compare, self.play, self.teaching, self.tabs):
+        for part in (self.sharing, self.compare, self.play, self.teaching, self.tabs, self.workspaces):
             for command in part.commands():
                 self.commands.add(command)
         self.sharing.fill(self.top.snapshot.menu())
 
     def _connect(self) -> None:
         self.top.pin.clicked.connect(self.compare.turn)
-        self.top.lessons.clicked.connect(self.teaching.toggle)
         self.controls.autofocus.connect(self.commands.autofocus)
         self.controls.swept.connect(self.play.player.toggle)
         self.controls.grasped.connect(self.play.player.pause_on)
@@ -308,9 +310,8 @@ class MainWindow(QMainWindow):
         return not self.banner.isVisible()
 
     def _visible(self) -> tuple[str, ...]:
-        """Return the panels on show: on the stage, in the rail, in front of the tabs, in windows of their own."""
-        inside = self._places() if self.display.show_rail else (self.display.stage,)
-        return tuple(dict.fromkeys((*inside, *self.floating.open)))
+        """Return the panels on show."""
+        return tuple(key for key in on_show(self.display) if key in self.panels)
 
     def _wanted(self) -> dict[str, compute.ResultFunction]:
         views = {key: view_of(ENTRIES[key]) for key in self._visible()}

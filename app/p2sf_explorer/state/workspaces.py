@@ -31,7 +31,7 @@ WORKSPACES = {
     "explore": Workspace(FIRST.stage, FIRST.rail, FIRST.tab, FIRST.stage_share),
     "inspect": Workspace("field_map", ("psf",), "mtf", 0.7),
     "lens": Workspace("layout", ("psf",), "lens", 0.56, (0.34, 0.66), rail_side="bottom"),
-    "image": Workspace("image", ("psf",), "mtf", 0.7),
+    "image": Workspace("image", ("psf",), "mtf", 0.64, (0.36, 0.64), rail_side="bottom"),
     TEACH: Workspace("psf", ("coefficients",), "profiles", 0.62, show_rail=False),
 }
 
@@ -52,6 +52,12 @@ def placed(display: Display, panels: Sequence[str]) -> Display:
     rail = tuple(key for key in dict.fromkeys(display.rail) if key in panels and key != stage)
     free = [key for key in (display.tab, FIRST.tab, *panels) if key in panels and key not in (stage, *rail)]
     return replace(display, stage=stage, rail=rail, tab=free[0])
+
+
+def on_show(display: Display) -> tuple[str, ...]:
+    """Return the panels on show: on the stage, beside it, and in windows of their own."""
+    beside = (*display.rail, display.tab) if display.show_rail else ()
+    return tuple(dict.fromkeys((display.stage, *beside, *display.windows)))
 
 
 def exchanged(display: Display, panel: str, other: str) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.reference import Accuracy, measure
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import NO_REFERENCE
+from p2sf_explorer.state.workspaces import on_show
 from p2sf_explorer.workers.worker import LatestWins
 
 ShowBadge = Callable[[Live, float | None], None]
@@ -109,8 +110,8 @@ class LiveAccuracy(QObject):
 
 
 def asked_for(state: State) -> bool:
-    """Return whether the accuracy has its panel on show, in front of the tabs or in a window of its own."""
-    return "accuracy" in (state.display.tab, *state.display.windows)
+    """Return whether the accuracy has its panel on show."""
+    return "accuracy" in on_show(state.display)
 
 
 def fits(known: Accuracy, live: Live, every_method: bool) -> bool:

@@ -12,11 +12,11 @@ from p2sf_explorer.charts.plots import ColourBar, HeatMap
 from p2sf_explorer.compute.glass_outlines import clear_rims, glass_of, still
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shipped
+from p2sf_explorer.docking.tabs import Tabs
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.lens_table import LensTablePanel
-from p2sf_explorer.shell.tabs import Tabs
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.readout import BAR_AIR, Readout
 
@@ -154,7 +154,7 @@ def test_the_window_fits_a_screen_of_1920_by_1080_at_twice_the_size(window):
     QApplication.processEvents()
     try:
         assert (window.width(), window.height()) == (960, 540)
-        assert window.top.undo.text() == "↶" and window.top.undo.accessibleName() == "Undo"
+        assert window.top.workspaces.menu.text() == "Explore" and not window.top.named.isVisible()
         row = [window.panels[key].widget for key in ("pupil", "psf", "coefficients")]
         for card in row:
             assert card.height() >= card.layout().minimumSize().height() and card.width() >= card.minimumWidth()
@@ -164,7 +164,7 @@ def test_the_window_fits_a_screen_of_1920_by_1080_at_twice_the_size(window):
     finally:
         window.resize(1440, 900)
         QApplication.processEvents()
-    assert window.top.undo.text() == "Undo" and window.top.named.isVisible()
+    assert window.top.workspaces.buttons["explore"].isVisible() and window.top.undo.accessibleName() == "Undo"
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

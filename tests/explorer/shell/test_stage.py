@@ -6,8 +6,8 @@ from PySide6.QtGui import QContextMenuEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 
+from p2sf_explorer.docking.stage import SETTLE_MS
 from p2sf_explorer.lessons.lesson import shipped_lessons
-from p2sf_explorer.shell.stage import SETTLE_MS
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.card import PANEL_MIME
 

@@ -29,13 +29,16 @@
 <message><source>A</source><translation>A</translation></message>
 <message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
 <message><source>A field of {angle:.0f}° is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Ein Feld von {angle:.0f}° liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
+<message><source>A lesson, and what it is about on the stage (F3)</source><translation>Eine Lektion, und worum es in ihr geht, auf der Bühne (F3)</translation></message>
 <message><source>A meniscus and a stop behind it: coma removed by moving the stop, as in the first cameras</source><translation>Ein Meniskus und dahinter eine Blende: Koma durch den Ort der Blende behoben, wie in den ersten Kameras</translation></message>
+<message><source>A photograph through the lens on the stage</source><translation>Eine Fotografie durch das Objektiv auf der Bühne</translation></message>
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the first vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom ersten Scheitel.</translation></message>
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the last vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom letzten Scheitel.</translation></message>
 <message><source>A real 35 mm wide angle for a reflex camera: long back focus, astigmatism and distortion at the corner</source><translation>Ein echtes 35-mm-Weitwinkel für eine Spiegelreflexkamera: lange Schnittweite, Astigmatismus und Verzeichnung in der Ecke</translation></message>
 <message><source>A standard lens wide open: seven elements, large and balanced aberrations, strong vignetting</source><translation>Ein Normalobjektiv bei voller Öffnung: sieben Linsen, große und gegeneinander abgewogene Aberrationen, starke Vignettierung</translation></message>
 <message><source>A stock singlet, right way round: spherical aberration, coma and colour, undisguised</source><translation>Eine Einzellinse ab Lager, richtig herum: sphärische Aberration, Koma und Farbe, unverhüllt</translation></message>
 <message><source>A triplet whose last element became a doublet: flatter field</source><translation>Ein Triplet, dessen letzte Linse zum Kittglied wurde: ebeneres Feld</translation></message>
+<message><source>A workspace of your own; it is kept as you leave it</source><translation>Ein eigener Arbeitsbereich; er bleibt, wie Sie ihn verlassen</translation></message>
 <message><source>A − B</source><translation>A − B</translation></message>
 <message><source>A − B {part} at {field}</source><translation>A − B {part} bei {field}</translation></message>
 <message><source>A − B · at most {share} % of the higher peak</source><translation>A − B · höchstens {share} % der höheren Spitze</translation></message>
@@ -123,6 +126,7 @@
 <message><source>Defocus is {waves} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down.</source><translation>Der Defokus ist {waves} λ, jenseits der 10 λ der Methode; Fokus oder Quelle näher bringen oder abblenden.</translation></message>
 <message><source>Defocus, 1 λ</source><translation>Defokus, 1 λ</translation></message>
 <message><source>Delete</source><translation>Löschen</translation></message>
+<message><source>Delete this one</source><translation>Diesen löschen</translation></message>
 <message><source>Depth</source><translation>Objektabstand</translation></message>
 <message><source>Depth of field</source><translation>Schärfentiefe</translation></message>
 <message><source>Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
@@ -157,6 +161,7 @@
 <message><source>Exchange A and B: the controls then move the other one</source><translation>A und B vertauschen: die Regler bewegen dann das andere</translation></message>
 <message><source>Exit</source><translation>Beenden</translation></message>
 <message><source>Exit pupil</source><translation>Austrittspupille</translation></message>
+<message><source>Explore</source><translation>Erkunden</translation></message>
 <message><source>Explorer states (*.json)</source><translation>Zustände des Explorers (*.json)</translation></message>
 <message><source>Export a set of PSFs</source><translation>Einen Satz PSFs exportieren</translation></message>
 <message><source>Export a set of PSFs…</source><translation>Einen Satz PSFs exportieren …</translation></message>
@@ -214,6 +219,7 @@
 <message><source>In its own window, or back</source><translation>In einem eigenen Fenster, oder zurück</translation></message>
 <message><source>Inferno</source><translation>Inferno</translation></message>
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
+<message><source>Inspect</source><translation>Prüfen</translation></message>
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
 <message><source>Keep beside the stage</source><translation>Neben der Bühne behalten</translation></message>
 <message><source>Lagrange invariant</source><translation>Lagrange-Invariante</translation></message>
@@ -229,9 +235,7 @@
 <message><source>Lens…</source><translation>Objektiv …</translation></message>
 <message><source>Lesson</source><translation>Lektion</translation></message>
 <message><source>Lessons</source><translation>Lernen</translation></message>
-<message><source>Lessons, from a point of light to a photograph: begin or leave (F3)</source><translation>Lektionen, vom Lichtpunkt zum Foto: beginnen oder verlassen (F3)</translation></message>
 <message><source>Light</source><translation>Hell</translation></message>
-<message><source>Light or dark</source><translation>Hell oder dunkel</translation></message>
 <message><source>Link</source><translation>Koppeln</translation></message>
 <message><source>Link all</source><translation>Alles koppeln</translation></message>
 <message><source>Link none</source><translation>Nichts koppeln</translation></message>
@@ -257,6 +261,7 @@
 <message><source>Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F).</source><translation>Den Sensor dorthin setzen, wo der RMS von W über die Pupille am kleinsten ist (Strg+F).</translation></message>
 <message><source>Mute: this term counts as zero (M)</source><translation>Stumm: dieser Term zählt als null (M)</translation></message>
 <message><source>NA = n′|u′|, image-space slope of the marginal ray.</source><translation>NA = n′|u′|, bildseitige Steigung des Randstrahls.</translation></message>
+<message><source>Name of the workspace:</source><translation>Name des Arbeitsbereichs:</translation></message>
 <message><source>Navarro wide-angle schematic eye, 543 nm</source><translation>Schematisches Weitwinkelauge nach Navarro, 543 nm</translation></message>
 <message><source>New here? The first lesson takes three minutes and shows what the window is for.</source><translation>Neu hier? Die erste Lektion dauert drei Minuten und zeigt, wozu das Fenster da ist.</translation></message>
 <message><source>Next</source><translation>Weiter</translation></message>
@@ -300,6 +305,7 @@
 <message><source>PSF, sum = 1</source><translation>PSF, Summe = 1</translation></message>
 <message><source>PSF, √</source><translation>PSF, √</translation></message>
 <message><source>PSFs</source><translation>PSFs</translation></message>
+<message><source>PSFs over the field on the stage</source><translation>PSFs über das Feld auf der Bühne</translation></message>
 <message><source>PSFs, {wide} µm wide, √ of peak = 1</source><translation>PSFs, {wide} µm breit, √ mit Spitze = 1</translation></message>
 <message><source>PSFs, √ of peak = 1</source><translation>PSFs, √ mit Spitze = 1</translation></message>
 <message><source>Panel</source><translation>Ansicht</translation></message>
@@ -380,6 +386,7 @@
 <message><source>Rear principal plane, from which f′ is measured to F′; from the last vertex.</source><translation>Bildseitige Hauptebene, von der f′ bis F′ zählt; vom letzten Scheitel.</translation></message>
 <message><source>Rear-stop landscape singlet</source><translation>Landschaftslinse mit hinterer Blende</translation></message>
 <message><source>Redo</source><translation>Wiederholen</translation></message>
+<message><source>Redo: take the step again (Ctrl+Shift+Z)</source><translation>Wiederholen: den Schritt noch einmal tun (Strg+Umschalt+Z)</translation></message>
 <message><source>Relay of two achromats, stop between, inverted pupils (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, umgekehrte Pupillen (synthetisch; nur endliche Objekte)</translation></message>
 <message><source>Remove the markers</source><translation>Marken entfernen</translation></message>
 <message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
@@ -398,6 +405,7 @@
 <message><source>Sampling</source><translation>Abtastung</translation></message>
 <message><source>Save a film</source><translation>Film speichern</translation></message>
 <message><source>Save a snapshot</source><translation>Schnappschuss speichern</translation></message>
+<message><source>Save as…</source><translation>Speichern als …</translation></message>
 <message><source>Save lens as…</source><translation>Objektiv speichern als …</translation></message>
 <message><source>Save the 3D view</source><translation>3D-Ansicht speichern</translation></message>
 <message><source>Save the PSF, a picture, or the state (Ctrl+E)</source><translation>PSF, Bild oder Zustand speichern (Strg+E)</translation></message>
@@ -410,6 +418,7 @@
 <message><source>Save the sweep as a film…</source><translation>Durchlauf als Film speichern …</translation></message>
 <message><source>Save the view as a picture, or the scene as glTF or OBJ</source><translation>Die Ansicht als Bild oder die Szene als glTF oder OBJ speichern</translation></message>
 <message><source>Save the way from the first value to the last as a film</source><translation>Den Weg vom ersten bis zum letzten Wert als Film speichern</translation></message>
+<message><source>Save the workspace</source><translation>Arbeitsbereich speichern</translation></message>
 <message><source>Saved {count} frames, {first} to {last}</source><translation>{count} Bilder gespeichert, {first} bis {last}</translation></message>
 <message><source>Saved {name}</source><translation>{name} gespeichert</translation></message>
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
@@ -465,20 +474,21 @@
 <message><source>Tab, Shift+Tab</source><translation>Tab, Umschalt+Tab</translation></message>
 <message><source>Table</source><translation>Tabelle</translation></message>
 <message><source>Take B away (Ctrl+B)</source><translation>B entfernen (Strg+B)</translation></message>
-<message><source>Take back one step (Ctrl+Z)</source><translation>Einen Schritt zurücknehmen (Strg+Z)</translation></message>
-<message><source>Take the step again (Ctrl+Shift+Z)</source><translation>Den Schritt wiederholen (Strg+Umschalt+Z)</translation></message>
 <message><source>Take this surface out; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
+<message><source>Teach</source><translation>Lehren</translation></message>
 <message><source>Telephoto f/5.6, 127 mm</source><translation>Teleobjektiv f/5,6, 127 mm</translation></message>
 <message><source>Tessar f/4.5 (unit scale, f = 4 in)</source><translation>Tessar f/4,5 (Einheitsmaßstab, f = 4 Zoll)</translation></message>
 <message><source>Text of the lesson</source><translation>Text der Lektion</translation></message>
 <message><source>Textbook wavefronts, in a free pupil</source><translation>Wellenfronten aus dem Lehrbuch, in freier Pupille</translation></message>
 <message><source>That pass every rim and arrive, of those traced.</source><translation>Die jeden Rand passieren und ankommen, von den verfolgten.</translation></message>
+<message><source>The PSF on the stage; layout, coefficients and profiles beside it</source><translation>Die PSF auf der Bühne; Aufbau, Koeffizienten und Profile daneben</translation></message>
 <message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The achromat's plain companion: same focal length and aperture, one glass</source><translation>Das schlichte Gegenstück zum Achromaten: gleiche Brennweite und Öffnung, ein Glas</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; {remedy}.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; {remedy}.</translation></message>
 <message><source>The distance between pixels, µm</source><translation>Der Abstand der Pixel, µm</translation></message>
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>The human eye, 60 dioptres, with its image in the vitreous (n' = 1.3377)</source><translation>Das menschliche Auge, 60 Dioptrien, mit dem Bild im Glaskörper (n' = 1,3377)</translation></message>
+<message><source>The layout on the stage; lens table and PSF below</source><translation>Der Aufbau auf der Bühne; Objektivtabelle und PSF darunter</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
 <message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With Clip at rims a ray ends, with a bar, at the rim that stops it.</source><translation>Das Objektiv maßstäblich: Die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP. Mit Randbeschnitt endet ein Strahl mit einem Balken am Rand, der ihn aufhält.</translation></message>
 <message><source>The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
@@ -542,6 +552,7 @@
 <message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
 <message><source>Typed numbers may have a decimal point or a decimal comma; files and the command line take a decimal point.</source><translation>Getippte Zahlen dürfen Dezimalpunkt oder Dezimalkomma haben; Dateien und die Kommandozeile nehmen den Dezimalpunkt.</translation></message>
 <message><source>Undo</source><translation>Rückgängig</translation></message>
+<message><source>Undo: take back one step (Ctrl+Z)</source><translation>Rückgängig: einen Schritt zurücknehmen (Strg+Z)</translation></message>
 <message><source>Units of the colour bar</source><translation>Einheit der Farbskala</translation></message>
 <message><source>Unmeasured. No plan is made for PSFs as wide as these: it would take minutes.</source><translation>Ungemessen. Für so breite PSFs wird kein Plan gemacht: er würde Minuten brauchen.</translation></message>
 <message><source>Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones.</source><translation>Ungemessen. Für so große Pixel wird kein Plan gemacht, denn sie verbergen, worum es ihm geht: kleinere wählen.</translation></message>
@@ -596,6 +607,8 @@
 <message><source>Window</source><translation>Fenster</translation></message>
 <message><source>Working f-number</source><translation>Wirksame Blendenzahl</translation></message>
 <message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
+<message><source>Workspace</source><translation>Arbeitsbereich</translation></message>
+<message><source>Workspaces: save this one, delete it, or choose another</source><translation>Arbeitsbereiche: diesen speichern oder löschen, oder einen anderen wählen</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
@@ -1293,6 +1306,7 @@
 <message><source>the {quantity} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {quantity}; eine wie 12,5 schreiben</translation></message>
 <message><source>their sum</source><translation>ihre Summe</translation></message>
 <message><source>there are {count} steps</source><translation>es gibt {count} Schritte</translation></message>
+<message><source>there are {count} workspaces already; delete one that is no longer needed</source><translation>es gibt schon {count} Arbeitsbereiche; löschen Sie einen, der nicht mehr gebraucht wird</translation></message>
 <message><source>there is 1 step</source><translation>es gibt 1 Schritt</translation></message>
 <message><source>there is no display to open the window on; start it from a desktop session, or under xvfb-run</source><translation>es gibt keinen Bildschirm, auf dem sich das Fenster öffnen ließe; aus einer Desktop-Sitzung oder unter xvfb-run starten</translation></message>
 <message><source>there is no frame to write; choose a longer sweep</source><translation>es gibt kein Bild zu schreiben; einen längeren Durchlauf wählen</translation></message>

@@ -16,9 +16,9 @@ from PySide6.QtWidgets import (
 )
 
 from p2sf_explorer.charts.theme import SPACE
+from p2sf_explorer.docking.stage import Place
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import GROUPS, PanelEntry
-from p2sf_explorer.shell.stage import Place
 from p2sf_explorer.widgets.card import paint_chevron
 from p2sf_explorer.widgets.command import Command
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from PySide6.QtCore import QByteArray, QObject
 from PySide6.QtWidgets import QApplication, QWidget
 
+from p2sf_explorer.docking.stage import Place
+from p2sf_explorer.docking.tabs import OwnWindow
 from p2sf_explorer.panels import Panel
-from p2sf_explorer.shell.stage import Place
-from p2sf_explorer.shell.tabs import OwnWindow
 from p2sf_explorer.store.store import Store
 
 
