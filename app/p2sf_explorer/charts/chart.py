@@ -18,7 +18,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from p2sf_explorer.charts.axes import TickMaker, area_of, lock_places, paint_axes, paint_home, paint_lock
 from p2sf_explorer.charts.axes import bottom_ticks as bottom_ticks
 from p2sf_explorer.charts.axes import left_ticks as left_ticks
-from p2sf_explorer.charts.crosshair import box_of, paint_box, paint_crosshair, paint_marks, paint_pin
+from p2sf_explorer.charts.crosshair import boxed, paint_box, paint_crosshair, paint_marks, paint_pin
 from p2sf_explorer.charts.hand import Hand
 from p2sf_explorer.charts.painting import pen, polylines
 from p2sf_explorer.charts.reading import Reading, Samples, curves_at, map_at, place_at, vertex_at
@@ -397,14 +397,15 @@ class Chart(QWidget):
         for number, (_, read) in enumerate(self.pinned(), 1):
             reading = replace(read, head=f"{number}  {read.head}")
             if self.area.contains(self._pixel(reading.place)):
-                boxes.append(box_of(reading, self, boxes))
+                shown, box = boxed(reading, self, boxes)
+                boxes.append(box)
                 paint_marks(painter, self, reading)
                 paint_pin(painter, self, reading.place)
-                paint_box(painter, self, reading, boxes[-1], pinned=True)
+                paint_box(painter, self, shown, box, pinned=True)
         if found := self.crosshair():
             paint_crosshair(painter, self, found)
             paint_marks(painter, self, found)
-            paint_box(painter, self, found, box_of(found, self, boxes))
+            paint_box(painter, self, *boxed(found, self, boxes))
 
     def _paint_buttons(self, painter: QPainter) -> None:
         """Paint the locks that are closed, and all buttons while the pointer or the focus is here; and the focus."""

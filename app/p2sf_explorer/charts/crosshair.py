@@ -1,6 +1,7 @@
 """The crosshair and the pinned markers of a chart, with boxes that say what is read and never cover it."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -25,13 +26,26 @@ def lines_of(reading: Reading) -> list[tuple[str, str, str]]:
     return [*head, *((value.name, value.text, value.token) for value in reading.values)]
 
 
-def box_of(reading: Reading, chart: "Chart", taken: Iterable[QRectF] = ()) -> QRectF:
-    """Return the place of a reading's box, in pixels."""
+def boxed(reading: Reading, chart: "Chart", taken: Iterable[QRectF] = ()) -> tuple[Reading, QRectF]:
+    """Return a reading with the place of its box, in pixels; in a small chart as many values as have room.
+
+    The first ones are left out first: curves are read in the order they are painted, the most important last.
+    """
+    marks, room, clear = marks_of(reading, chart), QRectF(chart.rect()), CLEAR * chart.theme.scale
+    for count in range(max(1, len(reading.values))):
+        shorter = replace(reading, values=reading.values[count:])
+        box = box_place(marks, size_of(shorter, chart), room, clear, taken)
+        if not any(box.contains(mark) for mark in marks):
+            break
+    return shorter, box
+
+
+def size_of(reading: Reading, chart: "Chart") -> QSizeF:
+    """Return the size of a reading's box in pixels."""
     theme = chart.theme
     rows = [width_of(f"{name}  {text}" if name else text, theme.label) for name, text, _ in lines_of(reading)]
     wide = min(max(rows) + 2 * theme.px(PAD) + 2, float(chart.width()))
-    size = QSizeF(wide, len(rows) * theme.px(17) + theme.px(PAD))
-    return box_place(marks_of(reading, chart), size, QRectF(chart.rect()), CLEAR * theme.scale, taken)
+    return QSizeF(wide, len(rows) * theme.px(17) + theme.px(PAD))
 
 
 def marks_of(reading: Reading, chart: "Chart") -> list[QPointF]:

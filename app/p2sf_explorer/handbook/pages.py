@@ -8,7 +8,13 @@ from pathlib import Path
 import numpy as np
 
 FOLDER = Path(__file__).parent
-PAGES = {"theory": "Theory", "numerics": "Numerical accuracy", "speed": "Speed", "plans": "Plans"}
+PAGES = {
+    "theory": "Theory",
+    "numerics": "Numerical accuracy",
+    "speed": "Speed",
+    "plans": "Plans",
+    "window": "The window",
+}
 FORMULA = re.compile(r"\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)
 HEADING = re.compile(r"^(#+) +(.*)$", re.MULTILINE)
 NUMBER = re.compile(r"^(\d+(?:\.\d+)?)\b")

@@ -191,7 +191,7 @@ class AtlasView(Chart):
         row, column = (min(max(round(v), 0), count - 1) for v, count in zip((y, x), self._shape(), strict=True))
         size, pitch = self.atlas.psfs.shape[-1], self.atlas.pixel_um
         middle = pitch * (1 - size % 2) / 2  # sample N//2 is the chief ray's, half a sample beside the cell's middle
-        inside = [(v - cell) * size * pitch - middle for v, cell in ((found.x, column), (found.y, row))]
+        inside = [round((v - cell) * size * pitch - middle, 9) for v, cell in ((found.x, column), (found.y, row))]
         depth, angle = short_distance(float(self.atlas.depths_mm[column])), f"{self.atlas.fields_deg[row]:.3g}°"
         place = worded_both(inside, ("x, µm", "y, µm"))
         return replace(found, head=f"{depth}, {angle}: {place}")

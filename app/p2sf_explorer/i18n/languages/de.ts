@@ -510,6 +510,7 @@
 <message><source>The wavefront as a surface; drag it or use the arrow keys to turn it</source><translation>Die Wellenfront als Fläche; durch Ziehen oder mit den Pfeiltasten zu drehen</translation></message>
 <message><source>The whole plot</source><translation>Das ganze Diagramm</translation></message>
 <message><source>The whole plot (Home, double-click)</source><translation>Das ganze Diagramm (Pos1, Doppelklick)</translation></message>
+<message><source>The window</source><translation>Das Fenster</translation></message>
 <message><source>The window began with this lesson, so there is nothing to put back: its lens stays</source><translation>Das Fenster begann mit dieser Lektion, also gibt es nichts zurückzuholen: ihr Objektiv bleibt</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Theory</source><translation>Theorie</translation></message>
@@ -729,6 +730,7 @@
 <message><source>choose fewer pixels or another disk</source><translation>weniger Pixel oder einen anderen Datenträger wählen</translation></message>
 <message><source>choose {names}</source><translation>{names} wählen</translation></message>
 <message><source>clear rim</source><translation>freier Rand</translation></message>
+<message><source>click or P, L</source><translation>Klick oder P, L</translation></message>
 <message><source>clipped by the clear semi-diameters</source><translation>an den freien Halbmessern beschnitten</translation></message>
 <message><source>coarse</source><translation>grob</translation></message>
 <message><source>coatings, polarisation, scatter</source><translation>Beschichtungen, Polarisation, Streuung</translation></message>
@@ -989,6 +991,7 @@
 <message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
 <message><source>pictures {wide} µm wide</source><translation>Bilder {wide} µm breit</translation></message>
 <message><source>pictures {wide} µm wide, each over its own peak</source><translation>Bilder {wide} µm breit, jedes über seiner Spitze</translation></message>
+<message><source>pin a marker to a plot, lock its scales</source><translation>in einem Diagramm eine Marke setzen, seine Skalen festhalten</translation></message>
 <message><source>pincushion {part} at {field}</source><translation>Kissen {part} bei {field}</translation></message>
 <message><source>piston</source><translation>Kolbenterm</translation></message>
 <message><source>pixel</source><translation>Pixel</translation></message>
@@ -1377,6 +1380,7 @@
 <message><source>what-if: coefficients altered by hand</source><translation>Was wäre wenn: Koeffizienten von Hand geändert</translation></message>
 <message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
 <message><source>what-if: {alterations}</source><translation>was wäre wenn: {alterations}</translation></message>
+<message><source>wheel, drag, double-click</source><translation>Mausrad, Ziehen, Doppelklick</translation></message>
 <message><source>which P2SF does not trace</source><translation>den P2SF nicht rechnet</translation></message>
 <message><source>while something is dragged: give up, as it was before</source><translation>beim Ziehen: aufgeben, alles wie zuvor</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
@@ -1410,6 +1414,7 @@
 <message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
 <message><source>z, mm</source><translation>z, mm</translation></message>
+<message><source>zoom, pan or see the whole of the plot under the pointer; also + −, arrows, Home</source><translation>das Diagramm unter dem Zeiger vergrößern, verschieben, ganz zeigen; auch + −, Pfeile, Pos1</translation></message>
 <message><source>{axis} {value:.6g} {unit} is outside this database, which covers {low:.6g} to {high:.6g} {unit}; {remedy}</source><translation>{axis} {value:.6g} {unit} liegt außerhalb dieser Datenbank, die {low:.6g} bis {high:.6g} {unit} umfasst; {remedy}</translation></message>
 <message><source>{choice}: {why} (error {error:.1g})</source><translation>{choice}: {why} (Fehler {error:.1g})</translation></message>
 <message><source>{coefficient} is not finite, so there is no wavefront; choose a depth, field or lens with one</source><translation>{coefficient} ist nicht endlich, also gibt es keine Wellenfront; einen Abstand, ein Feld oder ein Objektiv mit einer wählen</translation></message>
