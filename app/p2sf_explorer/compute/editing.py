@@ -3,29 +3,70 @@
 import re
 from collections.abc import Callable
 from dataclasses import replace
-from math import inf, isfinite
+from math import copysign, inf, isclose, isfinite, sqrt
 from typing import Any
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.glass.media import AIR, Medium, model_glass, parse_medium
-from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number
+from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_f_number, with_sensor
 from p2sf.lensfile.toml import lens_to_toml
+from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
-from p2sf_explorer.compute.setup import load, paraxial_setup
+from p2sf_explorer.compute.autofocus import best_shift_um
+from p2sf_explorer.compute.setup import load, paraxial_setup, prescription
 from p2sf_explorer.state.scales import INFINITE, MM_PER_UNIT, read_number
 from p2sf_explorer.state.state import State, changed
 
+STEEPEST = 0.9  # of a hemisphere's sag
+SAME = 1e-12  # of the sensor's distance: less is rounding
 MODEL = re.compile(r"nd\s*=?\s*([\d.]+)[,\s]+vd\s*=?\s*([\d.]+)", re.IGNORECASE)
 
 
 def edited_state(state: State, lens: Lens) -> State:
     """Return the state with this lens in place of its own, unedited if it is as its file has it.
 
+    The sensor is kept in focus as ``state.display.keep_focus`` says, unless nothing but the sensor has been edited.
     Raises P2SFError where the lens has no picture at the state's source, so that no state has a bad lens.
     """
+    before = prescription(state)
+    if state.display.keep_focus == "off" or with_sensor(lens, before.sensor_mm) == before:
+        return _with_lens(state, lens)
+    followed = with_sensor(lens, followed_sensor(before, lens, state.optics.depth_mm))
+    if state.display.keep_focus == "paraxial":
+        return _with_lens(state, followed)
+    return _with_lens(*best_focused(state, followed))
+
+
+def _with_lens(state: State, lens: Lens) -> State:
     edited = changed(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
     paraxial_setup(edited)
     return edited
+
+
+def followed_sensor(before: Lens, after: Lens, depth_mm: float) -> float:
+    """Return the sensor's place behind the last vertex, mm, as far from the paraxial image as before an edit.
+
+    Where either lens has no real image of this depth, the sensor stays where the edited lens has it.
+    """
+    old, new = (float(image_distance(lens, depth_mm, lens.reference_wavelength_um)) for lens in (before, after))
+    place = before.sensor_mm + new - old
+    if not (isfinite(place) and new > 0 and place > 0) or isclose(place, after.sensor_mm, rel_tol=SAME):
+        return after.sensor_mm
+    return place
+
+
+def best_focused(state: State, lens: Lens) -> tuple[State, Lens]:
+    """Return state and lens with the sensor, now without shift, where the RMS of the state's wavefront is smallest.
+
+    Where no shift focuses, the lens as it is.
+    """
+    plain = changed(state, focus_mm=None, sensor_shift_um=0.0)
+    try:
+        shift = best_shift_um(_with_lens(plain, lens))
+    except GeometryError:  # an image at infinity, or a pupil without a lens
+        return state, lens
+    return plain, with_sensor(lens, lens.sensor_mm + shift / UM_PER_MM)
 
 
 def _as_filed(state: State, lens: Lens) -> bool:
@@ -111,6 +152,59 @@ def with_stop(lens: Lens, number: int) -> Lens:
     if not isfinite(rim):
         raise GeometryError("surface {number} has no rim to be the stop; give it a semi-diameter first", number=number)
     return replace(moved, aperture=Aperture("stop_semi_diameter", rim))
+
+
+def stop_gap(lens: Lens) -> tuple[float, float] | None:
+    """Return the room before and behind the stop within its air gap, mm; None where the stop is a refracting surface.
+
+    A stop on the first surface has none before it, one on the last surface the space up to the sensor behind it.
+    """
+    number = lens.stop_surface
+    if number is None:
+        return None
+    stop, index = lens.surfaces[number - 1], indices(lens, lens.reference_wavelength_um)
+    if isfinite(stop.radius) or stop.aspheric or index[number - 1] != index[number]:
+        return None
+    return (lens.surfaces[number - 2].thickness if number > 1 else 0.0), stop.thickness
+
+
+def with_stop_shift(lens: Lens, by_mm: float) -> Lens:
+    """Return the lens with its stop moved within its air gap, as fast as before; everything else stays where it is.
+
+    GeometryError for a stop that is a refracting surface, or that has no gap before it.
+    """
+    gap, number = stop_gap(lens), lens.stop_surface or 0
+    if gap is None or number < 2:
+        raise GeometryError(
+            "the stop is no plane in an air gap, so it cannot be moved alone; insert a plane and put the stop there"
+        )
+    by = min(max(by_mm, -gap[0]), gap[1])
+    moved = with_surface(with_surface(lens, number - 1, thickness=gap[0] + by), number, thickness=gap[1] - by)
+    if lens.aperture.kind != "stop_semi_diameter":
+        return moved
+    speed = float(f_number(lens, lens.reference_wavelength_um, find_stop(lens)))
+    rim = stop_rim(with_f_number(moved, speed)) if isfinite(speed) else lens.aperture.value
+    return replace(moved, aperture=Aperture("stop_semi_diameter", rim))
+
+
+def with_surface(lens: Lens, number: int, **values: Any) -> Lens:
+    """Return the lens with other values of surface ``number`` (from 1)."""
+    made = replace(lens.surfaces[number - 1], **values)
+    return replace(lens, surfaces=(*lens.surfaces[: number - 1], made, *lens.surfaces[number:]))
+
+
+def radius_through(surface: Surface, height_mm: float, sag_mm: float) -> float:
+    """Return the radius with which the surface has this sag at this height, mm; its other terms stay.
+
+    From y² = 2Rz − (1 + K)z² of a conic, R = (y² + (1 + K)z²)/2z. A sag beyond that of a hemisphere is held there.
+    """
+    square = height_mm**2
+    sag = sag_mm - sum(term * square**power for power, term in enumerate(surface.aspheric, 2))
+    bulge = 1 + surface.conic
+    if bulge > 0:
+        steepest = STEEPEST * abs(height_mm) / sqrt(bulge)
+        sag = copysign(min(abs(sag), steepest), sag)
+    return (square + bulge * sag**2) / (2 * sag) if sag else inf
 
 
 def inserted(lens: Lens, number: int) -> Lens:

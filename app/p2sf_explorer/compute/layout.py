@@ -7,6 +7,7 @@ from math import inf, isfinite
 
 import numpy as np
 
+from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.lens.lens import Lens, indices
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
@@ -19,6 +20,7 @@ from p2sf_explorer.state.scales import nice
 
 HEIGHTS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 AIM_MOVE = 1e-5  # of the stop's rim: a last step of the secant method that leaves far less than can be drawn
+SAME_FIELD_DEG = 1e-6  # of one field and another
 REACH = 3.0  # rays from infinity begin this many lens lengths before the lens, outside any window
 
 
@@ -41,7 +43,7 @@ class Drawing:
 
 @dataclass(frozen=True)
 class RayPath:
-    """One ray: z and y in mm; ``kind`` is "marginal", "chief" or "rim".
+    """One ray: z and y in mm; ``kind`` is "marginal", "chief" or "rim", ``group`` its number among `Layout.groups`.
 
     ``passed`` False where it does not reach the sensor; ``clipped`` where that is because a rim stops it.
     """
@@ -51,6 +53,7 @@ class RayPath:
     y: np.ndarray
     passed: bool = True
     clipped: bool = False
+    group: int = 0
 
     @property
     def lost(self) -> bool:
@@ -68,10 +71,19 @@ class Mark:
 
 
 @dataclass(frozen=True)
+class Fan:
+    """The rays of one field and wavelength, which have a colour of their own."""
+
+    field_deg: float
+    wavelength_nm: float
+
+
+@dataclass(frozen=True)
 class Layout:
     """The drawing, the rays of the present source, and the marks; ``source`` (z, y) is None at infinity.
 
     ``sensor_half``: half the height of the drawn sensor, mm; it holds the chief ray of every field of the lens file.
+    ``groups`` are the fans of rays "by field" and "by wavelength", none for those of the present source by their kind.
     """
 
     drawing: Drawing
@@ -82,13 +94,19 @@ class Layout:
     entrance_z: float
     slope: float
     sensor_half: float
+    groups: tuple[Fan, ...] = ()
 
 
-def layout(setup: ParaxialSetup, clip: bool = False) -> Layout:
-    """Return everything the layout panel draws; with ``clip`` rays end at the rims that stop them."""
+def layout(setup: ParaxialSetup, clip: bool = False, coloured: str = "kind", count: int = 3) -> Layout:
+    """Return everything the layout panel draws; with ``clip`` rays end at the rims that stop them.
+
+    ``coloured`` "kind" draws rays of the axial point and of the source, "field" those of every field that the lens
+    states, "wavelength" those of the source at every wavelength that it states; ``count`` (odd) from each point.
+    """
     drawn = drawing(setup.lens, int(setup.stop.surface), float(setup.stop.semi_diameter))
     depth, y = setup.source.depth_mm, setup.object_y_mm
-    rays = tuple(ray_paths(setup, drawn, clip))
+    groups = fans(setup, coloured)
+    rays = tuple(fan_paths(setup, drawn, groups, clip, count) if groups else ray_paths(setup, drawn, clip, count))
     return Layout(
         drawing=drawn,
         rays=rays,
@@ -98,6 +116,7 @@ def layout(setup: ParaxialSetup, clip: bool = False) -> Layout:
         entrance_z=float(setup.pupils.entrance_from_first),
         slope=setup.source.field_slope,
         sensor_half=sensor_half(setup.lens, rays),
+        groups=groups,
     )
 
 
@@ -137,27 +156,55 @@ def _image_point(setup: ParaxialSetup) -> tuple[float, float] | None:
     return vertices(setup.lens)[-2] + distance, float(unit) * setup.source.field_slope
 
 
-RAYS = (
-    ("marginal", False, 1.0),
-    ("marginal", False, -1.0),
-    ("rim", True, 1.0),
-    ("rim", True, -1.0),
-    ("chief", True, 0.0),
-)
-"""The drawn rays: kind, whether from the field point or from that on the axis, and η in the pupil."""
+def fans(setup: ParaxialSetup, coloured: str) -> tuple[Fan, ...]:
+    """Return the fans of rays that are drawn by their colour, in the order of field or wavelength."""
+    source, lens = setup.source, setup.lens
+    here = float(degrees_from_slope(source.field_slope)), source.wavelength_um * NM_PER_UM
+    if coloured == "field":
+        side = -1.0 if here[0] < 0 else 1.0
+        stated = {side * abs(angle) for angle in lens.fields_deg if abs(abs(angle) - abs(here[0])) > SAME_FIELD_DEG}
+        return tuple(Fan(angle, here[1]) for angle in sorted({*stated, here[0]}, key=abs))
+    if coloured == "wavelength":
+        return tuple(Fan(here[0], nm) for nm in sorted({*lens.wavelengths_nm, round(here[1], 4)}))
+    return ()
 
 
-def ray_paths(setup: ParaxialSetup, drawn: Drawing, clip: bool = False) -> Iterator[RayPath]:
-    """Yield the exact meridional rays of `RAYS`; the chief ray, where the pupil begins, is not clipped."""
-    rims = pencil_rims(setup.lens) if clip else None
-    lens, source = setup.lens, setup.source
+def ray_paths(setup: ParaxialSetup, drawn: Drawing, clip: bool = False, count: int = 3) -> Iterator[RayPath]:
+    """Yield exact meridional rays of the axial point, all but that along the axis, and of the source."""
+    etas = pupil_points(count)
+    for ray in _paths(setup, drawn, replace(setup.source, field_slope=0.0), etas[:-1], clip):
+        yield replace(ray, kind="marginal")
+    yield from _paths(setup, drawn, setup.source, etas, clip)
+
+
+def fan_paths(
+    setup: ParaxialSetup, drawn: Drawing, groups: tuple[Fan, ...], clip: bool, count: int
+) -> Iterator[RayPath]:
+    """Yield exact meridional rays of every fan."""
+    etas = pupil_points(count)
+    for number, fan in enumerate(groups):
+        slope = float(slope_from_degrees(fan.field_deg))
+        source = Source(setup.source.depth_mm, slope, fan.wavelength_nm / NM_PER_UM)
+        for ray in _paths(setup, drawn, source, etas, clip):
+            yield replace(ray, group=number)
+
+
+def pupil_points(count: int) -> list[float]:
+    """Return evenly spaced η of an odd number of rays, the chief ray's 0 at the end, so that it is drawn on top."""
+    etas = np.linspace(1.0, -1.0, count).tolist()
+    return [*(eta for number, eta in enumerate(etas) if number != count // 2), 0.0]
+
+
+def _paths(setup: ParaxialSetup, drawn: Drawing, source: Source, etas: list[float], clip: bool) -> Iterator[RayPath]:
+    """Yield a source's rays through points of the pupil; the chief ray, where the pupil begins, is not clipped."""
+    rims, lens = pencil_rims(setup.lens) if clip else None, setup.lens
     index = indices(lens, source.wavelength_um).tolist()
     front = -min(source.depth_mm, REACH * (drawn.right - drawn.left))
-    both = [_Entry.of(lens, replace(source, field_slope=s), index) for s in (0.0, source.field_slope)]
-    for kind, oblique, eta in RAYS:
-        entry = both[oblique]
+    entry = _Entry.of(lens, source, index)
+    for eta in etas:
+        kind = "rim" if eta else "chief"
         start, direction = entry.ray(entry.height(eta), front)
-        z, y, passed = path(lens, index, start, direction, None if kind == "chief" else rims)
+        z, y, passed = path(lens, index, start, direction, rims if eta else None)
         clipped = bool(rims and y and not passed and abs(y[-1]) > rims[len(y) - 1])
         places = np.array([[start[0], *z], [start[1], *y]])
         if clipped:

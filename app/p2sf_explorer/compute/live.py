@@ -77,7 +77,7 @@ def live(
     """
     begun = perf_counter()
     setup = paraxial_setup(state)
-    drawing = layout(setup, state.optics.clip)
+    drawing = layout(setup, state.optics.clip, state.display.rays_coloured, state.display.rays_count)
     placed = perf_counter()
     picture = rendered(state, setup, quality, kept_method, least, cache)
     psf, finished = picture.psf, perf_counter()

@@ -1,22 +1,24 @@
-"""The source point on the layout, which can be dragged."""
+"""The source point on the layout, which can be dragged from near the lens to infinity."""
 
-from math import atan2, degrees, inf, isfinite
+from math import isfinite
 from typing import Protocol
 
-from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.painting import write
+from p2sf_explorer.charts.painting import pen, write
 from p2sf_explorer.compute.layout import Layout
-from p2sf_explorer.compute.setup import ParaxialSetup
+from p2sf_explorer.compute.setup import ParaxialSetup, prescription, ranges
+from p2sf_explorer.i18n.tr import local
+from p2sf_explorer.layout_view.object_space import ObjectSpace, object_space
 from p2sf_explorer.state.scales import written_distance
 from p2sf_explorer.state.state import State
-from p2sf_explorer.store.store import Store
 
-EDGE_PX = 34.0  # from the panel's left edge to the ring of a source outside it
 RADIUS_PX, NEAR_PX = 7.5, 13.0
-TIP = "The source: drag it to change field and, at a finite distance, depth."
+SAME_DEG = 1e-6
+STROKE_PX = 6.0  # half the height of the strokes that break the axis
+TIP = "The source: drag it up and down to change the field, sideways to change the depth; ∞ is at the left."
 
 
 class DrawnSetup(Protocol):
@@ -35,73 +37,75 @@ class DrawnSetup(Protocol):
         """The drawing, rays and marks."""
 
 
+def space_of(chart: Chart, shown: DrawnSetup) -> ObjectSpace:
+    """Return where a chart draws sources at present."""
+    (origin, axis), (right, _) = chart.to_pixels(0.0, 0.0), chart.to_pixels(1.0, 0.0)
+    drawing, limits = shown.layout.drawing, ranges(prescription(shown.state))
+    return object_space(
+        (float(origin), float(axis), float(right - origin)),
+        (chart.width(), chart.height()),
+        (drawing.left, drawing.half_height),
+        shown.layout.entrance_z,
+        limits.middle_mm,
+        max(limits.field_deg, abs(shown.state.optics.field_deg)),
+    )
+
+
 class SourceHandle:
-    """A ring at the source, or on the chief ray at the left edge when the source is farther out.
+    """A ring at the source; behind the break of the axis, pale lines lead from it to its rays."""
 
-    Dragging up and down turns the field; dragging sideways moves a source at a finite distance.
-    """
+    def __init__(self, chart: Chart):
+        self._chart = chart
 
-    def __init__(self, store: Store):
-        self._store = store
-        self._held = False
-
-    def place(self, chart: Chart, shown: DrawnSetup) -> tuple[float, float]:
-        """Return z and y of the ring in mm: of the source, or of the point where its chief ray leaves the picture."""
-        (left, _), (low, high) = chart.ranges()
-        pixel, layout = chart.per_pixel(), shown.layout
-        edge = left + EDGE_PX * pixel
-        z = max(layout.source[0], edge) if layout.source else edge
-        z = max(z, _leaves(layout, low + 26 * pixel, high - 10 * pixel))
-        return z, layout.slope * (z - layout.entrance_z)
-
-    def pixel(self, chart: Chart, shown: DrawnSetup) -> QPointF:
+    def pixel(self, shown: DrawnSetup) -> QPointF:
         """Return the ring's place in pixels."""
-        return QPointF(*(float(v) for v in chart.to_pixels(*self.place(chart, shown))))
+        return QPointF(*space_of(self._chart, shown).place(shown.state.optics.depth_mm, shown.layout.slope))
 
-    def paint(self, painter: QPainter, chart: Chart, shown: DrawnSetup) -> None:
-        """Paint the ring and the source's distance."""
-        at, theme = self.pixel(chart, shown), chart.theme
+    def near(self, shown: DrawnSetup, point: QPointF) -> bool:
+        """Return whether a pixel is close enough to the ring to take hold of it."""
+        apart = point - self.pixel(shown)
+        return apart.x() ** 2 + apart.y() ** 2 < NEAR_PX**2
+
+    def changes(self, shown: DrawnSetup, point: QPointF) -> dict[str, float]:
+        """Return the entries of the state that put the source under a pixel."""
+        depth, field = space_of(self._chart, shown).source(point.x(), point.y())
+        return {"depth_mm": depth, "field_deg": field}
+
+    def paint(self, painter: QPainter, shown: DrawnSetup) -> None:
+        """Paint the ring, what leads to it, and the source's distance."""
+        space, at, theme = space_of(self._chart, shown), self.pixel(shown), self._chart.theme
+        paint_break(painter, self._chart, space)
+        if isfinite(shown.state.optics.depth_mm):  # else the ring says so
+            write(painter, QRectF(space.end - 10, space.axis - 18, 20, 14), "∞")
+        if at.x() < space.broken:
+            self._paint_leads(painter, shown, space, at)
         painter.setPen(QPen(QColor(theme.chief), 2))
         painter.setBrush(QColor(theme.card))
         painter.drawEllipse(at, RADIUS_PX, RADIUS_PX)
         painter.setPen(QColor(theme.muted))
         rect = QRectF(at.x() - 40, at.y() + RADIUS_PX + 2, 80, 14)
-        write(painter, rect, written_distance(shown.state.optics.depth_mm))
+        write(painter, rect, local(written_distance(shown.state.optics.depth_mm)))
 
-    def near(self, chart: Chart, shown: DrawnSetup, point: QPointF) -> bool:
-        """Return whether a pixel is close enough to the ring to take hold of it."""
-        apart = point - self.pixel(chart, shown)
-        return apart.x() ** 2 + apart.y() ** 2 < NEAR_PX**2
-
-    def press(self, chart: Chart, shown: DrawnSetup, point: QPointF) -> None:
-        """Start dragging."""
-        if self.near(chart, shown, point):
-            self._held = True
-            self._store.begin()
-
-    def release(self) -> None:
-        """Stop dragging."""
-        if self._held:
-            self._held = False
-            self._store.end()
-
-    def move(self, chart: Chart, shown: DrawnSetup, point: QPointF) -> None:
-        """Follow the pointer while held."""
-        if not self._held:
-            return
-        layout, state = shown.layout, shown.state
-        at, y = chart.from_pixels(point)
-        z = min(at, layout.drawing.left - 1e-3)
-        distance, changes = layout.entrance_z - z, {}
-        if distance > 0:
-            changes["field_deg"] = max(-89.0, min(89.0, degrees(atan2(-y, distance))))
-        if isfinite(state.optics.depth_mm) and at > chart.ranges()[0][0] + EDGE_PX * chart.per_pixel():
-            changes["depth_mm"] = -z
-        self._store.update(**changes)
+    def _paint_leads(self, painter: QPainter, shown: DrawnSetup, space: ObjectSpace, at: QPointF) -> None:
+        """Lead from ring and axial point to where their rays come over the break."""
+        axial = QPointF(at.x(), space.axis)
+        for ray in shown.layout.rays:
+            height = float(ray.y[0] + (space.break_z - ray.z[0]) * (ray.y[1] - ray.y[0]) / (ray.z[1] - ray.z[0]))
+            colour, start = ("marginal", axial) if ray.kind == "marginal" else ("chief", at)
+            groups = shown.layout.groups
+            if groups and abs(groups[ray.group].field_deg - shown.state.optics.field_deg) > SAME_DEG:
+                continue  # another field has a source of its own, which is not drawn
+            crossing = QPointF(space.broken, space.axis - height * space.scale)
+            if not 0 <= crossing.y() <= self._chart.height():
+                continue
+            painter.setPen(QPen(pen(getattr(self._chart.theme, colour), 110).color(), 1, Qt.PenStyle.DotLine))
+            painter.drawLine(QLineF(start, crossing))
 
 
-def _leaves(layout: Layout, low: float, high: float) -> float:
-    """Return z of the point where the chief ray, followed back, leaves the picture between two heights."""
-    if layout.slope == 0:
-        return -inf
-    return layout.entrance_z + (low if layout.slope > 0 else high) / layout.slope
+def paint_break(painter: QPainter, chart: Chart, space: ObjectSpace) -> None:
+    """Break the axis by two slanted strokes, and put a tick at infinity."""
+    painter.fillRect(QRectF(space.broken - 4, space.axis - 1, 5, 3), QColor(chart.theme.card))
+    painter.setPen(QPen(QColor(chart.theme.muted), 1.2))
+    for x in (space.broken - 4, space.broken + 1):
+        painter.drawLine(QPointF(x - 2.5, space.axis + STROKE_PX), QPointF(x + 2.5, space.axis - STROKE_PX))
+    painter.drawLine(QPointF(space.end, space.axis - 3), QPointF(space.end, space.axis + 3))

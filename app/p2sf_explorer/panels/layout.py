@@ -1,93 +1,176 @@
-"""The lens to scale, its rays, pupils and cardinal points, and the source, which can be dragged."""
+"""The lens to scale, its rays, pupils and cardinal points; source, sensor, stop and glass can be dragged."""
 
+from dataclasses import replace
 from math import ceil
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QHelpEvent, QMouseEvent, QPainter, QPen, QPolygonF, QResizeEvent
+from PySide6.QtGui import (
+    QColor,
+    QHelpEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPen,
+    QPolygonF,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import QToolTip
 
-from p2sf_explorer.charts.chart import Chart
+from p2sf_explorer.charts.chart import Chart, Curve
 from p2sf_explorer.charts.painting import polygon
-from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.layout import Drawing, Outline
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.compute.layout import Drawing, Fan, Layout, Outline, sensor_half
+from p2sf_explorer.compute.quantities import visible_colour
+from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.layout_view.drag import CURSORS, LayoutDrag
 from p2sf_explorer.layout_view.marks import ROW_PX, paint_marks
+from p2sf_explorer.layout_view.object_space import END_PX, SHARE, STRIP_PX
 from p2sf_explorer.layout_view.source_point import TIP as TIP_OF_SOURCE
-from p2sf_explorer.layout_view.source_point import DrawnSetup, SourceHandle
+from p2sf_explorer.layout_view.source_point import DrawnSetup, SourceHandle, space_of
 from p2sf_explorer.layout_view.surface_highlight import SurfaceHighlight
-from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.scales import nice, signed
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.card import Card, chooser, select
 from p2sf_explorer.widgets.thumbnail import glass
 
 TIP = (
     "The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With "
-    "Clip at rims a ray ends, with a bar, at the rim that stops it."
+    "Clip at rims a ray ends, with a bar, at the rim that stops it. Drag source, sensor or stop; click glass, then "
+    "drag it, its edges or its vertices."
 )
 WIDTHS = (1, 1.1, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.3, 7.1, 8, 9)  # times 10ᵏ mm
-END_PX = 11  # of the bar at the end of a clipped ray
+END_BAR_PX = 11  # of the bar at the end of a clipped ray
 STEP = 0.02  # of the width, by which the picture moves
 KINDS = {"marginal": ("marginal", 2), "rim": ("chief", 1), "chief": ("chief", 2)}
 WORDS = {"marginal": "marginal rays, axial point", "chief": "chief ray", "rim": "rim rays of the field point"}
+OTHER_FIELDS = ("marginal", "third", "warning", "muted")  # colours of the fans whose source is not at the ring
+COLOURED = (("kind", "by kind"), ("field", "by field"), ("wavelength", "by wavelength"))
+COLOURED_TIP = "Rays coloured by their kind, or from every field or at every wavelength that the lens states"
+COUNTS = (3, 5, 7, 11, 21)
+COUNT_TIP = "How many rays come from each point"
+TIPS = {
+    "source": TIP_OF_SOURCE,
+    "sensor": "The sensor: drag it along the axis to shift it.",
+    "rim": "The stop's rim: drag it up or down to change the f-number.",
+    "stop": "The stop: drag it along the axis within its air gap; the f-number stays.",
+    "edge": "The surface's edge: drag it sideways to change the radius.",
+    "vertex": "The vertex: drag it along the axis to change the thickness before it; what follows moves with it.",
+    "bend": "The selected element: drag it sideways to bend it, its thin-lens power stays. A click selects its group.",
+    "glass": "What is selected: drag it along the axis. A click selects no glass any more.",
+    "other": "Click to select this element, then drag it, its edges and its vertices.",
+}
 
 
 class LayoutPanel:
     """The lens, whose glass and stop stay while the source moves, with rays and marks."""
 
     def __init__(self, store: Store):
+        self._store, self._lens = store, store.state.optics.lens
+        self._theme: Tokens = LIGHT
+        self._groups: tuple[Fan, ...] = ()
         self.widget = Card("Layout", TIP)
         self.widget.setMinimumHeight(92)
         self.chart = LayoutChart(store)
         self.chart.setMinimumHeight(56)
         self.widget.set_body(self.chart)
         self.rays = self.chart.rays
-
-    @property
-    def handle(self) -> SourceHandle:
-        """Return the source's handle."""
-        return self.chart.handle
+        self.coloured = chooser(COLOURED, COLOURED_TIP, self.widget)
+        self.count = chooser(tuple((str(n), tr("{count} rays", count=n)) for n in COUNTS), COUNT_TIP, self.widget)
+        self.coloured.activated.connect(lambda: store.update(rays_coloured=self.coloured.currentData()))
+        self.count.activated.connect(lambda: store.update(rays_count=int(self.count.currentData())))
+        self.widget.add_tool(self.coloured)
+        self.widget.add_tool(self.count)
 
     def show(self, live: DrawnSetup) -> None:
         """Paint the lens if it has changed, rays and marks always."""
+        display = live.state.display
+        select(self.coloured, display.rays_coloured)
+        if self.count.findData(str(display.rays_count)) < 0:
+            self.count.addItem(tr("{count} rays", count=display.rays_count), str(display.rays_count))
+        select(self.count, str(display.rays_count))
+        if live.state.optics.lens != self._lens:
+            self._lens = live.state.optics.lens
+            self._store.select(None)
         self.chart.show_live(live)
+        if live.layout.groups != self._groups:
+            self._groups = live.layout.groups
+            self._write_legend()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
+        self._theme = theme
         self.chart.restyle(theme)
-        self.widget.set_readout(legend(theme))
+        self._write_legend()
+
+    def _write_legend(self) -> None:
+        live = self.chart.live
+        field = live.state.optics.field_deg if live else 0.0
+        self.widget.set_readout(legend(self._theme, live.layout if live else None, field))
+
+
+class Rays(Curve):
+    """Rays of one colour, which are drawn up to the break of the axis."""
+
+    def paint(self, painter: QPainter, chart: Chart) -> None:
+        """Paint the lines right of the break."""
+        if isinstance(chart, LayoutChart) and chart.live:
+            painter.save()
+            painter.setClipRect(chart.area.adjusted(space_of(chart, chart.live).broken, 0, 0, 0))
+            super().paint(painter, chart)
+            painter.restore()
 
 
 class LayoutChart(Chart):
-    """The picture: glass in the background, rays as curves, stop, sensor, names and the source's handle above."""
+    """The picture: glass in the background, rays as curves, stop, sensor, names and what can be held above."""
 
     def __init__(self, store: Store):
         super().__init__(aspect=True, framed=False)
-        self.rays = {kind: self.add_curve(*look) for kind, look in KINDS.items()}
+        self.rays: dict[str, Curve] = {kind: Rays(*look) for kind, look in KINDS.items()}
+        self.fans: list[Rays] = []
+        self.curves = list(self.rays.values())
         self.columns = "z, mm", "y, mm"
         for kind, curve in self.rays.items():
             curve.name = tr(WORDS[kind])
-        self.handle = SourceHandle(store)
+        self.handle = SourceHandle(self)
+        self.drag = LayoutDrag(store, self, self.handle)
         self.highlight = SurfaceHighlight(store, self)
         self.live: DrawnSetup | None = None
-        self._drawn: tuple[Drawing, float] | None = None  # and half the height of the sensor, mm
-        self.setMouseTracking(True)
+        self._store = store
+        self._drawn: tuple[Drawing, float] | None = None  # and half the height of the sensor for stated fields, mm
+        store.selected.connect(lambda surfaces: self.update())
 
     def show_live(self, live: DrawnSetup) -> None:
-        """Show an answer."""
+        """Show an answer; while something is held, in the same scale."""
         self.live, layout = live, live.layout
-        before, self._drawn = self._drawn, (layout.drawing, layout.sensor_half)
+        before, self._drawn = self._drawn, (layout.drawing, sensor_half(live.setup.lens, ()))
         if before is None or not same_glass(before[0], layout.drawing):
             self.forget_background()
-        self._fit(*self._drawn)
+        if before is None or not self.drag.active:
+            self._fit(*self._drawn)
         for kind, curve in self.rays.items():
-            paths = [ray for ray in layout.rays if ray.kind == kind]
+            paths = [] if layout.groups else [ray for ray in layout.rays if ray.kind == kind]
             curve.set_data(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
+        self._show_fans(layout, live.state.optics.field_deg)
         self.update()
 
+    def _show_fans(self, layout: Layout, field_deg: float) -> None:
+        """Show each fan as a curve of its colour."""
+        self.fans = []
+        for number, colour in enumerate(fan_colours(layout.groups, field_deg)):
+            fan, paths = Rays(colour, 1), [ray for ray in layout.rays if ray.group == number]
+            fan.name = fan_name(layout.groups, number)
+            fan.set_data(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
+            self.fans.append(fan)
+        self.curves = [*self.rays.values(), *self.fans]
+
     def takes(self, point: QPointF) -> bool:
-        """Return whether a press takes hold of the source."""
-        return self.live is not None and self.handle.near(self, self.live, point)
+        """Return whether a press takes hold of something."""
+        return self.live is not None and self.drag.find(self.live, point) is not None
+
+    def unpin_all(self) -> bool:
+        """Give up a drag with Escape; without one, remove all markers."""
+        return self.drag.cancel() if self.drag.active else super().unpin_all()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fit the lens to the new size."""
@@ -96,12 +179,14 @@ class LayoutChart(Chart):
             self._fit(*self._drawn)
 
     def _fit(self, d: Drawing, half: float) -> None:
-        """Fill the height or the width with lens and sensor; the rest is free at the left, where the source is."""
+        """Fill the height or the width with lens and sensor; the empty object space is cropped to a strip."""
         box, length = self.area, d.right - d.left
         rows = max(0.1, 1 - 2 * ROW_PX / box.height())  # the names' rows above and under the glass
         tall = max(2 * d.half_height / rows, 2.25 * max(d.half_height, half))
-        wide = nice(max(1.5 * length, tall * box.width() / box.height()), WIDTHS)
-        right = d.right + 0.06 * wide + 0.2 * max(0.0, wide - 1.7 * length)
+        strip = min(END_PX + STRIP_PX, SHARE * box.width())
+        long = ROOM * length / (1 - strip / box.width())
+        wide = nice(max(long, tall * box.width() / box.height()), WIDTHS)
+        right = d.right + 0.06 * wide + ASIDE * max(0.0, wide - 1.06 * long)
         right = STEP * wide * ceil(right / (STEP * wide))  # in steps, so that the glass stays while the sensor moves
         half = wide * box.height() / box.width() / 2
         self.set_range((right - wide, right), (-half, half))
@@ -130,7 +215,7 @@ class LayoutChart(Chart):
         for ray in self.live.layout.rays if self.live else ():
             if ray.clipped:
                 x, y = (float(v) for v in self.to_pixels(ray.z[-1], ray.y[-1]))
-                painter.fillRect(QRectF(x - 1, y - END_PX / 2, 2, END_PX), QColor(self.theme.text))
+                painter.fillRect(QRectF(x - 1, y - END_BAR_PX / 2, 2, END_BAR_PX), QColor(self.theme.text))
 
     def _bar(self, painter: QPainter, width: float, z: float, start: float, end: float) -> None:
         (x, top), (_, bottom) = self.to_pixels(z, max(start, end)), self.to_pixels(z, min(start, end))
@@ -140,22 +225,40 @@ class LayoutChart(Chart):
         return polygon(*self.to_pixels(outline.z, outline.y))
 
     def paint_over(self, painter: QPainter) -> None:
-        """Paint marks, names and the source."""
+        """Paint marks, names, the source and what can be held."""
         if self.live and self._drawn:
+            self._paint_selection(painter, self.live)
             self.highlight.paint(painter, self.live.setup.lens)
-            self._paint_bars(painter, *self._drawn)
+            self._paint_bars(painter, self._drawn[0], self.live.layout.sensor_half)
             self._paint_ends(painter)
-            paint_marks(painter, self, self.live.layout)
-            self.handle.paint(painter, self, self.live)
+            start = space_of(self, self.live).break_z  # left of it nothing is to scale
+            right = tuple(mark for mark in self.live.layout.marks if mark.z >= start)
+            paint_marks(painter, self, replace(self.live.layout, marks=right))
+            self.handle.paint(painter, self.live)
+            self.drag.paint(painter, self.live)
+
+    def _paint_selection(self, painter: QPainter, live: DrawnSetup) -> None:
+        """Frame the selected glass."""
+        selected, lens = self._store.selection, live.setup.lens
+        if not selected or selected[1] > len(lens.surfaces):
+            return
+        painter.setPen(QPen(QColor(self.theme.accent), 2))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for outline in live.layout.drawing.glass.outlines:
+            if selected[0] <= outline.surfaces[0] and outline.surfaces[1] <= selected[1]:
+                painter.drawPolygon(self._polygon(outline))
 
     def event(self, event: QEvent) -> bool:
-        """Name the glass or the source under the pointer."""
+        """Say what is under the pointer and what a hand can do with it; keep Escape while something is held."""
         if isinstance(event, QHelpEvent) and self.live and self._drawn:
             point = QPointF(event.pos())
-            on_source = self.handle.near(self, self.live, point)
-            text = tr(TIP_OF_SOURCE) if on_source else self._glass_tip(self._drawn[0], point)
-            QToolTip.showText(event.globalPos(), text, self)
+            tip, named = self.drag.tip(self.live, point), self._glass_tip(self._drawn[0], point)
+            QToolTip.showText(event.globalPos(), "\n".join(filter(None, (named, tip and tr(TIPS[tip])))), self)
             return True
+        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride:
+            if event.key() == Qt.Key.Key_Escape and self.drag.active:
+                event.accept()
+                return True
         return super().event(event)
 
     def _glass_tip(self, drawing: Drawing, point: QPointF) -> str:
@@ -168,26 +271,43 @@ class LayoutChart(Chart):
         return ""
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Start dragging the source."""
+        """Take hold of what is under the pointer."""
         if event.button() == Qt.MouseButton.LeftButton and self.live:
-            self.handle.press(self, self.live, event.position())
+            self.drag.press(self.live, event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Move the source while held; show that it can be held."""
+        """Move what is held; show what can be."""
         if self.live is None:
             return
-        self.handle.move(self, self.live, event.position())
-        self.highlight.point(self.live.setup.lens, event.position())
-        over = self.handle.near(self, self.live, event.position())
-        self.setCursor(Qt.CursorShape.SizeAllCursor if over else Qt.CursorShape.ArrowCursor)
+        self.drag.move(self.live, event.position(), event.modifiers())
+        if not self.drag.active:
+            self.highlight.point(self.live.setup.lens, event.position())
+            over = self.drag.hover
+            self.setCursor(CURSORS[over.kind] if over else Qt.CursorShape.ArrowCursor)
 
     def leaveEvent(self, event: QEvent) -> None:
         """Highlight no surface any more."""
         self.highlight.leave()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """Stop dragging the source."""
-        self.handle.release()
+        """Let go, and fit the picture to what has become of it."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.drag.release(self.live)
+            self._fit_again()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Give up a drag, or a selection, with Escape."""
+        if event.key() != Qt.Key.Key_Escape or not self.drag.cancel():
+            super().keyPressEvent(event)
+        self._fit_again()
+
+    def _fit_again(self) -> None:
+        if self._drawn and not self.drag.active:
+            self._fit(*self._drawn)
+
+
+ROOM = 1.22  # of the lens's length with the sensor, right of the break of the axis
+ASIDE = 0.3  # of the room that is left over, behind the sensor
 
 
 def same_glass(before: Drawing, now: Drawing) -> bool:
@@ -201,12 +321,37 @@ def _joined(parts: list[np.ndarray]) -> np.ndarray:
     return np.concatenate([np.append(part, np.nan) for part in parts]) if parts else np.array([])
 
 
-def legend(theme: Tokens) -> str:
+def fan_colours(groups: tuple[Fan, ...], field_deg: float) -> tuple[str, ...]:
+    """Return the colour of each fan: that of its light, or that of the ring for the field of the source."""
+    if len({fan.wavelength_nm for fan in groups}) > 1:
+        return tuple(visible_colour(fan.wavelength_nm) for fan in groups)
+    others = iter(OTHER_FIELDS * len(groups))
+    return tuple("chief" if abs(fan.field_deg - field_deg) < SAME_DEG else next(others) for fan in groups)
+
+
+SAME_DEG = 1e-6
+
+
+def fan_name(groups: tuple[Fan, ...], number: int) -> str:
+    """Return what tells a fan from the others: its wavelength, or its field."""
+    fan = groups[number]
+    if len({other.wavelength_nm for other in groups}) > 1:
+        return local(f"{fan.wavelength_nm:.0f} nm")
+    return local(f"{signed(fan.field_deg, 1)}°")
+
+
+def legend(theme: Tokens, layout: Layout | None = None, field_deg: float = 0.0) -> str:
     """Return the lines' names in their colours."""
-    names = (
-        (theme.marginal, "━", WORDS["marginal"]),
-        (theme.chief, "━", WORDS["chief"]),
-        (theme.chief, "─", WORDS["rim"]),
-        (theme.text, "▮", "stop, sensor"),
-    )
-    return " &nbsp; ".join(f'<span style="color:{colour}">{sign}</span> {tr(name)}' for colour, sign, name in names)
+    names = [
+        (theme.marginal, "━", tr(WORDS["marginal"])),
+        (theme.chief, "━", tr(WORDS["chief"])),
+        (theme.chief, "─", tr(WORDS["rim"])),
+    ]
+    if layout and layout.groups:
+        colours = fan_colours(layout.groups, field_deg)
+        names = [
+            (getattr(theme, colour, colour), "━", fan_name(layout.groups, number))
+            for number, colour in enumerate(colours)
+        ]
+    names.append((theme.text, "▮", tr("stop, sensor")))
+    return " &nbsp; ".join(f'<span style="color:{colour}">{sign}</span> {name}' for colour, sign, name in names)

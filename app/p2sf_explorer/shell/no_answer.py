@@ -25,6 +25,6 @@ def drawn(state: State) -> SetupDrawing | None:
     """Return the lens, its rays and marks for a state without a picture; None where these cannot be computed either."""
     try:
         found = paraxial_setup(state)
-        return SetupDrawing(state, found, layout(found, state.optics.clip))
+        return SetupDrawing(state, found, layout(found, state.optics.clip, state.display.rays_coloured))
     except P2SFError:
         return None

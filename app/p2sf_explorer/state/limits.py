@@ -15,6 +15,8 @@ CHOICES = {
     "phase": ("waves", "contour", "surface", "wrapped"),
     "theme": ("system", "light", "dark"),
     "shown": ("a", "b", "difference"),
+    "rays_coloured": ("kind", "field", "wavelength"),
+    "keep_focus": ("off", "paraxial", "rms"),
     "photo_show": ("lens", "sharpened", "axis"),
     "rail_side": ("right", "bottom"),
     "colours": ("standard", "viridis", "cividis", "grey"),
@@ -35,6 +37,7 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "playback_seconds": (0.1, 600.0, Message("duration of a sweep"), "s"),
     "photo_pixel_um": (0.1, 1000.0, Message("pixel of the photo"), "µm"),
     "photo_split": (0.0, 1.0, Message("split of the photo"), ""),
+    "rays_count": (3, 41, Message("number of rays drawn from a point"), ""),
     "lesson_step": (0, 1000, Message("step of the lesson"), ""),
     "camera_turn_deg": (-360.0, 360.0, Message("turn of the 3D view"), "°"),
     "camera_tilt_deg": (-89.0, 89.0, Message("tilt of the 3D view"), "°"),
@@ -62,4 +65,5 @@ PLAIN: dict[str, type] = {
     "lesson_name": str,
     "lesson_told": bool,
     "lesson_step": int,
+    "rays_count": int,
 }

@@ -175,6 +175,8 @@ class Display:
     ``pixel_um`` is the pixel of a sensor, ``blur_um`` the diameter of blur that still counts as sharp, ``spectrum`` the
     light of the colour PSF (`p2sf.colour.spectrum`). ``language`` is a file of ``i18n/languages``, "en", or "system";
     ``colours`` are those of the heat maps.
+    ``rays_coloured`` and ``rays_count`` are of the layout (`p2sf_explorer.compute.layout.layout`); ``keep_focus`` says
+    what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off".
     """
 
     psf_scale: str = "sqrt"
@@ -197,6 +199,9 @@ class Display:
     pixel_um: float = 4.0
     blur_um: float = 30.0
     spectrum: str = "d65"
+    rays_coloured: str = "kind"
+    rays_count: int = 3
+    keep_focus: str = "paraxial"
 
     def __post_init__(self) -> None:
         _check_entries(self)

@@ -20,6 +20,7 @@ class Store(QObject):
     refused = Signal(object)  # a Message, or the P2SFError, on what cannot be done
     said = Signal(object)  # a Message on what was done
     stepped = Signal()  # before undo and redo
+    selected = Signal(object)  # the first and last surface (from 1) of what is selected, None for nothing
     pointed = Signal(int)  # the surface under the pointer, from 1; 0 for none
 
     def __init__(self, state: State, parent: QObject | None = None) -> None:
@@ -27,12 +28,19 @@ class Store(QObject):
         self._states, self._at = [state], 0
         self._before_drag: State | None = None
         self._pointed_at = 0
+        self.selection: tuple[int, int] | None = None
 
     def point_at(self, surface: int) -> None:
         """Tell which surface (from 1) the pointer is at, 0 for none. This is no part of the state and not undone."""
         if surface != self._pointed_at:
             self._pointed_at = surface
             self.pointed.emit(surface)
+
+    def select(self, surfaces: tuple[int, int] | None) -> None:
+        """Select surfaces, first and last from 1, or nothing. This is no part of the state and not undone."""
+        if surfaces != self.selection:
+            self.selection = surfaces
+            self.selected.emit(surfaces)
 
     @property
     def state(self) -> State:

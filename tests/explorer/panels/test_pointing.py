@@ -119,7 +119,7 @@ def test_pointing_is_no_step_of_undo(window, panel, qtbot):
 
 def test_dragging_the_source_still_works_beside_the_light(window, panel, qtbot):
     chart = window.panels["layout"].chart
-    place = QPointF(*(float(v) for v in chart.to_pixels(*chart.handle.place(chart, chart.live)))).toPoint()
+    place = chart.handle.pixel(chart.live).toPoint()
     field = window.store.state.optics.field_deg
     qtbot.mousePress(chart, Qt.MouseButton.LeftButton, pos=place)
     qtbot.mouseMove(chart, place + QPoint(0, 12))

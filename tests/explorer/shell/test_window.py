@@ -138,10 +138,10 @@ def test_autofocus_finds_the_smallest_rms(window, qtbot):
 
 def test_dragging_the_source_turns_the_field(window, qtbot):
     chart = window.panels["layout"].chart
-    z, y = chart.handle.place(chart, chart.live)
+    ring, axis = chart.handle.pixel(chart.live), float(chart.to_pixels(0.0, 0.0)[1])
 
     def at(part):
-        return QPointF(*chart.to_pixels(z, y * (1 - 0.7 * part))).toPoint()
+        return QPointF(ring.x(), axis + (ring.y() - axis) * (1 - 0.7 * part)).toPoint()
 
     qtbot.mousePress(chart, Qt.MouseButton.LeftButton, pos=at(0.0))
     for part in (0.3, 0.7, 1.0):

@@ -94,6 +94,7 @@
 <message><source>Cividis</source><translation>Cividis</translation></message>
 <message><source>Clear rim, mm; ∞ is unlimited. On the stop it is the aperture.</source><translation>Freier Rand, mm; ∞ ist unbegrenzt. An der Blende ist er die Öffnung.</translation></message>
 <message><source>Click or press Enter to make this surface the stop; the f-number stays.</source><translation>Klicken oder Enter macht diese Fläche zur Blende; die Blendenzahl bleibt.</translation></message>
+<message><source>Click to select this element, then drag it, its edges and its vertices.</source><translation>Ein Klick wählt dieses Element; dann lässt sich an ihm, seinen Rändern und Scheiteln ziehen.</translation></message>
 <message><source>Clip at rims</source><translation>Randbeschnitt</translation></message>
 <message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Randbeschnitt: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
 <message><source>Close</source><translation>Schließen</translation></message>
@@ -209,6 +210,7 @@
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it.</source><translation>Mit dem Zeiger oder den Pfeiltasten einen Ort betrachten: seine PSF und sein Ausschnitt folgen. Die Teilung ziehen oder mit Umschalt und Pfeil links oder rechts verschieben. Ein PNG oder TIFF fallen lassen, um es zu fotografieren.</translation></message>
 <message><source>How much of a pixel's area is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
+<message><source>How many rays come from each point</source><translation>Wie viele Strahlen von jedem Punkt ausgehen</translation></message>
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
 <message><source>Image</source><translation>Bild</translation></message>
 <message><source>Image height</source><translation>Bildhöhe</translation></message>
@@ -379,6 +381,7 @@
 <message><source>Ray fan</source><translation>Strahlfächer</translation></message>
 <message><source>Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil.</source><translation>Strahlfächer: wie weit vom Hauptstrahl ein exakter Strahl landet, über seinem Ort in der Pupille.</translation></message>
 <message><source>Rays</source><translation>Strahlen</translation></message>
+<message><source>Rays coloured by their kind, or from every field or at every wavelength that the lens states</source><translation>Strahlen nach ihrer Art gefärbt, oder von jedem Feld oder bei jeder Wellenlänge, die das Objektiv nennt</translation></message>
 <message><source>Rays fill</source><translation>Strahlen füllen</translation></message>
 <message><source>Rays fill: the real stop, as light does, or the paraxial entrance pupil, the usual choice of the paper and of most programs. Off axis and in fast lenses the two differ.</source><translation>Strahlen füllen: die wahre Blende, wie es das Licht tut, oder die paraxiale Eintrittspupille, die übliche Wahl des Artikels und der meisten Programme. Außer der Achse und in lichtstarken Objektiven unterscheiden sich beide.</translation></message>
 <message><source>Rays within the rims</source><translation>Strahlen in den Rändern</translation></message>
@@ -490,7 +493,7 @@
 <message><source>The human eye, 60 dioptres, with its image in the vitreous (n' = 1.3377)</source><translation>Das menschliche Auge, 60 Dioptrien, mit dem Bild im Glaskörper (n' = 1,3377)</translation></message>
 <message><source>The layout on the stage; lens table and PSF below</source><translation>Der Aufbau auf der Bühne; Objektivtabelle und PSF darunter</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
-<message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With Clip at rims a ray ends, with a bar, at the rim that stops it.</source><translation>Das Objektiv maßstäblich: Die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP. Mit Randbeschnitt endet ein Strahl mit einem Balken am Rand, der ihn aufhält.</translation></message>
+<message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With Clip at rims a ray ends, with a bar, at the rim that stops it. Drag source, sensor or stop; click glass, then drag it, its edges or its vertices.</source><translation>Das Objektiv maßstäblich: Die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP. Mit Randbeschnitt endet ein Strahl mit einem Balken am Rand, der ihn aufhält. Ziehen Sie Quelle, Sensor oder Blende; klicken Sie Glas an und ziehen Sie dann an ihm, seinen Rändern oder Scheiteln.</translation></message>
 <message><source>The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
 <message><source>The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
 <message><source>The next step (Alt+Right)</source><translation>Der nächste Schritt (Alt+Rechts)</translation></message>
@@ -500,13 +503,19 @@
 <message><source>The paper's lens: six elements round a stop, excellent on axis, oblique spherical at the corner</source><translation>Das Objektiv des Aufsatzes: sechs Linsen um eine Blende, hervorragend auf der Achse, schiefe sphärische Aberration in der Ecke</translation></message>
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
 <message><source>The rear-stop landscape lens turned around: its stop stands before the meniscus</source><translation>Die Landschaftslinse mit hinterer Blende, umgedreht: ihre Blende steht vor dem Meniskus</translation></message>
+<message><source>The selected element: drag it sideways to bend it, its thin-lens power stays. A click selects its group.</source><translation>Das gewählte Element: seitlich ziehen biegt es durch, seine Brechkraft als dünne Linse bleibt. Ein Klick wählt seine Gruppe.</translation></message>
 <message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its sides are cut off, {percent:.0f} % of its width.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist seitlich abgeschnitten, {percent:.0f} % seiner Breite.</translation></message>
 <message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its top and bottom are cut off, {percent:.0f} % of its height.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist oben und unten abgeschnitten, {percent:.0f} % seiner Höhe.</translation></message>
-<message><source>The source: drag it to change field and, at a finite distance, depth.</source><translation>Die Quelle: Ziehen ändert das Feld und, bei endlichem Abstand, den Objektabstand.</translation></message>
+<message><source>The sensor: drag it along the axis to shift it.</source><translation>Der Sensor: entlang der Achse ziehen, um ihn zu verschieben.</translation></message>
+<message><source>The source: drag it up and down to change the field, sideways to change the depth; ∞ is at the left.</source><translation>Die Quelle: nach oben und unten ziehen ändert das Feld, seitlich den Abstand; ∞ liegt links.</translation></message>
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
 <message><source>The stop seen from the object: its diameter D = |f′|/N for a far object, its place from the first vertex.</source><translation>Die Blende vom Objekt aus gesehen: ihr Durchmesser D = |f′|/N für ein fernes Objekt, ihr Ort vom ersten Scheitel.</translation></message>
 <message><source>The stop seen from the sensor: its diameter, and its place from the last vertex.</source><translation>Die Blende vom Sensor aus gesehen: ihr Durchmesser und ihr Ort vom letzten Scheitel.</translation></message>
+<message><source>The stop's rim: drag it up or down to change the f-number.</source><translation>Der Rand der Blende: nach oben oder unten ziehen ändert die Blendenzahl.</translation></message>
+<message><source>The stop: drag it along the axis within its air gap; the f-number stays.</source><translation>Die Blende: entlang der Achse in ihrem Luftabstand ziehen; die Blendenzahl bleibt.</translation></message>
 <message><source>The surface whose rim limits the light: the least |rim/y| on the way of the marginal ray, or the file's choice.</source><translation>Die Fläche, deren Rand das Licht begrenzt: das kleinste |Rand/y| auf dem Weg des Randstrahls, oder wie es die Datei sagt.</translation></message>
+<message><source>The surface's edge: drag it sideways to change the radius.</source><translation>Der Rand der Fläche: seitlich ziehen ändert den Radius.</translation></message>
+<message><source>The vertex: drag it along the axis to change the thickness before it; what follows moves with it.</source><translation>Der Scheitel: entlang der Achse ziehen ändert die Dicke davor; was folgt, wandert mit.</translation></message>
 <message><source>The wavefront as a surface; drag it or use the arrow keys to turn it</source><translation>Die Wellenfront als Fläche; durch Ziehen oder mit den Pfeiltasten zu drehen</translation></message>
 <message><source>The whole plot</source><translation>Das ganze Diagramm</translation></message>
 <message><source>The whole plot (Home, double-click)</source><translation>Das ganze Diagramm (Pos1, Doppelklick)</translation></message>
@@ -590,6 +599,7 @@
 <message><source>Wd is muted</source><translation>Wd ist stumm</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
+<message><source>What is selected: drag it along the axis. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen. Ein Klick hebt die Auswahl auf.</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
@@ -701,6 +711,7 @@
 <message><source>back to the lens's own value</source><translation>zurück zum Wert des Objektivs</translation></message>
 <message><source>barrel {part} at {field}</source><translation>Tonne {part} bei {field}</translation></message>
 <message><source>begins a non-sequential part</source><translation>beginnt einen nicht sequentiellen Teil</translation></message>
+<message><source>bending X = {shape}, R = {radii} mm</source><translation>Durchbiegung X = {shape}, R = {radii} mm</translation></message>
 <message><source>best</source><translation>best</translation></message>
 <message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
 <message><source>beyond ∞</source><translation>hinter ∞</translation></message>
@@ -710,8 +721,11 @@
 <message><source>blur, µm</source><translation>Unschärfe, µm</translation></message>
 <message><source>brightness</source><translation>Helligkeit</translation></message>
 <message><source>bring focus and source together to see waves</source><translation>Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
+<message><source>by field</source><translation>nach Feld</translation></message>
 <message><source>by hand</source><translation>von Hand</translation></message>
+<message><source>by kind</source><translation>nach Art</translation></message>
 <message><source>by the axis's PSF</source><translation>mit der PSF der Achse</translation></message>
+<message><source>by wavelength</source><translation>nach Wellenlänge</translation></message>
 <message><source>cannot compare {psf} with {reference}; render both on the same grid</source><translation>{psf} und {reference} sind nicht vergleichbar; beide auf demselben Gitter rechnen</translation></message>
 <message><source>centre_mm has {count} numbers; give two, x and y</source><translation>centre_mm hat {count} Zahlen; zwei angeben, x und y</translation></message>
 <message><source>change it; a click types</source><translation>ändert sie; ein Klick beginnt zu tippen</translation></message>
@@ -955,6 +969,7 @@
 <message><source>not converged: agrees to {reached:.1e} only</source><translation>nicht konvergiert: stimmt nur auf {reached:.1e} überein</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
 <message><source>number of fields</source><translation>Anzahl der Felder</translation></message>
+<message><source>number of rays drawn from a point</source><translation>Zahl der von einem Punkt gezeichneten Strahlen</translation></message>
 <message><source>number of wavelengths</source><translation>Anzahl der Wellenlängen</translation></message>
 <message><source>numerical aperture {value:g} is impossible in index {index:g}; correct it</source><translation>die numerische Apertur {value:g} ist im Index {index:g} unmöglich; berichtigen</translation></message>
 <message><source>object at infinity</source><translation>Objekt im Unendlichen</translation></message>
@@ -1022,6 +1037,7 @@
 <message><source>quaternary tetrafoil</source><translation>quartärer Vierblattfehler</translation></message>
 <message><source>quaternary trefoil</source><translation>quartärer Dreiblattfehler</translation></message>
 <message><source>radius</source><translation>Radius</translation></message>
+<message><source>radius {number}: {radius} mm</source><translation>Radius {number}: {radius} mm</translation></message>
 <message><source>radius, µm</source><translation>Radius, µm</translation></message>
 <message><source>rail_shares is {value}; give a list of numbers</source><translation>rail_shares ist {value}; geben Sie eine Liste von Zahlen an</translation></message>
 <message><source>range_um of {name} is {limits}; write the shortest and the longest wavelength</source><translation>range_um von {name} ist {limits}; die kürzeste und die längste Wellenlänge schreiben</translation></message>
@@ -1065,6 +1081,7 @@
 <message><source>seidel: six coefficients are enough, predicted R² ≥ {r_squared}</source><translation>seidel: sechs Koeffizienten genügen, vorhergesagt R² ≥ {r_squared}</translation></message>
 <message><source>semi-diameter</source><translation>Halbmesser</translation></message>
 <message><source>sensor</source><translation>Sensor</translation></message>
+<message><source>sensor at {place} mm, shift {shift}</source><translation>Sensor bei {place} mm, Verschiebung {shift}</translation></message>
 <message><source>sensor centre_mm is ({centre}); give two finite numbers</source><translation>centre_mm des Sensors ist ({centre}); zwei endliche Zahlen angeben</translation></message>
 <message><source>sensor pixel_um is {pitch:g} µm; give a positive pitch below 0.1 m</source><translation>pixel_um des Sensors ist {pitch:g} µm; einen positiven Pixelabstand unter 0,1 m angeben</translation></message>
 <message><source>sensor shift</source><translation>Sensorversatz</translation></message>
@@ -1106,6 +1123,7 @@
 <message><source>stop semi diameter</source><translation>Halbmesser der Blende</translation></message>
 <message><source>stop semi diameter {value:.6g} mm</source><translation>Halbmesser der Blende {value:.6g} mm</translation></message>
 <message><source>stop surface {stop} does not exist; the lens has surfaces 1 to {count}</source><translation>die Blendenfläche {stop} gibt es nicht; das Objektiv hat die Flächen 1 bis {count}</translation></message>
+<message><source>stop {gap} mm behind surface {number}</source><translation>Blende {gap} mm hinter Fläche {number}</translation></message>
 <message><source>stop ▪</source><translation>Blende ▪</translation></message>
 <message><source>stop, sensor</source><translation>Blende, Sensor</translation></message>
 <message><source>stop_surface is {number}; write a surface from 1 to {count}</source><translation>stop_surface ist {number}; eine Fläche von 1 bis {count} schreiben</translation></message>
@@ -1144,8 +1162,10 @@
 <message><source>surface {surface}: {name} differs between x and y; only round lenses are read</source><translation>Fläche {surface}: {name} unterscheidet sich zwischen x und y; nur runde Objektive werden gelesen</translation></message>
 <message><source>surface {surface}: {name} is {found}; write a number</source><translation>Fläche {surface}: {name} ist {found}; eine Zahl schreiben</translation></message>
 <message><source>surfaces in the order of the light</source><translation>Flächen in der Reihenfolge des Lichts</translation></message>
+<message><source>surfaces {first} and {last} are equally curved, so the element has no shape factor; change a radius first</source><translation>Die Flächen {first} und {last} sind gleich gekrümmt, daher hat das Element keinen Formfaktor; ändern Sie zuerst einen Radius</translation></message>
 <message><source>surfaces {first} and {second} both are stops; keep one</source><translation>die Flächen {first} und {second} sind beide Blenden; eine behalten</translation></message>
 <message><source>surfaces {first} and {second} both are the stop; keep one</source><translation>die Flächen {first} und {second} sind beide die Blende; eine behalten</translation></message>
+<message><source>surfaces {first} to {last} are no element with air on both sides; choose one that stands free</source><translation>Die Flächen {first} bis {last} sind kein Element mit Luft auf beiden Seiten; wählen Sie ein frei stehendes</translation></message>
 <message><source>surfaces {first} to {last}, n = {index}</source><translation>Flächen {first} bis {last}, n = {index}</translation></message>
 <message><source>surround "{surround}" is unknown; choose {choices}</source><translation>das Umfeld "{surround}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>table 1 of the paper</source><translation>Tabelle 1 des Aufsatzes</translation></message>
@@ -1295,6 +1315,7 @@
 <message><source>the state's lists are nested too deep; save it again from the explorer</source><translation>die Listen des Zustands sind zu tief verschachtelt; im Explorer neu speichern</translation></message>
 <message><source>the state's {name} must be a list of panels' names; correct it or leave it out</source><translation>{name} des Zustands muss eine Liste von Ansichtenamen sein; berichtigen Sie sie oder lassen Sie sie weg</translation></message>
 <message><source>the stop changes with depth or wavelength; a database holds one stop, choose it</source><translation>die Blende wechselt mit Abstand oder Wellenlänge; eine Datenbank enthält eine Blende, diese wählen</translation></message>
+<message><source>the stop is no plane in an air gap, so it cannot be moved alone; insert a plane and put the stop there</source><translation>die Blende ist keine ebene Fläche in einem Luftabstand und lässt sich nicht allein verschieben; fügen Sie eine ebene Fläche ein und legen Sie die Blende dorthin</translation></message>
 <message><source>the stop is on the object or the image; put it on a surface between</source><translation>die Blende liegt auf dem Objekt oder dem Bild; auf eine Fläche dazwischen legen</translation></message>
 <message><source>the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but a radius of {radius:g} mm ends that surface at {edge:.6g} mm; stop the lens down or move the stop</source><translation>die Blende auf Fläche {surface} hat einen Halbmesser von {rim:.6g} mm, aber ein Radius von {radius:g} mm lässt diese Fläche bei {edge:.6g} mm enden; abblenden oder die Blende versetzen</translation></message>
 <message><source>the stop, surface {number}, is open to its rim, semi-diameter {rim:g} mm</source><translation>die Blende, Fläche {number}, ist bis zum Rand offen, Halbmesser {rim:g} mm</translation></message>
@@ -1321,6 +1342,7 @@
 <message><source>there is no surface {number} in a lens of {count}; choose its row again</source><translation>eine Fläche {number} gibt es in einem Objektiv von {count} nicht; die Zeile noch einmal wählen</translation></message>
 <message><source>there is no table [sensor]; add it, with rows, columns and pixel_um under it</source><translation>es gibt keine Tabelle [sensor]; sie hinzufügen, darunter rows, columns und pixel_um</translation></message>
 <message><source>thickness</source><translation>Dicke</translation></message>
+<message><source>thickness {number}: {thickness} mm</source><translation>Dicke {number}: {thickness} mm</translation></message>
 <message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rays} rays; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rays} Strahlen; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>this is a database of PSFs, not a lens or a state; use it with p2sf psf, or open its lens</source><translation>das ist eine Datenbank von PSFs, kein Objektiv und kein Zustand; mit p2sf psf benutzen oder ihr Objektiv öffnen</translation></message>
@@ -1416,6 +1438,8 @@
 <message><source>z, mm</source><translation>z, mm</translation></message>
 <message><source>zoom, pan or see the whole of the plot under the pointer; also + −, arrows, Home</source><translation>das Diagramm unter dem Zeiger vergrößern, verschieben, ganz zeigen; auch + −, Pfeile, Pos1</translation></message>
 <message><source>{axis} {value:.6g} {unit} is outside this database, which covers {low:.6g} to {high:.6g} {unit}; {remedy}</source><translation>{axis} {value:.6g} {unit} liegt außerhalb dieser Datenbank, die {low:.6g} bis {high:.6g} {unit} umfasst; {remedy}</translation></message>
+<message><source>{before} mm before surface {first}, {behind} mm behind {last}</source><translation>{before} mm vor Fläche {first}, {behind} mm hinter {last}</translation></message>
+<message><source>{behind} mm behind surface {last}</source><translation>{behind} mm hinter Fläche {last}</translation></message>
 <message><source>{choice}: {why} (error {error:.1g})</source><translation>{choice}: {why} (Fehler {error:.1g})</translation></message>
 <message><source>{coefficient} is not finite, so there is no wavefront; choose a depth, field or lens with one</source><translation>{coefficient} ist nicht endlich, also gibt es keine Wellenfront; einen Abstand, ein Feld oder ein Objektiv mit einer wählen</translation></message>
 <message><source>{coefficient} is {error:.2g} waves off with {terms} terms in wavelength, so the glass data have a kink between the wavelengths asked; build with the linear interpolant, or narrow the wavelengths</source><translation>{coefficient} liegt mit {terms} Gliedern in der Wellenlänge um {error:.2g} Wellen daneben, die Glasdaten haben also einen Knick zwischen den verlangten Wellenlängen; mit der Interpolation linear bauen oder die Wellenlängen einengen</translation></message>
@@ -1431,6 +1455,7 @@
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
 <message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
+<message><source>{count} rays</source><translation>{count} Strahlen</translation></message>
 <message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
 <message><source>{count} surfaces, {stop}, {aperture}; {wavelengths:g} nm; fields {angles:.4g}°</source><translation>{count} Flächen, {stop}, {aperture}; {wavelengths:g} nm; Felder {angles:.4g}°</translation></message>
 <message><source>{count} wavelengths</source><translation>{count} Wellenlängen</translation></message>
@@ -1441,6 +1466,7 @@
 <message><source>{error:.2g} relative, does not keep {tolerance:g}; the full grid takes {times:.0f} times as long</source><translation>{error:.2g} relativ, hält {tolerance:g} nicht ein; das volle Gitter dauert {times:.0f}-mal so lang</translation></message>
 <message><source>{error:.2g} relative, keeps {tolerance:g}; the full grid takes {times:.0f} times as long</source><translation>{error:.2g} relativ, hält {tolerance:g} ein; das volle Gitter dauert {times:.0f}-mal so lang</translation></message>
 <message><source>{error}; the field list holds the axis only</source><translation>{error}; die Feldliste enthält nur die Achse</translation></message>
+<message><source>{f_number}, stop ⌀ {diameter} mm</source><translation>{f_number}, Blende ⌀ {diameter} mm</translation></message>
 <message><source>{file} is no PNG or TIFF; save the photo as one of these and drop that</source><translation>{file} ist weder PNG noch TIFF; das Foto in einem dieser Formate sichern und dieses fallen lassen</translation></message>
 <message><source>{glass} is in no catalogue given; accept a substitute ({offers}) or give its AGF catalogue</source><translation>{glass} steht in keinem angegebenen Katalog; einen Ersatz annehmen ({offers}) oder seinen AGF-Katalog angeben</translation></message>
 <message><source>{glass} is in no catalogue; give its AGF catalogue, or its index as nd and vd</source><translation>{glass} steht in keinem Katalog; seinen AGF-Katalog angeben oder seinen Index als nd und vd</translation></message>
