@@ -2,16 +2,18 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import floor, isfinite, nan
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.chart import image_of
-from p2sf_explorer.charts.painting import pen, polygon, write
+from p2sf_explorer.charts.painting import pen, polygon, width_of, write
 from p2sf_explorer.charts.plots import EMPTY, as_indices, lookup
+from p2sf_explorer.charts.reading import written
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.camera import Camera, turned
@@ -137,6 +139,7 @@ TURNS: dict[int, tuple[float, float]] = {
     KEYS.Key_Down: (0.0, -TURN_DEG),
 }
 DEG_PER_PX = 0.5
+ZOOM, MOST_ZOOM = 1.25, 8.0
 FIRST = Camera(-30.0, 35.0)  # ξ to the right, η away from the camera
 AWAY = 1.12  # pupil radii from the middle to an axis's name
 AXES = (("ξ", (1.0, 0.0)), ("η", (0.0, 1.0)))
@@ -159,11 +162,16 @@ class SurfaceView(QWidget):
         self._theme, self._map, self.camera = LIGHT, "CET-D1A", FIRST
         self.pixels = np.zeros((1, 1), np.uint32)
         self._held: tuple[QPointF, Camera] | None = None
+        self.waves = np.full((1, 1), np.nan)  # of the pixels, rows upwards
+        self.zoom = 1.0
+        self.at: QPointF | None = None  # the pointer
+        self.setMouseTracking(True)
 
     def show_waves(self, waves: np.ndarray, limit: float, quality: str, camera: Camera) -> None:
         """Show W in waves over the pupil; ``limit`` waves are the colour bar's end."""
         self.camera = camera
         seen = surface_picture(waves, limit, Viewpoint(camera.turn, camera.tilt, COUNTS[quality]))
+        self.waves = seen.waves
         shade = (seen.light * (SHADES - 1)).astype(np.intp)
         self.pixels = shaded(self._map)[shade, as_indices(seen.waves, -limit, limit)][::-1].copy()
         self.update()
@@ -175,7 +183,7 @@ class SurfaceView(QWidget):
 
     def to_pixels(self, x: Any, y: Any) -> tuple[Any, Any]:
         """Return the widget's pixels of places in the picture, in pupil radii from its middle."""
-        side = min(self.width(), self.height()) / (2 * HALF)
+        side = self.zoom * min(self.width(), self.height()) / (2 * HALF)
         return self.width() / 2 + side * x, self.height() / 2 - side * y
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -189,6 +197,7 @@ class SurfaceView(QWidget):
         image = image_of(self.pixels, QImage.Format.Format_ARGB32)
         painter.drawImage(QRectF(left, top, right - left, bottom - top), image)
         self._paint_names(painter)
+        self._paint_value(painter)
         if self.hasFocus():
             painter.setPen(QPen(QColor(self._theme.accent), 1))
             painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -210,6 +219,39 @@ class SurfaceView(QWidget):
             x, y = self.to_pixels(*self._level(AWAY * xi, AWAY * eta))
             write(painter, QRectF(x - 20, y - 8, 40, 16), name)
 
+    def value_at(self, point: QPointF) -> float:
+        """Return W in waves of the surface under a pixel; NaN where there is none."""
+        middle, side = QPointF(self.width() / 2, self.height() / 2), self.to_pixels(1.0, 0.0)[0] - self.width() / 2
+        across, up = (point.x() - middle.x()) / side, (middle.y() - point.y()) / side
+        rows = len(self.waves)
+        row, column = (floor((v / (2 * HALF) + 0.5) * rows) for v in (up, across))
+        return float(self.waves[row, column]) if 0 <= row < rows and 0 <= column < rows else nan
+
+    def _paint_value(self, painter: QPainter) -> None:
+        """Paint the value of the surface under the pointer, above it."""
+        if self.at is None or not isfinite(value := self.value_at(self.at)):
+            return
+        words, theme = f"W {written(value)} λ", self._theme
+        wide, tall = width_of(words, theme.label) + theme.px(10), float(theme.px(20))
+        left = min(max(0.0, self.at.x() - wide / 2), self.width() - wide)
+        above = self.at.y() - tall - 12
+        room = QRectF(left, above if above > 0 else self.at.y() + 12, wide, tall)
+        painter.fillRect(room, QColor(theme.raised))
+        painter.setPen(QColor(theme.text))
+        write(painter, room, words, 0, theme.label)
+        painter.drawEllipse(self.at, 3, 3)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Enlarge the picture, or show more of it."""
+        self.zoom = min(MOST_ZOOM, max(1.0, self.zoom * ZOOM ** (event.angleDelta().y() / 120)))
+        event.accept()
+        self.update()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Read nothing any more."""
+        self.at = None
+        self.update()
+
     def _level(self, xi: Any, eta: Any) -> tuple[Any, Any]:
         """Return the projection of points of the plane W = 0, in pupil radii from the picture's middle."""
         turn, tilt = np.deg2rad(self.camera.turn), np.deg2rad(self.camera.tilt)
@@ -225,7 +267,9 @@ class SurfaceView(QWidget):
             self.taken.emit()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Turn it while held."""
+        """Turn it while held; say the value under the pointer."""
+        self.at = None if self._held else event.position()
+        self.update()
         if self._held:
             start, camera = self._held
             moved = event.position() - start
@@ -239,6 +283,7 @@ class SurfaceView(QWidget):
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Turn back to the first view."""
+        self.zoom = 1.0
         self._turn(FIRST)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -246,7 +291,11 @@ class SurfaceView(QWidget):
         if event.key() in TURNS:
             self._turn(turned(self.camera, *TURNS[event.key()]))
         elif event.key() == KEYS.Key_Home:
+            self.zoom = 1.0
             self._turn(FIRST)
+        elif event.key() in (KEYS.Key_Plus, KEYS.Key_Equal, KEYS.Key_Minus):
+            self.zoom = min(MOST_ZOOM, max(1.0, self.zoom * (1 / ZOOM if event.key() == KEYS.Key_Minus else ZOOM)))
+            self.update()
         else:
             super().keyPressEvent(event)
 

@@ -6,11 +6,13 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QToolTip, QWidget
 
+from p2sf_explorer.charts.axes import LOCK_PX, paint_lock
 from p2sf_explorer.charts.chart import blank_pixmap
 from p2sf_explorer.charts.painting import set_text, write
 from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.charts.view import steadied
 from p2sf_explorer.i18n.tr import local, tr
-from p2sf_explorer.state.scales import nice, signed
+from p2sf_explorer.state.scales import signed
 from p2sf_explorer.state.terms import FORMULAS, NAMES, TERMS, WORDS
 from p2sf_explorer.widgets.value_edit import ShortField
 
@@ -44,6 +46,10 @@ class MixerPlaces:
         """Return the rectangle of a row."""
         tall = (self.height - SCALE_HEIGHT) / len(TERMS)
         return QRectF(0, number * tall, self.width, tall)
+
+    def lock(self) -> QRectF:
+        """Return the rectangle of the lock of the scale, at the right of its numbers."""
+        return QRectF(self.width - LOCK_PX, self.height - LOCK_PX - 1, LOCK_PX, LOCK_PX)
 
     def row_at(self, y: float) -> int:
         """Return the row at a height."""
@@ -202,7 +208,7 @@ class Mixer(QWidget):
     """Six painted rows. ``limit`` is the value of a full bar and of a slider's end: a round number of waves.
 
     The rows share the keyboard focus: ↑ ↓ choose one, ← → and Page keys add waves, M mutes, S solos, Delete takes the
-    added waves away, Space sweeps, Return opens a field for a number.
+    added waves away, L locks the scale, Space sweeps, Return opens a field for a number.
     """
 
     pressed, released = Signal(), Signal()
@@ -216,7 +222,7 @@ class Mixer(QWidget):
         self.values: dict[str, float] = dict.fromkeys(TERMS, 0.0)
         self.own, self.waves = dict(self.values), dict(self.values)
         self.on: dict[str, tuple[str, ...]] = {"muted": (), "solo": ()}
-        self.limit, self.row = 1.0, 0
+        self.limit, self.row, self.locked = 1.0, 0, False
         self._theme, self._dragged = LIGHT, False
         self._background: QPixmap | None = None
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -249,7 +255,8 @@ class Mixer(QWidget):
         self.values, self.own, self.waves, self.on = values, own, added, on
         if not self._dragged:
             everything = [abs(v) for kind in (values, own, added) for name, v in kind.items() if name != "w11"]
-            self.limit = nice(max(SMALLEST_LIMIT, abs(added["w11"]), *everything))
+            most = max(SMALLEST_LIMIT, abs(added["w11"]), *everything)
+            self.limit = self.limit if self.locked else steadied((-self.limit, self.limit), (-most, most))[1]
         if before != (self.limit, self.waves, self.on):
             self._background = None
             self.update()
@@ -259,6 +266,11 @@ class Mixer(QWidget):
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme, self._background = theme, None
+        self.update()
+
+    def turn_lock(self) -> None:
+        """Keep the scale of the bars as it is, or let it follow the coefficients again from the next ones on."""
+        self.locked, self._background = not self.locked, None
         self.update()
 
     def choose(self, row: int) -> None:
@@ -290,6 +302,7 @@ class Mixer(QWidget):
         painter = QPainter(background)
         paint_scale(painter, places, theme, self.limit)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        paint_lock(painter, places.lock(), QColor(theme.accent if self.locked else theme.muted), self.locked)
         for number, name in enumerate(TERMS):
             focused = self.hasFocus() and number == self.row
             paint_names(painter, places, theme, number)
@@ -305,6 +318,9 @@ class Mixer(QWidget):
         if event.button() != Qt.MouseButton.LeftButton:
             return
         point, places = event.position(), self.places
+        if places.lock().contains(point):
+            self.turn_lock()
+            return
         self.choose(places.row_at(point.y()))
         for kind, *_ in LETTERS:
             if places.button(self.row, kind).contains(point):
@@ -365,6 +381,8 @@ class Mixer(QWidget):
             self.added.emit(name, 0.0)
         elif key in (Qt.Key.Key_M, Qt.Key.Key_S):
             self.toggled.emit("muted" if key == Qt.Key.Key_M else "solo", name)
+        elif key == Qt.Key.Key_L:
+            self.turn_lock()
         elif key == Qt.Key.Key_Space:
             self.swept.emit(name)
         elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
@@ -388,6 +406,8 @@ class Mixer(QWidget):
     def _tip(self, point: QPoint) -> str:
         row = self.places.row_at(point.y())
         name = TERMS[row]
+        if self.places.lock().contains(QPointF(point)):
+            return tr("Lock the scale of this plot (L)")
         for kind, *_ in LETTERS:
             if self.places.button(row, kind).contains(QPointF(point)):
                 return tr(BUTTON_TIPS[kind])

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
-from p2sf_explorer.charts.surface_plot import HALF, HEIGHT, Viewpoint, surface_picture
+from p2sf_explorer.charts.surface_plot import HALF, HEIGHT, SurfaceView, Viewpoint, surface_picture
 from p2sf_explorer.compute.pupil import disc
+from p2sf_explorer.state.camera import Camera
 from p2sf_explorer.widgets.copying import data_of
 
 COUNT = 200
@@ -86,3 +87,25 @@ def test_a_surface_follows_the_sliders_and_its_waves_are_copied(window):
     window.store.update(sensor_shift_um=200.0)
     assert (panel.surface.pixels != before).any()
     assert data_of(panel.widget).splitlines()[0].startswith('"W, waves')
+
+
+def test_the_value_under_the_pointer_is_that_of_the_surface_and_the_wheel_enlarges_it(qtbot):
+    """From above the surface is a map: W at a place of the pupil, whatever is tall beside it."""
+    view = SurfaceView()
+    qtbot.addWidget(view)
+    view.resize(400, 400)
+    place = np.linspace(-1, 1, 101)
+    xi, eta = np.meshgrid(place, place)
+    waves = np.where(xi**2 + eta**2 <= 1, 2 * xi + eta, np.nan)
+    view.show_waves(waves, 5.0, "settled", Camera(0.0, 90.0))
+    for zoom in (1.0, 2.0):
+        view.zoom = zoom
+        for across, up in ((0.3, 0.1), (-0.4, 0.2), (0.05, -0.35)):
+            point = QPointF(*(float(v) for v in view.to_pixels(across, up)))
+            assert view.value_at(point) == pytest.approx(2 * across + up, abs=0.04), "within a pixel and its slope"
+    view.zoom = 1.0
+    assert np.isnan(view.value_at(QPointF(1, 1)))
+    qtbot.keyClick(view, Qt.Key.Key_Plus)
+    assert view.zoom > 1
+    qtbot.keyClick(view, Qt.Key.Key_Home)
+    assert view.zoom == 1

@@ -36,12 +36,20 @@ def charts(window, qtbot, request):
     found = [chart for chart in panel.widget.findChildren(Chart) if chart.isVisible()]
     assert found, "a panel with plots shows one"
     yield found
+    if key == "accuracy":
+        show_no_accuracy(panel)
     for chart in found:
         chart.unpin_all()
         if chart.locked:
             chart.turn_lock("all")
         chart.go_home()
         chart.hand.point(None)
+
+
+def show_no_accuracy(panel) -> None:
+    """Have the panel of a window that measures nothing say again what will be there."""
+    panel.body.setVisible(False)
+    panel.empty.setVisible(True)
 
 
 every_panel = pytest.mark.parametrize("charts", KEYS, indirect=True)
@@ -271,3 +279,33 @@ def test_space_for_a_drag_of_the_charts_own(window, qtbot):
     chart.go_home()
     qtbot.mouseClick(chart, LEFT, pos=at.toPoint())
     assert window.store.state.optics.sensor_shift_um != before and not chart.pins
+
+
+def test_a_psf_that_is_zoomed_is_summed_for_the_pixels_it_then_has(window, qtbot):
+    """The whole picture gets as many samples as it would have pixels, as far as sums of some seconds go."""
+    window.store.update(method="fitted", f_number=8.0, field_deg=5.0)
+    heat = window.panels["psf"].map
+    qtbot.waitUntil(lambda: len(heat.indices) >= heat.device_pixels, timeout=20000)
+    before, whole = len(heat.indices), heat.device_pixels
+    heat.chart.zoom(heat.chart.area.center(), 0.5)
+    try:
+        assert heat.device_pixels == pytest.approx(2 * whole)
+        most = min(heat.device_pixels, window.live.finest)
+        qtbot.waitUntil(lambda: before < len(heat.indices) >= most, timeout=20000)
+    finally:
+        heat.chart.go_home()
+
+
+def test_the_mixers_scale_changes_in_steps_and_can_be_locked(window, qtbot):
+    bars = window.panels["coefficients"].bars
+    window.store.update(free_pupil=True, added_waves=(0.0, 0.0, 1.9, 0.0, 0.0, 0.0))
+    seen = {bars.limit}
+    window.store.update(added_waves=(0.0, 0.0, 0.9, 0.0, 0.0, 0.0))
+    seen.add(bars.limit)
+    assert len(seen) == 1, "a bar that shrinks to half is seen to shrink"
+    qtbot.mouseClick(bars, LEFT, pos=bars.places.lock().center().toPoint())
+    window.store.update(added_waves=(0.0, 0.0, 40.0, 0.0, 0.0, 0.0))
+    assert bars.locked and {bars.limit} == seen
+    qtbot.keyClick(bars, Qt.Key.Key_L)
+    window.store.update(added_waves=(0.0, 0.0, 41.0, 0.0, 0.0, 0.0))
+    assert bars.limit == 50.0
