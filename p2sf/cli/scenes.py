@@ -15,7 +15,7 @@ from p2sf.cli.options import Json, LensName, Output, Whole, check_output, check_
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.image.charts import CHARTS, draw_chart
-from p2sf.io.photo_files import READABLE, read_photo, write_photo
+from p2sf.io.photo_files import WRITABLE, read_photo, write_photo
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
@@ -157,7 +157,7 @@ def image(
         raise RequestError(
             "there is no {parameter}; say with -o where the picture goes, such as -o out.png", parameter="output"
         )
-    check_output(output, READABLE)
+    check_output(output, WRITABLE)
     glass = find_lens(lens)
     asked = _asked(glass, scene)
     _check_kept(output, picture, asked)

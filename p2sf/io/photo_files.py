@@ -14,8 +14,11 @@ from p2sf.files.writing import write_beside
 from p2sf.io.png16 import is_deep, read_deep, write_deep
 from p2sf.io.transfer import check_encoding, linear_from_srgb, srgb_from_linear
 
-READABLE = (".png", ".tif", ".tiff")
+WRITABLE = (".png", ".tif", ".tiff")
+HEIF = (".heic", ".heif")
+READABLE = (*WRITABLE, ".jpg", ".jpeg", *HEIF)
 DEPTHS = ("8", "16", "float")
+ORIENTATION, SIDEWAYS = 274, (5, 6, 7, 8)  # the tag of Exif, and its values for a picture lying on its side
 
 
 @dataclass(frozen=True)
@@ -31,10 +34,10 @@ class Photo:
 
 
 def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Photo:
-    """Return the picture of a PNG or TIFF file, transparency left out.
+    """Return the picture of a PNG, TIFF, JPEG or HEIF file, transparency left out, upright as its Exif data have it.
 
     ``encoding``: what the file's numbers mean, "srgb" or "linear"; by default whole numbers are sRGB and floats
-    linear. Raises RequestError for a file of another kind, or without a picture of 1 or 3 channels.
+    linear. HEIF needs pillow-heif. Raises RequestError for a file of another kind, or without 1 or 3 channels.
     """
     raw = _samples(Path(path))
     depth = {"u1": "8", "u2": "16"}.get(raw.dtype.str[1:], "float")
@@ -74,12 +77,12 @@ def write_photo(
 def check_ending(path: str | os.PathLike[str]) -> str:
     """Return the ending of a picture file, lower case; ExportError for another ending."""
     ending = Path(path).suffix.lower()
-    if ending not in READABLE:
+    if ending not in WRITABLE:
         raise ExportError(
             '{path} has the ending "{ending}", which is no picture here; choose {choices}',
             path=str(path),
             ending=ending,
-            choices=READABLE,
+            choices=WRITABLE,
         )
     return ending
 
@@ -105,12 +108,28 @@ def _encoded(stored: np.ndarray, ending: str) -> bytes:
     return buffer.getvalue()
 
 
+def photo_shape(path: str | os.PathLike[str]) -> tuple[int, int]:
+    """Return the rows and columns of a picture as `read_photo` returns it, from the head of its file; RequestError."""
+    from PIL import Image, UnidentifiedImageError
+
+    if Path(path).suffix.lower() in HEIF:
+        _open_heif(Path(path))
+    try:
+        with Image.open(path) as picture:
+            turned = picture.getexif().get(ORIENTATION, 1) in SIDEWAYS and picture.format != "TIFF"
+            columns, rows = picture.size[::-1] if turned else picture.size
+            return rows, columns
+    except (UnidentifiedImageError, Image.DecompressionBombError, OSError, ValueError, *DAMAGED):
+        # Pillow does not know every TIFF; what is wrong with another file is said where it is read.
+        return read_photo(path).values.shape[:2]
+
+
 def _samples(path: Path) -> np.ndarray:
     try:
         data = path.read_bytes()
     except OSError as error:
         raise RequestError(
-            "{path} cannot be read, {reason}; give the path of a PNG or TIFF",
+            "{path} cannot be read, {reason}; give the path of a PNG, TIFF, JPEG or HEIF",
             path=str(path),
             reason=str(error.strerror),
         ) from error
@@ -118,7 +137,22 @@ def _samples(path: Path) -> np.ndarray:
         return _from_tiff(data, path)
     if is_deep(data):
         return read_deep(data, path)
-    return _from_png(data, path)
+    if data[4:8] == b"ftyp":
+        _open_heif(path)
+        return _by_pillow(data, path, ("HEIF",))
+    return _by_pillow(data, path, ("JPEG",) if data[:3] == b"\xff\xd8\xff" else ("PNG",))
+
+
+def _open_heif(path: Path) -> None:
+    """Let Pillow open HEIF; RequestError where pillow-heif is not installed."""
+    try:
+        from pillow_heif import register_heif_opener
+    except ImportError as error:
+        raise RequestError(
+            "{path}: HEIF photos need pillow-heif, which is not installed; pip install 'p2sf[heif]', or save a JPEG",
+            path=str(path),
+        ) from error
+    register_heif_opener()
 
 
 def _from_tiff(data: bytes, path: Path) -> np.ndarray:
@@ -130,25 +164,29 @@ def _from_tiff(data: bytes, path: Path) -> np.ndarray:
         ) from error
 
 
-def _from_png(data: bytes, path: Path) -> np.ndarray:
-    from PIL import Image, UnidentifiedImageError
+def _by_pillow(data: bytes, path: Path, formats: tuple[str]) -> np.ndarray:
+    """Return the 8-bit samples of a PNG, JPEG or HEIF, turned upright."""
+    from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
-        with Image.open(io.BytesIO(data), formats=("PNG",)) as picture:
+        with Image.open(io.BytesIO(data), formats=formats) as picture:
             check_samples((picture.height, picture.width, len(picture.getbands())), len(data))
             grey = picture.mode in ("1", "L", "LA")
-            return np.asarray(picture.convert("L" if grey else "RGB"))
+            return np.asarray(ImageOps.exif_transpose(picture).convert("L" if grey else "RGB"))
     except UnidentifiedImageError as error:
         raise RequestError(
-            "{path} is neither a PNG nor a TIFF that can be read; convert it to one", path=str(path)
+            "{path} is no PNG, TIFF, JPEG or HEIF that can be read; convert it to one", path=str(path)
         ) from error
     except (OversizedError, Image.DecompressionBombError) as error:
         raise RequestError(
-            "{path} is too large a PNG ({why}); save it smaller", path=str(path), why=str(error)
+            "{path} is too large a {kind} ({why}); save it smaller", path=str(path), kind=formats[0], why=str(error)
         ) from error
     except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(
-            "{path} is a damaged PNG ({why}); save the picture again", path=str(path), why=str(error)
+            "{path} is a damaged {kind} ({why}); save the picture again",
+            path=str(path),
+            kind=formats[0],
+            why=str(error),
         ) from error
 
 

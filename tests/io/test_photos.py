@@ -1,14 +1,16 @@
 """Pictures are read back as they were written, at any depth, and other files are refused by name."""
 
 import struct
+import sys
 import zlib
 
 import numpy as np
 import pytest
 import tifffile
+from PIL import Image
 
 from p2sf.errors import ExportError, P2SFError, RequestError
-from p2sf.io.photo_files import read_photo, write_photo
+from p2sf.io.photo_files import photo_shape, read_photo, write_photo
 from p2sf.io.png16 import BAND, read_deep, unfiltered, write_deep
 from p2sf.io.transfer import linear_from_srgb, srgb_from_linear
 
@@ -91,7 +93,7 @@ def claimed(width: int, height: int, deep: bool) -> bytes:
         (6000, 4000, "too large a PNG .*4000 × 6000 × 3 samples"),
         (70_000, 2, "too large a PNG"),
         (2**31 - 1, 1, "too large a PNG"),
-        (0, 5, "(a damaged PNG|neither a PNG)"),
+        (0, 5, "(a damaged PNG|no PNG)"),
     ],
 )
 def test_a_size_that_its_bytes_cannot_mean_is_refused_before_it_is_unpacked(tmp_path, width, height, words, deep):
@@ -124,3 +126,67 @@ def test_what_is_no_picture_is_one_sentence(tmp_path):
         write_photo(tmp_path / "a.png", picture(), depth="float")
     with pytest.raises(P2SFError, match="encoding"):
         read_photo(tmp_path / "a.png", "gamma") if write_photo(tmp_path / "a.png", picture()) else None
+
+
+def upright() -> np.ndarray:
+    """Return a dark picture with a bright top left corner, (40, 60, 3) bytes."""
+    values = np.full((40, 60, 3), 30, np.uint8)
+    values[:10, :15] = 220
+    return values
+
+
+@pytest.mark.parametrize(("name", "kind"), [("a.jpg", "JPEG"), ("a.jpeg", "JPEG"), ("a.png", "JPEG")])
+def test_a_jpeg_is_read_by_its_content(tmp_path, name, kind):
+    """JPEG keeps flat parts to some levels of 255 at this quality."""
+    Image.fromarray(upright()).save(tmp_path / name, kind, quality=95)
+    photo = read_photo(tmp_path / name)
+    assert (photo.encoding, photo.depth) == ("srgb", "8") and photo_shape(tmp_path / name) == (40, 60)
+    expected = linear_from_srgb(upright()[::20, ::20].astype(np.float32) / 255)
+    assert photo.values[::20, ::20] == pytest.approx(expected, abs=0.02)
+
+
+@pytest.mark.parametrize("orientation", range(1, 9))
+def test_a_photo_taken_sideways_is_turned_upright(tmp_path, orientation):
+    """Each of Exif's eight orientations is undone: its picture is the upright one, turned by Pillow's own inverse."""
+    turn = {2: 0, 3: 3, 4: 1, 5: 5, 6: 2, 7: 6, 8: 4}  # Image.Transpose that makes the stored picture
+    stored = Image.fromarray(upright())
+    if orientation > 1:
+        stored = stored.transpose(Image.Transpose(turn[orientation]))
+    exif = Image.Exif()
+    exif[274] = orientation
+    stored.save(tmp_path / "a.jpg", quality=95, exif=exif)
+    assert photo_shape(tmp_path / "a.jpg") == (40, 60)
+    values = read_photo(tmp_path / "a.jpg").values
+    assert values.shape == (40, 60, 3)
+    assert values[:8, :12].min() > 0.5 and values[15:].max() < 0.1
+
+
+def test_a_grey_jpeg_has_one_channel_and_a_cut_one_is_one_sentence(tmp_path):
+    Image.fromarray(upright()[..., 0]).save(tmp_path / "grey.jpg")
+    assert read_photo(tmp_path / "grey.jpg").values.shape == (40, 60, 1)
+    whole = (tmp_path / "grey.jpg").read_bytes()
+    (tmp_path / "cut.jpg").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(RequestError, match=r"cut\.jpg is a damaged JPEG"):
+        read_photo(tmp_path / "cut.jpg")
+
+
+def test_heif_is_read_where_its_library_is_installed(tmp_path):
+    heif = pytest.importorskip("pillow_heif")
+    heif.from_pillow(Image.fromarray(upright())).save(tmp_path / "a.heic", quality=95)
+    assert photo_shape(tmp_path / "a.heic") == (40, 60)
+    values = read_photo(tmp_path / "a.heic").values
+    assert values[:8, :12].min() > 0.4 and values[15:].max() < 0.1
+
+
+def test_heif_without_its_library_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pillow_heif", None)
+    (tmp_path / "a.heic").write_bytes(b"\0\0\0\x18ftypheic" + bytes(12))
+    for read in (read_photo, photo_shape):
+        with pytest.raises(RequestError, match="pillow-heif"):
+            read(tmp_path / "a.heic")
+
+
+@pytest.mark.parametrize("ending", [".png", ".tif"])
+def test_the_shape_is_told_without_reading_the_picture(tmp_path, ending):
+    write_photo(tmp_path / f"a{ending}", picture())
+    assert photo_shape(tmp_path / f"a{ending}") == (13, 17)

@@ -16,7 +16,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.files.snapshot import side_car, write_state
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.results.image import (
     ImageRequest,
     ImageResult,
@@ -43,12 +43,16 @@ TIP = (
     "distortion and falling light included."
 )
 PIXELS = {"4.0": "4 µm pixels", "8.0": "8 µm pixels", "16.0": "16 µm pixels", "32.0": "32 µm pixels", "": "whole field"}
+FULL = "full"  # the choice of every pixel of the photo
+LOOKS = {"split": "split", "side": "side by side", "blink": "blink"}
 SHOWS: dict[str, tuple[str, tuple[str, str]]] = {
     "lens": ("through the lens", ("scene", "image")),
     "sharpened": ("sharpened by its PSFs", ("image", "sharpened")),
     "axis": ("by the axis's PSF", ("image", "sharpened wrongly")),
+    "psfs": ("its PSFs, as a map", ("image", "PSFs, √")),
 }
-PHOTOS = "Pictures (*.png *.tif *.tiff)"
+PHOTOS = "Pictures (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)"
+SAVED = "Pictures (*.png *.tif *.tiff)"
 EARLIER, WORKING, NONE = "earlier picture, working", "working", "no picture"
 
 
@@ -59,9 +63,13 @@ class ImagePanel:
         self._store = store
         self.widget = SideCard("Image", TIP)
         self.photo = chooser(tuple(CHART_WORDS.items()), "What stands before the lens", self.widget)
-        self.pixel = chooser(tuple(PIXELS.items()), "Pixels at the field point, or the field", self.widget)
+        sizes = (*PIXELS.items(), (FULL, "every pixel of the photo"))
+        self.pixel = chooser(sizes, "Pixels at the field point, or the field", self.widget)
+        self.look = chooser(tuple(LOOKS.items()), "How the two pictures are put beside each other", self.widget)
         self.show_box = chooser(tuple((k, v[0]) for k, v in SHOWS.items()), "Which picture is made", self.widget)
-        self.open = small_button("Photo…", "Choose a PNG or TIFF to photograph", self._ask_photo)
+        self.open = small_button(
+            "Photo…", "Choose a PNG, TIFF, JPEG or HEIF to photograph, up to 12 megapixels", self._ask_photo
+        )
         self.save = small_button("Save…", "Save the picture as PNG or TIFF, the state beside it", self._ask_save)
         self.split_view, self.headline, self.plan_line, self.words = SplitView(), QLabel(), PlanLine(), Why()
         self.overlay = Overlay(self.split_view)
@@ -82,7 +90,8 @@ class ImagePanel:
         self.fine.progressed.connect(self._on_progress)
 
     def _lay_out(self) -> None:
-        for line in ((self.photo, self.open), (self.pixel,), (self.show_box,), (self.words.button, self.save)):
+        looking = (self.look, self.words.button, self.save)
+        for line in ((self.photo, self.open), (self.pixel,), (self.show_box,), looking):
             self.widget.add_line(*line)
         self.headline.setObjectName("muted")
         self.headline.setWordWrap(True)
@@ -96,6 +105,7 @@ class ImagePanel:
         self.photo.activated.connect(lambda: store.update(photo_source=self.photo.currentData()))
         self.show_box.activated.connect(lambda: store.update(photo_show=self.show_box.currentData()))
         self.pixel.activated.connect(self._choose_pixel)
+        self.look.activated.connect(lambda: store.update(photo_look=self.look.currentData()))
         self.plan_line.turned.connect(self._turn)
         self.split_view.taken.connect(store.begin)
         self.split_view.released.connect(store.end)
@@ -112,6 +122,7 @@ class ImagePanel:
         self._settled = live.quality == "settled"
         self._show_choices(state)
         self.split_view.show_split(state.photo.split)
+        self.split_view.show_look(state.photo.look)
         if asked != self._asked:
             self._asked = asked
             self._call_off()
@@ -124,10 +135,12 @@ class ImagePanel:
         if self.photo.findData(state.photo.source) < 0:
             self.photo.addItem(Path(state.photo.source).name, state.photo.source)
         pitch = state.photo.pixel_um
-        size = "" if pitch is None else str(float(pitch))
+        size = (FULL if state.photo.full else "") if pitch is None else str(float(pitch))
         if self.pixel.findData(size) < 0:
             self.pixel.addItem(tr("{pitch} µm pixels", pitch=f"{pitch:g}"), size)
-        for box, value in ((self.photo, state.photo.source), (self.pixel, size), (self.show_box, state.photo.show)):
+        photo = state.photo
+        boxes = (self.photo, photo.source), (self.pixel, size), (self.show_box, photo.show), (self.look, photo.look)
+        for box, value in boxes:
             select(box, value)
 
     def _quickest(self, asked: ImageRequest) -> Callable[[ImageRequest, Progress], ImageResult]:
@@ -217,8 +230,8 @@ class ImagePanel:
         pitch = f"{sensor.pixel_um:.3g}"
         size = tr("{columns} × {rows} pixels of {pitch} µm", columns=sensor.columns, rows=sensor.rows, pitch=pitch)
         count = f"{said(found.headline)} · {found.seconds:.2g} s"
-        reasons = (said(why) for why in (found.cut, found.no_plan) if why)
-        self._say("\n".join((*reasons, count, size)))
+        reasons = (said(why) for why in (found.cut, found.no_plan, *found.alike) if why)
+        self._say(local("\n".join((*reasons, count, size))))
         self.words.show_notes(found.notes)
         rows, columns = found.after.shape[:2]
         self._look(self._place[0] * (rows - 1), self._place[1] * (columns - 1))
@@ -232,7 +245,8 @@ class ImagePanel:
 
     def _choose_pixel(self) -> None:
         size = self.pixel.currentData()
-        self._store.update(photo_pixel_um=float(size) if size else None)
+        full = size == FULL
+        self._store.update(photo_pixel_um=float(size) if size and not full else None, photo_full=full)
 
     def _ask_photo(self) -> None:
         path, _ = QFileDialog.getOpenFileName(self.widget, tr("Choose a photo"), "", tr(PHOTOS))
@@ -240,7 +254,7 @@ class ImagePanel:
             self._store.update(photo_source=path)
 
     def _ask_save(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(self.widget, tr("Save the picture"), "image.png", tr(PHOTOS))
+        path, _ = QFileDialog.getSaveFileName(self.widget, tr("Save the picture"), "image.png", tr(SAVED))
         if path:
             self.save_as(path if Path(path).suffix else f"{path}.png")
 

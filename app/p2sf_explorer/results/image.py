@@ -5,7 +5,8 @@ Only `question` runs on the live path; a worker runs `coarse` (some 0.2 s) and `
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import exp, hypot
+from itertools import pairwise
+from math import ceil, exp, hypot
 from pathlib import Path
 from threading import Event
 from time import perf_counter
@@ -18,16 +19,17 @@ from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.deblur import psnr, wiener, with_one_kernel
 from p2sf.image.lattice import Lattice
 from p2sf.image.preview import preview_lattice, preview_plan
+from p2sf.image.similarity import ssim
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.pixel_kernels import RAYS
+from p2sf.pixel_kernels import RAYS, Recipe
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Plan, Scene, Sensor, plan
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.results.photos import NOISE, channels_of, cut_away, scene_values
+from p2sf_explorer.results.photos import NOISE, channels_of, cut_away, full_shape, scene_values
 
 SEEN = 0.005  # of a photo's side: less is a pixel or two
 
@@ -126,16 +128,22 @@ UNMEASURED = {
     ),
 }
 RAY_NOTE = Message("These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.")
+SHARPENED = ("sharpened", "axis")  # of what can be shown
+CELL_PX = 24  # of the map of PSFs, at least
+RING = (0.9, 0.45, 0.0)
+ROWS_AT_ONCE = 256
 CORNER = 0.97  # of the way to the outermost chief ray
 TOLERANCE = 0.1  # relative error of a pixel's kernel: less cannot be seen
 PLANNING = 0.9  # of the time of a planned picture; the rest are its kernels and the blur
+KERNELS = 0.25  # of what follows the plan; the rest is the blur
+PLANNING_LARGE = 0.15  # where the picture is of megapixels
 USUAL_STEPS = 60  # a plan has 140 to 220 measurements, nobody knows how many, and the first half take most of the time
 TO_THE_RIM = (1.0, 0.95, 0.9, 0.8, 0.7, 0.5)  # of the lens's widest field, where the outermost chief ray is lost
 
 
 @dataclass(frozen=True)
 class ImageRequest:
-    """Everything the picture depends on; ``pixel_um`` None takes the lens's whole field."""
+    """Everything the picture depends on; ``pixel_um`` None takes the lens's whole field, ``shape`` is the sensor's."""
 
     lens: Lens
     depth_mm: float
@@ -144,6 +152,7 @@ class ImageRequest:
     pixel_um: float | None
     centre_mm: float
     clip: bool = False
+    shape: tuple[int, int] = (ROWS, COLUMNS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +160,7 @@ class ImageResult:
     """Pictures in linear light (rows, columns, 3), ``before`` and ``after`` the lens (or the sharpening).
 
     ``quality`` is "coarse" or "planned"; ``headline`` and ``notes`` say what was computed and why, ``cut`` what of the
-    photo is not taken, ``no_plan`` why no plan follows a coarse picture.
+    photo is not taken, ``no_plan`` why no plan follows a coarse picture, ``alike`` how near the sharpened one comes.
     """
 
     question: ImageRequest
@@ -165,6 +174,7 @@ class ImageResult:
     notes: Notes
     cut: Message | None = None
     no_plan: Message | None = None
+    alike: tuple[Message, ...] = ()
 
 
 def question(live: Live) -> ImageRequest:
@@ -173,18 +183,33 @@ def question(live: Live) -> ImageRequest:
     whole = state.photo.pixel_um is None
     centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
     photo, optics = state.photo, state.optics
-    return ImageRequest(setup.lens, optics.depth_mm, photo.source, photo.show, photo.pixel_um, centre, optics.clip)
+    shape = full_shape(photo.source) if whole and photo.full else (ROWS, COLUMNS)
+    what = photo.source, photo.show, photo.pixel_um
+    return ImageRequest(setup.lens, optics.depth_mm, *what, centre, optics.clip, shape)
 
 
 def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
-    begun, scene, watch = perf_counter(), scene_of(request), watch or Progress()
-    coarse_plan = preview_plan(scene.camera(request.lens), scene)
-    why_not = no_plan(coarse_plan)
+    begun, watch = perf_counter(), watch or Progress()
+    small = replace(request, shape=small_shape(request.shape))
+    coarse_plan = unmeasured_plan(small)
+    why_not = no_plan(coarse_plan if small == request else unmeasured_plan(request))
     rays: Notes = ((Message("Rays"), RAY_NOTE),) if by_rays(coarse_plan) else ()
     notes = ((Message("Coarse"), UNMEASURED[why_not]), *rays)
     lattice = preview_lattice(coarse_plan, watch)
-    return replace(_answer(request, coarse_plan, watch, begun, notes, lattice), no_plan=why_not)
+    return replace(_answer(small, coarse_plan, watch, begun, notes, lattice), question=request, no_plan=why_not)
+
+
+def unmeasured_plan(request: ImageRequest) -> Plan:
+    """Return the plan of a coarse picture; GeometryError."""
+    scene = scene_of(request)
+    return preview_plan(scene.camera(request.lens), scene)
+
+
+def small_shape(shape: tuple[int, int]) -> tuple[int, int]:
+    """Return a shape of the same proportions whose longer side has as many pixels as the usual sensor's, at most."""
+    shrink = max(1.0, max(shape) / COLUMNS)
+    return max(8, round(shape[0] / shrink)), max(8, round(shape[1] / shrink))
 
 
 def planned(request: ImageRequest, watch: Progress | None = None, known: ImageResult | None = None) -> ImageResult:
@@ -195,8 +220,9 @@ def planned(request: ImageRequest, watch: Progress | None = None, known: ImageRe
     begun, watch = perf_counter(), watch or Progress()
     if known:
         return _answer(request, known.plan, watch, begun, plan_notes(known.plan), known.lattice)
-    new_plan = plan(request.lens, scene_of(request), planning(watch))
-    return _answer(request, new_plan, forming(watch), begun, plan_notes(new_plan))
+    share = PLANNING if request.shape == small_shape(request.shape) else PLANNING_LARGE
+    new_plan = plan(request.lens, scene_of(request), planning(watch, share))
+    return _answer(request, new_plan, forming(watch, share), begun, plan_notes(new_plan))
 
 
 def same_optics(one: ImageRequest, two: ImageRequest) -> bool:
@@ -204,27 +230,40 @@ def same_optics(one: ImageRequest, two: ImageRequest) -> bool:
     return replace(one, photo=two.photo, show=two.show) == two
 
 
-def planning(watch: Progress) -> Callable[[], None]:
-    """Return what a plan calls before each measurement; the share approaches PLANNING, since the end is not known."""
+def planning(watch: Progress, share: float = PLANNING) -> Callable[[], None]:
+    """Return what a plan calls before each measurement; the part approaches ``share``, since the end is not known."""
     tell = watch.progress
-    steps = Progress(tell and (lambda _: tell(PLANNING * (1 - exp(-steps.done / USUAL_STEPS)))), watch.cancelled)
+    steps = Progress(tell and (lambda _: tell(share * (1 - exp(-steps.done / USUAL_STEPS)))), watch.cancelled)
     return steps.advance
 
 
-def forming(watch: Progress) -> Progress:
-    """Return the progress of forming a picture by a finished plan."""
+def forming(watch: Progress, share: float = PLANNING) -> Progress:
+    """Return the progress of forming a picture by a finished plan, which has taken ``share`` of the time."""
+    return part_of(watch, share, 1.0)
+
+
+def part_of(watch: Progress, start: float, end: float) -> Progress:
+    """Return the progress of a part of the work, told as ``start`` to ``end`` of the whole."""
     tell = watch.progress
-    return Progress(tell and (lambda part: tell(PLANNING + (1 - PLANNING) * part)), watch.cancelled)
+    return Progress(tell and (lambda part: tell(start + (end - start) * part)), watch.cancelled)
 
 
 def _answer(
     request: ImageRequest, plan: Plan, watch: Progress, begun: float, notes: Notes, lattice: Lattice | None = None
 ) -> ImageResult:
-    values = scene_values(request.photo, (ROWS, COLUMNS))
-    lattice = lattice or plan_lattice(plan, plan.vergences[0], watch)
-    before, after, sharpening = shown(request.show, plan, values, lattice, watch)
+    values = scene_values(request.photo, request.shape)
+    lattice = lattice or plan_lattice(plan, plan.vergences[0], part_of(watch, 0.0, KERNELS))
+    before, after, sharpening = shown(request.show, plan, values, lattice, part_of(watch, KERNELS, 1.0))
+    alike = (
+        [
+            Message("{name}: {likeness}", name=name, likeness=likeness(x, values))
+            for name, x in ((Message("blurred"), before), (Message("sharpened"), after))
+        ]
+        if request.show in SHARPENED
+        else []
+    )
     count, product = psf_counts(plan)
-    cut = frame_notes(request.photo, (ROWS, COLUMNS))
+    cut = frame_notes(request.photo, request.shape)
     frame = ((Message("Frame"), cut[1]),) if cut else ()
     return ImageResult(
         question=request,
@@ -237,6 +276,7 @@ def _answer(
         headline=count,
         notes=(*sharpening, *frame, (Message("PSFs"), product), *notes),
         cut=cut[0] if cut else None,
+        alike=tuple(alike),
     )
 
 
@@ -246,24 +286,100 @@ def shown(
     """Return the two pictures to compare, and notes on them."""
     if show == "lens":
         return values, form_image(plan, values, watch=watch, lattice=lattice), ()
+    if show == "psfs":
+        formed = form_image(plan, values, watch=watch, lattice=lattice)
+        return formed, psf_map(plan, lattice, values.shape[:2]), zone_notes(plan)
     blurred = form_image(plan, values, how=Forming(geometry=False), watch=watch, lattice=lattice)
     blurred = blurred + np.random.default_rng(0).normal(0, NOISE, blurred.shape).astype(np.float32)
     right = wiener(blurred, lattice, NOISE, watch)
     wrong = wiener(blurred, with_one_kernel(lattice, axis_kernel(plan, lattice)), NOISE, watch)
+    pictures = {"blurred": blurred, "own": right, "axis": wrong}
     note = Message(
-        "Against the scene the blurred picture has {blurred:.1f} dB, sharpened by its own PSFs {own:.1f} dB, "
-        "by the PSF of the axis {axis:.1f} dB (Wiener's filter, noise {noise:.1%} of white).",
-        blurred=psnr(blurred, values),
-        own=psnr(right, values),
-        axis=psnr(wrong, values),
+        "Against the scene the blurred picture has {blurred}, sharpened by its own PSFs {own}, by the PSF of the axis "
+        "{axis} (Wiener's filter, noise {noise:.1%} of white; PSNR of linear light, SSIM of sRGB levels).",
         noise=NOISE,
+        **{name: likeness(picture, values) for name, picture in pictures.items()},
     )
     return blurred, right if show == "sharpened" else wrong, ((Message("Sharpening"), note),)
 
 
+def likeness(picture: np.ndarray, scene: np.ndarray) -> Message:
+    """Return how near a picture comes to the scene, both in linear light."""
+    shown, wanted = (srgb_from_linear(np.clip(x, 0, 1)) for x in (picture, scene))
+    return Message("{psnr:.1f} dB, SSIM {ssim:.3f}", psnr=psnr(picture, scene), ssim=ssim(shown, wanted))
+
+
+def psf_map(plan: Plan, lattice: Lattice, shape: tuple[int, int]) -> np.ndarray:
+    """Return the PSFs that make a picture, each at its place, (rows, columns, 3), and rings where another zone begins.
+
+    Each is the root of its kernel over its peak, as large as its cell allows; where cells are small only every second
+    place is shown, or every third, and so on.
+    """
+    picture = np.zeros((*shape, 3), np.float32)
+    places = [np.arange(0, len(nodes), every(nodes)) for nodes in (lattice.row_nodes, lattice.column_nodes)]
+    edges = [
+        cell_edges(nodes[at], count)
+        for nodes, at, count in zip((lattice.row_nodes, lattice.column_nodes), places, shape, strict=True)
+    ]
+    for a, (top, bottom) in zip(places[0], pairwise(edges[0]), strict=True):
+        for b, (left, right) in zip(places[1], pairwise(edges[1]), strict=True):
+            tile = small_psf(lattice.kernels[a][b], min(bottom - top, right - left) - 2)
+            row, column = (top + bottom - len(tile)) // 2, (left + right - len(tile)) // 2
+            picture[row : row + len(tile), column : column + len(tile)] = tile
+    sensor = plan.scene.sensor
+    heights = np.hypot(sensor.x_mm(np.arange(shape[1])), sensor.y_mm(np.arange(shape[0]))[:, None])
+    for edge, _ in plan.zones[:-1]:
+        picture[np.abs(heights - edge) < 0.75 * sensor.pixel_mm * max(1, shape[1] // COLUMNS)] = RING
+    return picture
+
+
+def every(nodes: np.ndarray) -> int:
+    """Return which of the nodes are shown, so that their cells are not smaller than `CELL_PX`."""
+    return 1 if len(nodes) < 2 else max(1, ceil(CELL_PX / float(nodes[1] - nodes[0])))
+
+
+def cell_edges(nodes: np.ndarray, count: int) -> list[int]:
+    """Return where the cells about nodes begin and end, pixels from 0 to ``count``."""
+    middles = (nodes[1:] + nodes[:-1]) / 2
+    return [0, *(round(float(m)) for m in middles), count]
+
+
+def small_psf(kernels: np.ndarray, side: int) -> np.ndarray:
+    """Return the kernels of one place as a square of ``side`` pixels at most, (side, side, 3), each place's peak 1."""
+    from PIL import Image
+
+    side = max(1, side)
+    planes = (Image.fromarray(np.ascontiguousarray(plane)) for plane in kernels)
+    how = Image.Resampling.BOX if kernels.shape[-1] >= side else Image.Resampling.NEAREST
+    tile = np.stack([np.asarray(plane.resize((side, side), how)) for plane in planes], axis=-1)
+    found: np.ndarray = np.sqrt(np.maximum(tile, 0) / tile.max())
+    return found
+
+
+def zone_notes(plan: Plan) -> Notes:
+    """Return which method makes the PSFs of each zone, from the axis outwards."""
+    from_mm, notes = 0.0, []
+    for edge, recipe in plan.zones:
+        words = Message(
+            "{start:.3g} to {end:.3g} mm from the axis: {method}", start=from_mm, end=edge, method=recipe_words(recipe)
+        )
+        notes.append((Message("Zone"), words))
+        from_mm = edge
+    return tuple(notes)
+
+
+def recipe_words(recipe: Recipe) -> Message:
+    """Return how the kernels of a zone are made."""
+    if recipe.method == RAYS:
+        return Message("ray density")
+    if recipe.numbers is None:
+        return Message(recipe.method)
+    return Message("{method}, {count} numbers", method=recipe.method, count=recipe.numbers)
+
+
 def fine_enough(answer: ImageResult) -> bool:
-    """Return whether a plan is worth its time."""
-    return no_plan(answer.plan) is None
+    """Return whether a plan is worth its time, for a coarse picture."""
+    return answer.no_plan is None
 
 
 def no_plan(plan: Plan) -> Message | None:
@@ -293,12 +409,12 @@ def scene_of(request: ImageRequest) -> Scene:
     """
     channels = channels_of(request.lens)
     reach = CORNER * rim_mm(request.lens, request.depth_mm, float(channels[1].wavelengths_um[1]))
-    half_um = hypot(ROWS, COLUMNS) / 2
+    half_um = hypot(*request.shape) / 2
     if request.pixel_um is None:
-        sensor = Sensor(ROWS, COLUMNS, reach * UM_PER_MM / half_um)
+        sensor = Sensor(*request.shape, reach * UM_PER_MM / half_um)
     else:
         room = max(0.0, reach - half_um * request.pixel_um / UM_PER_MM)
-        sensor = Sensor(ROWS, COLUMNS, request.pixel_um, (0.0, float(np.clip(request.centre_mm, -room, room))))
+        sensor = Sensor(*request.shape, request.pixel_um, (0.0, float(np.clip(request.centre_mm, -room, room))))
     return Scene(sensor, channels, request.depth_mm, request.depth_mm, TOLERANCE, clip=request.clip)
 
 
@@ -328,9 +444,13 @@ def local_psf(answer: ImageResult, row: float, column: float) -> np.ndarray:
 
 
 def pixels(values: np.ndarray) -> np.ndarray:
-    """Return linear light (rows, columns, 3) as 0xffRRGGBB in sRGB, row 0 the top."""
-    levels = np.rint(255 * np.clip(srgb_from_linear(np.clip(values, 0, 1)), 0, 1)).astype(np.uint32)
-    return np.ascontiguousarray(0xFF000000 | levels[..., 0] << 16 | levels[..., 1] << 8 | levels[..., 2], np.uint32)
+    """Return linear light (rows, columns, 3) as 0xffRRGGBB in sRGB, row 0 the top; a few rows at a time."""
+    found = np.empty(values.shape[:2], np.uint32)
+    for start in range(0, len(values), ROWS_AT_ONCE):
+        part = values[start : start + ROWS_AT_ONCE]
+        levels = np.rint(255 * np.clip(srgb_from_linear(np.clip(part, 0, 1)), 0, 1)).astype(np.uint32)
+        found[start : start + len(part)] = 0xFF000000 | levels[..., 0] << 16 | levels[..., 1] << 8 | levels[..., 2]
+    return found
 
 
 def work(

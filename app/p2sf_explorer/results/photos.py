@@ -6,12 +6,15 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.image.charts import CHARTS, draw_chart
-from p2sf.io.photo_files import read_photo
+from p2sf.io.photo_files import photo_shape, read_photo
 from p2sf.lens.lens import Lens
 from p2sf.scene.scene import RGB, Channel
 from p2sf_explorer.compute.setup import wavelength_range
 
 NOISE = 0.005  # of white: what a small camera has in good light
+MOST_PIXELS = 12_000_000
+MOST_KEPT = 1_000_000  # pixels of a photo that is kept in memory for the next picture
+CHART_SHAPE = 2000, 3000  # of a chart with every pixel
 CHART_WORDS = {
     "landscape": "Landscape",
     "text": "Print",
@@ -31,7 +34,7 @@ def cut_away(photo: str, shape: tuple[int, int]) -> tuple[float, float]:
     """Return what share of a photo's height and of its width does not fit the frame; RequestError."""
     if photo in CHARTS:
         return 0.0, 0.0
-    rows, columns = _photo(photo, changed(photo), shape)[1]
+    rows, columns = _shape(photo, changed(photo))
     tall, wide = middle(rows, columns, shape)
     return 1 - tall / rows, 1 - wide / columns
 
@@ -42,13 +45,38 @@ def changed(photo: str) -> int:
     return path.stat().st_mtime_ns if path.is_file() else 0
 
 
-@lru_cache(maxsize=8)
 def _chart(name: str, shape: tuple[int, int]) -> np.ndarray:
+    return _kept_chart(name, shape) if shape[0] * shape[1] <= MOST_KEPT else draw_chart(name, *shape)
+
+
+@lru_cache(maxsize=8)
+def _kept_chart(name: str, shape: tuple[int, int]) -> np.ndarray:
     return draw_chart(name, *shape)
 
 
+def full_shape(photo: str) -> tuple[int, int]:
+    """Return the rows and columns of a photo, or of one reduced to `MOST_PIXELS`; RequestError."""
+    rows, columns = CHART_SHAPE if photo in CHARTS else _shape(photo, changed(photo))
+    shrink = max(1.0, (rows * columns / MOST_PIXELS) ** 0.5)
+    return max(1, int(rows / shrink)), max(1, int(columns / shrink))
+
+
+@lru_cache(maxsize=16)
+def _shape(path: str, _changed: int) -> tuple[int, int]:
+    return photo_shape(path)
+
+
+def _photo(path: str, stamp: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
+    """Return a photo in a shape, and its own; large ones are not kept."""
+    return (_kept if shape[0] * shape[1] <= MOST_KEPT else _fitted)(path, stamp, shape)
+
+
 @lru_cache(maxsize=4)
-def _photo(path: str, _changed: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
+def _kept(path: str, stamp: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
+    return _fitted(path, stamp, shape)
+
+
+def _fitted(path: str, _changed: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
     values = read_photo(path).values
     colours = np.repeat(values, 3, axis=-1) if values.shape[-1] == 1 else values
     return fitted(colours, shape), values.shape[:2]
@@ -64,6 +92,8 @@ def fitted(values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     from PIL import Image
 
     rows, columns = values.shape[:2]
+    if (rows, columns) == shape:
+        return values
     tall, wide = middle(rows, columns, shape)
     box = (columns - wide) / 2, (rows - tall) / 2, (columns + wide) / 2, (rows + tall) / 2
     planes = (Image.fromarray(np.ascontiguousarray(plane)) for plane in np.moveaxis(values, -1, 0))

@@ -17,7 +17,8 @@ CHOICES = {
     "shown": ("a", "b", "difference"),
     "rays_coloured": ("kind", "field", "wavelength"),
     "keep_focus": ("off", "paraxial", "rms"),
-    "photo_show": ("lens", "sharpened", "axis"),
+    "photo_show": ("lens", "sharpened", "axis", "psfs"),
+    "photo_look": ("split", "side", "blink"),
     "rail_side": ("right", "bottom"),
     "colours": ("standard", "viridis", "cividis", "grey"),
 }
@@ -62,6 +63,7 @@ PLAIN: dict[str, type] = {
     "free_pupil": bool,
     "language": str,
     "photo_source": str,
+    "photo_full": bool,
     "lesson_name": str,
     "lesson_told": bool,
     "lesson_step": int,

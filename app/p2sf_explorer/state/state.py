@@ -271,7 +271,10 @@ class Playback:
 
 @dataclass(frozen=True)
 class PhotoView:
-    """The picture before the lens: ``source`` is a chart's name or a file; ``pixel_um`` None shows the whole field."""
+    """The picture before the lens: ``source`` is a chart's name or a file; ``pixel_um`` None shows the whole field.
+
+    ``full`` then takes every pixel of the photo. ``look`` is how before and after are put to the eye.
+    """
 
     PREFIX: ClassVar[str] = "photo_"
 
@@ -279,6 +282,8 @@ class PhotoView:
     pixel_um: float | None = 8.0
     show: str = "lens"
     split: float = 0.5
+    full: bool = False
+    look: str = "split"
 
     def __post_init__(self) -> None:
         _check_entries(self)

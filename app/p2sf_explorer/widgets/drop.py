@@ -22,7 +22,7 @@ from p2sf_explorer.files.opening import is_file
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.link import is_link
 
-OTHER_PICTURES = (".jpg", ".jpeg", ".gif", ".bmp", ".webp", ".heic", ".avif", ".raw", ".dng", ".cr2", ".nef", ".arw")
+OTHER_PICTURES = (".gif", ".bmp", ".webp", ".avif", ".raw", ".dng", ".cr2", ".nef", ".arw")
 
 
 class DropFrame(QWidget):
@@ -102,7 +102,7 @@ class PhotoDrop(QObject):
         if path.suffix.lower() in READABLE:
             self.photo.emit(str(path))
         else:
-            why = "{file} is no PNG or TIFF; save the photo as one of these and drop that"
+            why = "{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that"
             self.refused.emit(Message(why, file=path.name))
 
 

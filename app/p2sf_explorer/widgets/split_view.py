@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -15,6 +15,7 @@ from p2sf_explorer.i18n.tr import tr
 GAP = 8.0
 PSF_SHARE, PSF_MOST = 0.42, 150.0  # of the height of a picture that the PSF lies on, and pixels at most
 PAD = 6.0
+LEAST_UNDER = 96.0  # px: the side of the squares under a picture
 DETAIL_ROWS = 64  # of the picture, in an enlarged detail
 NARROWEST = 0.7  # least width of a detail over its height
 
@@ -29,13 +30,21 @@ class SplitPlaces:
 
 
 def places(width: float, height: float, rows: int, columns: int) -> SplitPlaces:
-    """Return the places in a panel of this size: beside the picture a square for the PSF, and details in the rest."""
+    """Return the places in a panel of this size: beside the picture a square for the PSF, and details in the rest.
+
+    Where the picture takes the width, they lie under it, or where there is no room for that either the PSF on it.
+    """
     scale = min(width / columns, height / rows)
     picture = QRectF(0, (height - scale * rows) / 2, scale * columns, scale * rows)
     side = picture.height()
     left = width - picture.width() - side - GAP
     if left < 0:
-        return SplitPlaces(picture, overlaid(picture), ())
+        under = min(height - picture.height() - GAP, (width - 2 * GAP) / 3)
+        if under < LEAST_UNDER:
+            return SplitPlaces(picture, overlaid(picture), ())
+        picture.moveTop((height - picture.height() - GAP - under) / 2)
+        first, second, psf = (QRectF(k * (width - under) / 2, picture.bottom() + GAP, under, under) for k in range(3))
+        return SplitPlaces(picture, psf, (first, second))
     count = min(2, int(left // (NARROWEST * side + GAP)))
     wide = min(left / max(count, 1) - GAP, side * columns / DETAIL_ROWS)
     lefts = (picture.right() + GAP + k * (wide + GAP) for k in range(count))
@@ -67,9 +76,10 @@ LOOKS: dict[int, tuple[float, float]] = {
     Qt.Key.Key_Right: (0.0, LOOK_STEP),
 }
 HANDLE_PX = 7.0
+BLINK_MS = 700
 TIP = (
     "Hover or press the arrow keys to look at a place: its PSF and its detail follow. "
-    "Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it."
+    "Drag the split, or move it with Shift and the left or right arrow. Drop a photo to have it photographed."
 )
 BLACK = np.full((1, 1), 0xFF000000, np.uint32)
 
@@ -98,6 +108,10 @@ class SplitView(QWidget):
         self.setToolTip(tr(TIP))
         self.before, self.after, self.psf = BLACK, BLACK, BLACK
         self.names, self.split, self.place = ("", ""), 0.5, (0.0, 0.0)
+        self.look, self.blinked = "split", False
+        self._reduced: dict[int, np.ndarray] = {}
+        self._blink = QTimer(self, interval=BLINK_MS)
+        self._blink.timeout.connect(self._turn)
         self._theme: Tokens = LIGHT
 
     def sizeHint(self) -> QSize:
@@ -107,7 +121,30 @@ class SplitView(QWidget):
     def show_pictures(self, before: np.ndarray, after: np.ndarray, names: tuple[str, str]) -> None:
         """Show two pictures of the same shape, 0xffRRGGBB, row 0 the top; ``names`` are shown as they are."""
         self.before, self.after, self.names = before, after, names
+        self._reduced.clear()
         self.update()
+
+    def show_look(self, look: str) -> None:
+        """Put the two pictures on either side of a split, beside each other ("side"), or one after the other."""
+        if look != self.look:
+            self.look, self.blinked = look, False
+            self._blink.start() if look == "blink" else self._blink.stop()
+            self.update()
+
+    def _turn(self) -> None:
+        self.blinked = not self.blinked
+        if self.isVisible():
+            self.update()
+
+    def _to_paint(self, pixels: np.ndarray, room: QRectF) -> np.ndarray:
+        """Return a picture for a room, every n-th pixel of one that is far larger: its paint takes long."""
+        times = int(pixels.shape[1] / max(1.0, 2 * room.width() * self.devicePixelRatioF()))
+        if times < 2:
+            return pixels
+        key = id(pixels) * 64 + times
+        if key not in self._reduced:
+            self._reduced[key] = np.ascontiguousarray(pixels[::times, ::times])
+        return self._reduced[key]
 
     def show_split(self, part: float) -> None:
         """Put the split at this part of the width."""
@@ -130,8 +167,19 @@ class SplitView(QWidget):
         return places(self.width(), self.height(), *self.after.shape)
 
     def area(self) -> QRectF:
-        """Return the place of the picture: at the left, as large as fits."""
+        """Return the place of the picture: at the left, as large as fits; side by side, that of the first."""
         return self.places().picture
+
+    def halves(self) -> tuple[QRectF, QRectF]:
+        """Return the places of the two pictures, beside or above each other, whichever shows them larger."""
+        rows, columns = self.after.shape
+        wide, tall = float(self.width()), float(self.height())
+        beside = min((wide - GAP) / 2 / columns, tall / rows)
+        above = min(wide / columns, (tall - GAP) / 2 / rows)
+        size = QSizeF(columns, rows) * max(beside, above)
+        step = QPointF(size.width() + GAP, 0) if beside >= above else QPointF(0, size.height() + GAP)
+        corner = QPointF(wide - size.width() - step.x(), tall - size.height() - step.y()) / 2
+        return QRectF(corner, size), QRectF(corner + step, size)
 
     def split_x(self) -> float:
         """Return the place of the split in pixels."""
@@ -144,16 +192,44 @@ class SplitView(QWidget):
         if self.after is BLACK:
             return
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+        if self.look == "side":
+            self._paint_halves(painter)
+            return
         area, x = self.area(), self.split_x()
+        if self.look == "blink":
+            x = area.left() if self.blinked else area.right()
         for pixels, left, right in ((self.before, area.left(), x), (self.after, x, area.right())):
             painter.setClipRect(QRectF(left, area.top(), right - left, area.height()))
-            painter.drawImage(area, image_of(pixels))
+            painter.drawImage(area, image_of(self._to_paint(pixels, area)))
         painter.setClipping(False)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self._paint_split(painter, area, x)
+        if self.look == "split":
+            self._paint_split(painter, area, x)
         self._paint_names(painter, area, x)
         if self.psf is not BLACK:
             self._paint_place(painter, self.places())
+
+    def _paint_halves(self, painter: QPainter) -> None:
+        """Paint both pictures whole, with the place looked at in both, and its PSF on the second."""
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for room, pixels, name in zip(self.halves(), (self.before, self.after), self.names, strict=True):
+            painter.drawImage(room, image_of(self._to_paint(pixels, room)))
+            self._frame(painter, room, name)
+            if self.psf is not BLACK:
+                self._paint_ring(painter, room)
+        if self.psf is not BLACK:
+            place = overlaid(self.halves()[1])
+            painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
+            painter.drawImage(place, image_of(self.psf))
+            self._frame(painter, place, tr("PSF, √"))
+
+    def _paint_ring(self, painter: QPainter, area: QRectF) -> None:
+        """Paint a ring about the place looked at, which shows on bright and on dark."""
+        scale, (row, column) = area.width() / self.after.shape[1], self.place
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        for colour, width in (("#000000", 3.0), ("#ffffff", 1.4)):
+            painter.setPen(QPen(QColor(colour), width))
+            painter.drawEllipse(area.topLeft() + QPointF(column + 0.5, row + 0.5) * scale, 5.0, 5.0)
 
     def _paint_split(self, painter: QPainter, area: QRectF, x: float) -> None:
         for colour, width in (("#000000", 3.0), (self._theme.accent if self.hasFocus() else "#ffffff", 1.4)):
@@ -188,8 +264,7 @@ class SplitView(QWidget):
             if places.details:
                 box = QRectF(*(scale * v for v in (part.x(), part.y(), part.width(), part.height())))
                 painter.drawRect(box.translated(area.topLeft()))
-            row, column = self.place
-            painter.drawEllipse(area.topLeft() + QPointF(column + 0.5, row + 0.5) * scale, 5.0, 5.0)
+        self._paint_ring(painter, area)
 
     def _frame(self, painter: QPainter, room: QRectF, name: str) -> None:
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -201,15 +276,17 @@ class SplitView(QWidget):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take hold of the split."""
-        self.taken.emit()
-        self._move(event.position())
+        if self.look == "split":
+            self.taken.emit()
+            self._move(event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Carry the split along, or look."""
-        if event.buttons():
+        if event.buttons() and self.look == "split":
             self._move(event.position())
             return
-        area, (rows, columns) = self.area(), self.after.shape
+        rooms = self.halves() if self.look == "side" else (self.area(),)
+        area, (rows, columns) = next((r for r in rooms if r.contains(event.position())), rooms[0]), self.after.shape
         if area.contains(event.position()):
             column = (event.position().x() - area.left()) / area.width() * columns - 0.5
             row = (event.position().y() - area.top()) / area.height() * rows - 0.5
@@ -217,7 +294,8 @@ class SplitView(QWidget):
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Let go."""
-        self.released.emit()
+        if self.look == "split":
+            self.released.emit()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Move the place looked at with the arrows, and with Shift the split."""

@@ -10,7 +10,9 @@ from PySide6.QtCore import QPointF, Qt
 from p2sf.errors import Cancelled, RequestError
 from p2sf.image import Progress, form_image
 from p2sf.image.lattice import Lattice
+from p2sf.image.similarity import ssim
 from p2sf.io.photo_files import read_photo, write_photo
+from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import lens_range_um
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.messages import Message
@@ -18,7 +20,7 @@ from p2sf.pixel_kernels import RAYS, Recipe
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
-from p2sf_explorer.results import image
+from p2sf_explorer.results import image, photos
 from p2sf_explorer.results.image import (
     COLUMNS,
     RAY_NOTE,
@@ -37,7 +39,7 @@ from p2sf_explorer.results.image import (
     scene_of,
     shown,
 )
-from p2sf_explorer.results.photos import channels_of, fitted, scene_values
+from p2sf_explorer.results.photos import channels_of, fitted, full_shape, scene_values
 from p2sf_explorer.state.state import changed, new_state
 
 FAST = new_state(method="seidel", photo_pixel_um=16.0, theme="light")
@@ -102,9 +104,14 @@ def test_large_pixels_get_no_plan_and_small_ones_do():
 
 def test_sharpening_by_the_right_psfs_helps_and_by_the_axis_psf_does_not():
     quick = coarse(asked(photo_source="siemens_star", photo_show="sharpened", field_deg=14.0))
-    blurred, own, axis = (dict(quick.notes)[Message("Sharpening")].values[name] for name in ("blurred", "own", "axis"))
-    assert own > blurred + 3  # what knowing the PSF buys, in dB
-    assert axis < own - 3
+    told = dict(quick.notes)[Message("Sharpening")].values
+    blurred, own, axis = (told[name].values for name in ("blurred", "own", "axis"))
+    assert own["psnr"] > blurred["psnr"] + 3  # what knowing the PSF buys, in dB
+    assert axis["psnr"] < own["psnr"] - 3
+    assert 1 > own["ssim"] > blurred["ssim"] > 0 and own["ssim"] > axis["ssim"]
+    assert [str(line) for line in quick.alike] == [f"blurred: {told['blurred']}", f"sharpened: {told['own']}"]
+    levels = (srgb_from_linear(np.clip(x, 0, 1)) for x in (quick.after, scene_values("siemens_star", (ROWS, COLUMNS))))
+    assert own["ssim"] == pytest.approx(ssim(*levels), abs=1e-6)
 
 
 def test_the_local_psf_interpolates_the_kernels_between_nodes():
@@ -288,3 +295,56 @@ def test_a_late_answer_to_an_earlier_question_does_not_cover_the_present_picture
         "better than one older still"
     )
     qtbot.waitUntil(lambda: image_panel._answer.question == image_panel._asked)
+
+
+def test_every_pixel_of_a_photo_goes_through_the_lens_and_is_planned_as_such(tmp_path):
+    write_photo(tmp_path / "photo.png", np.random.default_rng(2).random((90, 60, 3)).astype(np.float32))
+    full = dict(photo_source=str(tmp_path / "photo.png"), photo_pixel_um=None, photo_full=True, f_number=8.0)
+    request = asked(lens="singlet_f6", **full)
+    assert request.shape == (90, 60)
+    sensor = scene_of(request).sensor
+    other = scene_of(replace(request, shape=(ROWS, COLUMNS))).sensor
+    assert sensor.centred and sensor.corners_mm()[1] == pytest.approx(other.corners_mm()[1]), "the same field"
+    quick = coarse(request)
+    assert quick.question == request and quick.after.shape == (90, 60, 3)
+    assert np.array_equal(quick.before, read_photo(tmp_path / "photo.png").values)
+    assert asked(lens="singlet_f6", **(full | {"photo_pixel_um": 8.0})).shape == (ROWS, COLUMNS)
+
+
+def test_a_large_photo_is_coarse_at_once_and_planned_at_full_size(tmp_path):
+    """The coarse picture has the photo's proportions and the usual size; whether a plan follows is the full one's."""
+    request = asked(photo_source="siemens_star", photo_pixel_um=None, photo_full=True, lens="cooke_triplet")
+    request = replace(request, shape=(330, 440))
+    quick = coarse(request)
+    assert quick.after.shape == (234, 312, 3) and quick.question == request
+    told: list[float] = []
+    whole = image.planned(request, Progress(told.append))
+    assert whole.after.shape == (330, 440, 3) and told == sorted(told) and told[-1] == pytest.approx(1.0)
+    with pytest.raises(Cancelled):
+        image.planned(request, Progress(cancelled=lambda: bool(told)))
+
+
+@pytest.mark.parametrize(
+    ("shape", "expected"), [((300, 400), (300, 400)), ((3000, 4000), (3000, 4000)), ((6000, 8000), (3000, 4000))]
+)
+def test_more_than_twelve_megapixels_are_reduced(monkeypatch, shape, expected):
+    monkeypatch.setattr(photos, "_shape", lambda path, stamp: shape)
+    assert full_shape("photo.jpg") == expected
+
+
+def test_the_map_shows_each_psf_at_its_place_and_where_another_zone_begins(found):
+    shape = found.after.shape[:2]
+    lattice, shown_map = found.lattice, image.psf_map(found.plan, found.lattice, found.after.shape[:2])
+    assert shown_map.shape == (*shape, 3) and shown_map.max() == 1.0
+    place = round(float(lattice.row_nodes[0])), round(float(lattice.column_nodes[0]))
+    tile = image.small_psf(lattice.kernels[0][0], 9)
+    assert tile.shape == (9, 9, 3) and tile.max() == 1
+    peak = np.unravel_index(tile.max(-1).argmax(), tile.shape[:2])
+    assert np.abs(np.array(peak) - 4).max() <= 2, "the light is in its middle"
+    assert place == (0, 0)
+    zones = image.zone_notes(found.plan)
+    assert len(zones) == len(found.plan.zones)
+    ends = [note.values["end"] for _, note in zones]
+    assert ends == sorted(ends) and ends[-1] >= found.plan.scene.sensor.corners_mm()[1] * 0.999
+    pieces = image.cell_edges(lattice.column_nodes, shape[1])
+    assert pieces[0] == 0 and pieces[-1] == shape[1] and pieces == sorted(pieces)

@@ -7,8 +7,8 @@ from threading import Event
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
-from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtCore import QEvent, QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication
 
 from p2sf.errors import Cancelled
@@ -53,7 +53,7 @@ def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_p
 
 
 def test_a_low_panel_has_details_and_the_psf_beside_the_picture_and_a_narrow_one_the_psf_on_it():
-    low, narrow = places(940, 170, ROWS, COLUMNS), places(320, 400, ROWS, COLUMNS)
+    low, narrow = places(940, 170, ROWS, COLUMNS), places(320, 300, ROWS, COLUMNS)
     assert low.picture.height() == 170 and len(low.details) == 2
     assert low.psf.right() == pytest.approx(940)  # all of the width is used
     edges = [low.picture, *low.details, low.psf]
@@ -96,8 +96,8 @@ def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_th
     assert image_panel.split_view.before[5, 5] & 0xFF == pytest.approx(188, abs=1)  # sRGB of half the light
     said = []
     window.store.refused.connect(said.append)
-    drop(image_panel.widget, tmp_path / "holiday.jpg")
-    assert [message.values for message in said] == [{"file": "holiday.jpg"}]
+    drop(image_panel.widget, tmp_path / "holiday.webp")
+    assert [message.values for message in said] == [{"file": "holiday.webp"}]
     assert not drop(image_panel.widget, tmp_path / "lens.zmx").isAccepted()
     window.store.update(photo_source="text")
 
@@ -159,6 +159,7 @@ def test_a_picture_without_a_plan_says_why_under_the_controls(window, image_pane
     for reason in (TOO_WIDE, TOO_LARGE):
         assert reason.text(german).startswith("Kein Plan")
         assert UNMEASURED[reason].text(german).startswith("Ungemessen. Für so")
+    image_panel._on_answer(image_panel._asked, replace(image_panel._answer, no_plan=None))
 
 
 def test_a_plan_says_how_far_it_is_and_is_stopped_and_made_after_all(window, image_panel, orders, qtbot):
@@ -248,3 +249,82 @@ def test_a_photo_of_other_proportions_is_cut_and_the_panel_says_where(window, im
     assert cut_away(str(tmp_path / "wide.png"), (80, 60)) == pytest.approx((0.0, 0.75))
     assert cut_away(str(tmp_path / "wide.png"), (10, 60)) == pytest.approx((0.5, 0.0))
     assert frame_notes("text", (ROWS, COLUMNS)) is None
+
+
+def test_a_tall_panel_has_details_and_psf_under_the_picture():
+    tall = places(320, 600, ROWS, COLUMNS)
+    assert tall.picture.width() == 320 and len(tall.details) == 2
+    for part in (*tall.details, tall.psf):
+        assert part.top() > tall.picture.bottom() and part.bottom() <= 600 and part.right() <= 320.001
+    assert tall.details[0].right() < tall.details[1].left() < tall.psf.left()
+
+
+BEFORE, AFTER = 0xFF204060, 0xFFA08060
+
+
+@pytest.mark.parametrize("size", [(900, 160), (320, 600), (300, 200)])
+def test_side_by_side_shows_both_pictures_whole_and_looks_in_either(window, image_panel, qtbot, size):
+    split_view = image_panel.split_view
+    split_view.resize(*size)
+    split_view.show_pictures(
+        np.full((ROWS, COLUMNS), BEFORE, np.uint32), np.full((ROWS, COLUMNS), AFTER, np.uint32), ("", "")
+    )
+    split_view.show_look("side")
+    try:
+        painted = split_view.grab().toImage()
+        first, second = split_view.halves()
+        assert not first.intersects(second) and first.size() == second.size()
+        for room, colour in ((first, BEFORE), (second, AFTER)):
+            assert split_view.rect().toRectF().adjusted(-1, -1, 1, 1).contains(room)
+            corner = room.bottomLeft() + QPointF(6, -6)
+            assert painted.pixel(corner.toPoint()) == colour
+        looked: list[tuple[float, float]] = []
+        split_view.looked.connect(lambda row, column: looked.append((row, column)))
+        none, keys = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
+        for room in (first, second):
+            at = room.center()
+            split_view.mouseMoveEvent(QMouseEvent(QEvent.Type.MouseMove, at, at, none, none, keys))
+        middle = (ROWS - 1) / 2, (COLUMNS - 1) / 2
+        assert [place == pytest.approx(middle, abs=1e-6) for place in looked] == [True, True]
+    finally:
+        split_view.show_look("split")
+        image_panel._paint(image_panel._answer)
+
+
+def test_blinking_shows_one_picture_after_the_other_and_stops_with_another_look(window, image_panel):
+    window.store.update(photo_look="blink")
+    split_view = image_panel.split_view
+    split_view.resize(900, 160)
+    split_view.show_pictures(
+        np.full((ROWS, COLUMNS), BEFORE, np.uint32), np.full((ROWS, COLUMNS), AFTER, np.uint32), ("", "")
+    )
+    spot = (split_view.area().topLeft() + QPointF(8, 8)).toPoint()
+    seen = []
+    for _ in range(3):
+        seen.append(split_view.grab().toImage().pixel(spot))
+        split_view._turn()
+    assert seen == [BEFORE, AFTER, BEFORE]
+    assert split_view._blink.isActive()
+    window.store.update(photo_look="split")
+    assert not split_view._blink.isActive()
+    image_panel._paint(image_panel._answer)
+
+
+def test_a_picture_of_megapixels_is_painted_reduced_and_its_detail_whole(window, image_panel):
+    split_view = image_panel.split_view
+    split_view.resize(300, 200)
+    large = np.full((1000, 1500), BEFORE, np.uint32)
+    split_view.show_pictures(large, large, ("", ""))
+    reduced = split_view._to_paint(large, split_view.area())
+    assert reduced.shape[1] < 1500 and reduced.shape[1] >= 300
+    assert split_view._to_paint(large, split_view.area()) is reduced, "made once"
+    image_panel._paint(image_panel._answer)
+
+
+def test_every_pixel_of_the_photo_is_a_choice_that_the_state_keeps(window, image_panel):
+    image_panel.pixel.setCurrentIndex(image_panel.pixel.findData("full"))
+    image_panel._choose_pixel()
+    photo = window.store.state.photo
+    assert photo.full and photo.pixel_um is None
+    window.store.undo()
+    assert not window.store.state.photo.full and image_panel.pixel.currentData() != "full"

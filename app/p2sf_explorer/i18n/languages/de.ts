@@ -49,7 +49,7 @@
 <message><source>Accuracy</source><translation>Genauigkeit</translation></message>
 <message><source>Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens).</source><translation>Genauigkeit: R² = 1 − Σ(Referenz − PSF)²/Σ(Referenz − Mittel)² gegen eine auskonvergierte Summe verfolgter Strahlen (Huygens).</translation></message>
 <message><source>Added waves</source><translation>Hinzugefügte Wellen</translation></message>
-<message><source>Against the scene the blurred picture has {blurred:.1f} dB, sharpened by its own PSFs {own:.1f} dB, by the PSF of the axis {axis:.1f} dB (Wiener's filter, noise {noise:.1%} of white).</source><translation>Gegen die Szene hat das unscharfe Bild {blurred:.1f} dB, mit seinen eigenen PSFs geschärft {own:.1f} dB, mit der PSF der Achse {axis:.1f} dB (Wiener-Filter, Rauschen {noise:.1%} von Weiß).</translation></message>
+<message><source>Against the scene the blurred picture has {blurred}, sharpened by its own PSFs {own}, by the PSF of the axis {axis} (Wiener's filter, noise {noise:.1%} of white; PSNR of linear light, SSIM of sRGB levels).</source><translation>Gegenüber der Szene hat das unscharfe Bild {blurred}, geschärft mit seinen eigenen PSFs {own}, mit der PSF der Achse {axis} (Wiener-Filter, Rauschen {noise:.1%} von Weiß; PSNR des linearen Lichts, SSIM der sRGB-Stufen).</translation></message>
 <message><source>Airy</source><translation>Airy</translation></message>
 <message><source>Airy radius</source><translation>Airy-Radius</translation></message>
 <message><source>Airy radius, the circle</source><translation>Airy-Radius, der Kreis</translation></message>
@@ -86,7 +86,7 @@
 <message><source>Cemented achromat f/6, 20 mm</source><translation>Verkitteter Achromat f/6, 20 mm</translation></message>
 <message><source>Centroid y</source><translation>Schwerpunkt y</translation></message>
 <message><source>Checkerboard</source><translation>Schachbrett</translation></message>
-<message><source>Choose a PNG or TIFF to photograph</source><translation>Ein PNG oder TIFF zum Fotografieren wählen</translation></message>
+<message><source>Choose a PNG, TIFF, JPEG or HEIF to photograph, up to 12 megapixels</source><translation>Ein PNG, TIFF, JPEG oder HEIF zum Fotografieren wählen, bis zu 12 Megapixel</translation></message>
 <message><source>Choose a lesson</source><translation>Eine Lektion wählen</translation></message>
 <message><source>Choose a photo</source><translation>Ein Foto wählen</translation></message>
 <message><source>Choose a shipped lens…</source><translation>Mitgeliefertes Objektiv wählen …</translation></message>
@@ -208,10 +208,11 @@
 <message><source>Group of panels</source><translation>Gruppe von Ansichten</translation></message>
 <message><source>Handbook</source><translation>Handbuch</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
-<message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it.</source><translation>Mit dem Zeiger oder den Pfeiltasten einen Ort betrachten: seine PSF und sein Ausschnitt folgen. Die Teilung ziehen oder mit Umschalt und Pfeil links oder rechts verschieben. Ein PNG oder TIFF fallen lassen, um es zu fotografieren.</translation></message>
+<message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo to have it photographed.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
 <message><source>How much of a pixel's area is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
 <message><source>How many rays come from each point</source><translation>Wie viele Strahlen von jedem Punkt ausgehen</translation></message>
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
+<message><source>How the two pictures are put beside each other</source><translation>Wie die beiden Bilder nebeneinander gestellt werden</translation></message>
 <message><source>Image</source><translation>Bild</translation></message>
 <message><source>Image height</source><translation>Bildhöhe</translation></message>
 <message><source>Image: Σ over the scene's points of brightness × PSF at that point, for red, green and blue; distortion and falling light included.</source><translation>Bild: Σ über die Punkte der Szene von Helligkeit × PSF an diesem Punkt, für Rot, Grün und Blau; Verzeichnung und Lichtabfall eingeschlossen.</translation></message>
@@ -309,6 +310,7 @@
 <message><source>PSFs</source><translation>PSFs</translation></message>
 <message><source>PSFs over the field on the stage</source><translation>PSFs über das Feld auf der Bühne</translation></message>
 <message><source>PSFs, {wide} µm wide, √ of peak = 1</source><translation>PSFs, {wide} µm breit, √ mit Spitze = 1</translation></message>
+<message><source>PSFs, √</source><translation>PSFs, √</translation></message>
 <message><source>PSFs, √ of peak = 1</source><translation>PSFs, √ mit Spitze = 1</translation></message>
 <message><source>Panel</source><translation>Ansicht</translation></message>
 <message><source>Panels</source><translation>Ansichten</translation></message>
@@ -329,6 +331,7 @@
 <message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
 <message><source>Picture before and after the lens; arrows move the place looked at, Shift the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile verschieben den betrachteten Ort, mit Umschalt die Teilung</translation></message>
 <message><source>Picture of one panel</source><translation>Bild einer Ansicht</translation></message>
+<message><source>Pictures (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)</source><translation>Bilder (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)</translation></message>
 <message><source>Pictures (*.png *.tif *.tiff)</source><translation>Bilder (*.png *.tif *.tiff)</translation></message>
 <message><source>Pin B</source><translation>B merken</translation></message>
 <message><source>Pin a marker here</source><translation>Hier eine Marke setzen</translation></message>
@@ -622,6 +625,7 @@
 <message><source>Workspaces: save this one, delete it, or choose another</source><translation>Arbeitsbereiche: diesen speichern oder löschen, oder einen anderen wählen</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
+<message><source>Zone</source><translation>Zone</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
 <message><source>Zoom out</source><translation>Verkleinern</translation></message>
 <message><source>Z{number}: {waves} λ · {share}</source><translation>Z{number}: {waves} λ · {share}</translation></message>
@@ -716,9 +720,11 @@
 <message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
 <message><source>beyond ∞</source><translation>hinter ∞</translation></message>
 <message><source>black body 5600 K</source><translation>Schwarzer Körper 5600 K</translation></message>
+<message><source>blink</source><translation>blinkend</translation></message>
 <message><source>blue</source><translation>Blau</translation></message>
 <message><source>blur to tolerate</source><translation>erlaubte Unschärfe</translation></message>
 <message><source>blur, µm</source><translation>Unschärfe, µm</translation></message>
+<message><source>blurred</source><translation>unscharf</translation></message>
 <message><source>brightness</source><translation>Helligkeit</translation></message>
 <message><source>bring focus and source together to see waves</source><translation>Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
 <message><source>by field</source><translation>nach Feld</translation></message>
@@ -814,6 +820,7 @@
 <message><source>every chief ray meets the sensor on the axis, so it holds no picture; move the stop</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse, also enthält er kein Bild; die Blende verschieben</translation></message>
 <message><source>every chief ray meets the sensor on the axis; give the field as an angle</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse; das Feld als Winkel angeben</translation></message>
 <message><source>every medium of this lens has the index {index:g}, so no surface bends light; name its glasses</source><translation>jedes Medium dieses Objektivs hat den Brechungsindex {index:g}, also bricht keine Fläche das Licht; seine Gläser nennen</translation></message>
+<message><source>every pixel of the photo</source><translation>jedes Pixel des Fotos</translation></message>
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
 <message><source>exact rays, since {because}</source><translation>exakte Strahlen, denn {because}</translation></message>
 <message><source>exact rays, this field</source><translation>exakt, dieses Feld</translation></message>
@@ -896,6 +903,7 @@
 <message><source>is stopped by the rim of surface {surface}</source><translation>wird vom Rand der Fläche {surface} aufgehalten</translation></message>
 <message><source>is tilted or decentred</source><translation>ist gekippt oder dezentriert</translation></message>
 <message><source>is totally reflected at surface {surface}</source><translation>wird an Fläche {surface} total reflektiert</translation></message>
+<message><source>its PSFs, as a map</source><translation>seine PSFs als Karte</translation></message>
 <message><source>its central hole is open here</source><translation>ihr Loch in der Mitte ist hier offen</translation></message>
 <message><source>its obscuration is left out, so the picture shows the full aperture</source><translation>ihre Abschattung ist weggelassen, das Bild zeigt also die volle Öffnung</translation></message>
 <message><source>its obscuration or hole is left out</source><translation>ihre Abschattung oder ihr Loch ist weggelassen</translation></message>
@@ -1004,6 +1012,7 @@
 <message><source>perfect lens, µm</source><translation>ideale Linse, µm</translation></message>
 <message><source>picture encoding "{encoding}" is unknown; choose {choices}</source><translation>die Bildkodierung "{encoding}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
+<message><source>pictures of {one} and {two}; compare two of one shape, at least {least} pixels a side</source><translation>Bilder von {one} und {two}; zwei von einer Form vergleichen, mit mindestens {least} Pixeln je Seite</translation></message>
 <message><source>pictures {wide} µm wide</source><translation>Bilder {wide} µm breit</translation></message>
 <message><source>pictures {wide} µm wide, each over its own peak</source><translation>Bilder {wide} µm breit, jedes über seiner Spitze</translation></message>
 <message><source>pin a marker to a plot, lock its scales</source><translation>in einem Diagramm eine Marke setzen, seine Skalen festhalten</translation></message>
@@ -1099,6 +1108,7 @@
 <message><source>sharpened by its PSFs</source><translation>mit seinen PSFs geschärft</translation></message>
 <message><source>sharpened wrongly</source><translation>falsch geschärft</translation></message>
 <message><source>shown is "{side}" and nothing is pinned as B; pin a state first (Ctrl+B)</source><translation>gezeigt wird "{side}", und nichts ist als B gemerkt; zuerst einen Zustand merken (Strg+B)</translation></message>
+<message><source>side by side</source><translation>nebeneinander</translation></message>
 <message><source>sides of the photo cut off</source><translation>Foto seitlich abgeschnitten</translation></message>
 <message><source>six coefficients</source><translation>sechs Koeffizienten</translation></message>
 <message><source>six coefficients keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed</source><translation>sechs Koeffizienten halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}</translation></message>
@@ -1108,6 +1118,7 @@
 <message><source>spectral lines have no power per wavelength; take their wavelengths one by one</source><translation>Spektrallinien haben keine Leistung je Wellenlänge; ihre Wellenlängen einzeln nehmen</translation></message>
 <message><source>spherical</source><translation>sphärisch</translation></message>
 <message><source>spherical aberration</source><translation>sphärische Aberration</translation></message>
+<message><source>split</source><translation>geteilt</translation></message>
 <message><source>split of the photo</source><translation>Teilung des Fotos</translation></message>
 <message><source>square root</source><translation>Wurzel</translation></message>
 <message><source>square root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
@@ -1467,7 +1478,7 @@
 <message><source>{error:.2g} relative, keeps {tolerance:g}; the full grid takes {times:.0f} times as long</source><translation>{error:.2g} relativ, hält {tolerance:g} ein; das volle Gitter dauert {times:.0f}-mal so lang</translation></message>
 <message><source>{error}; the field list holds the axis only</source><translation>{error}; die Feldliste enthält nur die Achse</translation></message>
 <message><source>{f_number}, stop ⌀ {diameter} mm</source><translation>{f_number}, Blende ⌀ {diameter} mm</translation></message>
-<message><source>{file} is no PNG or TIFF; save the photo as one of these and drop that</source><translation>{file} ist weder PNG noch TIFF; das Foto in einem dieser Formate sichern und dieses fallen lassen</translation></message>
+<message><source>{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, JPEG oder HEIF; das Foto als eines davon speichern und dieses ablegen</translation></message>
 <message><source>{glass} is in no catalogue given; accept a substitute ({offers}) or give its AGF catalogue</source><translation>{glass} steht in keinem angegebenen Katalog; einen Ersatz annehmen ({offers}) oder seinen AGF-Katalog angeben</translation></message>
 <message><source>{glass} is in no catalogue; give its AGF catalogue, or its index as nd and vd</source><translation>{glass} steht in keinem Katalog; seinen AGF-Katalog angeben oder seinen Index als nd und vd</translation></message>
 <message><source>{glass} replaced by {substitute}, {difference}</source><translation>{glass} ersetzt durch {substitute}, {difference}</translation></message>
@@ -1482,6 +1493,7 @@
 <message><source>{method} follows: its sum of waves takes a moment</source><translation>{method} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
 <message><source>{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto to see ray density</source><translation>{method} bräuchte {count:.2g} Pupillenproben für diese Unschärfe, was zu lange dauert; {remedy} oder auto wählen, um die Strahlendichte zu sehen</translation></message>
+<message><source>{method}, {count} numbers</source><translation>{method}, {count} Zahlen</translation></message>
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; a smooth fit would miss {tolerance:g}</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; eine glatte Anpassung verfehlte {tolerance:g}</translation></message>
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; {lost} of {count} rays are lost, and a smooth pupil does not describe that</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; {lost} von {count} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
@@ -1501,6 +1513,7 @@
 <message><source>{name} is {value}; list some of {allowed}, each once and in this order</source><translation>{name} ist {value}; einige von {allowed} nennen, jedes einmal und in dieser Reihenfolge</translation></message>
 <message><source>{name} uses dispersion formula {formula}; only 1 to 13 exist, correct it</source><translation>{name} benutzt die Dispersionsformel {formula}; es gibt nur 1 bis 13, berichtigen</translation></message>
 <message><source>{name}, which is not known to describe the lens</source><translation>{name}, wovon nicht bekannt ist, dass es das Objektiv beschreibt</translation></message>
+<message><source>{name}: {likeness}</source><translation>{name}: {likeness}</translation></message>
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
 <message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
@@ -1529,7 +1542,7 @@
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>
 <message><source>{path} cannot be read, {reason}; check the name</source><translation>{path} ist nicht lesbar, {reason}; den Namen prüfen</translation></message>
-<message><source>{path} cannot be read, {reason}; give the path of a PNG or TIFF</source><translation>{path} ist nicht lesbar, {reason}; den Pfad eines PNG oder TIFF angeben</translation></message>
+<message><source>{path} cannot be read, {reason}; give the path of a PNG, TIFF, JPEG or HEIF</source><translation>{path} ist nicht lesbar, {reason}; den Pfad eines PNG, TIFF, JPEG oder HEIF angeben</translation></message>
 <message><source>{path} cannot be read, {reason}; give the path of a scene file</source><translation>{path} ist nicht lesbar, {reason}; den Pfad einer Szenendatei angeben</translation></message>
 <message><source>{path} cannot be written, the draft beside it stayed empty; choose another disk</source><translation>{path} ist nicht schreibbar, der Entwurf daneben blieb leer; einen anderen Datenträger wählen</translation></message>
 <message><source>{path} cannot be written, {reason}; choose a folder you may write to</source><translation>{path} ist nicht schreibbar, {reason}; einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
@@ -1541,14 +1554,17 @@
 <message><source>{path} holds {kind} samples; save it with 8 or 16 bits or as float</source><translation>{path} enthält Werte vom Typ {kind}; mit 8 oder 16 Bit oder als Gleitkomma speichern</translation></message>
 <message><source>{path} is a TIFF that cannot be read ({why}); save it again, uncompressed</source><translation>{path} ist ein TIFF, das nicht lesbar ist ({why}); noch einmal speichern, unkomprimiert</translation></message>
 <message><source>{path} is a damaged PNG ({why}); save the picture again</source><translation>{path} ist ein beschädigtes PNG ({why}); das Bild neu speichern</translation></message>
+<message><source>{path} is a damaged {kind} ({why}); save the picture again</source><translation>{path} ist ein beschädigtes {kind} ({why}); das Bild neu speichern</translation></message>
 <message><source>{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey</source><translation>{path} ist ein verschachteltes oder indiziertes 16-Bit-PNG; ohne Interlacing speichern, in RGB oder Grau</translation></message>
-<message><source>{path} is neither a PNG nor a TIFF that can be read; convert it to one</source><translation>{path} ist weder ein PNG noch ein lesbares TIFF; in eines davon umwandeln</translation></message>
+<message><source>{path} is no PNG, TIFF, JPEG or HEIF that can be read; convert it to one</source><translation>{path} ist kein lesbares PNG, TIFF, JPEG oder HEIF; in eines davon umwandeln</translation></message>
 <message><source>{path} is no TOML: {reason}; correct it</source><translation>{path} ist kein TOML: {reason}; berichtigen</translation></message>
 <message><source>{path} is not a PSF that this program wrote as FITS; save the snapshot again</source><translation>{path} ist keine PSF, die dieses Programm als FITS geschrieben hat; den Schnappschuss neu speichern</translation></message>
 <message><source>{path} is not a PSF that this program wrote; export it again with p2sf psf -o</source><translation>{path} ist keine PSF, die dieses Programm geschrieben hat; mit p2sf psf -o neu ausgeben</translation></message>
 <message><source>{path} is not on this computer; the saved state carries the lens itself</source><translation>{path} ist nicht auf diesem Rechner; der gespeicherte Zustand enthält das Objektiv selbst</translation></message>
 <message><source>{path} is too large a PNG ({why}); save it smaller</source><translation>{path} ist ein zu großes PNG ({why}); kleiner speichern</translation></message>
+<message><source>{path} is too large a {kind} ({why}); save it smaller</source><translation>{path} ist als {kind} zu groß ({why}); kleiner speichern</translation></message>
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
+<message><source>{path}: HEIF photos need pillow-heif, which is not installed; pip install 'p2sf[heif]', or save a JPEG</source><translation>{path}: HEIF-Fotos brauchen pillow-heif, das nicht installiert ist; pip install 'p2sf[heif]', oder ein JPEG speichern</translation></message>
 <message><source>{path}: PSF data has no ending "{ending}"; choose {endings}</source><translation>{path}: PSF-Daten haben nicht die Endung "{ending}"; {endings} wählen</translation></message>
 <message><source>{path}: a colour PSF has no ending "{ending}"; choose {choices}</source><translation>{path}: eine farbige PSF hat nicht die Endung "{ending}"; {choices} wählen</translation></message>
 <message><source>{path}: a film has no ending "{ending}"; choose {endings}</source><translation>{path}: ein Film hat nicht die Endung "{ending}"; {endings} wählen</translation></message>
@@ -1564,6 +1580,7 @@
 <message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>
+<message><source>{psnr:.1f} dB, SSIM {ssim:.3f}</source><translation>{psnr:.1f} dB, SSIM {ssim:.3f}</translation></message>
 <message><source>{pupil_samples} pupil samples are too few for {pixels} PSF samples by FFT; give an even number of at least {least}</source><translation>{pupil_samples} Pupillenproben sind zu wenige für {pixels} PSF-Proben mit der FFT; eine gerade Zahl ab {least} angeben</translation></message>
 <message><source>{quantity} is {value}{unit}; give a number from {low:g} to {high:g}{unit}</source><translation>{quantity} ist {value}{unit}; eine Zahl von {low:g} bis {high:g}{unit} angeben</translation></message>
 <message><source>{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; ask for a wavelength inside, or change the glass</source><translation>{quantity} {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
@@ -1581,6 +1598,7 @@
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>
+<message><source>{start:.3g} to {end:.3g} mm from the axis: {method}</source><translation>{start:.3g} bis {end:.3g} mm von der Achse: {method}</translation></message>
 <message><source>{surface} has a rim decentred by ({x:g}, {y:g}); only centred lenses are read</source><translation>{surface} hat einen um ({x:g}, {y:g}) dezentrierten Rand; nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
 <message><source>{surface} has type {kind}, {description}; only STANDARD and EVENASPH surfaces are read</source><translation>{surface} hat den Typ {kind}, {description}; nur Flächen STANDARD und EVENASPH werden gelesen</translation></message>
