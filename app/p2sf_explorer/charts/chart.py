@@ -1,7 +1,7 @@
 """A chart painted directly: axes kept as a pixmap, an image, curves.
 
 A frame of the live path has some milliseconds for all its panels; a graphics scene takes two to five for each. Here
-the background (axes, labels, glass) is painted once, and a thick line is two thin ones, which the rasteriser draws
+the background (axes, labels, glass) is painted once, and a thick line is several thin ones, which the rasteriser draws
 twenty times faster than an outline that it must fill.
 """
 
@@ -26,7 +26,7 @@ from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.charts.view import AxisView, Span, panned, steadied, width, zoomed
 from p2sf_explorer.i18n.tr import tr
 
-THICK = ((-0.25, -0.45), (0.25, 0.45))  # offsets of the two thin lines
+THICK = (0.5, 0.9)  # px between the thin lines of a thick one
 Grid = tuple[str, np.ndarray, np.ndarray, np.ndarray]
 """Head, x, y and (y, x) values of a map, as it is copied."""
 FINEST = 1e-6  # of an axis: finer digits of a curve's value are not read
@@ -69,11 +69,10 @@ class Curve:
             return
         painter.setPen(pen(getattr(chart.theme, self.token, self.token), self.alpha))
         for part in polylines(*chart.to_pixels(self.x, self.y)):
-            if self.width <= 1:
-                painter.drawPolyline(part)
-                continue
-            for offset in THICK:
-                painter.drawPolyline(part.translated(*offset))
+            count = max(1, round(self.width * chart.theme.scale))
+            for number in range(count):
+                apart = number - (count - 1) / 2
+                painter.drawPolyline(part.translated(apart * THICK[0], apart * THICK[1]) if apart else part)
 
 
 class Lockable(Protocol):

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import floor, hypot, isfinite, log10, nan
+from math import ceil, floor, hypot, isfinite, log10, nan
 from typing import Any, Protocol
 
 import numpy as np
@@ -111,10 +111,10 @@ def written(value: float, digits: int = DIGITS) -> str:
     if value == 0 or SMALLEST <= abs(value) < LARGEST:
         return significant(value, digits) if value else "0"
     power = floor(log10(abs(value)))
-    mantissa = significant(value / 10.0**power, digits)
-    if mantissa.lstrip("−").startswith("10"):  # 9.9996 is written as 10.00
-        mantissa, power = significant(value / 10.0 ** (power + 1), digits), power + 1
-    return f"{mantissa}·10{str(power).translate(RAISED)}"
+    mantissa = f"{value / 10.0**power:.{digits - 1}f}"
+    if mantissa.lstrip("-").startswith("10"):  # 9.9996 is written as 1.000·10
+        mantissa, power = f"{value / 10.0 ** (power + 1):.{digits - 1}f}", power + 1
+    return f"{mantissa.replace('-', '−')}·10{str(power).translate(RAISED)}"
 
 
 def worded_both(place: Sequence[float], labels: Sequence[str]) -> str:
@@ -126,10 +126,13 @@ def worded_both(place: Sequence[float], labels: Sequence[str]) -> str:
 
 
 def certain_digits(value: float, error: float) -> int:
-    """Return how many digits of a value stand where it may be wrong by ``error``: one to `DIGITS`."""
-    if not error or not value or not isfinite(error):
+    """Return how many digits of a value stand where it may be wrong by ``error``: one to `DIGITS`.
+
+    The last of them counts for the error or more.
+    """
+    if not error or not value or not isfinite(error + value):
         return DIGITS
-    return min(DIGITS, max(1, floor(log10(abs(value) / error))))
+    return min(DIGITS, max(1, floor(log10(abs(value))) - ceil(log10(error) - 1e-9) + 1))
 
 
 def nearest(at: np.ndarray, values: np.ndarray, place: float) -> int | None:
