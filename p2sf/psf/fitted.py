@@ -1,5 +1,6 @@
 """The `fitted` method: a PSF from some tens of numbers, fitted to some tens of rays (handbook 5.3)."""
 
+from collections.abc import Iterator
 from functools import lru_cache
 from time import perf_counter
 
@@ -13,7 +14,7 @@ from p2sf.messages import Message
 from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.psf.prediction import predicted_error
 from p2sf.psf.result import Psf
-from p2sf.psf.separable_sum import rows_for
+from p2sf.psf.separable_sum import rows_for, too_many
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.pupil.zernike import basis
@@ -21,7 +22,9 @@ from p2sf.raytrace.fit import FittedPencil, fit
 
 __all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "psf_of_fit", "summed"]
 
+Values = tuple[np.ndarray, np.ndarray, np.ndarray]
 MOST_KEPT = 2**14  # radii × directions: 8 MB at most, of a hundred polynomials
+MOST_NODES = 2**22  # radii × directions, summed one by one: some ten seconds of work
 
 
 def fitted_psf(
@@ -60,6 +63,8 @@ def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "se
     dtype = np.float64 if quality == "settled" else np.float32
     if nodes is None:
         counts = counts_for(found.steepness, pixels, pixel_um)
+        if counts[0] * counts[1] > MOST_NODES:
+            raise too_many(*counts, pixels, pixel_um)
         intensity = fitted_intensity(found, counts, pixels, pixel_um, dtype)
         return intensity, Message("{nodes}, {precision}", nodes=disc_words(counts), precision=intensity.dtype.name)
     phase, fx = found.at_points(nodes.xi, nodes.eta)
@@ -71,22 +76,28 @@ def fitted_intensity(
     found: FittedPencil, counts: tuple[int, int], pixels: int, pixel_um: float, dtype: DTypeLike = np.float64
 ) -> np.ndarray:
     """Return |Σ weight·exp(2πi(w + f·x))|² of a fit over disc nodes, (pixels, pixels): the plain sum."""
-    level = found.level
-    even = _node_basis(max(level.wave_order, level.map_order), *counts, False)
-    phase, fx, fy = found.on(even, _node_basis(level.map_order, *counts, True))
-    nodes = disc_nodes(*counts)
+    nodes, axis = disc_nodes(*counts), centred_axis(pixels, pixel_um)
     weight = nodes.weight * found.weight_at(nodes.xi, nodes.eta)
-    amplitude = pupil_amplitude(weight / (weight.sum() / nodes.weight.sum()), phase, dtype)
-    axis = centred_axis(pixels, pixel_um)
-    field = sum_plane_waves(amplitude, fx.astype(dtype), fy.astype(dtype), axis, axis)
+    weight /= weight.sum() / nodes.weight.sum()
+    field = np.zeros((pixels, pixels), np.result_type(dtype, np.complex64))
+    for some, (phase, fx, fy) in _at_nodes(found, counts):
+        amplitude = pupil_amplitude(weight[some], phase, dtype)
+        field += sum_plane_waves(amplitude, fx.astype(dtype), fy.astype(dtype), axis, axis)
     intensity: np.ndarray = field.real**2 + field.imag**2
     return intensity
 
 
-def _node_basis(order: int, radial: int, angular: int, odd: bool) -> np.ndarray:
-    """Return the basis at the nodes; a large one, up to 200 MB, is not cached: its sum takes far longer anyway."""
-    make = _kept_basis if radial * angular <= MOST_KEPT else _kept_basis.__wrapped__
-    return make(order, radial, angular, odd)
+def _at_nodes(found: FittedPencil, counts: tuple[int, int]) -> Iterator[tuple[slice, Values]]:
+    """Yield phase, fx and fy of a fit at disc nodes, in blocks: of millions of nodes a basis takes gigabytes."""
+    orders = max(found.level.wave_order, found.level.map_order), found.level.map_order
+    if counts[0] * counts[1] <= MOST_KEPT:
+        yield slice(None), found.on(_kept_basis(orders[0], *counts, False), _kept_basis(orders[1], *counts, True))
+        return
+    nodes = disc_nodes(*counts)
+    for begin in range(0, nodes.xi.size, MOST_KEPT):
+        some = slice(begin, begin + MOST_KEPT)
+        at = nodes.xi[some], nodes.eta[some]
+        yield some, found.on(basis(orders[0], *at, False), basis(orders[1], *at, True))
 
 
 @lru_cache(maxsize=8)

@@ -98,16 +98,21 @@ def rows_for(
     """
     rows, columns = row_counts(found, pixels, pixel_um, quality)
     if rows * columns > MOST_NODES:
-        raise SamplingError(
-            "this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; bring the "
-            "sensor nearer to the image, stop down, or show a smaller window",
-            pixels=pixels,
-            pixel_um=pixel_um,
-            rows=rows,
-            columns=columns,
-        )
+        raise too_many(rows, columns, pixels, pixel_um)
     enough = found.level.wave_order + MORE_NODES
     return frequency_rows(found, rows, columns, None if every or 2 * enough >= columns else enough)
+
+
+def too_many(rows: int, columns: int, pixels: int, pixel_um: float) -> SamplingError:
+    """Return the error that refuses a sum of so many pupil samples."""
+    return SamplingError(
+        "this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; bring the "
+        "sensor nearer to the image, stop down, or show a smaller window",
+        pixels=pixels,
+        pixel_um=pixel_um,
+        rows=rows,
+        columns=columns,
+    )
 
 
 def row_counts(found: FittedPencil, pixels: int, pixel_um: float, quality: str) -> tuple[int, int]:

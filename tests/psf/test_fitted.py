@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from p2sf.errors import GeometryError
+from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_aim
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
 from p2sf.psf import fitted
 from p2sf.psf.fitted import fit, fitted_psf, summed
 from p2sf.psf.huygens import huygens_psf
@@ -19,13 +21,21 @@ from tests.support.reference import LENSES, cases
 from tests.support.waves import r_squared
 
 
-def test_a_basis_is_kept_unless_it_is_large():
-    """Eight of them stay: 8 × 240 000 nodes × 100 polynomials would be 1.5 GB."""
+def test_a_sum_of_many_nodes_is_that_of_all_at_once_and_keeps_no_basis(monkeypatch):
+    """A hundred polynomials at all nodes of the largest sum would be gigabytes."""
+    found, counts = fit(*next(cases("double_gauss_28"))[:2]), (100, 400)
     fitted._kept_basis.cache_clear()
-    for counts, kept in (((64, 256), 1), ((64, 258), 1), ((32, 256), 2)):
-        values = fitted._node_basis(4, *counts, False)
-        assert values.shape[1] == counts[0] * counts[1] / 2
-        assert fitted._kept_basis.cache_info().currsize == kept
+    parts = fitted.fitted_intensity(found, counts, 16, 2.0)
+    assert fitted._kept_basis.cache_info().currsize == 0
+    monkeypatch.setattr(fitted, "MOST_KEPT", 10**6)
+    assert parts == pytest.approx(fitted.fitted_intensity(found, counts, 16, 2.0), rel=1e-10, abs=1e-12)
+
+
+def test_a_blur_of_too_many_nodes_is_refused():
+    """Its map is folded, so that it has no rows, and a sum node by node would take minutes and gigabytes."""
+    source = Source(np.inf, field_deg=22.0, wavelength_nm=587.6)
+    with pytest.raises(SamplingError, match="pupil samples; bring the sensor nearer"):
+        fitted_psf(find_lens("fast_gauss_f14"), source, 64, 12.6)
 
 
 @pytest.mark.parametrize("odd", [False, True])
