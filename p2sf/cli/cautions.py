@@ -1,12 +1,16 @@
-"""Warnings of `p2sf psf`: a rim narrower than the stop, a virtual image, a sum that takes long."""
+"""Warnings about pictures: a rim narrower than the stop, a virtual image, a long sum, rays beyond the glass."""
 
 from math import inf
+
+import numpy as np
 
 from p2sf.cli.screen import text, warn
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import steepest_slope
+from p2sf.raytrace.aiming import pupil_rays
+from p2sf.raytrace.trace import out_of_order, trace
 from p2sf.request import Setup
 
 STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `seidel_psf` refuses the sum
@@ -21,8 +25,17 @@ TOO_COARSE = Message(
 
 def caution(setup: Setup, seidel: bool) -> None:
     """Print warnings about a setup; call before the work, since one of them is how long that will take."""
-    for message in (setup.stop.warning, virtual_image(setup), long_sum(setup) if seidel else None):
+    own = long_sum(setup) if seidel else crossed_surfaces(setup)
+    for message in (setup.stop.warning, virtual_image(setup), own):
         warn(message)
+
+
+def crossed_surfaces(setup: Setup) -> Message | None:
+    """Return a warning where a ray of the pupil's rim meets two surfaces in the wrong order."""
+    lens, source = setup.lens, setup.source
+    rays = pupil_rays(lens, source, np.array([0.0, 0.0, 1.0]), np.array([1.0, -1.0, 0.0]), setup.stop)
+    points = trace(lens, rays.origins, rays.directions, source.wavelength_um).points
+    return out_of_order(lens, points[1:-1, ..., 2])
 
 
 def virtual_image(setup: Setup) -> Message | None:

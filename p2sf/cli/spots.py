@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import numpy as np
 from cyclopts import Parameter
 
+from p2sf.cli.cautions import crossed_surfaces
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
 from p2sf.files.writing import write_beside, write_json
@@ -43,6 +44,8 @@ def spot(
         about = {"file": None if output is None else str(output), "aim": setup.lens.aim}
         return print_json({**about, **figures, "points_um": points.tolist()})
     warn(setup.stop.warning)
+    if not clip:
+        warn(crossed_surfaces(setup))
     rows = [(name, figures[key], unit) for key, name, unit in ROWS]
     rows.append(("rays fill", FILLED[setup.lens.aim], ""))
     return print_table(heading(setup), ("spot", "value", "unit"), rows)

@@ -169,8 +169,8 @@ def arriving(
     stop: Stop | None = None,
     rims: np.ndarray | None = None,
     aim_error: float = AIM_ERROR,
-) -> tuple[PupilRays, Beam]:
-    """Return the rays of `pupil_rays` as they enter, and as they arrive at the sensor with the path from the source.
+) -> tuple[Beam, FloatOrArray, Index]:
+    """Return the rays of `pupil_rays` at the sensor, their paths from the source, their weights, and the indices.
 
     ``rims``, one per surface, mm, clip all but the last ray, the chief ray, from which differences are taken.
     """
@@ -186,7 +186,7 @@ def arriving(
     beam.exempt = 1
     run(lens, beam, rays.index, rims)
     beam.path += rays.path
-    return rays, beam
+    return beam, rays.weight, rays.index
 
 
 def _single(enter: Entrance) -> bool:
@@ -231,29 +231,31 @@ def _aimed(
     if found.missed.any():
         found = _by_continuation(lens, enter, goal, _paraxial(enter, xi, eta), found)
         found.x[found.missed] = found.y[found.missed] = np.nan
-    return _entering(enter, found.x, found.y, found.gain)
+    weight = _weight(enter, found.x, found.y, found.gain)
+    return replace(_through(enter, found.x, found.y), weight=weight, stop_surface=int(np.max(enter.stop.surface)))
 
 
-def _entering(enter: Entrance, x: np.ndarray, y: np.ndarray, gain: np.ndarray) -> PupilRays:
-    """Return aimed rays through these entrance points; ``gain`` = ∂(stop point)/∂(entrance point)."""
-    rays = _through(enter, x, y)
+def _weight(enter: Entrance, x: np.ndarray, y: np.ndarray, gain: np.ndarray) -> np.ndarray:
+    """Return the weights of aimed rays through these entrance points; ``gain`` = ∂(stop point)/∂(entrance point)."""
     area = (float(np.max(enter.stop.semi_diameter)) / enter.radius) ** 2 / gain
-    return replace(rays, weight=area * _oblique(enter, rays), stop_surface=int(np.max(enter.stop.surface)))
+    weight: np.ndarray = area * _oblique(enter, x, y)
+    return weight
 
 
-def _oblique(enter: Entrance, rays: PupilRays) -> np.ndarray:
+def _oblique(enter: Entrance, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the solid angle of unit area of the pupil's plane about each ray, over that about the chief ray.
 
     dΩ = dx dy·cosθ/distance², with 1/cosθ = √(1 + slope²), which is also the distance over that along the axis.
     """
-    square: np.ndarray = (1 + enter.slope**2) / (1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
+    across, along = enter.reach * x, enter.reach * y + enter.slope
+    square: np.ndarray = (1 + enter.slope**2) / (1 + across * across + along * along)
     share: np.ndarray = square * np.sqrt(square)
     return share
 
 
 def _aimed_to_sensor(
     lens: Lens, source: Source | Sources, stop: Stop | None, xi: Nodes, eta: Nodes
-) -> tuple[PupilRays, Beam] | None:
+) -> tuple[Beam, FloatOrArray, Index] | None:
     """Aim rays by a step or two of Newton's method, and carry them on; None where these do not do.
 
     The ray of each guess and its two neighbours, by which the step is found, go on to the sensor. So small a step
@@ -269,39 +271,42 @@ def _aimed_to_sensor(
         if ((np.hypot(move_x, move_y) <= _move_mm(enter, AIM_ERROR)) & (gain > 0)).all():
             run(lens, beam, enter.index, first=at + 1)
             beam.path += launched.path
-            return _entering(enter, x + move_x, y + move_y, gain), _between(beam, move_x / step, move_y / step)
+            x, y = x + move_x, y + move_y
+            return _between(beam, move_x / step, move_y / step), _weight(enter, x, y, gain), enter.index
         x, y = x + move_x, y + move_y
     return None
 
 
 def _mapped_to_sensor(
     lens: Lens, source: Source, xi: Nodes, eta: Nodes, aim_error: float
-) -> tuple[PupilRays, Beam] | None:
+) -> tuple[Beam, FloatOrArray, Index] | None:
     """Carry rays to the sensor that only the rough map aims; None where one meets the stop too far from its place."""
-    found, enter = _cached_rough_map(lens, source), entrance(lens, source)
+    found, enter = _weighing_map(lens, source), entrance(lens, source)
     if found is None:
         return None
     at, rim = int(np.max(enter.stop.surface)), float(np.max(enter.stop.semi_diameter))
     x, y, weight = found.at(xi, eta)
-    rays = replace(_through(enter, x, y), weight=weight, stop_surface=at)
+    rays = _through(enter, x, y)
     beam, goal = run(lens, start(rays), enter.index, last=at), _goal(enter, xi, eta)
     if not np.hypot(goal[0] - beam.x, goal[1] - beam.y).max() <= aim_error * rim:
         return None
     run(lens, beam, enter.index, first=at + 1)
     beam.path += rays.path
-    return rays, beam
+    return beam, weight, enter.index
 
 
 def _between(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
     """Return rays by linear interpolation between those of `_beside`; one fails if it or a neighbour does."""
 
-    def moved(values: np.ndarray) -> np.ndarray:
-        here, right, up = values
-        between: np.ndarray = here + share_x * (right - here) + share_y * (up - here)
+    def moved(here: np.ndarray, right: np.ndarray, up: np.ndarray) -> np.ndarray:
+        between: np.ndarray = right - here
+        between *= share_x
+        between += share_y * (up - here)
+        between += here
         return between
 
-    out = Beam(np.stack([moved(v) for v in beam.place]), np.stack([moved(v) for v in beam.ray]))
-    out.path = moved(beam.path)
+    out = Beam(*(moved(rows[:, 0], rows[:, 1], rows[:, 2]) for rows in (beam.place, beam.ray)))
+    out.path = moved(*beam.path)
     if beam.status.any():
         for status, surface in zip(beam.status, beam.failed_surface, strict=True):
             fresh = (out.status == Status.PASSED) & (status != Status.PASSED)
@@ -396,7 +401,10 @@ def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | N
     if xi.size < FEW or not _single(enter):
         return _paraxial(enter, xi, eta)
     found = _rough_map(lens, enter) if stop else _cached_rough_map(lens, source)
-    return _paraxial(enter, xi, eta) if found is None else found.at(xi, eta)[:2]
+    if found is None:
+        return _paraxial(enter, xi, eta)
+    x, y = StopMap.of(ROUGH_ORDER, *found).at(xi, eta)
+    return x, y
 
 
 def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
@@ -407,22 +415,23 @@ def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
 
 @dataclass(frozen=True, eq=False)
 class StopMap:
-    """Polynomials over the stop: ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ for entrance points x/ξ and y (mm) and weights."""
+    """Polynomials over the stop: ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ for entrance points x/ξ and y (mm), and weights."""
 
     table: np.ndarray
 
     @classmethod
-    def of(cls, x: np.ndarray, y: np.ndarray, weight: np.ndarray, order: int) -> "StopMap":
-        """Return the map of coefficients of `zernike`: of x those of the odd terms, of the others of the even."""
-        odd, even = (powers(order, flag) for flag in (True, False))
-        return cls(np.stack([np.tensordot(part, form, 1).T for part, form in ((x, odd), (y, even), (weight, even))]))
+    def of(cls, order: int, x: np.ndarray, *even: np.ndarray) -> "StopMap":
+        """Return the map of coefficients of `zernike`: of x those of the odd terms, of y and weights of the even."""
+        forms = powers(order, True), *(powers(order) for _ in even)
+        parts = [part @ form.reshape(len(form), -1) for part, form in zip((x, *even), forms, strict=True)]
+        return cls(np.stack(parts).reshape(len(parts), *forms[0].shape[1:]).swapaxes(1, 2))
 
-    def at(self, xi: Nodes, eta: Nodes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return entrance points and weights at points of the stop."""
+    def at(self, xi: Nodes, eta: Nodes) -> np.ndarray:
+        """Return entrance points x and y, and weights where the map has them, at points of the stop."""
         _, along, across = self.table.shape
-        values = np.einsum("kbn,bn->kn", self.table @ _powers(xi * xi, across), _powers(eta, along))
+        values: np.ndarray = np.einsum("kbn,bn->kn", self.table @ _powers(xi * xi, across), _powers(eta, along))
         values[0] *= xi
-        return values[0], values[1], values[2]
+        return values
 
 
 def _powers(x: np.ndarray, count: int) -> np.ndarray:
@@ -435,15 +444,27 @@ def _powers(x: np.ndarray, count: int) -> np.ndarray:
 
 
 @lru_cache(maxsize=64)
-def _cached_rough_map(lens: Lens, source: Source) -> StopMap | None:
+def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
     return _rough_map(lens, entrance(lens, source))
 
 
-def _rough_map(lens: Lens, enter: Entrance) -> StopMap | None:
-    """Return a map from the stop to the entrance pupil that no ray confirms; None if rays are lost.
+@lru_cache(maxsize=16)
+def _weighing_map(lens: Lens, source: Source) -> StopMap | None:
+    """Return the rough map, with weights by its own areas."""
+    found, enter = _cached_rough_map(lens, source), entrance(lens, source)
+    if found is None:
+        return None
+    (x, y), (odd, even, (odd_xi, odd_eta), (even_xi, even_eta)) = found, _rough_terms()
+    area = (x @ odd_xi) * (y @ even_eta) - (x @ odd_eta) * (y @ even_xi)
+    weight = area / enter.radius**2 * _oblique(enter, x @ odd, y @ even)
+    return StopMap.of(ROUGH_ORDER, x, y, even @ (disc_nodes(*ROUGH_NODES).weight * weight))
+
+
+def _rough_map(lens: Lens, enter: Entrance) -> Point | None:
+    """Return coefficients of the entrance points x and y over the stop, confirmed by no ray; None if rays are lost.
 
     Rays through the paraxial pupil land on the stop at scattered points; a least-squares fit over those gives the map
-    from the stop back to the pupil without a search. Its own areas give the weights.
+    from the stop back to the pupil without a search.
     """
     nodes, rim = disc_nodes(*ROUGH_NODES), float(np.max(enter.stop.semi_diameter))
     x, y = (float(enter.radius.item()) * v for v in (nodes.xi, nodes.eta))
@@ -452,11 +473,7 @@ def _rough_map(lens: Lens, enter: Entrance) -> StopMap | None:
     if not np.isfinite(beam.x + beam.y).all():
         return None
     even, odd = basis_by_powers(ROUGH_ORDER, *(scale * v.ravel() for v in (beam.x, beam.y)))
-    across, along = _least_squares(odd, x), _least_squares(even, y)
-    odd, even, (odd_xi, odd_eta), (even_xi, even_eta) = _rough_terms()
-    area = (across @ odd_xi) * (along @ even_eta) - (across @ odd_eta) * (along @ even_xi)
-    weight = area / enter.radius**2 * _oblique(enter, _through(enter, across @ odd, along @ even))
-    return StopMap.of(across, along, even @ (nodes.weight * weight), ROUGH_ORDER)
+    return _least_squares(odd, x), _least_squares(even, y)
 
 
 @lru_cache(maxsize=1)
@@ -479,7 +496,7 @@ def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | None:
         return None
     true = rays.x, rays.y, np.asarray(rays.weight)
     (odd, even), (x, y, weight) = _fine_projections(), (column[:count] for column in true)
-    found = StopMap.of(odd @ x, even @ y, even @ weight, FINE_ORDER)
+    found = StopMap.of(FINE_ORDER, odd @ x, even @ y, even @ weight)
     off_x, off_y, off = (mapped - column[count:] for mapped, column in zip(found.at(*held), true, strict=True))
     exact = np.hypot(off_x, off_y).max() <= aim_error * enter.radius.item() and np.abs(off).max() <= WEIGHT_ERROR
     return found if exact else None

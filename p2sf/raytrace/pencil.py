@@ -104,10 +104,10 @@ def pencil(
     # The chief ray is traced as the last ray, together with the others.
     xi, eta = np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
     rims = lens_rims(lens, keep_stop=False) if clip else None
-    rays, beam = arriving(lens, source, xi, eta, stop, rims, aim_error)
+    beam, weight, index = arriving(lens, source, xi, eta, stop, rims, aim_error)
     if beam.status.any():
         _blank(beam)
-    return _relative_to_chief(beam, rays.weight, xi, eta, rays.index[-1], source.wavelength_um)
+    return _relative_to_chief(beam, weight, xi, eta, index[-1], source.wavelength_um)
 
 
 def _relative_to_chief(

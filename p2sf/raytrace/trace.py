@@ -71,6 +71,25 @@ def trace(
     return Trace(np.stack(points), cosines, beam.path, beam.status, beam.failed_surface)
 
 
+def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
+    """Return a warning where a ray meets a surface before the one in front of it.
+
+    ``z``: (surfaces, …) mm from the first vertex, NaN where the ray failed. A ray beyond the edge of the glass does so,
+    where the surfaces it is traced to have crossed; a thickness below 0 puts two of them in that order on purpose.
+    """
+    behind = np.array([surface.thickness >= 0 for surface in lens.surfaces[: len(z) - 1]], bool)
+    back = (np.diff(z, axis=0) < 0).any(tuple(range(1, z.ndim))) & behind
+    if not back.any():
+        return None
+    before = int(np.argmax(back)) + 1
+    return Message(
+        "rays meet surface {surface} before surface {before}, beyond the edge of the glass, where no light can go; "
+        "choose a smaller field or aperture",
+        surface=before + 1,
+        before=before,
+    )
+
+
 def launch(
     index: FloatOrArray,
     x: FloatOrArray,

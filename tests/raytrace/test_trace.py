@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from p2sf.glass.media import AIR
-from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
+from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
 from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.raytrace.pencil import Status, diffraction_phase, pencil, pupil_rays, trace
-from p2sf.raytrace.trace import status_message
+from p2sf.raytrace.trace import out_of_order, status_message
 from tests.support.pencils import GLASS, disc, double_gauss, one_surface
 
 
@@ -99,3 +100,18 @@ def test_an_asphere_that_newton_cannot_solve_is_refused():
 def test_every_failure_has_a_message_with_its_surface(status):
     message = status_message(status, 7)
     assert message.values == {"surface": 7} and str(message).count("surface 7") == 1
+
+
+def test_rays_that_meet_surfaces_out_of_order_are_told():
+    """At 1.3 times its field the f/1.4 lens is traced beyond the edges of its glass; at its middle field nobody is."""
+    for name, angle, told in (("fast_gauss_f14", 28.6, True), ("double_gauss_28", 14.0, False), ("relay", 0.1, False)):
+        lens = with_aim(find_lens(name), "stop")
+        source = Source(150.0 if name == "relay" else inf, np.tan(np.deg2rad(angle)), 0.5876)
+        rays = pupil_rays(lens, source, [0, 0], [1, -1])
+        z = trace(lens, rays.origins, rays.directions, 0.5876).points[1:-1, :, 2]
+        assert bool(out_of_order(lens, z)) == told
+        assert (np.diff(z, axis=0) < 0).any() == told
+    behind = Lens((Surface(inf, 5.0), Surface(inf, -2.0), Surface(inf, 1.0)), Aperture("stop_semi_diameter", 1.0), 1)
+    assert out_of_order(behind, np.array([[0.0], [5.0], [3.0]])) is None  # so it is written
+    warning = out_of_order(behind, np.array([[0.0], [-1.0], [3.0]]))
+    assert warning and warning.values["surface"] == 2

@@ -198,12 +198,13 @@ def pupil_points(count: int) -> list[float]:
 def _paths(setup: ParaxialSetup, drawn: Drawing, source: Source, etas: list[float], clip: bool) -> Iterator[RayPath]:
     """Yield a source's rays through points of the pupil; the chief ray, where the pupil begins, is not clipped."""
     rims, lens = pencil_rims(setup.lens) if clip else None, setup.lens
-    index = indices(lens, source.wavelength_um).tolist()
+    index = tuple(indices(lens, source.wavelength_um).tolist())
     front = -min(source.depth_mm, REACH * (drawn.right - drawn.left))
     entry = _Entry.of(lens, source, index)
     for eta in etas:
         kind = "rim" if eta else "chief"
-        start, direction = entry.ray(entry.height(eta), front)
+        height = entry.height(eta) if source.field_slope else _axial_height(entry, eta)
+        start, direction = entry.ray(height, front)
         z, y, passed = path(lens, index, start, direction, rims if eta else None)
         clipped = bool(rims and y and not passed and abs(y[-1]) > rims[len(y) - 1])
         places = np.array([[start[0], *z], [start[1], *y]])
@@ -222,7 +223,7 @@ class _Entry:
 
     lens: Lens
     source: Source
-    index: list[float]
+    index: tuple[float, ...]
     plane: float
     radius: float
     near: float
@@ -231,7 +232,7 @@ class _Entry:
     rim: float
 
     @classmethod
-    def of(cls, lens: Lens, source: Source, index: list[float]) -> "_Entry":
+    def of(cls, lens: Lens, source: Source, index: tuple[float, ...]) -> "_Entry":
         """Return how a source's rays enter a lens."""
         enter = entrance(lens, source)
         plane, radius, near, side = (float(a.item()) for a in (enter.plane, enter.radius, enter.reach, enter.upright))
@@ -256,6 +257,12 @@ class _Entry:
     def _landing(self, y: float) -> float | None:
         _, heights, met = path(self.lens, self.index, *self.ray(y, self.plane), last=self.stop)
         return heights[-1] if met else None
+
+
+@lru_cache(maxsize=64)
+def _axial_height(axial: _Entry, eta: float) -> float:
+    """Return the height in the pupil's plane of a ray of the point on the axis, which is the same for every field."""
+    return axial.height(eta)
 
 
 @lru_cache(maxsize=32)

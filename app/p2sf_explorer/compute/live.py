@@ -82,7 +82,6 @@ def live(
     picture = rendered(state, setup, quality, kept_method, least, cache)
     psf, finished = picture.psf, perf_counter()
     pupil = picture.pupil or pupil_of(setup, picture.exact, quality, state.optics.clip)
-    lost = sum(ray.lost for ray in drawing.rays)
     answer = Live(
         state=state,
         setup=setup,
@@ -92,7 +91,7 @@ def live(
         quality=quality,
         airy_radius_um=float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na)),
         dominant=dominant(pupil),
-        warnings=warnings(setup, pupil if picture.exact else None, lost, shows_density(picture, quality)),
+        warnings=warnings(setup, pupil if picture.exact else None, drawing.rays, shows_density(picture, quality)),
         why=picture.why,
         method=picture.method,
         pending=picture.pending,

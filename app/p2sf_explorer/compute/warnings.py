@@ -10,6 +10,8 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Message, Number
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.raytrace.trace import out_of_order
+from p2sf_explorer.compute.layout import RayPath
 from p2sf_explorer.compute.pupil import PupilMap, disc, strongest
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import significant
@@ -23,18 +25,19 @@ WIDE_DEG, FAST_NA = 25.0, 0.30  # tan and sin differ by 10 % at 25°; an NA of 0
 
 
 def warnings(
-    setup: ParaxialSetup, pupil: PupilMap | None, lost_rays: int = 0, geometric: bool = False
+    setup: ParaxialSetup, pupil: PupilMap | None, rays: tuple[RayPath, ...] = (), geometric: bool = False
 ) -> tuple[Message, ...]:
     """Return the sentences that hold for this setup, most important first.
 
-    ``pupil``: the wavefront of exact rays, None where six coefficients make the picture; ``geometric``: the picture is
-    the density of rays.
+    ``pupil``: the wavefront of exact rays, None where six coefficients make the picture; ``rays``: those drawn;
+    ``geometric``: the picture is the density of rays.
     """
     found = (
         _by_hand(setup),
         _image_at_infinity(setup),
         _blurred(setup) if geometric else None,
-        _lost(lost_rays),
+        _lost(sum(ray.lost for ray in rays)),
+        _crossed(setup.lens, rays),
         None if pupil else _defocus(setup),
         None if pupil else _paraxial(setup),
         _not_paraxial(setup, pupil) if pupil else None,
@@ -103,6 +106,12 @@ def _lost(count: int) -> Message | None:
         "picture assumes.",
         count=count,
     )
+
+
+def _crossed(lens: Lens, rays: tuple[RayPath, ...]) -> Message | None:
+    found = (out_of_order(lens, ray.z[1 : len(lens.surfaces) + 1]) for ray in rays)
+    warning = next((message for message in found if message), None)
+    return Message("{warning}.", warning=warning) if warning else None
 
 
 def _defocus(setup: ParaxialSetup) -> Message | None:

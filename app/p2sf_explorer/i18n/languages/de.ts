@@ -1054,6 +1054,7 @@
 <message><source>ray density</source><translation>Strahlendichte</translation></message>
 <message><source>rays fill the paraxial entrance pupil</source><translation>Strahlen füllen die paraxiale Eintrittspupille</translation></message>
 <message><source>rays fill the real stop</source><translation>Strahlen füllen die wirkliche Blende</translation></message>
+<message><source>rays meet surface {surface} before surface {before}, beyond the edge of the glass, where no light can go; choose a smaller field or aperture</source><translation>Strahlen treffen Fläche {surface} vor Fläche {before}, jenseits des Glasrandes, wo kein Licht hingelangt; kleineres Feld oder kleinere Öffnung wählen</translation></message>
 <message><source>rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; stop the lens down or reduce the field</source><translation>Strahlen aus verschiedenen Teilen der Pupille kommen in einer Richtung an, und die Summe ihres Lichts hat keine Grenze; abblenden oder das Feld verkleinern</translation></message>
 <message><source>read</source><translation>gelesen</translation></message>
 <message><source>reads another file, which is not at hand</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
