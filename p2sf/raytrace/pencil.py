@@ -78,7 +78,10 @@ class Spot:
 
 @dataclass(frozen=True)
 class Fan:
-    """A quantity along one line of the pupil: ``pupil`` −1…1, ``tangential`` along η, ``sagittal`` along ξ."""
+    """A quantity along one line of the pupil: ``pupil`` −1…1, ``tangential`` along η, ``sagittal`` along ξ.
+
+    The axes of `Sources` come first.
+    """
 
     pupil: np.ndarray
     tangential: np.ndarray
@@ -263,20 +266,20 @@ def hexapolar(rings: int) -> tuple[np.ndarray, np.ndarray]:
     return radius * np.sin(angle), radius * np.cos(angle)
 
 
-def ray_fan(lens: Lens, source: Source, count: int = 65, clip: bool = False) -> Fan:
+def ray_fan(lens: Lens, source: Source | Sources, count: int = 65, clip: bool = False) -> Fan:
     """Return the transverse ray errors at the sensor along η (their y) and along ξ (their x); µm, NaN where clipped."""
     line, tangential, sagittal = _two_lines(lens, source, count, clip)
     return Fan(line, tangential.dy * UM_PER_MM, sagittal.dx * UM_PER_MM, "µm")
 
 
-def opd_fan(lens: Lens, source: Source, count: int = 65, clip: bool = False) -> Fan:
+def opd_fan(lens: Lens, source: Source | Sources, count: int = 65, clip: bool = False) -> Fan:
     """Return the displayed OPD along η and along ξ; waves, NaN where clipped."""
     line, tangential, sagittal = _two_lines(lens, source, count, clip)
     along, across = (opd_on_sphere(rays, _exit_radius(lens, source, rays)) for rays in (tangential, sagittal))
     return Fan(line, along, across, "waves")
 
 
-def _two_lines(lens: Lens, source: Source, count: int, clip: bool) -> tuple[np.ndarray, Pencil, Pencil]:
+def _two_lines(lens: Lens, source: Source | Sources, count: int, clip: bool) -> tuple[np.ndarray, Pencil, Pencil]:
     """Return ``count`` points from −1 to 1, and the pencils through those points of η and of ξ."""
     line, zero = np.linspace(-1, 1, count), np.zeros(count)
     return line, pencil(lens, source, zero, line, clip), pencil(lens, source, line, zero, clip)

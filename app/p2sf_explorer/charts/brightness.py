@@ -2,6 +2,8 @@
 
 import numpy as np
 
+SCALES = (("linear", "linear"), ("sqrt", "square root"), ("log", "log"))
+UNITS = (("peak", "peak = 1"), ("sum", "sum = 1"), ("strehl", "Strehl"))
 DECADES = 5  # shown by the logarithmic scale, below the peak
 
 

@@ -261,7 +261,7 @@ def _lists(t: Tokens) -> str:
     QTabBar {{ background: transparent; qproperty-drawBase: 0; }}
     QTabBar QToolButton {{ padding: 0; min-height: 0; border-radius: 3px; }}
     QTabBar::tear {{ width: 0; }}
-    QTabBar::tab {{ padding: 4px 12px; color: {t.muted}; border: none; border-bottom: 2px solid transparent; }}
+    QTabBar::tab {{ padding: 4px 11px; color: {t.muted}; border: none; border-bottom: 2px solid transparent; }}
     QTabBar::tab:selected {{ color: {t.text}; border-bottom: 2px solid {t.accent}; }}
     QTabBar::tab:focus {{ color: {t.accent}; }}
     QToolTip {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line}; padding: 4px; }}

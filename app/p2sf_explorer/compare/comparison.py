@@ -117,7 +117,8 @@ def larger(one: Least, other: Least) -> bool:
 
 def seen(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
     """Return the answer on screen, its views computed."""
-    chosen = compute.with_views(b if state.compare.shown == "b" else a, views, begun)
+    chosen = b if state.compare.shown == "b" else a
+    chosen = compute.with_views(replace(chosen, sides=(a.state, b.state)), views, begun)
     if state.compare.shown != "difference":
         return replace(chosen, side=state.compare.shown.upper())
     found = {name: subtracted(name, chosen.views[name], compute.attempted(view, b)) for name, view in views.items()}

@@ -25,6 +25,8 @@ WHY = {
     "field_map": Message(
         "This is A: over the field the pictures of A and of B have windows of their own; PSF shows A − B."
     ),
+    "matrix": Message("This is A: fields × A | B shows the pictures of both side by side."),
+    "curves": Message("This is A: curves of several fields or colours are many already; MTF and Field show A − B."),
     "beside": Message("This is A: here it is compared with a perfect lens."),
     "colour": Message("This is A: one colour less another is no colour."),
     "spot": Message("This is A: a spot is places of rays, not amounts; the fans show A − B."),

@@ -25,8 +25,8 @@ class Live:
     ``method`` is the method chosen, by a person or by ``auto``; ``milliseconds`` of each part of the work; ``quality``
     is "preview" while a slider moves, else "settled"; ``pending`` is the sum of waves that the PSF stands in for,
     ``request`` the one that made it, with up to ``finest`` samples a side, and ``refused`` says why the chosen method
-    has none here. With a B pinned, ``side`` names what is on screen and ``difference`` is what A − B shows in place of
-    this answer.
+    has none here. With a B pinned, ``side`` names what is on screen, ``sides`` are the states of A and B, and
+    ``difference`` is what A − B shows in place of this answer.
     """
 
     state: State
@@ -43,6 +43,7 @@ class Live:
     milliseconds: Mapping[str, float]
     views: Mapping[str, Any] = field(default_factory=dict)
     side: str = ""
+    sides: tuple[State, ...] = ()
     pending: SumRequest | None = None
     request: SumRequest | None = None
     finest: int = 0

@@ -88,7 +88,10 @@ class Rendered:
 
 @dataclass(frozen=True)
 class Task:
-    """What is to be shown: a state and its setup by one method, and why by that, in a window of at least this size."""
+    """What is to be shown: a state and its setup by one method, and why by that, in a window of at least this size.
+
+    ``known``: the rays of `preview` without rims, where they are traced already.
+    """
 
     state: State
     setup: ParaxialSetup
@@ -96,6 +99,7 @@ class Task:
     why: Message
     least: Least
     cache: SumCache | None
+    known: Preview | None = None
 
     @property
     def exact(self) -> bool:
@@ -105,7 +109,7 @@ class Task:
     @cached_property
     def traced(self) -> Preview | None:
         """Return some eighty rays; None where one is lost."""
-        return preview(self.setup)
+        return self.known or preview(self.setup)
 
     @cached_property
     def fitted(self) -> FittedPencil | None:

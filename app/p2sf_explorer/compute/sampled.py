@@ -46,7 +46,7 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
         return geometric_psf(setup, task.exact, window, "preview", state.optics.clip)
     if not task.exact:
         return seidel_psf(setup.coefficients, *window, "preview")
-    traced = preview(setup, state.optics.clip)
+    traced = preview(setup, True) if state.optics.clip else task.traced
     if traced:
         return preview_psf(traced, *window, task.fitted)
     return by_rays(sum_request(state, setup, "traced", window), "preview")

@@ -72,7 +72,7 @@ GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
 
 def tab(group: str, key: str, title: str, handbook: str, panel: str, view: str = "") -> PanelEntry:
     """Return the entry of a tab; panel and view are module:name in their folders."""
-    view = view and f"p2sf_explorer.results.{view}"
+    view = view and f"p2sf_explorer.{view if view.startswith('matrix.') else 'results.' + view}"
     return PanelEntry(key, title, f"p2sf_explorer.panels.{panel}", handbook, view, group)
 
 
@@ -81,6 +81,7 @@ REGISTRY = (
     tab("PSF", "profiles", "Profiles", "6.3", "profiles:ProfilesPanel", "profiles:profiles"),
     tab("PSF", "mtf", "MTF", "6.3", "mtf:MtfPanel", "mtf:contrast"),
     tab("PSF", "through_focus", "Through focus", "3.3", "through_focus:ThroughFocusPanel", "through_focus:strip"),
+    tab("PSF", "matrix", "Matrix", "6.4", "matrix:MatrixPanel", "matrix.pictures:matrix"),
     tab("PSF", "field_map", "Field map", "1.3", "field_map:FieldMapPanel", "field_map:field_map"),
     tab("PSF", "beside", "Perfect lens", "9.2", "pixels:BesidePanel", "pixels:beside"),
     tab("PSF", "colour", "Colour", "9.1", "colour:ColourPanel", "colour:question"),
@@ -96,6 +97,7 @@ REGISTRY = (
     tab("Lens", "layout", "Layout", "2.2", "layout:LayoutPanel", "rays:lens_drawn"),
     tab("Lens", "lens", "Table", "1.1", "lens_table:LensTablePanel", "lens_table:rows"),
     tab("Lens", "first_order", "First order", "2.1", "first_order:FirstOrderPanel", "first_order:first_order"),
+    tab("Lens", "curves", "Overlays", "6.5", "overlays:OverlaysPanel", "matrix.overlays:overlay"),
     tab("Lens", "ybar", "y–ȳ", "8.4", "ybar:YBarPanel", "ybar:ybar"),
     tab(
         "Lens",

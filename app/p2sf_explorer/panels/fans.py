@@ -4,11 +4,11 @@ import numpy as np
 
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.rays import Fan
+from p2sf_explorer.state.terms import PLACES
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel
 
 LOOKS = {"sagittal, along ξ": ("marginal", 2), "tangential, along η": ("chief", 2)}
-PLACES = {"paraxial": "place in the entrance pupil, pupil radii", "stop": "place in the stop, stop radii"}
 SMALLEST = 1e-3  # µm or waves at the end of the axis
 RAY_TIP = "Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil."
 OPD_TIP = "OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included."

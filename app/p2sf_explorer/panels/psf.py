@@ -6,6 +6,7 @@ from PySide6.QtCore import QTimer
 from p2sf.messages import Message
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
+from p2sf_explorer.charts.brightness import SCALES, UNITS
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
@@ -34,8 +35,6 @@ WHITE = "#ffffff"  # on the dark ground of the map in both themes
 ARROW = np.array([[0.86, 0.86, 0.83, 0.86, 0.89], [0.74, 0.92, 0.84, 0.92, 0.84]])
 Y_LABELS = {1: "y, µm (towards the field)", -1: "y, µm (towards the axis)"}  # by the sign of the image height
 TIP = "Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW)."
-SCALES = (("linear", "linear"), ("sqrt", "square root"), ("log", "log"))
-UNITS = (("peak", "peak = 1"), ("sum", "sum = 1"), ("strehl", "Strehl"))
 
 
 class PsfPanel:

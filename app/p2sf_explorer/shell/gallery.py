@@ -13,6 +13,7 @@ from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 
 SIZES = {"small": (1280, 800), "large": (1920, 1080)}
 LONGEST_MS = 20_000  # for the background measurement of one picture
@@ -35,7 +36,17 @@ def states() -> dict[str, State]:
         shown[f"compare_{side}"] = changed(pair, shown=side)
     shown["lesson"] = changed(shipped_lessons()[4].state(1, new_state(theme="light")), lesson_told=True)
     shown["german"] = new_state(theme="light", language="de", tab="first_order")
-    return shown | {f"tab_{tab}": new_state(tab=tab, theme="light") for tab in tabs}
+    return shown | matrices() | {f"tab_{tab}": new_state(tab=tab, theme="light") for tab in tabs}
+
+
+def matrices() -> dict[str, State]:
+    """Return a matrix of every kind, and one over every quantity."""
+    first = with_workspace(new_state(pinned=new_state(f_number=8.0)), "inspect", WORKSPACES["inspect"])
+    kinds = {f"matrix_{what}": changed(first, matrix_what=what, theme="light") for what in CHOICES["matrix_what"]}
+    over = {name: name.partition("_")[0] for name in CHOICES["matrix_across"][1:]}
+    return kinds | {
+        f"matrix_over_{words}": changed(first, matrix_across=name, theme="dark") for name, words in over.items()
+    }
 
 
 def settle(window: MainWindow) -> None:

@@ -21,7 +21,11 @@ CHOICES = {
     "photo_look": ("split", "side", "blink"),
     "rail_side": ("right", "bottom"),
     "colours": ("standard", "viridis", "cividis", "grey"),
+    "matrix_what": ("psf", "spot", "ray_fan", "opd_fan", "mtf", "pupil"),
+    "matrix_across": ("wavelength_nm", "depth_mm", "sensor_shift_um", "side"),
+    "curves_of": ("fields", "colours", "field", "focus", "lateral", "distortion", "illumination"),
 }
+MOST_LISTED = 5  # values of a list
 # The smallest and the largest value that make sense, and the name and unit of the quantity in a sentence.
 RANGES: dict[str, tuple[float, float, Message, str]] = {
     "depth_mm": (1e-3, inf, Message("source depth"), "mm"),
@@ -40,11 +44,22 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "photo_split": (0.0, 1.0, Message("split of the photo"), ""),
     "rays_count": (3, 41, Message("number of rays drawn from a point"), ""),
     "lesson_step": (0, 1000, Message("step of the lesson"), ""),
+    "matrix_rows": (2, MOST_LISTED, Message("number of rows"), ""),
+    "matrix_columns": (2, MOST_LISTED, Message("number of columns"), ""),
+    "frequency_per_mm": (1e-3, 1e5, Message("spatial frequency"), "1/mm"),
     "camera_turn_deg": (-360.0, 360.0, Message("turn of the 3D view"), "°"),
     "camera_tilt_deg": (-89.0, 89.0, Message("tilt of the 3D view"), "°"),
     "camera_zoom": (0.2, 50.0, Message("enlargement of the 3D view"), ""),
     "camera_surface_turn_deg": (-360.0, 360.0, Message("turn of the wavefront's surface"), "°"),
     "camera_surface_tilt_deg": (0.0, 90.0, Message("tilt of the wavefront's surface"), "°"),
+}
+# Entries that are lists of values, and the quantity in RANGES of each.
+LISTED = {
+    "matrix_fields_deg": "field_deg",
+    "matrix_wavelengths_nm": "wavelength_nm",
+    "matrix_depths_mm": "depth_mm",
+    "matrix_shifts_um": "sensor_shift_um",
+    "curves_frequencies_per_mm": "frequency_per_mm",
 }
 MOST_WAVES = 1000.0
 DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
@@ -68,4 +83,7 @@ PLAIN: dict[str, type] = {
     "lesson_told": bool,
     "lesson_step": int,
     "rays_count": int,
+    "matrix_rows": int,
+    "matrix_columns": int,
+    "matrix_shared": bool,
 }

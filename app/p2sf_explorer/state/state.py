@@ -16,6 +16,8 @@ from p2sf_explorer.state.limits import (
     CHOICES,
     KINDS,
     LINKABLE,
+    LISTED,
+    MOST_LISTED,
     MOST_WAVES,
     OPTIONAL,
     PLAIN,
@@ -289,6 +291,61 @@ class PhotoView:
         _check_entries(self)
 
 
+def _check_list(values: object, name: str, least: int) -> None:
+    """Raise P2SFError unless the values are none, or ``least`` to `MOST_LISTED` numbers that their quantity can be."""
+    low, high, words, unit = RANGES[LISTED[name]]
+    if not isinstance(values, tuple) or (values and not least <= len(values) <= MOST_LISTED):
+        raise P2SFError(
+            "{name} is {value}; give {least} to {most} numbers, or none for those that the window chooses",
+            name=name,
+            value=_quoted(values),
+            least=least,
+            most=MOST_LISTED,
+        )
+    for value in values:
+        _check_number(value, name, (low, high), words, unit)
+
+
+@dataclass(frozen=True)
+class MatrixView:
+    """The matrix of small pictures: ``what`` they show at several fields, and at several values of ``across``.
+
+    ``rows`` and ``columns`` are how many values the window chooses where the list of a quantity is empty. ``shared``:
+    all pictures have one scale.
+    """
+
+    PREFIX: ClassVar[str] = "matrix_"
+
+    what: str = "psf"
+    across: str = "wavelength_nm"
+    rows: int = 3
+    columns: int = 3
+    fields_deg: tuple[float, ...] = ()
+    wavelengths_nm: tuple[float, ...] = ()
+    depths_mm: tuple[float, ...] = ()
+    shifts_um: tuple[float, ...] = ()
+    shared: bool = True
+
+    def __post_init__(self) -> None:
+        _check_entries(self)
+        for part in ("fields_deg", "wavelengths_nm", "depths_mm", "shifts_um"):
+            _check_list(getattr(self, part), self.PREFIX + part, 2)
+
+
+@dataclass(frozen=True)
+class CurvesView:
+    """Curves laid over each other: ``of`` fields, colours …, at ``frequencies_per_mm`` where one is needed."""
+
+    PREFIX: ClassVar[str] = "curves_"
+
+    of: str = "fields"
+    frequencies_per_mm: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        _check_entries(self)
+        _check_list(self.frequencies_per_mm, "curves_frequencies_per_mm", 1)
+
+
 @dataclass(frozen=True)
 class LessonPlace:
     """The lesson under way by ``name``, "" for none, its ``step``, and whether the step's answer is ``told``."""
@@ -331,6 +388,8 @@ class State:
     photo: PhotoView = PhotoView()
     lesson: LessonPlace = LessonPlace()
     camera: Cameras = Cameras()
+    matrix: MatrixView = MatrixView()
+    curves: CurvesView = CurvesView()
 
 
 FIRST = State()

@@ -29,7 +29,7 @@ FIRST = Display()
 TEACH = "teach"
 WORKSPACES = {
     "explore": Workspace(FIRST.stage, FIRST.rail, FIRST.tab, FIRST.stage_share),
-    "inspect": Workspace("field_map", ("psf",), "mtf", 0.7),
+    "inspect": Workspace("matrix", ("psf",), "mtf", 0.7),
     "lens": Workspace("layout", ("psf",), "lens", 0.56, (0.34, 0.66), rail_side="bottom"),
     "image": Workspace("image", ("psf",), "mtf", 0.64, (0.36, 0.64), rail_side="bottom"),
     TEACH: Workspace("psf", ("coefficients",), "profiles", 0.62, show_rail=False),

@@ -14,8 +14,10 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import (
     QApplication,
+    QBoxLayout,
     QComboBox,
     QFrame,
+    QGridLayout,
     QHBoxLayout,
     QLabel,
     QSizePolicy,
@@ -393,6 +395,58 @@ class SideCard(Card):
     def set_body(self, widget: QWidget) -> None:
         """Put the picture beside the column."""
         self.whole.addWidget(widget, 1)
+
+
+class TurningCard(SideCard):
+    """A side card whose controls stand in two rows above the picture where that leaves it more room."""
+
+    _above = False
+
+    def __init__(self, title: str, tip: str = "", parent: QWidget | None = None):
+        super().__init__(title, tip, parent)
+        self._groups: list[QWidget] = []
+        self.grid = QGridLayout()
+        self.grid.setSpacing(4)
+        self.side.addLayout(self.grid)
+        self.side.addStretch(1)
+
+    def add_group(self, *widgets: QWidget) -> None:
+        """Add controls that stand beside each other, a line of the column or a cell of the two rows."""
+        group = QWidget(self)
+        line = QHBoxLayout(group)
+        line.setContentsMargins(0, 0, 0, 0)
+        line.setSpacing(4)
+        for widget in widgets:
+            widget.setSizePolicy(_IGNORED if isinstance(widget, QComboBox) else _EXPANDING, QSizePolicy.Policy.Fixed)
+            line.addWidget(widget, 1)
+        self.grid.addWidget(group, len(self._groups), 0)
+        self._groups.append(group)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Turn the controls to where the picture has more room."""
+        rows, column = self._rows_px(), self._strut.width() if self._strut else 0
+        wide, tall = event.size().width(), event.size().height()
+        self._turn(min(wide, tall - rows) > min(wide - column, tall))
+        super().resizeEvent(event)
+
+    def _rows_px(self) -> int:
+        """Return the height of title and two rows of controls."""
+        high = max((group.sizeHint().height() for group in self._groups), default=0)
+        return self.head.sizeHint().height() + 2 * high + 4 * self.grid.spacing()
+
+    def _title_room(self) -> int:
+        return self.width() if self._above else super()._title_room()
+
+    def _turn(self, above: bool) -> None:
+        if above == self._above:
+            return
+        self._above = above
+        self.whole.setDirection(QBoxLayout.Direction.TopToBottom if above else QBoxLayout.Direction.LeftToRight)
+        for number, group in enumerate(self._groups):
+            self.grid.removeWidget(group)
+            self.grid.addWidget(group, *((number % 2, number // 2) if above else (number, 0)))
+        for column in range(3):
+            self.grid.setColumnStretch(column, int(above))
 
 
 _IGNORED, _EXPANDING = QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding

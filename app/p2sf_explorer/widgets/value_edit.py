@@ -1,14 +1,18 @@
-"""A number with its unit to type into, and the button that plays its slider."""
+"""A number with its unit to type into, a list of them, and the button that plays a number's slider."""
+
+import re
+from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QKeySequence, QMouseEvent, QWheelEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import entry
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Chooser
 from p2sf_explorer.widgets.scrub import Scrub, claimed, notches
 
 
@@ -193,3 +197,71 @@ class MicronEdit(QWidget):
         except P2SFError as error:
             self._store.refused.emit(error)
         self.show_value(entry(self._store.state, self._key))
+
+
+BETWEEN = re.compile(r"\s*;\s*|,\s+")  # a comma without a space is a decimal comma
+EDIT_PX = 132
+COUNT_TIP = "How many, evenly spread; this forgets values that were typed"
+LIST_TIP = "Values with semicolons between; empty: evenly spread by themselves"
+
+
+def read_list(text: str, read: Callable[[str], float]) -> tuple[float, ...]:
+    """Return the values of a list that a person typed; none for an empty one. Raises P2SFError as ``read`` does."""
+    return tuple(read(item) for item in BETWEEN.split(text.strip()) if item)
+
+
+class ValueList(QWidget):
+    """A name, a number of values where ``counts`` are offered, and the values themselves.
+
+    ``counted`` tells a chosen number, ``listed`` values that were typed, ``refused`` why a text is no list of values.
+    """
+
+    counted = Signal(int)
+    listed = Signal(tuple)
+    refused = Signal(object)
+
+    def __init__(self, counts: Sequence[int] = (), parent: QWidget | None = None):
+        super().__init__(parent)
+        self._read: Callable[[str], float] = float
+        self.label, self.count, self.edit = QLabel(self), Chooser(self), ValueEdit(self)
+        self.label.setObjectName("muted")
+        self.count.setObjectName("small")
+        self.count.setToolTip(tr(COUNT_TIP))
+        for number in counts:
+            self.count.addItem(str(number), number)
+        self.count.setVisible(bool(counts))
+        self.edit.setMinimumWidth(EDIT_PX)
+        self.edit.setMaximumWidth(16_777_215)
+        self.edit.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.edit.setAlignment(Qt.AlignmentFlag.AlignLeft)
+        self.edit.setToolTip(tr(LIST_TIP))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(4)
+        for part in (self.label, self.count, self.edit):
+            row.addWidget(part, int(part is self.edit))
+        self.count.activated.connect(lambda: self.counted.emit(self.count.currentData()))
+        self.edit.committed.connect(self._commit)
+        self.edit.reset.connect(lambda: self.listed.emit(()))
+
+    def name(self, words: str, read: Callable[[str], float]) -> None:
+        """Give the list a name, as it is, and the reader of one value."""
+        self._read = read
+        if words != self.label.text():
+            self.label.setText(words)
+            self.edit.setAccessibleName(words)
+            self.count.setAccessibleName(f"{words}: {tr(COUNT_TIP)}")
+
+    def show_values(self, texts: Sequence[str]) -> None:
+        """Show values as they are written."""
+        self.edit.set_text("; ".join(texts))
+        self.edit.setCursorPosition(0) if not self.edit.hasFocus() else None
+        place = self.count.findData(len(texts))
+        if place != self.count.currentIndex():
+            self.count.setCurrentIndex(place)
+
+    def _commit(self, text: str) -> None:
+        try:
+            self.listed.emit(read_list(text, self._read))
+        except P2SFError as error:
+            self.refused.emit(error)

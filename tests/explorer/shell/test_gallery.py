@@ -2,6 +2,7 @@ from PySide6.QtGui import QImage
 
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.gallery import picture, states
+from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import new_state
 
 
@@ -9,6 +10,9 @@ def test_every_tab_is_in_the_gallery_and_every_state_differs():
     shown = states()
     assert {state.display.tab for state in shown.values()} >= {entry.key for entry in REGISTRY}
     assert len(set(shown.values())) == len(shown)
+    matrices = [state.matrix for state in shown.values() if state.display.stage == "matrix"]
+    assert {view.what for view in matrices} == set(CHOICES["matrix_what"])
+    assert {view.across for view in matrices} == set(CHOICES["matrix_across"])
 
 
 def test_a_picture_has_the_size_asked_for_and_more_than_one_colour(only_window, tmp_path):

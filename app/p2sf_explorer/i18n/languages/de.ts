@@ -55,6 +55,7 @@
 <message><source>Airy radius, the circle</source><translation>Airy-Radius, der Kreis</translation></message>
 <message><source>All</source><translation>Alle</translation></message>
 <message><source>All at once</source><translation>Alles zugleich</translation></message>
+<message><source>All pictures have one scale; otherwise each has its own</source><translation>Alle Bilder haben einen Maßstab; sonst hat jedes seinen eigenen</translation></message>
 <message><source>An aperture of NA {na:.2f} is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Eine Öffnung von NA {na:.2f} liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>An aspheric f/2 condenser: a conic and two polynomial terms against spherical aberration</source><translation>Ein asphärischer Kondensor f/2: ein Kegelschnitt und zwei Polynomglieder gegen sphärische Aberration</translation></message>
 <message><source>Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)</source><translation>Animiertes GIF (*.gif);;MP4-Film (*.mp4);;Nummerierte PNG-Bilder (*.png)</translation></message>
@@ -65,6 +66,7 @@
 <message><source>Astigmatism, 1 λ, medial focus</source><translation>Astigmatismus, 1 λ, mittlerer Fokus</translation></message>
 <message><source>Astigmatism, 2 λ, sagittal focus</source><translation>Astigmatismus, 2 λ, sagittaler Fokus</translation></message>
 <message><source>Astigmatism, 2 λ, tangential focus</source><translation>Astigmatismus, 2 λ, tangentialer Fokus</translation></message>
+<message><source>At</source><translation>Bei</translation></message>
 <message><source>Atlas of PSFs over depth and field</source><translation>Atlas der PSFs über Abstand und Feld</translation></message>
 <message><source>Autofocus: best RMS wavefront</source><translation>Autofokus: kleinster RMS von W</translation></message>
 <message><source>Azimuth</source><translation>Azimut</translation></message>
@@ -79,6 +81,7 @@
 <message><source>Begin the first lesson (F3)</source><translation>Die erste Lektion beginnen (F3)</translation></message>
 <message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
+<message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
 <message><source>C II lateral colour</source><translation>C II Farbquerfehler</translation></message>
 <message><source>Cancel</source><translation>Abbrechen</translation></message>
@@ -208,9 +211,11 @@
 <message><source>Group of panels</source><translation>Gruppe von Ansichten</translation></message>
 <message><source>Handbook</source><translation>Handbuch</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
+<message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it.</source><translation>Mit dem Zeiger oder den Pfeiltasten einen Ort betrachten: seine PSF und sein Ausschnitt folgen. Die Teilung ziehen oder mit Umschalt und Pfeil links oder rechts verschieben. Ein PNG oder TIFF fallen lassen, um es zu fotografieren.</translation></message>
 <message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo to have it photographed.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
-<message><source>How much of a pixel's area is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
 <message><source>How many rays come from each point</source><translation>Wie viele Strahlen von jedem Punkt ausgehen</translation></message>
+<message><source>How many, evenly spread; this forgets values that were typed</source><translation>Wie viele, gleichmäßig verteilt; vergisst eingegebene Werte</translation></message>
+<message><source>How much of a pixel's area is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
 <message><source>How the two pictures are put beside each other</source><translation>Wie die beiden Bilder nebeneinander gestellt werden</translation></message>
 <message><source>Image</source><translation>Bild</translation></message>
@@ -251,11 +256,17 @@
 <message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0,7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
 <message><source>MP4 films need imageio-ffmpeg, which is not installed; pip install 'p2sf[mp4]', or choose a GIF</source><translation>MP4-Filme brauchen imageio-ffmpeg, das nicht installiert ist; pip install 'p2sf[mp4]', oder ein GIF wählen</translation></message>
 <message><source>MTF</source><translation>MTF</translation></message>
+<message><source>MTF of all fields</source><translation>MTF aller Felder</translation></message>
+<message><source>MTF of colours and spectrum</source><translation>MTF der Farben und des Spektrums</translation></message>
+<message><source>MTF over the field</source><translation>MTF über das Feld</translation></message>
+<message><source>MTF through focus</source><translation>MTF durch den Fokus</translation></message>
 <message><source>MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration.</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
 <message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
 <message><source>Make the plan that was cancelled, and the picture by it</source><translation>Den abgebrochenen Plan doch machen und das Bild danach</translation></message>
 <message><source>Map over depth and field</source><translation>Karte über Abstand und Feld</translation></message>
+<message><source>Matrix</source><translation>Matrix</translation></message>
+<message><source>Matrix: the same picture at several fields, and at several wavelengths, depths or sensor shifts, or of A and B. A click on a picture, or Enter, makes its point the present one, which a frame marks; dashed: the nearest to it.</source><translation>Matrix: dasselbe Bild bei mehreren Feldern und mehreren Wellenlängen, Abständen oder Sensorversätzen, oder von A und B. Ein Klick auf ein Bild, oder Enter, macht seinen Punkt zum jetzigen, den ein Rahmen zeigt; gestrichelt: der nächste an ihm.</translation></message>
 <message><source>Method</source><translation>Methode</translation></message>
 <message><source>Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
 <message><source>More</source><translation>Mehr</translation></message>
@@ -288,6 +299,7 @@
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
 <message><source>On the stage</source><translation>Auf die Bühne</translation></message>
 <message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
+<message><source>One scale</source><translation>Ein Maßstab</translation></message>
 <message><source>Open</source><translation>Öffnen</translation></message>
 <message><source>Open a file…</source><translation>Datei öffnen …</translation></message>
 <message><source>Open a lens file or a saved state (Ctrl+O), or one of the latest</source><translation>Objektivdatei oder gespeicherten Zustand öffnen (Strg+O), oder eine der letzten</translation></message>
@@ -296,6 +308,8 @@
 <message><source>Open the file with the substitute glasses listed; the lens then counts as edited</source><translation>Die Datei mit den aufgeführten Ersatzgläsern öffnen; das Objektiv gilt dann als bearbeitet</translation></message>
 <message><source>Open the lens as its file has it</source><translation>Öffnung wie in der Datei</translation></message>
 <message><source>Open this panel in its own window, or put it back (Ctrl+D)</source><translation>Diese Ansicht in einem eigenen Fenster öffnen oder zurückstellen (Strg+D)</translation></message>
+<message><source>Overlays</source><translation>Vergleichskurven</translation></message>
+<message><source>Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present place.</source><translation>Vergleichskurven: eine Kurve für jedes Feld, jede Wellenlänge oder Ortsfrequenz. Der Kontrast ist tangential (dick) und sagittal (fein). Felder und Wellenlängen sind die der Matrix; eine senkrechte Linie zeigt die jetzige Stelle.</translation></message>
 <message><source>P2SF Explorer</source><translation>P2SF Explorer</translation></message>
 <message><source>P2SF lens (*.toml);;Zemax (*.zmx);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;ISET-Objektiv (*.json)</translation></message>
 <message><source>PSF</source><translation>PSF</translation></message>
@@ -373,11 +387,15 @@
 <message><source>Put this panel on the stage (double-click its title, or drag it there)</source><translation>Diese Ansicht auf die Bühne stellen (Doppelklick auf den Titel, oder dorthin ziehen)</translation></message>
 <message><source>Qt needs the library libxcb-cursor to open a window on X11; run apt-get install libxcb-cursor0</source><translation>Qt braucht die Bibliothek libxcb-cursor, um auf X11 ein Fenster zu öffnen; apt-get install libxcb-cursor0 ausführen</translation></message>
 <message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts um seinen Schwerpunkt; RMS der Strahlen {rms} µm; {method}</translation></message>
+<message><source>R80 {radius} µm</source><translation>R80 {radius} µm</translation></message>
+<message><source>R80 {radius} µm (of {percent:.0f} %)</source><translation>R80 {radius} µm (von {percent:.0f} %)</translation></message>
 <message><source>RMS in x</source><translation>RMS in x</translation></message>
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
+<message><source>RMS {rms} λ</source><translation>RMS {rms} λ</translation></message>
 <message><source>RMS {r} λ</source><translation>RMS {r} λ</translation></message>
 <message><source>RMS {r} λ · PV {p} λ</source><translation>RMS {r} λ · PV {p} λ</translation></message>
+<message><source>RMS {value} µm</source><translation>RMS {value} µm</translation></message>
 <message><source>RMS, waves</source><translation>RMS, Wellen</translation></message>
 <message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
 <message><source>Radius, mm</source><translation>Radius, mm</translation></message>
@@ -440,6 +458,7 @@
 <message><source>Set of PSFs…</source><translation>Satz PSFs …</translation></message>
 <message><source>Sharpening</source><translation>Schärfung</translation></message>
 <message><source>Shift, Alt</source><translation>Umschalt, Alt</translation></message>
+<message><source>Shifts</source><translation>Versatz</translation></message>
 <message><source>Shipped lenses</source><translation>Mitgelieferte Objektive</translation></message>
 <message><source>Shortcuts</source><translation>Tastenkürzel</translation></message>
 <message><source>Shortcuts and terms (F1 or ?)</source><translation>Tastenkürzel und Begriffe (F1 oder ?)</translation></message>
@@ -474,6 +493,7 @@
 <message><source>Strehl</source><translation>Strehl</translation></message>
 <message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
 <message><source>Strehl {strehl}</source><translation>Strehl {strehl}</translation></message>
+<message><source>Strehl {value}</source><translation>Strehl {value}</translation></message>
 <message><source>Surfaces of the lens</source><translation>Flächen des Objektivs</translation></message>
 <message><source>Swap</source><translation>Tauschen</translation></message>
 <message><source>Sweep</source><translation>Durchlauf</translation></message>
@@ -533,7 +553,9 @@
 <message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
 <message><source>This is A: a spot is places of rays, not amounts; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
 <message><source>This is A: bodies in space have no difference that could be shown.</source><translation>Dies ist A: Körper im Raum haben keine Differenz, die sich zeigen ließe.</translation></message>
+<message><source>This is A: curves of several fields or colours are many already; MTF and Field show A − B.</source><translation>Das ist A: Kurven mehrerer Felder oder Farben sind schon viele; MTF und Feld zeigen A − B.</translation></message>
 <message><source>This is A: each lens is measured against its own rays.</source><translation>Dies ist A: jedes Objektiv wird an seinen eigenen Strahlen gemessen.</translation></message>
+<message><source>This is A: fields × A | B shows the pictures of both side by side.</source><translation>Das ist A: Felder × A | B zeigt die Bilder von beiden nebeneinander.</translation></message>
 <message><source>This is A: here it is compared with a perfect lens.</source><translation>Dies ist A: hier wird es mit einem perfekten Objektiv verglichen.</translation></message>
 <message><source>This is A: how far it is sharp is where it begins and ends, which B does not move.</source><translation>Dies ist A: wie weit es scharf ist, sagen Anfang und Ende, und B verschiebt sie nicht.</translation></message>
 <message><source>This is A: it has {a} surfaces and B has {b}, so that none stands for another.</source><translation>Dies ist A: es hat {a} Flächen und B hat {b}, sodass keine einer anderen entspricht.</translation></message>
@@ -571,6 +593,7 @@
 <message><source>Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones.</source><translation>Ungemessen. Für so große Pixel wird kein Plan gemacht, denn sie verbergen, worum es ihm geht: kleinere wählen.</translation></message>
 <message><source>Unmeasured. When the sliders rest a plan follows.</source><translation>Ungemessen. Wenn die Regler ruhen, folgt ein Plan.</translation></message>
 <message><source>Unpin</source><translation>B lösen</translation></message>
+<message><source>Values with semicolons between; empty: evenly spread by themselves</source><translation>Werte mit Strichpunkten dazwischen; leer: von selbst gleichmäßig verteilt</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
 <message><source>W modulo 1, waves</source><translation>W modulo 1, Wellen</translation></message>
 <message><source>W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm</source><translation>W × {front} längs der Strahlen · PSF × {psf} breit, Höhe: {scale} · {wavelength} nm</translation></message>
@@ -600,17 +623,20 @@
 <message><source>Wd added</source><translation>Wd hinzu</translation></message>
 <message><source>Wd defocus</source><translation>Wd Defokus</translation></message>
 <message><source>Wd is muted</source><translation>Wd ist stumm</translation></message>
+<message><source>What changes from column to column</source><translation>Was sich von Spalte zu Spalte ändert</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
 <message><source>What is selected: drag it along the axis. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen. Ein Klick hebt die Auswahl auf.</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
+<message><source>What the pictures show</source><translation>Was die Bilder zeigen</translation></message>
 <message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
 <message><source>When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the difference, and what every method costs in time and error appear here.</source><translation>Wenn die Regler ruhen, wird das Bild mit einer auskonvergierten Summe exakter Strahlen (Huygens) verglichen: Referenz, Unterschied und was jede Methode an Zeit und Fehler kostet, erscheinen hier.</translation></message>
 <message><source>Where the sensor stands, from the last vertex: in the image of the focus distance, shifted by Δz.</source><translation>Wo der Sensor steht, vom letzten Scheitel: im Bild des eingestellten Abstands, um Δz verschoben.</translation></message>
 <message><source>Which coefficient</source><translation>Welcher Koeffizient</translation></message>
+<message><source>Which curves are shown</source><translation>Welche Kurven gezeigt werden</translation></message>
 <message><source>Which interpolation the error is of</source><translation>Zu welcher Interpolation der Fehler gehört</translation></message>
 <message><source>Which order of the terms</source><translation>Welche Reihenfolge der Terme</translation></message>
 <message><source>Which picture is made</source><translation>Welches Bild gemacht wird</translation></message>
@@ -771,6 +797,7 @@
 <message><source>control codes of the optimiser</source><translation>Steuerzeichen der Optimierung</translation></message>
 <message><source>corner {field}</source><translation>Ecke {field}</translation></message>
 <message><source>correct the line</source><translation>die Zeile berichtigen</translation></message>
+<message><source>cos⁴ of a pinhole</source><translation>cos⁴ einer Lochkamera</translation></message>
 <message><source>could not be aimed at its place in the stop, surface {surface}</source><translation>ließ sich nicht auf seinen Ort in der Blende richten, Fläche {surface}</translation></message>
 <message><source>curvature</source><translation>Krümmung</translation></message>
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
@@ -794,6 +821,7 @@
 <message><source>distance "{name}" has no value in [variable distances]; add it</source><translation>der Abstand "{name}" hat keinen Wert in [variable distances]; hinzufügen</translation></message>
 <message><source>distance from the chief ray, µm</source><translation>Entfernung vom Hauptstrahl, µm</translation></message>
 <message><source>distortion</source><translation>Verzeichnung</translation></message>
+<message><source>distortion of colours</source><translation>Verzeichnung der Farben</translation></message>
 <message><source>distortion, %</source><translation>Verzeichnung, %</translation></message>
 <message><source>distortion, third order</source><translation>Verzeichnung, dritte Ordnung</translation></message>
 <message><source>double-click</source><translation>Doppelklick</translation></message>
@@ -915,7 +943,9 @@
 <message><source>key {name}, which is not known to describe the lens</source><translation>Schlüssel {name}, von dem nicht bekannt ist, dass er das Objektiv beschreibt</translation></message>
 <message><source>landing point, µm</source><translation>Landepunkt, µm</translation></message>
 <message><source>largest error in {name}: exact {error} λ</source><translation>größter Fehler in {name}: exakt {error} λ</translation></message>
+<message><source>lateral colour</source><translation>Farbquerfehler</translation></message>
 <message><source>lateral colour {shift} µm</source><translation>Farbquerfehler {shift} µm</translation></message>
+<message><source>lateral colour, µm</source><translation>Farbquerfehler, µm</translation></message>
 <message><source>lengths converted to mm from units of {unit:g} mm</source><translation>Längen in mm umgerechnet aus Einheiten von {unit:g} mm</translation></message>
 <message><source>lens "{name}" is neither shipped nor a file; did you mean {lenses}?</source><translation>das Objektiv "{name}" ist weder mitgeliefert noch eine Datei; ist {lenses} gemeint?</translation></message>
 <message><source>lens "{name}" is neither shipped nor a file; shipped are {lenses}</source><translation>das Objektiv "{name}" ist weder mitgeliefert noch eine Datei; mitgeliefert sind {lenses}</translation></message>
@@ -938,6 +968,8 @@
 <message><source>marginal ray y, mm</source><translation>Randstrahl y, mm</translation></message>
 <message><source>marginal rays, axial point</source><translation>Randstrahlen, Achspunkt</translation></message>
 <message><source>marker</source><translation>Marke</translation></message>
+<message><source>max {value} µm</source><translation>max. {value} µm</translation></message>
+<message><source>max {value} λ</source><translation>max. {value} λ</translation></message>
 <message><source>measure "{measure}" is unknown; choose one of {choices}</source><translation>das Maß "{measure}" ist unbekannt; eines von {choices} wählen</translation></message>
 <message><source>medium {name} cannot be written to a file; give an index, a glass name or nd and vd</source><translation>das Medium {name} lässt sich nicht in eine Datei schreiben; einen Index, einen Glasnamen oder nd und vd angeben</translation></message>
 <message><source>medium {name} has no line in a Zemax file; save as TOML, or give nd and vd</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei; als TOML speichern oder nd und vd angeben</translation></message>
@@ -967,6 +999,7 @@
 <message><source>no polynomial follows the rays of this pupil; stop the lens down or reduce the field</source><translation>kein Polynom folgt den Strahlen dieser Pupille; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no ray but the chief ray reaches the sensor; stop the lens down or reduce the field</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no ray lands within {half} pixels of the chief ray; take larger pixels</source><translation>im Umkreis von {half} Pixeln um den Hauptstrahl landet kein Strahl; größere Pixel nehmen</translation></message>
+<message><source>no ray of the fan reaches the sensor; choose a smaller field</source><translation>kein Strahl des Fächers erreicht den Sensor; ein kleineres Feld wählen</translation></message>
 <message><source>no ray reaches the sensor; choose a smaller field or leave {parameter} off</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder {parameter} auslassen</translation></message>
 <message><source>no ray reaches the sensor; choose a smaller field or stop the lens down</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder abblenden</translation></message>
 <message><source>no ray reaches the sensor; {remedy}</source><translation>kein Strahl erreicht den Sensor; {remedy}</translation></message>
@@ -976,8 +1009,11 @@
 <message><source>none</source><translation>keine</translation></message>
 <message><source>not converged: agrees to {reached:.1e} only</source><translation>nicht konvergiert: stimmt nur auf {reached:.1e} überein</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
+<message><source>nothing is pinned as B (Ctrl+B)</source><translation>nichts ist als B gemerkt (Strg+B)</translation></message>
+<message><source>number of columns</source><translation>Anzahl der Spalten</translation></message>
 <message><source>number of fields</source><translation>Anzahl der Felder</translation></message>
 <message><source>number of rays drawn from a point</source><translation>Zahl der von einem Punkt gezeichneten Strahlen</translation></message>
+<message><source>number of rows</source><translation>Anzahl der Zeilen</translation></message>
 <message><source>number of wavelengths</source><translation>Anzahl der Wellenlängen</translation></message>
 <message><source>numerical aperture {value:g} is impossible in index {index:g}; correct it</source><translation>die numerische Apertur {value:g} ist im Index {index:g} unmöglich; berichtigen</translation></message>
 <message><source>object at infinity</source><translation>Objekt im Unendlichen</translation></message>
@@ -1030,6 +1066,7 @@
 <message><source>points {depth} away blur over {size:.2g} mm, which takes {side}² samples of {most}² at most; bring the depths nearer to the focus or stop down</source><translation>Punkte in {depth} Entfernung verschwimmen über {size:.2g} mm, das braucht {side}² Proben von höchstens {most}²; die Abstände näher an den Fokus bringen oder abblenden</translation></message>
 <message><source>predicted R² ≥ {r}</source><translation>vorhergesagt R² ≥ {r}</translation></message>
 <message><source>present field</source><translation>jetziges Feld</translation></message>
+<message><source>preview</source><translation>Vorschau</translation></message>
 <message><source>preview {fast} / settled {ms} ms</source><translation>Vorschau {fast} / fertig {ms} ms</translation></message>
 <message><source>preview {ms} ms</source><translation>Vorschau {ms} ms</translation></message>
 <message><source>primary wavelength</source><translation>Hauptwellenlänge</translation></message>
@@ -1066,9 +1103,12 @@
 <message><source>refractive index is {value}; give a number between 0.5 and 6</source><translation>der Brechungsindex ist {value}; eine Zahl zwischen 0,5 und 6 angeben</translation></message>
 <message><source>refused</source><translation>abgelehnt</translation></message>
 <message><source>relative L2 error</source><translation>relativer L2-Fehler</translation></message>
+<message><source>relative illumination</source><translation>relative Beleuchtungsstärke</translation></message>
+<message><source>relative illumination, %</source><translation>relative Beleuchtungsstärke, %</translation></message>
 <message><source>rim</source><translation>Rand</translation></message>
 <message><source>rim offset</source><translation>Versatz des Rands</translation></message>
 <message><source>rim rays of the field point</source><translation>Randstrahlen des Feldpunkts</translation></message>
+<message><source>rims clip</source><translation>mit Rändern</translation></message>
 <message><source>rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or leave {parameter} off</source><translation>Ränder nehmen {lost} von {rays} Strahlen weg, und {method} beschreibt die ganze Pupille; traced oder huygens wählen oder {parameter} auslassen</translation></message>
 <message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
 <message><source>sagittal</source><translation>sagittal</translation></message>
@@ -1116,7 +1156,9 @@
 <message><source>size of type</source><translation>Schriftgröße</translation></message>
 <message><source>solves and pickups, whose stored values are read</source><translation>Löse- und Übernahmevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 <message><source>source depth</source><translation>Objektabstand</translation></message>
+<message><source>spatial frequency</source><translation>Ortsfrequenz</translation></message>
 <message><source>spectral lines have no power per wavelength; take their wavelengths one by one</source><translation>Spektrallinien haben keine Leistung je Wellenlänge; ihre Wellenlängen einzeln nehmen</translation></message>
+<message><source>spectrum</source><translation>Spektrum</translation></message>
 <message><source>spherical</source><translation>sphärisch</translation></message>
 <message><source>spherical aberration</source><translation>sphärische Aberration</translation></message>
 <message><source>split</source><translation>geteilt</translation></message>
@@ -1326,6 +1368,7 @@
 <message><source>the state's group "{group}" is no table; save it again from the explorer</source><translation>die Gruppe "{group}" des Zustands ist keine Tabelle; im Explorer neu speichern</translation></message>
 <message><source>the state's lists are nested too deep; save it again from the explorer</source><translation>die Listen des Zustands sind zu tief verschachtelt; im Explorer neu speichern</translation></message>
 <message><source>the state's {name} must be a list of panels' names; correct it or leave it out</source><translation>{name} des Zustands muss eine Liste von Ansichtenamen sein; berichtigen Sie sie oder lassen Sie sie weg</translation></message>
+<message><source>the stop alone</source><translation>die Blende allein</translation></message>
 <message><source>the stop changes with depth or wavelength; a database holds one stop, choose it</source><translation>die Blende wechselt mit Abstand oder Wellenlänge; eine Datenbank enthält eine Blende, diese wählen</translation></message>
 <message><source>the stop is no plane in an air gap, so it cannot be moved alone; insert a plane and put the stop there</source><translation>die Blende ist keine ebene Fläche in einem Luftabstand und lässt sich nicht allein verschieben; fügen Sie eine ebene Fläche ein und legen Sie die Blende dorthin</translation></message>
 <message><source>the stop is on the object or the image; put it on a surface between</source><translation>die Blende liegt auf dem Objekt oder dem Bild; auf eine Fläche dazwischen legen</translation></message>
@@ -1353,6 +1396,9 @@
 <message><source>there is no such file; check the path</source><translation>eine solche Datei gibt es nicht; den Pfad prüfen</translation></message>
 <message><source>there is no surface {number} in a lens of {count}; choose its row again</source><translation>eine Fläche {number} gibt es in einem Objektiv von {count} nicht; die Zeile noch einmal wählen</translation></message>
 <message><source>there is no table [sensor]; add it, with rows, columns and pixel_um under it</source><translation>es gibt keine Tabelle [sensor]; sie hinzufügen, darunter rows, columns und pixel_um</translation></message>
+<message><source>there is nothing to draw; choose another field or wavelength</source><translation>es gibt nichts zu zeichnen; ein anderes Feld oder eine andere Wellenlänge wählen</translation></message>
+<message><source>thick exact rays, fine third order</source><translation>dick exakt, fein 3. Ordnung</translation></message>
+<message><source>thick tangential, fine sagittal</source><translation>dick tangential, fein sagittal</translation></message>
 <message><source>thickness</source><translation>Dicke</translation></message>
 <message><source>thickness {number}: {thickness} mm</source><translation>Dicke {number}: {thickness} mm</translation></message>
 <message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rays} rays; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rays} Strahlen; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
@@ -1422,6 +1468,7 @@
 <message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
 <message><source>with wheel, arrows or a dragged number: ten times as coarse, ten times as fine</source><translation>mit Rad, Pfeilen oder beim Ziehen an einer Zahl: zehnmal so grob, zehnmal so fein</translation></message>
 <message><source>working</source><translation>in Arbeit</translation></message>
+<message><source>worst R² ≥ {r}</source><translation>kleinstes R² ≥ {r}</translation></message>
 <message><source>wrapped</source><translation>gefaltet</translation></message>
 <message><source>write a finite number</source><translation>eine endliche Zahl schreiben</translation></message>
 <message><source>write a number that is not 0, inf for a plane</source><translation>eine Zahl schreiben, die nicht 0 ist, inf für eine Ebene</translation></message>
@@ -1459,6 +1506,7 @@
 <message><source>{command} refers to surface {number}, which does not exist yet</source><translation>{command} verweist auf Fläche {number}, die es noch nicht gibt</translation></message>
 <message><source>{command} stands before any surface; put it after one</source><translation>{command} steht vor jeder Fläche; hinter eine Fläche stellen</translation></message>
 <message><source>{command}: {what} is missing; complete the command</source><translation>{command}: {what} fehlt; den Befehl ergänzen</translation></message>
+<message><source>{contrast} (at {f:.3g}/mm)</source><translation>{contrast} (bei {f:.3g}/mm)</translation></message>
 <message><source>{count:.3g} PSF samples exceed {most:.3g}; ask for fewer pixels or fewer PSFs</source><translation>{count:.3g} PSF-Proben sind mehr als {most:.3g}; weniger Pixel oder weniger PSFs verlangen</translation></message>
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
 <message><source>{count} PSFs of {pixels}² pixels are {size:.1f} GiB; ask for fewer, or for fewer pixels a side</source><translation>{count} PSFs von {pixels}² Pixeln sind {size:.1f} GiB; weniger verlangen, oder weniger Pixel je Seite</translation></message>
@@ -1475,9 +1523,11 @@
 <message><source>{depth:.4g} mm</source><translation>{depth:.4g} mm</translation></message>
 <message><source>{depth:g} mm</source><translation>{depth:g} mm</translation></message>
 <message><source>{depth}, field {field}°, {wavelength} nm</source><translation>{depth}, Feld {field}°, {wavelength} nm</translation></message>
+<message><source>{done} of {all} settled</source><translation>{done} von {all} fertig</translation></message>
 <message><source>{error:.2g} relative, does not keep {tolerance:g}; the full grid takes {times:.0f} times as long</source><translation>{error:.2g} relativ, hält {tolerance:g} nicht ein; das volle Gitter dauert {times:.0f}-mal so lang</translation></message>
 <message><source>{error:.2g} relative, keeps {tolerance:g}; the full grid takes {times:.0f} times as long</source><translation>{error:.2g} relativ, hält {tolerance:g} ein; das volle Gitter dauert {times:.0f}-mal so lang</translation></message>
 <message><source>{error}; the field list holds the axis only</source><translation>{error}; die Feldliste enthält nur die Achse</translation></message>
+<message><source>{f:g}/mm</source><translation>{f:g}/mm</translation></message>
 <message><source>{f_number}, stop ⌀ {diameter} mm</source><translation>{f_number}, Blende ⌀ {diameter} mm</translation></message>
 <message><source>{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, JPEG oder HEIF; das Foto als eines davon speichern und dieses ablegen</translation></message>
 <message><source>{glass} is in no catalogue given; accept a substitute ({offers}) or give its AGF catalogue</source><translation>{glass} steht in keinem angegebenen Katalog; einen Ersatz annehmen ({offers}) oder seinen AGF-Katalog angeben</translation></message>
@@ -1511,10 +1561,15 @@
 <message><source>{name} is {found}; write a whole number</source><translation>{name} ist {found}; eine ganze Zahl schreiben</translation></message>
 <message><source>{name} is {found}; {remedy}</source><translation>{name} ist {found}; {remedy}</translation></message>
 <message><source>{name} is {value}; give {kind}</source><translation>{name} ist {value}; {kind} angeben</translation></message>
+<message><source>{name} is {value}; give {least} to {most} numbers, or none for those that the window chooses</source><translation>{name} ist {value}; {least} bis {most} Zahlen angeben, oder keine für die, die das Fenster wählt</translation></message>
 <message><source>{name} is {value}; list some of {allowed}, each once and in this order</source><translation>{name} ist {value}; einige von {allowed} nennen, jedes einmal und in dieser Reihenfolge</translation></message>
+<message><source>{name} sagittal</source><translation>{name} sagittal</translation></message>
+<message><source>{name} tangential</source><translation>{name} tangential</translation></message>
+<message><source>{name} third order</source><translation>{name} 3. Ordnung</translation></message>
 <message><source>{name} uses dispersion formula {formula}; only 1 to 13 exist, correct it</source><translation>{name} benutzt die Dispersionsformel {formula}; es gibt nur 1 bis 13, berichtigen</translation></message>
 <message><source>{name}, which is not known to describe the lens</source><translation>{name}, wovon nicht bekannt ist, dass es das Objektiv beschreibt</translation></message>
 <message><source>{name}: {likeness}</source><translation>{name}: {likeness}</translation></message>
+<message><source>{nm:.1f} nm</source><translation>{nm:.1f} nm</translation></message>
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
 <message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
@@ -1630,6 +1685,10 @@
 <message><source>{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if</source><translation>{why}, also stellt ein anderer Ort des Sensors nicht scharf; Wd am Regler einstellen oder das Was-wäre-wenn zurücksetzen</translation></message>
 <message><source>|f′| over the entrance pupil.</source><translation>|f′| durch die Eintrittspupille.</translation></message>
 <message><source>±{half} µm depth of focus</source><translation>±{half} µm Fokustiefe</translation></message>
+<message><source>× A | B</source><translation>× A | B</translation></message>
+<message><source>× depths</source><translation>× Abstände</translation></message>
+<message><source>× sensor shifts</source><translation>× Sensorversatz</translation></message>
+<message><source>× wavelengths</source><translation>× Wellenlängen</translation></message>
 <message><source>Δn at d unknown, the file does not tell the index it wants</source><translation>Δn bei d unbekannt, die Datei nennt den gewünschten Index nicht</translation></message>
 <message><source>Δn at d {value:+.5f}</source><translation>Δn bei d {value:+.5f}</translation></message>
 <message><source>η, pupil radii (towards the field)</source><translation>η, Pupillenradien (zum Feld hin)</translation></message>

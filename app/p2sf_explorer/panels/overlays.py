@@ -1,0 +1,162 @@
+"""Curves laid over each other: contrast of fields, colours and sensor positions; colour and light over the field."""
+
+from math import inf
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel
+
+from p2sf.conventions import UM_PER_MM
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.messages import WINDOW, said
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.matrix.overlays import PLAIN, USUAL_PER_MM, Overlay, OverlayRequest, answer
+from p2sf_explorer.state.scales import read_number
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import SideCard, chooser, select
+from p2sf_explorer.widgets.chart_card import NotedChart, reach
+from p2sf_explorer.widgets.curves import ENDLESS
+from p2sf_explorer.widgets.readout import Readout
+from p2sf_explorer.widgets.value_edit import ValueList
+from p2sf_explorer.workers.panel_jobs import Asking
+
+TIP = (
+    "Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal "
+    "(fine). Fields and wavelengths are those of Matrix; a vertical line marks the present place."
+)
+OF = (
+    ("fields", "MTF of all fields"),
+    ("colours", "MTF of colours and spectrum"),
+    ("field", "MTF over the field"),
+    ("focus", "MTF through focus"),
+    ("lateral", "lateral colour"),
+    ("distortion", "distortion of colours"),
+    ("illumination", "relative illumination"),
+)
+HUES = ("text", "marginal", "chief", "third", "#cc79a7", "#a6761d")  # the first of what belongs to none
+PER_MM = {"": 1.0, "/mm": 1.0, "1/mm": 1.0}
+MOST = 16
+FROM_ZERO = {"contrast": 1.04, "relative illumination, %": 104.0}  # axes that begin there, and where they end
+HINTS = {"contrast": "thick tangential, fine sagittal", "distortion, %": "thick exact rays, fine third order"}
+
+
+class OverlaysPanel:
+    """A chart of curves with a chooser, the frequencies where there are any, and a legend beside it."""
+
+    def __init__(self, store: Store):
+        self._store = store
+        self.widget = SideCard("Overlays", TIP)
+        self.of = chooser(OF, "Which curves are shown", self.widget)
+        self.frequencies = ValueList((), self.widget)
+        self.frequencies.name(tr("At"), lambda text: read_number(text, "spatial frequency", PER_MM))
+        self.legend, self.note = QLabel(self.widget), Readout(self.widget)
+        self.legend.setTextFormat(Qt.TextFormat.RichText)
+        self.chart = NotedChart("frequency on the sensor, 1/mm", "contrast")
+        self.zero = self.chart.add_curve("line")
+        self.curves = [self.chart.add_curve("text") for _ in range(MOST)]
+        self.widget.add_line(self.of)
+        self.widget.add_line(self.frequencies)
+        self.widget.add_line(self.legend)
+        self.widget.add_line(self.note)
+        self.widget.side.addStretch(1)
+        self.widget.set_body(self.chart)
+        self.asking = Asking(self.widget, answer, self._take, self._say)
+        self.found: tuple[OverlayRequest | None, Overlay] | None = None
+        self._live: Live | None = None
+        self._theme = LIGHT
+        self.of.activated.connect(lambda: store.update(curves_of=self.of.currentData()))
+        self.frequencies.listed.connect(self._listed)
+        self.frequencies.refused.connect(store.refused.emit)
+
+    def _listed(self, values: tuple[float, ...]) -> None:
+        self._store.update(curves_frequencies_per_mm=values)
+
+    def show(self, live: Live) -> None:
+        """Paint curves that fit a frame, or have them made in the background."""
+        self._live = live
+        view: Overlay | OverlayRequest = live.views["curves"]
+        select(self.of, live.state.curves.of)
+        self.frequencies.setVisible(live.state.curves.of in ("field", "focus"))
+        *texts, last = (f"{f:g}" for f in live.state.curves.frequencies_per_mm or USUAL_PER_MM)
+        self.frequencies.show_values((*texts, f"{last}/mm"))
+        if isinstance(view, Overlay):
+            self.asking.forget()
+            self._paint(None, view)
+            self._say("")
+            return
+        self.asking.ask(view)
+        if self.found and isinstance(self.found[0], OverlayRequest) and self.found[0].of == view.of:
+            self._mark()
+
+    def _take(self, request: OverlayRequest, found: Overlay) -> str:
+        if self._live and request.of == self._live.state.curves.of:
+            self._paint(request, found)
+        return " "
+
+    def _say(self, text: str) -> None:
+        self.note.set_text(text.strip(" ·"))
+
+    def _paint(self, request: OverlayRequest | None, found: Overlay) -> None:
+        self.found = request, found
+        for curve, line in zip(self.curves, found.lines, strict=False):
+            curve.token, curve.width, curve.name = HUES[line.hue % len(HUES)], line.width, line.name.text(WINDOW)
+            curve.set_data(found.x, line.values)
+        for curve in self.curves[len(found.lines) :]:
+            curve.set_data([], [])
+        self.chart.name_axes(*found.axes)
+        across = float(found.x[0]), float(found.x[-1])
+        self.chart.set_range(across, up_range(found), steady="" if found.axes[1] in FROM_ZERO else "y")
+        self.zero.set_data(ENDLESS, (0.0, 0.0))
+        self._show_legend(found)
+        self._mark()
+
+    def _mark(self) -> None:
+        """Mark the present field or sensor position, or the sensor's Nyquist frequency."""
+        if self._live is None or self.found is None:
+            return
+        optics, bottom = self._live.state.optics, self.found[1].axes[0]
+        place = {"field, °": abs(optics.field_deg), "sensor shift, µm": optics.sensor_shift_um}.get(bottom)
+        if place is None:
+            place = UM_PER_MM / (2 * self._live.state.display.pixel_um)
+            text = " " + tr("Nyquist {f}", f=f"{place:.3g}")
+            self.chart.show_notes(((place, inf, text, "text", -1),), ((place, "muted"),))
+        else:
+            self.chart.show_notes((), ((place, "muted"),))
+
+    def _show_legend(self, found: Overlay) -> None:
+        hues = {line.hue for line in found.lines}
+        names = list(found.names)
+        order = [*range(1, len(names) + 1)] if PLAIN not in hues else [*range(1, len(names)), PLAIN]
+        tokens = (HUES[hue % len(HUES)] for hue in order)
+        colours = (getattr(self._theme, token, token) for token in tokens)
+        marks = (f'<span style="color:{colour}">━</span>' for colour in colours)
+        lines = [f"{mark} {name.text(WINDOW)}" for mark, name in zip(marks, names, strict=True)]
+        if hint := HINTS.get(found.axes[1]):
+            lines.append(tr(hint))
+        if found.missing:
+            lines.append(said(found.missing))
+        self.legend.setWordWrap(bool(found.missing))
+        text = "<br>".join(lines)
+        if text != self.legend.text():
+            self.legend.setText(text)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        self.chart.restyle(theme)
+        self.note.restyle(theme)
+        if self.found:
+            self._show_legend(self.found[1])
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.asking.worker.stop()
+
+
+def up_range(found: Overlay) -> tuple[float, float]:
+    """Return the range of the left axis: contrast and light from 0, else around all curves."""
+    if found.axes[1] in FROM_ZERO:
+        return 0.0, FROM_ZERO[found.axes[1]]
+    exact = [line.values for line in found.lines if np.isfinite(line.values).any()]
+    return reach(*exact, least=1e-3) if exact else (-1.0, 1.0)
