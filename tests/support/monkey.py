@@ -151,7 +151,7 @@ class Person:
         self.event("choose a lens", QTest.keyClick, listed, KEY.Key_Return)
 
     def choose_a_method(self) -> None:
-        box = self.chance.choice((self.window.top.method, self.window.top.tolerance))
+        box = self.window.top.method
         self.event("choose a method", QTest.keyClick, box, self.chance.choice((KEY.Key_Down, KEY.Key_Up)))
 
     def open_a_tab(self) -> None:

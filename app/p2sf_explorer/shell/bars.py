@@ -13,6 +13,7 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.theme import DARK, LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.docking.workspace_bar import WorkspaceBar
+from p2sf_explorer.exactness.slider import ExactnessButton
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.shell.lens_cards import shown_title
@@ -22,7 +23,7 @@ from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.scales import signed
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import chooser, described, select
+from p2sf_explorer.widgets.card import described, select
 from p2sf_explorer.widgets.readout import Readout
 
 METHOD_WORDS = {
@@ -32,9 +33,7 @@ METHOD_WORDS = {
     "traced": "traced: exact wavefront",
     "huygens": "huygens: the reference sum",
 }
-TOLERANCES = (0.9, 0.95, 0.99, 0.999, 0.9999)
 METHOD_TIP = "Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough."
-TOLERANCE_TIP = "Tolerance: the R² against the Huygens reference that auto must promise."
 
 
 class TopBar(QFrame):
@@ -60,14 +59,11 @@ class TopBar(QFrame):
         self.edited.setObjectName("badge")
         self.edited.setToolTip(tr("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)"))
         self.method = described({name: METHOD_WORDS[name] for name in CHOICES["method"]}, METHOD_TIP, self)
-        tolerances = tuple((str(t), f"R² ≥ {t:g}") for t in TOLERANCES)
-        self.tolerance = chooser(tolerances, TOLERANCE_TIP, self)
-        for box in (self.method, self.tolerance):
-            box.setObjectName("")
-            box.setMinimumWidth(96)  # a narrow window cuts their words rather than grow
+        self.tolerance = ExactnessButton(store, self)
+        self.method.setObjectName("")
+        self.method.setMinimumWidth(96)  # a narrow window cuts its words rather than grow
         self.named = QLabel(tr("Method"), self)
         self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
-        self.tolerance.activated.connect(lambda: store.update(tolerance=float(self.tolerance.currentData())))
         self.undo = self._tool("↶", "Undo: take back one step (Ctrl+Z)", store.undo)
         self.redo = self._tool("↷", "Redo: take the step again (Ctrl+Shift+Z)", store.redo)
         self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it (Ctrl+B)", None)
@@ -163,10 +159,7 @@ class TopBar(QFrame):
         self.lens.show_lens(state.optics.lens, shown_title(state), DARK if dark else LIGHT)
         self.edited.setVisible(state.optics.lens_text is not None)
         select(self.method, state.optics.method)
-        if self.tolerance.findData(str(state.optics.tolerance)) < 0:
-            self.tolerance.addItem(f"R² ≥ {state.optics.tolerance:g}", str(state.optics.tolerance))
-        select(self.tolerance, str(state.optics.tolerance))
-        self.tolerance.setVisible(state.optics.method == "auto")
+        self.tolerance.show_state(state)
         if self.workspaces:
             self.workspaces.mark(state.display.workspace)
         self.undo.setEnabled(self._store.can_undo)

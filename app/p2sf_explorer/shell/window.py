@@ -182,6 +182,7 @@ class MainWindow(QMainWindow):
         self.live = live = self._answers.seen
         self.banner.hide()
         self.top.show_state(state, self._theme.dark)
+        self.top.tolerance.show_live(live)
         self.controls.show_live(self._answers.a)
         for key in self._visible():
             paint(self.panels[key], key, live)
@@ -371,6 +372,7 @@ class MainWindow(QMainWindow):
         self.setStyleSheet(stylesheet(self._theme))
         self.left.setFixedWidth(self._theme.px(WIDTH))
         self.controls.restyle(self._theme)
+        self.top.tolerance.restyle(self._theme)
         self.status.restyle(self._theme)
 
     def _style(self, key: str) -> None:
@@ -384,6 +386,7 @@ class MainWindow(QMainWindow):
         """End the background work with the window."""
         self.play.stop()
         self.commands.stop()
+        self.top.tolerance.stop()
         self.measuring.stop()
         self.deferred.stop()
         self.memory_trim.stop()

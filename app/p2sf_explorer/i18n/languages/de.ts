@@ -201,6 +201,8 @@
 <message><source>Free pupil</source><translation>Freie Pupille</translation></message>
 <message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
 <message><source>Fringe, peak waves</source><translation>Fringe, Spitzenwellen</translation></message>
+<message><source>From fast to exact</source><translation>Von schnell bis genau</translation></message>
+<message><source>From fast to exact: which error auto may make, or how long a picture may take. Now: {asked}</source><translation>Von schnell bis genau: welchen Fehler auto machen darf, oder wie lange ein Bild dauern darf. Jetzt: {asked}</translation></message>
 <message><source>Front focal point, whose light leaves as a parallel beam, from the first vertex: D/C.</source><translation>Objektseitiger Brennpunkt, dessen Licht als paralleles Bündel austritt, vom ersten Scheitel: D/C.</translation></message>
 <message><source>Front focus F</source><translation>Objektseitiger Brennpunkt F</translation></message>
 <message><source>Front principal plane, imaged onto H′ at magnification 1; from the first vertex.</source><translation>Objektseitige Hauptebene, mit Maßstab 1 auf H′ abgebildet; vom ersten Scheitel.</translation></message>
@@ -260,6 +262,7 @@
 <message><source>MTF of colours and spectrum</source><translation>MTF der Farben und des Spektrums</translation></message>
 <message><source>MTF over the field</source><translation>MTF über das Feld</translation></message>
 <message><source>MTF through focus</source><translation>MTF durch den Fokus</translation></message>
+<message><source>MTF: RMS error ≤ {percent} % of its own RMS</source><translation>MTF: RMS-Fehler ≤ {percent} % ihres eigenen RMS</translation></message>
 <message><source>MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration.</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
 <message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
@@ -389,6 +392,7 @@
 <message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts um seinen Schwerpunkt; RMS der Strahlen {rms} µm; {method}</translation></message>
 <message><source>R80 {radius} µm</source><translation>R80 {radius} µm</translation></message>
 <message><source>R80 {radius} µm (of {percent:.0f} %)</source><translation>R80 {radius} µm (von {percent:.0f} %)</translation></message>
+<message><source>R80: error ≤ {percent} % of R80, by a bound</source><translation>R80: Fehler ≤ {percent} % von R80, nach einer Schranke</translation></message>
 <message><source>RMS in x</source><translation>RMS in x</translation></message>
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
@@ -419,12 +423,14 @@
 <message><source>Reset</source><translation>Nullen</translation></message>
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
+<message><source>R² not predicted</source><translation>R² nicht vorhergesagt</translation></message>
 <message><source>R² {r} vs Huygens</source><translation>R² {r} gegen Huygens</translation></message>
 <message><source>R² ≥ 0.9</source><translation>R² ≥ 0,9</translation></message>
 <message><source>R² ≥ 0.95</source><translation>R² ≥ 0,95</translation></message>
 <message><source>R² ≥ 0.99</source><translation>R² ≥ 0,99</translation></message>
 <message><source>R² ≥ 0.999</source><translation>R² ≥ 0,999</translation></message>
 <message><source>R² ≥ 0.9999</source><translation>R² ≥ 0,9999</translation></message>
+<message><source>R² ≥ {r2} against Huygens</source><translation>R² ≥ {r2} gegen Huygens</translation></message>
 <message><source>R² ≥ {value:g}</source><translation>R² ≥ {value:g}</translation></message>
 <message><source>Sampling</source><translation>Abtastung</translation></message>
 <message><source>Save a film</source><translation>Film speichern</translation></message>
@@ -631,6 +637,7 @@
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
 <message><source>What the pictures show</source><translation>Was die Bilder zeigen</translation></message>
+<message><source>What the slider is about: an error, or the time of a picture</source><translation>Worum es beim Regler geht: einen Fehler oder die Zeit eines Bildes</translation></message>
 <message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
 <message><source>When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the difference, and what every method costs in time and error appear here.</source><translation>Wenn die Regler ruhen, wird das Bild mit einer auskonvergierten Summe exakter Strahlen (Huygens) verglichen: Referenz, Unterschied und was jede Methode an Zeit und Fehler kostet, erscheinen hier.</translation></message>
@@ -679,6 +686,7 @@
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
 <message><source>a number is too long or lists are nested too deep; this is no lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
+<message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
 <message><source>a pixel of {pixel_um} µm; give a positive number</source><translation>ein Pixel von {pixel_um} µm; eine positive Zahl angeben</translation></message>
 <message><source>a profile through "{place}" is unknown; choose "chief" or "peak"</source><translation>ein Profil durch "{place}" ist unbekannt; "chief" oder "peak" wählen</translation></message>
 <message><source>a pupil grid of {size} samples; give an even count of at least 2</source><translation>ein Pupillengitter aus {size} Proben; eine gerade Anzahl ab 2 angeben</translation></message>
@@ -753,10 +761,14 @@
 <message><source>blurred</source><translation>unscharf</translation></message>
 <message><source>brightness</source><translation>Helligkeit</translation></message>
 <message><source>bring focus and source together to see waves</source><translation>Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
+<message><source>by R²</source><translation>nach R²</translation></message>
 <message><source>by field</source><translation>nach Feld</translation></message>
 <message><source>by hand</source><translation>von Hand</translation></message>
 <message><source>by kind</source><translation>nach Art</translation></message>
+<message><source>by the MTF</source><translation>nach der MTF</translation></message>
 <message><source>by the axis's PSF</source><translation>mit der PSF der Achse</translation></message>
+<message><source>by the radius R80</source><translation>nach dem Radius R80</translation></message>
+<message><source>by time</source><translation>nach Zeit</translation></message>
 <message><source>by wavelength</source><translation>nach Wellenlänge</translation></message>
 <message><source>cannot compare {psf} with {reference}; render both on the same grid</source><translation>{psf} und {reference} sind nicht vergleichbar; beide auf demselben Gitter rechnen</translation></message>
 <message><source>centre_mm has {count} numbers; give two, x and y</source><translation>centre_mm hat {count} Zahlen; zwei angeben, x und y</translation></message>
@@ -849,6 +861,7 @@
 <message><source>every chief ray meets the sensor on the axis; give the field as an angle</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse; das Feld als Winkel angeben</translation></message>
 <message><source>every medium of this lens has the index {index:g}, so no surface bends light; name its glasses</source><translation>jedes Medium dieses Objektivs hat den Brechungsindex {index:g}, also bricht keine Fläche das Licht; seine Gläser nennen</translation></message>
 <message><source>every pixel of the photo</source><translation>jedes Pixel des Fotos</translation></message>
+<message><source>exact</source><translation>genau</translation></message>
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
 <message><source>exact rays, since {because}</source><translation>exakte Strahlen, denn {because}</translation></message>
 <message><source>exact rays, this field</source><translation>exakt, dieses Feld</translation></message>
@@ -857,6 +870,7 @@
 <message><source>f-number</source><translation>Blendenzahl</translation></message>
 <message><source>f-number N = f′/D: focal length over the diameter of the entrance pupil.</source><translation>Blendenzahl N = f′/D: Brennweite durch den Durchmesser der Eintrittspupille.</translation></message>
 <message><source>f-number flag</source><translation>Kennzeichen der Blendenzahl</translation></message>
+<message><source>fast</source><translation>schnell</translation></message>
 <message><source>fewer fits, all of the costliest method, with the others interpolated would cost no less</source><translation>weniger Anpassungen, alle mit dem teuersten Verfahren und die übrigen interpoliert, kosteten nicht weniger</translation></message>
 <message><source>field</source><translation>Feld</translation></message>
 <message><source>field angle</source><translation>Feldwinkel</translation></message>
@@ -971,6 +985,7 @@
 <message><source>max {value} µm</source><translation>max. {value} µm</translation></message>
 <message><source>max {value} λ</source><translation>max. {value} λ</translation></message>
 <message><source>measure "{measure}" is unknown; choose one of {choices}</source><translation>das Maß "{measure}" ist unbekannt; eines von {choices} wählen</translation></message>
+<message><source>measuring what each method takes here</source><translation>es wird gemessen, wie lange jedes Verfahren hier braucht</translation></message>
 <message><source>medium {name} cannot be written to a file; give an index, a glass name or nd and vd</source><translation>das Medium {name} lässt sich nicht in eine Datei schreiben; einen Index, einen Glasnamen oder nd und vd angeben</translation></message>
 <message><source>medium {name} has no line in a Zemax file; save as TOML, or give nd and vd</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei; als TOML speichern oder nd und vd angeben</translation></message>
 <message><source>meets the asphere on surface {surface} where no safe intersection was found</source><translation>trifft die Asphäre auf Fläche {surface}, wo kein sicherer Schnittpunkt zu finden war</translation></message>
@@ -1026,6 +1041,7 @@
 <message><source>of peak</source><translation>der Spitze</translation></message>
 <message><source>off</source><translation>aus</translation></message>
 <message><source>on</source><translation>an</translation></message>
+<message><source>on screen: {method}, {ms} ms, {error}</source><translation>auf dem Bildschirm: {method}, {ms} ms, {error}</translation></message>
 <message><source>on the pixels, µm</source><translation>auf den Pixeln, µm</translation></message>
 <message><source>one pass in float32</source><translation>ein Durchgang in float32</translation></message>
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
@@ -1064,6 +1080,7 @@
 <message><source>planning</source><translation>Plan</translation></message>
 <message><source>play is "{name}"; name a slider: {sliders}</source><translation>play ist "{name}"; einen Regler nennen: {sliders}</translation></message>
 <message><source>points {depth} away blur over {size:.2g} mm, which takes {side}² samples of {most}² at most; bring the depths nearer to the focus or stop down</source><translation>Punkte in {depth} Entfernung verschwimmen über {size:.2g} mm, das braucht {side}² Proben von höchstens {most}²; die Abstände näher an den Fokus bringen oder abblenden</translation></message>
+<message><source>predicted 1 − R² ≤ {error}</source><translation>vorhergesagt 1 − R² ≤ {error}</translation></message>
 <message><source>predicted R² ≥ {r}</source><translation>vorhergesagt R² ≥ {r}</translation></message>
 <message><source>present field</source><translation>jetziges Feld</translation></message>
 <message><source>preview</source><translation>Vorschau</translation></message>
@@ -1542,6 +1559,8 @@
 <message><source>{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field</source><translation>{lost} von {total} Strahlen erreichen den Sensor nicht; abblenden oder das Feld verkleinern</translation></message>
 <message><source>{lost} rays lost</source><translation>{lost} Strahlen verloren</translation></message>
 <message><source>{method} follows: its sum of waves takes a moment</source><translation>{method} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
+<message><source>{method} here: longer than a frame</source><translation>{method} hier: länger als ein Bild der Bewegung</translation></message>
+<message><source>{method} here: {ms} ms, {error}</source><translation>{method} hier: {ms} ms, {error}</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
 <message><source>{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto to see ray density</source><translation>{method} bräuchte {count:.2g} Pupillenproben für diese Unschärfe, was zu lange dauert; {remedy} oder auto wählen, um die Strahlendichte zu sehen</translation></message>
 <message><source>{method}, {count} numbers</source><translation>{method}, {count} Zahlen</translation></message>

@@ -1,0 +1,237 @@
+"""The slider of the top bar from fast to exact, by R², MTF, R80 or time, with what it costs and gives beside it."""
+
+from math import inf, isfinite, log
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QHideEvent, QPaintEvent
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from p2sf_explorer.charts.theme import SPACE, Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.exactness.bounds import (
+    COARSEST,
+    EXACTEST,
+    Cost,
+    costs,
+    mtf_error,
+    r80_sensitivity,
+    within,
+)
+from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.state.scales import significant
+from p2sf_explorer.state.state import State
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import chooser, paint_chevron
+from p2sf_explorer.widgets.slider import STEPS, Slider
+from p2sf_explorer.workers.worker import LatestWins
+
+TIP = "From fast to exact: which error auto may make, or how long a picture may take. Now: {asked}"
+MEASURES = {"r2": "by R²", "mtf": "by the MTF", "r80": "by the radius R80", "time": "by time"}
+QUICKEST_MS, SLOWEST_MS = 1.0, 1000.0
+SERIES = (1.0, 2.0, 5.0)
+PANEL_PX = 340
+
+
+class ExactnessButton(QPushButton):
+    """Says what is asked of ``auto``; clicked, it opens the slider under it."""
+
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._store = store
+        self.setStyleSheet("QPushButton { text-align: left; padding-right: 20px; }")
+        self.setMinimumWidth(96)
+        self.panel = ExactnessPanel(store, self)
+        self.clicked.connect(self._open)
+
+    def show_state(self, state: State) -> None:
+        """Follow a state: the error that auto may make, or the method that a person chose."""
+        asked = local(f"R² ≥ {state.optics.tolerance:g}" if state.optics.method == "auto" else state.optics.method)
+        if asked != self.text():
+            self.setText(asked)
+            self.setToolTip(tr(TIP, asked=asked))
+            self.setAccessibleName(tr(TIP, asked=asked))
+        self.panel.show_state(state)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self.panel.slider.restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.panel.stop()
+
+    def show_live(self, live: Live) -> None:
+        """Follow an answer."""
+        self.panel.show_live(live)
+
+    def _open(self) -> None:
+        self.panel.open_at(self.mapToGlobal(QPoint(0, self.height() + 4)))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the button, then a chevron."""
+        super().paintEvent(event)
+        paint_chevron(self)
+
+
+class ExactnessPanel(QFrame):
+    """The slider with its measure; under it what is asked, what that costs, and what the picture on screen is."""
+
+    def __init__(self, store: Store, parent: QWidget) -> None:
+        super().__init__(parent, Qt.WindowType.Popup)
+        self.setObjectName("card")
+        self._store = store
+        self._live: Live | None = None
+        self._costs: tuple[Cost, ...] = ()
+        self.measure = chooser(tuple(MEASURES.items()), "What the slider is about: an error, or the time of a picture")
+        self.slider = Slider(self)
+        self.slider.setAccessibleName(tr("From fast to exact"))
+        self.asked, self.costing, self.given = QLabel(self), QLabel(self), QLabel(self)
+        self.worker = LatestWins(self)
+        self.worker.finished.connect(self._on_costs)
+        self._lay_out()
+        self.measure.activated.connect(self._place)
+        self.slider.valueChanged.connect(lambda _: self._tell())
+        self.slider.sliderReleased.connect(self.commit)
+        self.slider.reset.connect(lambda: self._store.update(method="auto", tolerance=State().optics.tolerance))
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout()
+        fast, exact = QLabel(tr("fast"), self), QLabel(tr("exact"), self)
+        for label in (fast, exact, self.costing, self.given):
+            label.setObjectName("muted")
+            label.setWordWrap(label in (self.costing, self.given))
+        self.asked.setObjectName("title")
+        grid.addWidget(self.slider, 0, 0, 1, 2)
+        grid.addWidget(fast, 1, 0)
+        grid.addWidget(exact, 1, 1, Qt.AlignmentFlag.AlignRight)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(12, 10, 12, 10)
+        column.setSpacing(SPACE)
+        column.addWidget(self.measure)
+        column.addLayout(grid)
+        for label in (self.asked, self.costing, self.given):
+            column.addWidget(label)
+        self.setFixedWidth(PANEL_PX)
+
+    def open_at(self, place: QPoint) -> None:
+        """Show the panel at a place of the screen and measure what each method costs here."""
+        state = self._store.state
+        self._costs = ()
+        self.worker.submit(state, lambda cancelled, progress: costs(state))
+        self._place()
+        self.adjustSize()
+        self.move(place)
+        self.show()
+        self.slider.setFocus()
+
+    def show_state(self, state: State) -> None:
+        """Follow a state."""
+        if self.isVisible() and not self.slider.isSliderDown():
+            self._place()
+
+    def show_live(self, live: Live) -> None:
+        """Say what the picture on screen costs and gives."""
+        self._live = live
+        if self.isVisible():
+            self._tell_given()
+
+    def _place(self) -> None:
+        """Put the handle where the state is."""
+        if self.measure.currentData() == "time":
+            milliseconds = 1e3 * self._live.psf.seconds if self._live else SLOWEST_MS
+            travel = log(max(milliseconds, QUICKEST_MS) / QUICKEST_MS) / log(SLOWEST_MS / QUICKEST_MS)
+        else:
+            error = min(max(1 - self._store.state.optics.tolerance, EXACTEST), COARSEST)
+            travel = log(error / COARSEST) / log(EXACTEST / COARSEST)
+        self.slider.blockSignals(True)
+        self.slider.setValue(round(STEPS * min(1.0, travel)))
+        self.slider.blockSignals(False)
+        self._tell()
+        self._tell_given()
+
+    def one_less_r2(self) -> float:
+        """Return the 1 − R² that the slider allows, a round number."""
+        return rounded(COARSEST * (EXACTEST / COARSEST) ** (self.slider.value() / STEPS))
+
+    def milliseconds(self) -> float:
+        """Return the time that the slider allows, a round number."""
+        return rounded(QUICKEST_MS * (SLOWEST_MS / QUICKEST_MS) ** (self.slider.value() / STEPS))
+
+    def choice(self) -> Cost | None:
+        """Return the method that would be taken, None while costs are unknown."""
+        if not self._costs:
+            return None
+        if self.measure.currentData() == "time":
+            return within(self._costs, self.milliseconds())
+        return next((cost for cost in self._costs if cost.error <= self.one_less_r2()), self._costs[-1])
+
+    def commit(self) -> None:
+        """Take what the slider asks for."""
+        if self.measure.currentData() != "time":
+            self._store.update(method="auto", tolerance=round(1 - self.one_less_r2(), 9))
+        elif choice := self.choice():
+            self._store.update(method=choice.method)
+
+    def _tell(self) -> None:
+        self.asked.setText(local(tr(ASKED[self.measure.currentData()], **self._values())))
+        choice = self.choice()
+        if choice is None:
+            self.costing.setText(tr("measuring what each method takes here"))
+        elif isfinite(choice.milliseconds):
+            known = {"ms": significant(choice.milliseconds, 2), "error": predicted(choice.error)}
+            self.costing.setText(tr("{method} here: {ms} ms, {error}", method=choice.method, **known))
+        else:
+            self.costing.setText(tr("{method} here: longer than a frame", method=choice.method))
+
+    def _values(self) -> dict[str, str]:
+        error = self.one_less_r2()
+        measure = self.measure.currentData()
+        if measure == "time":
+            return {"ms": f"{self.milliseconds():g}"}
+        if measure == "mtf":
+            return {"percent": f"{100 * mtf_error(error):.2g}"}
+        if measure == "r80":
+            found = r80_sensitivity(self._live.psf) if self._live else inf
+            return {"percent": f"{100 * found * mtf_error(error):.2g}" if isfinite(found) else "–"}
+        return {"r2": f"{1 - error:.6g}"}
+
+    def _tell_given(self) -> None:
+        if self._live is None:
+            return
+        psf = self._live.psf
+        known = {"ms": significant(1e3 * psf.seconds, 2), "error": predicted(psf.predicted_error)}
+        self.given.setText(tr("on screen: {method}, {ms} ms, {error}", method=psf.method, **known))
+
+    def _on_costs(self, state: State, found: tuple[Cost, ...]) -> None:
+        self._costs = found
+        self._tell()
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.worker.stop()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Measure no longer."""
+        self.worker.cancel()
+        super().hideEvent(event)
+
+
+ASKED = {
+    "r2": "R² ≥ {r2} against Huygens",
+    "mtf": "MTF: RMS error ≤ {percent} % of its own RMS",
+    "r80": "R80: error ≤ {percent} % of R80, by a bound",
+    "time": "a picture in ≤ {ms} ms",
+}
+
+
+def rounded(value: float) -> float:
+    """Return the member of `SERIES`·10ᵏ nearest in ratio."""
+    decade = 10.0 ** int(log(value, 10) // 1)
+    return min((step * decade for step in (*SERIES, 10.0)), key=lambda member: abs(log(value / member)))
+
+
+def predicted(error: float | None) -> str:
+    """Return a predicted 1 − R² in words."""
+    if error is None or not isfinite(error):
+        return tr("R² not predicted")
+    return tr("predicted 1 − R² ≤ {error}", error=f"{error:.1g}")
