@@ -91,10 +91,10 @@ def main() -> None:
             for lens, source, pixel_um in cases(name):
                 line = f"{name:20} {source.field_deg:5.1f}° {source.depth_mm:6g} mm"
                 for method in asked.methods:
-                    if method == "traced" and not all(in_rows(with_aim(lens, aim), source) for aim in AIMS):
-                        line += "  traced ray by ray"
-                        continue
                     try:
+                        if method == "traced" and not all(in_rows(with_aim(lens, aim), source) for aim in AIMS):
+                            line += "  traced ray by ray"
+                            continue
                         times = ratio(METHODS[method], lens, source, pixel_um, asked.known)
                     except P2SFError as error:
                         line += f"  {method} refused ({type(error).__name__})"
