@@ -213,7 +213,6 @@
 <message><source>Group of panels</source><translation>Gruppe von Ansichten</translation></message>
 <message><source>Handbook</source><translation>Handbuch</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
-<message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a PNG or TIFF to photograph it.</source><translation>Mit dem Zeiger oder den Pfeiltasten einen Ort betrachten: seine PSF und sein Ausschnitt folgen. Die Teilung ziehen oder mit Umschalt und Pfeil links oder rechts verschieben. Ein PNG oder TIFF fallen lassen, um es zu fotografieren.</translation></message>
 <message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo to have it photographed.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
 <message><source>How many rays come from each point</source><translation>Wie viele Strahlen von jedem Punkt ausgehen</translation></message>
 <message><source>How many, evenly spread; this forgets values that were typed</source><translation>Wie viele, gleichmäßig verteilt; vergisst eingegebene Werte</translation></message>
