@@ -11,8 +11,8 @@ from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QColor, QFocusEvent, QImage, QPainter, QPaintEvent, QPen, QPixmap, QRegion, QResizeEvent
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt, Signal
+from PySide6.QtGui import QColor, QFocusEvent, QImage, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.axes import TickMaker, area_of, lock_places, paint_axes, paint_home, paint_lock
@@ -128,6 +128,7 @@ class Chart(QWidget):
         self.ground: int | None = None  # 0xffRRGGBB beyond the image
         self.pins: tuple[Pin, ...] = ()
         self._scale: tuple[float, float, float, float] | None = None
+        self._area: tuple[tuple[int, int], QRectF] | None = None  # by the size that it is of
         self._background: QPixmap | None = None
         self._image: tuple[np.ndarray, tuple[float, float, float, float]] | None = None
         self.hand = Hand(self)
@@ -294,13 +295,16 @@ class Chart(QWidget):
 
     def forget_background(self) -> None:
         """Have the background painted again."""
-        self._background = self._scale = None
+        self._background = self._scale = self._area = None
         self.update()
 
     @property
     def area(self) -> QRectF:
         """Return the rectangle of the data, in pixels."""
-        return area_of(self, self._labels) if self.framed else QRectF(self.rect())
+        size = self.width(), self.height()
+        if self._area is None or self._area[0] != size:  # asked for a dozen times in a frame
+            self._area = size, area_of(self, self._labels) if self.framed else QRectF(self.rect())
+        return QRectF(self._area[1])
 
     def ranges(self) -> tuple[Span, Span]:
         """Return the shown ranges: those set, one of them widened where circles must be round."""
@@ -380,21 +384,25 @@ class Chart(QWidget):
         self._paint_buttons(painter)
 
     def _paint_ground(self, painter: QPainter, image: QRectF) -> None:
-        """Paint axes and ground, each pixel once: copying the background takes longer than filling with a colour."""
-        covered = QRegion((image & self.area).toRect().adjusted(2, 2, -2, -2)) if image.isValid() else QRegion()
+        """Paint axes and ground, each pixel once: copying the background takes longer than filling with a colour.
+
+        By rectangles: a clip of several would be painted line by line.
+        """
+        area, whole = self.area.toRect(), self.rect()
+        covered = (image & self.area).toRect().adjusted(2, 2, -2, -2) if image.isValid() else QRect()
         edge = self.theme.px(TICK_PX) + 1 if self.framed else 0
-        bare, plain = QRegion(self.area.toRect().adjusted(edge, 2, -2, -edge)), QRegion()
-        colour = QColor(self.theme.card)
+        plain, colour = covered, self.theme.card
         if image.isValid() and self.ground is not None and not image.contains(self.area):
-            plain, colour = QRegion(self.area.toRect()), QColor.fromRgb(self.ground)
+            plain, colour = area, QColor.fromRgb(self.ground).name()
         elif type(self).paint_background is Chart.paint_background:
-            plain = bare
+            plain = area.adjusted(edge, 2, -2, -edge) | covered
         if self._background:
-            painter.setClipRegion(QRegion(self.rect()) - covered - plain)
-            painter.drawPixmap(0, 0, self._background)
-        if not plain.isEmpty():
-            painter.setClipRegion(plain - covered)
-            painter.fillRect(self.rect(), colour)
+            ratio = self._background.devicePixelRatio()
+            for room in strips(whole, plain):
+                source = QRectF(room.x() * ratio, room.y() * ratio, room.width() * ratio, room.height() * ratio)
+                painter.drawPixmap(QRectF(room), self._background, source)
+        for room in strips(plain, covered):
+            painter.fillRect(room, QColor(colour))
 
     def paint_background(self, painter: QPainter) -> None:
         """Paint what belongs to the background beside the axes; for subclasses."""
@@ -451,6 +459,20 @@ class Chart(QWidget):
         self.paint_background(painter)
         painter.end()
         return background
+
+
+def strips(outer: QRect, inner: QRect) -> list[QRect]:
+    """Return the parts of a rectangle around another within it: above, below, left and right; all of it for none."""
+    if inner.isEmpty():
+        return [outer] if not outer.isEmpty() else []
+    high, low = inner.top() - outer.top(), outer.bottom() - inner.bottom()
+    found = [
+        QRect(outer.left(), outer.top(), outer.width(), high),
+        QRect(outer.left(), inner.bottom() + 1, outer.width(), low),
+        QRect(outer.left(), inner.top(), inner.left() - outer.left(), inner.height()),
+        QRect(inner.right() + 1, inner.top(), outer.right() - inner.right(), inner.height()),
+    ]
+    return [room for room in found if not room.isEmpty()]
 
 
 def blank_pixmap(widget: QWidget, colour: str) -> QPixmap:

@@ -2,9 +2,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPointF
+from PySide6.QtCore import QPointF, QRect
+from PySide6.QtGui import QColor, QImage
 
-from p2sf_explorer.charts.chart import Chart, bottom_ticks
+from p2sf_explorer.charts.chart import Chart, bottom_ticks, strips
 from p2sf_explorer.charts.painting import polylines, set_text
 from p2sf_explorer.charts.plots import EMPTY, as_indices
 from p2sf_explorer.charts.theme import LIGHT
@@ -92,3 +93,31 @@ def test_names_at_one_place_do_not_touch_and_one_without_room_is_left_out(qapp):
         taken += filter(None, rooms[-1:])
     assert rooms[0] and rooms[1] and rooms[-1] is None
     assert free_room("EnP", 199.0, 50.0, [], 200.0).right() <= 200.0
+
+
+@pytest.mark.parametrize("inner", [QRect(3, 4, 5, 6), QRect(0, 0, 20, 15), QRect(0, 3, 20, 2), QRect()])
+def test_strips_and_what_they_lie_around_are_the_whole_and_no_pixel_twice(inner):
+    outer = QRect(0, 0, 20, 15)
+    count = np.zeros((15, 20), int)
+    for room in (*strips(outer, inner), inner):
+        count[room.top() : room.top() + room.height(), room.left() : room.left() + room.width()] += 1
+    assert (count == 1).all()
+
+
+def test_a_frame_painted_over_another_is_that_of_a_new_chart(qtbot, chart):
+    """Every pixel is painted anew each time: nothing of an earlier picture, ground or curve shows through."""
+    chart.restyle(LIGHT)
+    curve, ground = chart.add_curve("chief", 2), 0xFF102030
+    for rect in ((-1.0, -0.5, 2.0, 1.0), (-5.0, -5.0, 10.0, 10.0), (0.5, 0.2, 0.1, 0.1)):
+        for chart.ground in (None, ground):
+            chart.show_pixels(np.full((4, 4), 0xFFFF0000, np.uint32), rect)
+            curve.set_data([-2, 3], [-1, 1])
+            canvas = QImage(chart.size(), QImage.Format.Format_RGB32)
+            canvas.fill(QColor("#00ff00"))
+            chart.render(canvas)
+            assert canvas == chart.grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
+            assert not (pixels_of(canvas) == 0xFF00FF00).any()
+
+
+def pixels_of(image):
+    return np.frombuffer(image.constBits(), np.uint32)
