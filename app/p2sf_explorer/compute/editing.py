@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 from dataclasses import replace
-from math import copysign, inf, isclose, isfinite, sqrt
+from math import copysign, exp, inf, isclose, isfinite, sqrt
 from typing import Any
 
 from p2sf.conventions import UM_PER_MM
@@ -95,6 +95,26 @@ def _opened_to(lens: Lens, number: int, surface: Surface) -> Lens:
     if number != lens.stop_surface or lens.aperture.kind != "stop_semi_diameter" or not isfinite(surface.semi_diameter):
         return lens
     return replace(lens, aperture=Aperture("stop_semi_diameter", surface.semi_diameter))
+
+
+def with_scrubbed(lens: Lens, number: int, column: str, travel: float) -> Lens:
+    """Return the lens with one number of surface ``number`` (from 1) moved by a hand; a travel of 1 is a long way.
+
+    A radius moves by its curvature, so that it passes through the plane, and a rim by a factor.
+    """
+    surface = lens.surfaces[number - 1]
+    rims = [s.semi_diameter for s in lens.surfaces if isfinite(s.semi_diameter)]
+    height = max(rims, default=10.0)
+    if column == "radius":
+        curvature = surface.curvature + travel * max(abs(surface.curvature), 0.1 / height)
+        return with_surface(lens, number, radius=1 / curvature if curvature else inf)
+    if column == "thickness":
+        moved = surface.thickness + travel * max(abs(surface.thickness), 0.1 * height)
+        return with_surface(lens, number, thickness=max(0.0, moved) if surface.thickness >= 0 else moved)
+    if column == "conic":
+        return with_surface(lens, number, conic=surface.conic + travel)
+    made = replace(surface, semi_diameter=surface.semi_diameter * exp(travel))
+    return _opened_to(with_surface(lens, number, semi_diameter=made.semi_diameter), number, made)
 
 
 def read_length(text: str, words: str) -> float:

@@ -3,24 +3,41 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import QModelIndex, Qt
-from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtGui import QBrush, QColor, QKeySequence, QShortcut
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QPushButton, QTableView
 
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
+from p2sf.paraxial.bending import element_of
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.editing import check_surface, deleted, edited_state, inserted, with_stop, with_value
+from p2sf_explorer.compute.editing import (
+    check_surface,
+    deleted,
+    edited_state,
+    inserted,
+    with_scrubbed,
+    with_stop,
+    with_value,
+)
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.files.saving import ask_save_lens
 from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.panels.glass_completion import GlassDelegate
+from p2sf_explorer.panels.lens_sliders import bending_slider, show_bending, show_stop, stop_slider
 from p2sf_explorer.results.lens_table import Rows
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import Card
-from p2sf_explorer.widgets.surface_table import KEYS, STOP, LocalNumbers, SurfaceModel
+from p2sf_explorer.widgets.card import Card, chooser, select
+from p2sf_explorer.widgets.surface_table import KEYS, STOP, LocalNumbers, SurfaceModel, SurfaceView
 
 TIP = "Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back."
+FOCUS = (("off", "sensor stays"), ("paraxial", "keep paraxial focus"), ("rms", "keep best focus"))
+FOCUS_TIP = (
+    "Keep in focus: while the lens is edited, the sensor follows its paraxial image, or goes to the smallest RMS of "
+    "the present point, so that the aberrations are seen and not the defocus."
+)
 ROW = 22  # pixels
 WIDTHS = {"radius": 108, "thickness": 108, "medium": 170, "semi_diameter": 140, "conic": 80, "stop": 52}
 TOOLS = (
@@ -41,18 +58,55 @@ class LensTablePanel:
     def __init__(self, store: Store):
         self._store = store
         self.widget = Card("Lens", TIP)
-        self.model, self.view = SurfaceModel(self.widget), QTableView(self.widget)
+        self.model, self.view = SurfaceModel(self.widget), SurfaceView(self.widget)
         self.view.setModel(self.model)
+        self.view.setItemDelegateForColumn(KEYS.index("medium"), GlassDelegate(self.view))
+        self.bending, self.stop_place = bending_slider(store), stop_slider(store)
+        self.focus = chooser(FOCUS, FOCUS_TIP, self.widget)
+        self._start: State = store.state
         self.buttons = {method: self._button(text, tip, method) for text, tip, method in TOOLS}
         self._prepare()
         self.widget.set_body(self.view)
+        self.widget.add_footer(self.bending, self.stop_place)
+        self.widget.add_footer(self.focus)
         self.model.typed.connect(self._typed)
         self.view.clicked.connect(self._choose_stop)
         self.view.activated.connect(self._choose_stop)
+        self.focus.activated.connect(lambda: store.update(keep_focus=self.focus.currentData()))
+        self._connect(store)
         for keys, action in (("Ins", self._insert), ("Del", self._delete)):
             QShortcut(QKeySequence(keys), self.view, context=Qt.ShortcutContext.WidgetShortcut).activated.connect(
                 action
             )
+
+    def _connect(self, store: Store) -> None:
+        """Link selection and scrubbing with the store."""
+        self.view.clicked.connect(self._select)
+        self.view.entered.connect(lambda index: store.point_at(index.row() + 1))
+        store.selected.connect(self._mark)
+        store.pointed.connect(self._mark)
+        scrub = self.view.scrub
+        scrub.begun.connect(self._begin_scrub)
+        scrub.moved.connect(self._scrub)
+        scrub.ended.connect(store.end)
+        scrub.cancelled.connect(store.cancel)
+
+    def _select(self, index: QModelIndex) -> None:
+        """Select the element that the clicked surface belongs to."""
+        self._store.select(element_of(prescription(self._store.state), index.row() + 1))
+
+    def _mark(self, _: object = None) -> None:
+        self.model.mark(self._store.selection, self._store.pointed_at)
+        show_bending(self.bending, prescription(self._store.state), self._store.selection)
+
+    def _begin_scrub(self) -> None:
+        self._start = self._store.state
+        self._store.begin()
+
+    def _scrub(self, travel: float) -> None:
+        """Move the number in the cell from where it was when the hand took it."""
+        if self.view.cell:
+            self._edit(with_scrubbed, *self.view.cell, travel, start=self._start)
 
     def _button(self, text: str, tip: str, method: str) -> QPushButton:
         button = QPushButton(tr(text), self.widget)
@@ -87,12 +141,21 @@ class LensTablePanel:
         rows: Rows = live.views["lens"]
         self.model.show_rows(rows)
         self.buttons["_revert"].setEnabled(rows.edited)
+        select(self.focus, live.state.display.keep_focus)
+        show_stop(self.stop_place, rows.lens)
+        self._mark()
         count = len(rows.texts)
         surfaces = tr("{count} surfaces", count=count) if count > 1 else tr("1 surface")
         self.widget.set_readout(f"{surfaces} · {tr('edited')}" if rows.edited else surfaces)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
+        chosen, pointed = QColor(theme.accent), QColor(theme.accent)
+        chosen.setAlpha(60)
+        pointed.setAlpha(30)
+        self.model.colours = QBrush(chosen), QBrush(pointed)
+        self.bending.restyle(theme)
+        self.stop_place.restyle(theme)
         self.view.setStyleSheet(
             f"QTableView {{ background: {theme.card}; alternate-background-color: {theme.raised};"
             f" selection-background-color: {theme.accent}; selection-color: {theme.accent_text}; outline: none; }}"
@@ -123,9 +186,9 @@ class LensTablePanel:
         if self._edit(edit, row + 1):
             self.view.setCurrentIndex(self.model.index(min(row + step, self.model.rowCount() - 1), column))
 
-    def _edit(self, edit: Callable[..., Lens], number: int, *arguments: object) -> bool:
-        """Try an edit of a surface; refuse one that gives no lens, or a lens without a picture."""
-        state = self._store.state
+    def _edit(self, edit: Callable[..., Lens], number: int, *arguments: object, start: State | None = None) -> bool:
+        """Try an edit of a surface, of the lens as in ``start``; refuse one without a lens or without a picture."""
+        state = start or self._store.state
         if isinstance(self._store, PanelStore) and self._store.refused_for_b():
             return False
         try:

@@ -27,13 +27,13 @@ class Store(QObject):
         super().__init__(parent)
         self._states, self._at = [state], 0
         self._before_drag: State | None = None
-        self._pointed_at = 0
+        self.pointed_at = 0
         self.selection: tuple[int, int] | None = None
 
     def point_at(self, surface: int) -> None:
         """Tell which surface (from 1) the pointer is at, 0 for none. This is no part of the state and not undone."""
-        if surface != self._pointed_at:
-            self._pointed_at = surface
+        if surface != self.pointed_at:
+            self.pointed_at = surface
             self.pointed.emit(surface)
 
     def select(self, surfaces: tuple[int, int] | None) -> None:

@@ -1,11 +1,13 @@
 """The surfaces of a lens as a Qt table model, which shows their entries and passes on what is typed."""
 
-from PySide6.QtCore import QAbstractTableModel, QLocale, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
-from PySide6.QtWidgets import QStyledItemDelegate
+from PySide6.QtCore import QAbstractTableModel, QEvent, QLocale, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
+from PySide6.QtGui import QBrush, QKeyEvent, QMouseEvent, QPainter
+from PySide6.QtWidgets import QStyledItemDelegate, QStyleOptionViewItem, QTableView, QWidget
 
 from p2sf_explorer.compute.editing import written
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.results.lens_table import COLUMNS, Rows
+from p2sf_explorer.widgets.scrub import Scrub, claimed
 
 STOP = COLUMNS.index("conic") + 1
 HEADS = {
@@ -27,6 +29,61 @@ HEAD_PARTS: dict[int, int] = {Qt.ItemDataRole.DisplayRole: 0, Qt.ItemDataRole.To
 Index = QModelIndex | QPersistentModelIndex
 
 
+SCRUBBED = ("radius", "thickness", "semi_diameter", "conic")
+UP_DOWN: dict[int, int] = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1}
+
+
+class SurfaceView(QTableView):
+    """The table, whose numbers follow a horizontal drag, and with Alt ↑ and ↓; ``cell`` is what moves."""
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.scrub = Scrub(self)
+        self.cell: tuple[int, str] | None = None  # surface from 1, and column
+        self.setMouseTracking(True)
+
+    def _take(self, index: QModelIndex) -> bool:
+        """Choose the cell to move; return whether it has a number."""
+        key = KEYS[index.column()] if index.isValid() else ""
+        self.cell = (index.row() + 1, key) if key in SCRUBBED else None
+        return self.cell is not None
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Choose a cell, and get ready to move its number."""
+        super().mousePressEvent(event)
+        if event.button() == Qt.MouseButton.LeftButton and self._take(self.indexAt(event.position().toPoint())):
+            self.scrub.press(event.position().x())
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Move the number while held."""
+        if self.scrub.pressed:
+            self.scrub.drag(event.position().x(), event.modifiers())
+        else:
+            super().mouseMoveEvent(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """End the move; without one it was a click."""
+        moved = self.scrub.end()
+        super().mouseReleaseEvent(event)
+        if moved:
+            self.setState(QTableView.State.NoState)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Give up a move with Escape; move a number with Alt and the arrows."""
+        if event.key() == Qt.Key.Key_Escape and self.scrub.cancel():
+            return
+        alt, held = Qt.KeyboardModifier.AltModifier, event.modifiers()
+        if event.key() in UP_DOWN and held & alt and self._take(self.currentIndex()):
+            self.scrub.step(UP_DOWN[event.key()], held & ~alt)
+            return
+        super().keyPressEvent(event)
+
+    def event(self, event: QEvent) -> bool:
+        """Keep the keys that move a number from the window's shortcuts."""
+        asked = event.type() == QEvent.Type.ShortcutOverride  # other events come before there is a scrub
+        return (asked and claimed(event, UP_DOWN, self.scrub.active, True)) or super().event(event)
+
+
 class SurfaceModel(QAbstractTableModel):
     """Shows `Rows`; emits ``typed(surface, column, text)`` for an edit and changes nothing itself."""
 
@@ -35,6 +92,22 @@ class SurfaceModel(QAbstractTableModel):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self._rows: Rows | None = None
+        self.selection: tuple[int, int] | None = None
+        self.pointed = 0
+        self.colours = QBrush(), QBrush()  # behind the selected element's rows, and behind the one pointed at
+
+    def mark(self, selection: tuple[int, int] | None, pointed: int) -> None:
+        """Show which surfaces are selected and which one is pointed at, elsewhere or here."""
+        if (selection, pointed) != (self.selection, self.pointed):
+            self.selection, self.pointed = selection, pointed
+            last = self.index(self.rowCount() - 1, len(KEYS) - 1)
+            self.dataChanged.emit(self.index(0, 0), last, [Qt.ItemDataRole.BackgroundRole])
+
+    def _ground(self, surface: int) -> QBrush | None:
+        if surface == self.pointed:
+            return self.colours[1]
+        chosen = self.selection
+        return self.colours[0] if chosen and chosen[0] <= surface <= chosen[1] else None
 
     def show_rows(self, rows: Rows) -> None:
         """Follow a lens; a view keeps its place when the number of surfaces is the same."""
@@ -74,10 +147,12 @@ class SurfaceModel(QAbstractTableModel):
         plain = super().flags(index)
         return plain if index.column() == STOP else plain | Qt.ItemFlag.ItemIsEditable
 
-    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> str | Qt.AlignmentFlag | None:
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> str | Qt.AlignmentFlag | QBrush | None:
         """Return an entry's text, with every digit where it is edited."""
         if self._rows is None:
             return None
+        if role == Qt.ItemDataRole.BackgroundRole:
+            return self._ground(index.row() + 1)
         row, key = index.row(), KEYS[index.column()]
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return self._alignment(index.column())
@@ -104,6 +179,13 @@ class SurfaceModel(QAbstractTableModel):
 
 class LocalNumbers(QStyledItemDelegate):
     """Shows numbers as the window's language writes them; what is copied keeps the decimal point."""
+
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+        """Paint the ground of selected rows, which a style sheet leaves out, and the cell."""
+        ground = index.data(Qt.ItemDataRole.BackgroundRole)
+        if isinstance(ground, QBrush):
+            painter.fillRect(option.rect, ground)
+        super().paint(painter, option, index)
 
     def displayText(self, value: object, locale: QLocale | QLocale.Language) -> str:
         """Return the text of a cell."""

@@ -79,6 +79,8 @@
 <message><source>Back to the tabs</source><translation>Zurück zu den Reitern</translation></message>
 <message><source>Begin or leave a lesson</source><translation>Lektion beginnen oder verlassen</translation></message>
 <message><source>Begin the first lesson (F3)</source><translation>Die erste Lektion beginnen (F3)</translation></message>
+<message><source>Bending X</source><translation>Durchbiegung X</translation></message>
+<message><source>Bending: the shape factor X = (c₁ + c₂)/(c₁ − c₂) of the selected element; its thin-lens power stays. 0 is equiconvex or equiconcave, ±1 has one plane side. Select an element in the layout or in the table.</source><translation>Durchbiegung: der Formfaktor X = (c₁ + c₂)/(c₁ − c₂) des gewählten Elements; seine Brechkraft als dünne Linse bleibt. 0 ist gleichseitig bikonvex oder bikonkav, bei ±1 ist eine Seite eben. Wählen Sie ein Element im Schnittbild oder in der Tabelle.</translation></message>
 <message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
 <message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
@@ -207,6 +209,7 @@
 <message><source>Front focus F</source><translation>Objektseitiger Brennpunkt F</translation></message>
 <message><source>Front principal plane, imaged onto H′ at magnification 1; from the first vertex.</source><translation>Objektseitige Hauptebene, mit Maßstab 1 auf H′ abgebildet; vom ersten Scheitel.</translation></message>
 <message><source>Front-stop landscape singlet</source><translation>Landschaftslinse mit vorderer Blende</translation></message>
+<message><source>Glass</source><translation>Glas</translation></message>
 <message><source>Glass or index</source><translation>Glas oder Index</translation></message>
 <message><source>Gram–Schmidt over {percent:.0f} % of the pupil</source><translation>Gram–Schmidt über {percent:.0f} % der Pupille</translation></message>
 <message><source>Grey</source><translation>Grau</translation></message>
@@ -231,6 +234,7 @@
 <message><source>Inspect</source><translation>Prüfen</translation></message>
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
 <message><source>Keep beside the stage</source><translation>Neben der Bühne behalten</translation></message>
+<message><source>Keep in focus: while the lens is edited, the sensor follows its paraxial image, or goes to the smallest RMS of the present point, so that the aberrations are seen and not the defocus.</source><translation>Im Fokus halten: während das Objektiv bearbeitet wird, folgt der Sensor seinem paraxialen Bild oder geht zum kleinsten RMS des gegenwärtigen Punkts, damit die Abbildungsfehler zu sehen sind und nicht die Defokussierung.</translation></message>
 <message><source>Lagrange invariant</source><translation>Lagrange-Invariante</translation></message>
 <message><source>Lagrange invariant H = {h} mm</source><translation>Lagrange-Invariante H = {h} mm</translation></message>
 <message><source>Landscape</source><translation>Landschaft</translation></message>
@@ -494,6 +498,7 @@
 <message><source>Stop</source><translation>Blende</translation></message>
 <message><source>Stop filming and leave no file</source><translation>Aufnahme abbrechen und keine Datei hinterlassen</translation></message>
 <message><source>Stop radius</source><translation>Blendenradius</translation></message>
+<message><source>Stop shift: the stop's distance behind the surface before it, within its air gap; the f-number stays.</source><translation>Blendenverschiebung: der Abstand der Blende hinter der Fläche davor, in ihrem Luftabstand; die Blendenzahl bleibt.</translation></message>
 <message><source>Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|.</source><translation>Blende: die Fläche, deren Rand das Licht begrenzt; in der Datei genannt, oder gefunden als kleinstes |Rand/y|.</translation></message>
 <message><source>Strehl</source><translation>Strehl</translation></message>
 <message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
@@ -949,6 +954,8 @@
 <message><source>its obscuration is left out, so the picture shows the full aperture</source><translation>ihre Abschattung ist weggelassen, das Bild zeigt also die volle Öffnung</translation></message>
 <message><source>its obscuration or hole is left out</source><translation>ihre Abschattung oder ihr Loch ist weggelassen</translation></message>
 <message><source>its rim ({keyword}) is not round; the round semi-diameter stands in</source><translation>ihr Rand ({keyword}) ist nicht rund; der runde Halbmesser tritt an seine Stelle</translation></message>
+<message><source>keep best focus</source><translation>besten Fokus halten</translation></message>
+<message><source>keep paraxial focus</source><translation>paraxialen Fokus halten</translation></message>
 <message><source>kernels in the middle of a cell are then the mean of its corners</source><translation>Kerne mitten in einer Zelle sind dann das Mittel ihrer Ecken</translation></message>
 <message><source>key "{name}" belongs to the top of the file; move it before the first [ heading</source><translation>der Schlüssel "{name}" gehört an den Anfang der Datei; vor die erste Überschrift [ stellen</translation></message>
 <message><source>key "{name}" is unknown; did you mean "{known}"?</source><translation>der Schlüssel "{name}" ist unbekannt; ist "{known}" gemeint?</translation></message>
@@ -1153,6 +1160,7 @@
 <message><source>sensor shift</source><translation>Sensorversatz</translation></message>
 <message><source>sensor shift {shift} µm: share of the perfect peak</source><translation>Sensorversatz {shift} µm: Anteil der perfekten Spitze</translation></message>
 <message><source>sensor shift, µm</source><translation>Sensorversatz, µm</translation></message>
+<message><source>sensor stays</source><translation>Sensor bleibt</translation></message>
 <message><source>sensor {key} is {value:g}; give a whole number</source><translation>{key} des Sensors ist {value:g}; eine ganze Zahl angeben</translation></message>
 <message><source>sensor {name} is {count}; give a whole number from 1 to {most}</source><translation>{name} des Sensors ist {count}; eine ganze Zahl von 1 bis {most} angeben</translation></message>
 <message><source>settled {ms} ms</source><translation>fertig {ms} ms</translation></message>
