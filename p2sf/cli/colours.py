@@ -12,6 +12,7 @@ from p2sf.errors import RequestError
 from p2sf.io.colour_files import COLOUR_ENDINGS, write_colour_psf
 from p2sf.io.record import describe
 from p2sf.messages import ParameterName
+from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
 from p2sf.request import Setup
 
@@ -33,7 +34,14 @@ def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None,
         )
     pitch = suitable_pitch_um(setup.lens, setup.source, wanted, picture.pixels, setup.stop)
     window = picture.pixels, picture.pixel_um or pitch
-    found = colour_psf(setup.lens, setup.source, wanted, window, picture.method or "auto")
+    method = picture.method or "auto"
+    found = colour_psf(
+        setup.lens,
+        setup.source,
+        wanted,
+        window,
+        lambda lens, source, pixels, pixel_um: render_integrated(lens, source, method, pixels, pixel_um),
+    )
     if output:
         write_colour_psf(found, output, describe(setup))
     if as_json:

@@ -83,6 +83,7 @@ USUAL = Picture()
 METHOD = ParameterName("method")
 CAUTIOUS = Message("caution: above {limit:g}; choose {parameter} traced to be sure", limit=CAUTION, parameter=METHOD)
 NO_PREDICTION = Message("none: nothing was traced to tell")
+LIGHT, POINTS = Message("light of each pixel"), Message("intensity at points")
 NO_STREHL = Message("not defined for a fitted shape")
 SpectrumName = Annotated[str | None, Parameter(help=f"Colour PSF of a point with this spectrum: {WORDS}.")]
 
@@ -143,24 +144,31 @@ def _in_colour(
 
 
 def render(setup: Setup, picture: Picture) -> Psf:
-    """Return the PSF by the method asked for, or from the six coefficients when their sampling is."""
+    """Return the PSF by the method asked for, or from the six coefficients when their sampling is.
+
+    Where pixels are wider than λ/(4 NA) it is the light that each receives.
+    """
     method = picture.method or "auto"
     if picture.seidel:
         return _from_coefficients(setup, picture)
-    from p2sf.psf import methods
+    from p2sf.psf.pixel_integrals import render_integrated
 
-    return methods.render(
-        setup.lens, setup.source, method, picture.pixels, picture.pixel_um, tolerance=picture.tolerance
-    )
+    return render_integrated(setup.lens, setup.source, method, picture.pixels, picture.pixel_um, picture.tolerance)
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     from p2sf.paraxial.seidel import coefficients
-    from p2sf.psf.seidel import seidel_psf
+    from p2sf.psf.pixel_integrals import critical_pixel_um, integrated
+    from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
 
     source = setup.source
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
-    return seidel_psf(six, picture.pixels, picture.pixel_um, sampling=picture.sampling or "mdft")
+    pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.pixels))
+    finest = float(critical_pixel_um(six.wavelength_um, six.na))
+    sampling = picture.sampling or "mdft"
+    return integrated(
+        lambda count, pixel_um: seidel_psf(six, count, pixel_um, sampling=sampling), picture.pixels, pitch, finest
+    )
 
 
 def energy_of(setup: Setup, method: str) -> Energy | None:
@@ -199,7 +207,7 @@ def summary(result: Psf, aim: str, output: Path | None, energy: Energy | None = 
     light = "all light" if energy else "the light in the picture"
     rows: list[Row] = [
         ("method", result.method, ""),
-        ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", ""),
+        ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", LIGHT if result.integrated else POINTS),
         ("pixel", result.pixel_um, "µm"),
         ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else ""),
         ("light in the picture", known["energy"], TOO_COARSE if known["energy"] is None else ""),

@@ -11,7 +11,9 @@ from p2sf.database_files import Stored
 from p2sf.errors import RequestError
 from p2sf.files.writing import plain
 from p2sf.lens.source import Source
+from p2sf.psf.pixel_integrals import critical_pixel_um, integrated
 from p2sf.psf.result import Psf
+from p2sf.psf.seidel import check_samples, suitable_pixel_um
 from p2sf.request import Request
 
 if TYPE_CHECKING:
@@ -45,8 +47,20 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
             )
     database = shifted(stored.database, request.sensor_shift_um)
     source = source_of(database, request)
-    psf = database_psf(database, source, pixels, pixel_um)
+    psf = _light(database, source, pixels, pixel_um)
     return psf, description(stored, source), _heading(stored, source)
+
+
+def _light(database: "Database", source: Source, pixels: int, pixel_um: float | None) -> Psf:
+    """Return the PSF of one source, as light per pixel where the pitch exceeds λ/(4 NA)."""
+    check_samples(pixels, pixel_um)
+    six = database.coefficients(float(source.depth_mm), float(source.field_slope), float(source.wavelength_um))
+    return integrated(
+        lambda count, pitch: database_psf(database, source, count, pitch),
+        pixels,
+        pixel_um or float(suitable_pixel_um(six, pixels)),
+        float(critical_pixel_um(six.wavelength_um, six.na)),
+    )
 
 
 def shifted(database: "Database", shift_um: float) -> "Database":

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, DTypeLike
 from p2sf.database.space import Space
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
+from p2sf.psf import pixel_integrals
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, check_window, seidel_psf
 from p2sf.psf.seidel_stack import stack_of
@@ -70,6 +71,31 @@ def rendered(database: Database, points: Points, sampling: Sampling, dtype: DTyp
     return stack_of(found, pixels, pixel_um, sampling.quality, dtype).values
 
 
+def rendered_light(database: Database, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32) -> np.ndarray:
+    """Return what `rendered` does, as light per pixel where the pitch exceeds that of `critical_pixel_um`.
+
+    One PSF after the other: the finer samples may be a hundred times as many.
+    """
+    across = samples_per_pixel(database, sampling)
+    if across == 1:
+        return rendered(database, points, sampling, dtype)
+    pitch = (sampling.pixel_um or critical_pixel_um(database)) / across
+    fine = replace(sampling, pixels=pixel_integrals.fine_side(sampling.pixels, across), pixel_um=pitch)
+    depth, slope, wavelength = np.broadcast_arrays(*points)
+    found = np.empty((*depth.shape, sampling.pixels, sampling.pixels), dtype)
+    for index in np.ndindex(depth.shape):
+        one = rendered(database, (depth[index], slope[index], wavelength[index]), fine, dtype)
+        light = pixel_integrals.light_per_pixel(one, sampling.pixels, across)
+        found[index] = light / light.sum(dtype=float)
+    return found
+
+
+def samples_per_pixel(database: Database, sampling: Sampling) -> int:
+    """Return how many samples across a pixel its light takes; 1 where samples stay at points."""
+    critical = critical_pixel_um(database)
+    return pixel_integrals.samples_across(sampling.pixels, sampling.pixel_um or critical, critical)
+
+
 def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
     """Return the settled PSF of one source, float64, looked up instead of traced; errors as `rendered`."""
     if hasattr(database, "psf"):
@@ -82,9 +108,6 @@ def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um:
 
 
 def critical_pixel_um(database: Database) -> float:
-    """Return the coarsest pitch that samples the finest PSF on the nodes without loss: λ/(4 NA), its band limit.
-
-    Source: an incoherent image holds no frequency above 2NA/λ (Goodman, Introduction to Fourier Optics, §6.3).
-    """
+    """Return the coarsest pitch that samples the finest PSF on the nodes without loss: λ/(4 NA), its band limit."""
     found = database.coefficients(*database.space.axes)
-    return float(np.min(database.space.wavelengths_um / (4 * found.na)))
+    return float(np.min(pixel_integrals.critical_pixel_um(database.space.wavelengths_um, found.na)))

@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, centred_axis, degrees_from_slope
+from p2sf.database.render import Sampling, critical_pixel_um, samples_per_pixel
 from p2sf.database_files import Stored, database_from_bytes
 from p2sf.errors import DatabaseError
 
@@ -26,6 +27,7 @@ class Stack:
     """An open PSF stack: ``psf`` (depth, field, wavelength, y, x) is indexed like an array and loads only what is read.
 
     ``complete``: whether every chunk is there; a missing one reads as NaN. ``raw``: the file of its database.
+    ``integrated``: whether a sample is the light of a whole pixel and not the intensity at its place.
     """
 
     path: Path
@@ -33,6 +35,7 @@ class Stack:
     raw: bytes
     stored: Stored
     pixel_um: float
+    integrated: bool
 
     @property
     def chunks(self) -> list[tuple[int, int, int]]:
@@ -71,23 +74,26 @@ def needed(name: str) -> Any:
         ) from error
 
 
-def create(path: str | PathLike[str], raw: bytes, pixels: int, pixel_um: float) -> None:
+def create(path: str | PathLike[str], raw: bytes, sampling: Sampling) -> None:
     """Create an empty stack for the nodes of a database, given as the bytes of its file; OSError leaves nothing."""
     target = Path(path)
     stored = database_from_bytes(raw, path)
     draft = target.with_name(f".{target.name}{TEMPORARY}")
     shutil.rmtree(draft, ignore_errors=True)
     try:
-        _create_arrays(draft, stored, raw, pixels, pixel_um)
+        _create_arrays(draft, stored, raw, sampling)
         os.replace(draft, target)
     except OSError:
         shutil.rmtree(draft, ignore_errors=True)
         raise
 
 
-def _create_arrays(draft: Path, stored: Stored, raw: bytes, pixels: int, pixel_um: float) -> None:
-    zarr, shape = needed("zarr"), stored.database.space.shape
-    group = zarr.create_group(draft, zarr_format=3, attributes=_attributes(stored, pixel_um))
+def _create_arrays(draft: Path, stored: Stored, raw: bytes, sampling: Sampling) -> None:
+    zarr, shape, pixels = needed("zarr"), stored.database.space.shape, sampling.pixels
+    pixel_um = sampling.pixel_um or critical_pixel_um(stored.database)
+    integrated = samples_per_pixel(stored.database, sampling) > 1
+    attributes = {**_attributes(stored, pixel_um), "integrated": integrated}
+    group = zarr.create_group(draft, zarr_format=3, attributes=attributes)
     group.create_array(
         "psf",
         shape=(*shape, pixels, pixels),
@@ -142,7 +148,8 @@ def open_stack(path: str | PathLike[str], mode: Literal["r", "r+"] = "r") -> Sta
             )
         psf, raw = group["psf"], group["database"][:].tobytes()
         stored = database_from_bytes(raw, path)
-        stack = Stack(Path(path), psf, raw, stored, float(group.attrs["pixel_um"]))
+        integrated = bool(group.attrs.get("integrated", False))
+        stack = Stack(Path(path), psf, raw, stored, float(group.attrs["pixel_um"]), integrated)
         if psf.shape[:3] != stored.database.space.shape or psf.dtype != np.float32 or psf.shape[3] != psf.shape[4]:
             raise DatabaseError("{path} is damaged, its PSFs do not fit its database; build it again", path=str(path))
     except DatabaseError:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.database.render import Database, Sampling, critical_pixel_um, rendered
+from p2sf.database.render import Database, Sampling, critical_pixel_um, rendered_light, samples_per_pixel
 from p2sf.database_files import database_bytes, same_database
 from p2sf.database_files.stack import TEMPORARY, Stack, create, needed, open_stack
 from p2sf.errors import DatabaseError
@@ -50,9 +50,10 @@ def write_stack(
     pitch = sampling.pixel_um or critical_pixel_um(database)
     if not Path(path).exists():
         with _disk_errors(path):
-            create(path, raw, sampling.pixels, pitch)
+            create(path, raw, sampling)
     stack = open_stack(path, "r+")
-    if stack.psf.shape[-1] != sampling.pixels or stack.pixel_um != pitch or not same_database(stack.raw, raw):
+    asked = sampling.pixels, pitch, samples_per_pixel(database, sampling) > 1
+    if (stack.psf.shape[-1], stack.pixel_um, stack.integrated) != asked or not same_database(stack.raw, raw):
         raise DatabaseError(
             "{path} holds a stack of another lens, aim, nodes or samples; choose another name or delete it",
             path=str(path),
@@ -134,7 +135,7 @@ def _render_block(
     pixel_um: float,
 ) -> np.ndarray:
     points = (x[..., 0, 0] for x in (depth, slope, wavelength))
-    return rendered(database, points, Sampling(pixels, pixel_um))
+    return rendered_light(database, points, Sampling(pixels, pixel_um))
 
 
 @contextmanager

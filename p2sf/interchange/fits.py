@@ -67,6 +67,7 @@ def keywords(cube: Cube) -> list[tuple[str, object, str]]:
         ("DET_SAMP", 1, "samples per detector pixel"),
         ("DIAM", width, "[m] entrance-pupil diameter"),
         ("DIFFLMT", middle / width * ARCSECONDS, "[arcsec] lambda/D in object space"),
+        ("INTEGRAT", cube.integrated, "samples are light of whole pixels"),
         ("NORMALIZ", "unit sum in the window", "PSF normalization"),
         ("BUNIT", "fraction", "of the light in the window, per pixel"),
         *axis_keywords(cube),

@@ -14,7 +14,7 @@ import numpy as np
 
 from p2sf import __version__
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
-from p2sf.database.render import Sampling, critical_pixel_um, rendered
+from p2sf.database.render import Sampling, critical_pixel_um, rendered_light
 from p2sf.database_files import Stored
 from p2sf.errors import ExportError
 from p2sf.files.writing import write_beside
@@ -108,7 +108,7 @@ def psf_function(stored: Stored, depth_mm: float, slopes: np.ndarray, pixels: in
     """
     database = stored.database
     points = depth_mm, slopes[:, None], database.space.wavelengths_um
-    psfs: np.ndarray = rendered(database, points, Sampling(pixels + 1, pixel_um), np.float64)[..., 1:, 1:]
+    psfs: np.ndarray = rendered_light(database, points, Sampling(pixels + 1, pixel_um), np.float64)[..., 1:, 1:]
     psfs /= psfs.sum((-2, -1), keepdims=True)
     return psfs.transpose(3, 2, 0, 1)
 

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
-from p2sf.database.render import Sampling, critical_pixel_um, rendered
+from p2sf.database.render import Sampling, critical_pixel_um, rendered_light, samples_per_pixel
 from p2sf.database.space import Space
 from p2sf.database_files import Stored, load_database
 from p2sf.database_files.stack import open_stack, read_psfs
@@ -44,11 +44,15 @@ class PsfArray(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Cube:
-    """PSFs (depth, field, wavelength, y, x), float32, unit sum, and the database they belong to."""
+    """PSFs (depth, field, wavelength, y, x), float32, unit sum, and the database they belong to.
+
+    ``integrated``: whether a sample is the light of a whole pixel and not the intensity at its place.
+    """
 
     values: np.ndarray
     pixel_um: float
     stored: Stored
+    integrated: bool = False
 
     @property
     def depths_mm(self) -> np.ndarray:
@@ -81,12 +85,14 @@ def open_cube(path: str | os.PathLike[str], sampling: Sampling = DEFAULT) -> Cub
     if Path(path).is_dir():
         stack = open_stack(path)
         _check_size(path, stack.psf.shape)
-        return Cube(read_psfs(stack, ...), stack.pixel_um, stack.stored)
+        return Cube(read_psfs(stack, ...), stack.pixel_um, stack.stored, stack.integrated)
     stored = load_database(path)
     pitch = sampling.pixel_um or critical_pixel_um(stored.database)
     space = stored.database.space
     _check_size(path, (*space.shape, sampling.pixels, sampling.pixels))
-    return Cube(rendered(stored.database, space.axes, replace(sampling, pixel_um=pitch)), pitch, stored)
+    sampling = replace(sampling, pixel_um=pitch)
+    values = rendered_light(stored.database, space.axes, sampling)
+    return Cube(values, pitch, stored, samples_per_pixel(stored.database, sampling) > 1)
 
 
 def _check_size(path: str | os.PathLike[str], shape: tuple[int, ...]) -> None:

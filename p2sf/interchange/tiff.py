@@ -16,7 +16,7 @@ ORIENTATION = (274, "H", 1, 4, True)
 
 def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
     """Write a cube as float32 pages, depth as frames, field as slices, wavelength as channels; ExportError."""
-    about = {"method": cube.stored.meta["method"], "aim": cube.stored.meta["aim"]}
+    about = {"method": cube.stored.meta["method"], "aim": cube.stored.meta["aim"], "integrated": cube.integrated}
     return write_pages(cube, path, {**about, "lens": cube.stored.meta["lens"]["name"]})
 
 

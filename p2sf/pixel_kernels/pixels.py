@@ -9,6 +9,7 @@ import numpy as np
 from p2sf.errors import SamplingError
 from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, Turned, turned
 from p2sf.pixel_kernels.ray_spread import RaySpread
+from p2sf.pupil.binning import binned
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land
 LARGEST_WINDOW = 4096
@@ -50,8 +51,8 @@ def pixel_kernel(
     The field lies ``angle`` radians from +y towards +x. ``shift_um``: where the point's chief ray
     lands, x and y (up) from the centre of the middle pixel. Raises SamplingError for a window too large.
     """
-    binned = _binned(sampled_light(pupil, angle, window, shift_um), window.size, window.samples)
-    kernel: np.ndarray = np.ascontiguousarray(binned[::-1]) / binned.sum(dtype=float).astype(np.float32)
+    pixels = binned(sampled_light(pupil, angle, window, shift_um), window.size, window.samples)
+    kernel: np.ndarray = np.ascontiguousarray(pixels[::-1]) / pixels.sum(dtype=float).astype(np.float32)
     return kernel
 
 
@@ -103,26 +104,6 @@ def sampled_light(
     plane = scipy.fft.ifft2(field, overwrite_x=True)[:count, :count]
     light: np.ndarray = plane.real**2 + plane.imag**2
     return light
-
-
-def _binned(light: np.ndarray, size: int, samples: int) -> np.ndarray:
-    """Return the light of every pixel from its ``samples``² samples, (size, size), none of it negative."""
-    lines = _edged(light.reshape(size, samples, -1))
-    binned: np.ndarray = np.maximum(_edged(np.ascontiguousarray(lines.T).reshape(size, samples, -1)).T, 0)
-    return binned
-
-
-def _edged(light: np.ndarray) -> np.ndarray:
-    """Return sums over samples in the middle of equal steps, (pixels, samples, columns) → (pixels, columns).
-
-    The midpoint rule errs by h²/24 of the slope's change from edge to edge (Abramowitz & Stegun 1964, 25.4.2 over half
-    steps). The slope at an edge comes from the samples on either side: both pixels use the same, no light is lost.
-    """
-    sums: np.ndarray = light.sum(1)
-    passed = (light[1:, 0] - light[:-1, -1]) / np.float32(24)
-    sums[:-1] += passed
-    sums[1:] -= passed
-    return sums
 
 
 def _field(pupil: Turned, side: int, step: float, origin: tuple[float, float]) -> np.ndarray:

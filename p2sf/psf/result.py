@@ -46,6 +46,8 @@ class Psf:
         misses, which ``tolerance`` does not contain. None where nothing was traced to tell.
     azimuth_deg : float
         Direction on the sensor of the picture's +y axis, degrees from the sensor's +y towards its +x.
+    integrated : bool
+        Whether a sample is the light of a whole pixel around its place; if not, it is the intensity at that place.
     """
 
     values: np.ndarray
@@ -61,6 +63,7 @@ class Psf:
     tolerance: float | None = None
     azimuth_deg: float = 0.0
     predicted_error: float | None = None
+    integrated: bool = False
 
     @property
     def x_um(self) -> np.ndarray:

@@ -14,7 +14,7 @@ import pytest
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
-from p2sf.database.render import Sampling, rendered
+from p2sf.database.render import Sampling, rendered_light
 from p2sf.database_files.stack import chunk_shape, open_stack, read_psfs
 from p2sf.database_files.stack_write import StackProgress, write_stack
 from p2sf.errors import DatabaseError
@@ -48,7 +48,7 @@ def test_a_stack_holds_the_psfs_of_its_database(stack):
     space = stack.stored.database.space
     for d, f, w in ((0, 0, 0), (3, 4, 1), (5, 2, 3)):
         point = (space.depths_mm[d], space.field_slopes[f], space.wavelengths_um[w])
-        expected = rendered(stack.stored.database, point, SAMPLING)
+        expected = rendered_light(stack.stored.database, point, SAMPLING)
         found = read_psfs(stack, (d, f, w))
         assert np.linalg.norm(found - expected) <= 1e-4 * np.linalg.norm(expected)  # what settled pictures promise
     np.testing.assert_allclose(read_psfs(stack, ...).sum((-2, -1)), 1, atol=1e-5)
@@ -92,11 +92,11 @@ SLOW_BUILD = """
 import sys, time
 import p2sf.database_files.stack_write as write
 from tests.database_files.test_stack import SAMPLING, small
-plain = write.rendered
+plain = write.rendered_light
 def slow(*arguments):
     time.sleep(0.15)
     return plain(*arguments)
-write.rendered = slow
+write.rendered_light = slow
 write.write_stack(*small(), sys.argv[1], SAMPLING)
 """
 

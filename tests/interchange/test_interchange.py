@@ -12,7 +12,7 @@ import pytest
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
-from p2sf.database.render import Sampling, rendered
+from p2sf.database.render import Sampling, rendered_light
 from p2sf.database_files import save_database
 from p2sf.database_files.stack_write import write_stack
 from p2sf.errors import DatabaseError, ExportError
@@ -144,7 +144,7 @@ def test_iset_psfs_lie_as_iset_reads_them(file, database):
     psf = fields["psf"]["function"]
     assert psf.shape == (32, 32, 9, 3)
     np.testing.assert_allclose(psf.sum((0, 1)), 1, rtol=1e-12)
-    ours = rendered(database, (np.inf, database.space.field_slopes[-1], 0.55), Sampling(33, 1.5), np.float64)
+    ours = rendered_light(database, (np.inf, database.space.field_slopes[-1], 0.55), Sampling(33, 1.5), np.float64)
     theirs = psf[:, :, -1, 1]
     assert theirs[15, 15] / ours[16, 16] == pytest.approx(theirs[15, 20] / ours[21, 16], rel=1e-9)
     assert theirs[15, 20] != pytest.approx(theirs[20, 15], rel=1e-3)

@@ -9,9 +9,10 @@ from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, distortion_at, sensor_map
 from p2sf.pixel_kernels.channel import own_pupil
 from p2sf.pixel_kernels.frequency_grid import dropped_terms, pupil_map, without
-from p2sf.pixel_kernels.pixels import PixelWindow, _binned, half_width, pixel_kernel
+from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel
 from p2sf.pixel_kernels.pupil_table import chebyshev, few_nodes, lagrange, pupil_table
 from p2sf.psf.huygens import huygens_psf
+from p2sf.pupil.binning import binned
 from p2sf.pupil.zernike import basis, basis_by_powers
 from p2sf.raytrace.fit import levels
 from p2sf.scene.reference import exact_pixels
@@ -159,10 +160,10 @@ def test_samples_of_a_cubic_are_summed_over_inner_pixels_without_error():
     """The midpoint rule alone is off by h³/24 of the second derivative in each sample; edges' slopes mend it."""
     place = (np.arange(15) + 0.5) / 3
     values = np.repeat((place**3).astype(np.float32)[:, None], 15, axis=1)
-    pixels = _binned(values, 5, 3)[1:-1, 2] / 9
+    pixels = binned(values, 5, 3)[1:-1, 2] / 9
     start = np.arange(1, 4)
     np.testing.assert_allclose(pixels, ((start + 1.0) ** 4 - start**4.0) / 4, rtol=1e-5)
-    assert _binned(values, 5, 3).sum() == pytest.approx(values.sum(), rel=1e-6)
+    assert binned(values, 5, 3).sum() == pytest.approx(values.sum(), rel=1e-6)
 
 
 def test_powers_give_the_same_terms():

@@ -51,7 +51,8 @@ def geometric_psf(
     )
     seconds, wavelength = perf_counter() - begun, setup.source.wavelength_um
     rays = TRACED[quality][0] * TRACED[quality][1] if exact else 2
-    return Psf(values / energy, pixel_um, wavelength, "geometric", None, energy, 0, rays, sampling, seconds)
+    made = "geometric", None, energy, 0, rays, sampling, seconds
+    return Psf(values / energy, pixel_um, wavelength, *made, integrated=True)
 
 
 def remedy(setup: ParaxialSetup, clip: bool) -> Message:

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,9 @@ from p2sf.errors import ExportError
 from p2sf.files.writing import write_beside
 from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe, versions
+from p2sf.psf.pixel_integrals import critical_pixel_um, fine_side, integrated, samples_across
 from p2sf.psf.result import Psf
+from p2sf_explorer.compute.deferred_sums import by_rays
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import request_setup
 from p2sf_explorer.files.embedded_state import with_state
@@ -47,8 +50,27 @@ def write_data(live: Live | None, path: PathLike, state: State | None = None) ->
             endings=DATA_ENDINGS,
         )
     meta = {**describe(request_setup(live.state)), "state": _entries(state)}
-    written = _writer(path)(live.psf, path, meta)
+    written = _writer(path)(light_of(live), path, meta)
     return written, write_state(state, side_car(path), exported=Path(path).name)
+
+
+def light_of(live: Live) -> Psf:
+    """Return the PSF on screen; where its samples are farther apart than λ/(4 NA), as the light around each.
+
+    Where that takes more samples than the window would sum, it stays as it is.
+    """
+    request, psf, c = live.request, live.psf, live.setup.coefficients
+    if request is None or psf.method == "geometric" or psf.values.shape[0] != psf.values.shape[1]:
+        return psf
+    finest = float(critical_pixel_um(c.wavelength_um, c.na))
+    pixels = psf.values.shape[0]
+    across = samples_across(pixels, psf.pixel_um, finest)
+    if across == 1 or fine_side(pixels, across) > live.finest:
+        return psf
+    light = integrated(
+        lambda count, pitch: by_rays(replace(request, window=(count, pitch))), pixels, psf.pixel_um, finest
+    )
+    return replace(light, azimuth_deg=psf.azimuth_deg)
 
 
 def _writer(path: PathLike) -> Callable[[Psf, PathLike, dict[str, Any]], Path]:

@@ -2,6 +2,7 @@
 
 import io
 import zipfile
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,11 +17,13 @@ from p2sf.io.fits_psf import read_psf_fits
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import lens_to_toml
+from p2sf.psf.methods import render
 from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.__main__ import starting_state
+from p2sf_explorer.compute.live import live
 from p2sf_explorer.files.embedded_state import PNG_HEADER, foreign, state_inside, with_state
 from p2sf_explorer.files.opening import opened
-from p2sf_explorer.files.snapshot import DATA_ENDINGS
+from p2sf_explorer.files.snapshot import DATA_ENDINGS, write_data
 from p2sf_explorer.shell.display import NO_DISPLAY, display_problem
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.state.state_files import read_state
@@ -162,3 +165,17 @@ def test_a_picture_of_the_window_is_packed_quickly(window):
     """The first two bytes of what is packed tell the effort (RFC 1950, 2.2): the least there is."""
     made = png_of(window.panels["psf"].widget)
     assert made[made.index(b"IDAT") + 4 :][:2] == b"\x78\x01"
+
+
+def test_saved_data_are_the_light_of_pixels_where_samples_are_far_apart(tmp_path):
+    """33² samples of 6 µm, where λ/4NA is 0.9: as if the picture had been blurred enough to be shown so."""
+    shown = live(new_state(depth_mm=np.inf, focus_mm=np.inf, field_deg=0.0))
+    setup, request = shown.setup, replace(shown.request, window=(33, 6.0))
+    points = render(setup.lens, setup.source, "traced", 33, 6.0)
+    written, _ = write_data(replace(shown, psf=points, request=request), tmp_path / "light.npz")
+    found, meta = read_psf(written)
+    assert found.integrated and meta["psf"]["integrated"]
+    assert (found.pixel_um, found.values.shape) == (6.0, (33, 33))
+    middle = render(setup.lens, setup.source, "traced", 27, 6.0 / 27)  # one pixel by 27² samples
+    assert found.values[16, 16] * found.energy == pytest.approx(middle.energy, rel=1e-2)
+    assert found.values[16, 16] < 0.8 * points.values[16, 16]
