@@ -1677,6 +1677,7 @@
 <message><source>{rows} × {columns} places × {waves} wavelengths, mirror images for nothing</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
 <message><source>{r} λ left</source><translation>{r} λ Rest</translation></message>
 <message><source>{r} λ without tilt</source><translation>{r} λ ohne Verkippung</translation></message>
+<message><source>{sampling}; {across} × {across} samples per pixel</source><translation>{sampling}; {across} × {across} Proben je Pixel</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>
