@@ -217,7 +217,8 @@ class SurfaceView(QWidget):
         painter.setPen(pen(self._theme.text))
         for name, (xi, eta) in AXES:
             x, y = self.to_pixels(*self._level(AWAY * xi, AWAY * eta))
-            write(painter, QRectF(x - 20, y - 8, 40, 16), name)
+            px = self._theme.px
+            write(painter, QRectF(x - px(20), y - px(8), 2 * px(20), px(16)), name, 0, self._theme.tick)
 
     def value_at(self, point: QPointF) -> float:
         """Return W in waves of the surface under a pixel; NaN where there is none."""

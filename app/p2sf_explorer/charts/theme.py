@@ -217,11 +217,15 @@ def _inputs(t: Tokens) -> str:
     QLineEdit, QComboBox, QPushButton, QToolButton {{
         background: {t.raised}; border: 1px solid {t.line}; border-radius: 5px; padding: 3px 8px; min-height: 20px; }}
     QComboBox#small {{ padding: 1px 6px; font-size: 12px; min-height: 18px; }}
-    QLineEdit#value {{ padding: 1px 6px; min-height: 18px; }}
+    QLineEdit#cell {{ padding: 1px 6px; min-height: 18px; }}
+    QLineEdit#value {{ padding: 1px 6px; min-height: 18px; min-width: 82px; max-width: 82px; }}
+    QLineEdit#value[short="true"] {{ min-width: 66px; max-width: 66px; }}
     QLineEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus {{ border: 1px solid {t.accent}; }}
     QPushButton:hover, QToolButton:hover, QComboBox:hover {{ border: 1px solid {t.muted}; }}
     QPushButton:disabled, QToolButton:disabled {{ color: {t.muted}; background: {t.card}; }}
     QPushButton#small, QToolButton#small {{ padding: 1px 7px; font-size: 12px; min-height: 18px; }}
+    QToolButton#small[tight="true"] {{ padding: 1px 2px; }}
+    QPushButton#lens {{ text-align: left; padding-right: 22px; }}
     QPushButton#segment {{ padding: 3px 9px; color: {t.muted}; background: transparent;
         border: 1px solid transparent; }}
     QPushButton#segment:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}
@@ -234,6 +238,9 @@ def _inputs(t: Tokens) -> str:
     QPushButton#group:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}
     QPushButton#group:hover, QPushButton#group:focus {{ border: 1px solid {t.accent}; }}
     QToolButton#small:checked {{ background: {t.accent}; color: {t.accent_text}; border: 1px solid {t.accent}; }}
+    QToolButton#play {{ background: transparent; border: 1px solid transparent; padding: 0; font-size: 11px;
+        color: {t.muted}; min-width: 17px; min-height: 17px; }}
+    QToolButton#play:hover, QToolButton#play:focus {{ border: 1px solid {t.accent}; color: {t.text}; }}
     QToolButton#flat {{ background: transparent; border: 1px solid transparent; padding: 0; min-height: 18px;
         font-size: 11px; color: {t.muted}; }}
     QToolButton#flat:hover, QToolButton#flat:focus {{ border: 1px solid {t.accent}; color: {t.text}; }}

@@ -82,6 +82,10 @@ class ShareSplitter(QSplitter):
         self._settling.timeout.connect(self._settle)
         self.splitterMoved.connect(lambda: self._settling.start())
 
+    def rescale(self, scale: float) -> None:
+        """Take a scale of type, which the gaps between the parts follow."""
+        self.setHandleWidth(round(SPACE * scale))
+
     def share(self, shares: tuple[float, ...]) -> None:
         """Give the parts these shares, 0 for one that is hidden."""
         self._settling.stop()

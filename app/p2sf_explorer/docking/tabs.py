@@ -57,6 +57,8 @@ class Tabs(QTabWidget):
         self.buttons.all.setMenu(self.menu)
         self.setCornerWidget(self.buttons, Qt.Corner.TopLeftCorner)
         self.setUsesScrollButtons(True)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the bar alone takes the focus, or Tab would come to it twice
+        self.tabBar().setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.tabBar().setAccessibleName(tr("Panels"))
         self.tabBar().setElideMode(Qt.TextElideMode.ElideNone)
         self.tabBarDoubleClicked.connect(lambda at: self.stage_asked.emit(self._key(at)))

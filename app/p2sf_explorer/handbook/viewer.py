@@ -92,17 +92,18 @@ class Handbook(QDialog):
     def _document(self, name: str) -> QTextDocument:
         """Return a page as Qt lays it out; its formulas are pictures in the text's colour."""
         document, source, ratio = QTextDocument(self.text), page(name), self.devicePixelRatioF()
+        scale = self._theme.scale
         document.setDefaultStyleSheet(BODY.format(line=self._theme.line, accent=self._theme.accent))
         font = self.text.font()
-        font.setPixelSize(TEXT_PX)
+        font.setPixelSize(self._theme.px(TEXT_PX))
         document.setDefaultFont(font)
         document.setDocumentMargin(18)
         document.setMarkdown(with_pictures(source))  # which forgets the pictures known before
         for number, formula in enumerate(formulas(source)):
-            picture = painted(rendered(formula, FORMULA_PX * ratio), self._theme.text, ratio)
+            picture = painted(rendered(formula, FORMULA_PX * scale * ratio), self._theme.text, ratio, scale)
             document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(f"formula:{number}"), picture)
         lay_out(document)
-        rule_tables(document, self._theme.line)
+        rule_tables(document, self._theme)
         return document
 
     def _scroll_to(self, heading: str) -> None:
@@ -129,10 +130,10 @@ def _branch(name: str, title: str) -> QTreeWidgetItem:
     return top
 
 
-def painted(formula: Formula, colour: str, ratio: float) -> QImage:
+def painted(formula: Formula, colour: str, ratio: float, scale: float = 1.0) -> QImage:
     """Return a formula as a picture in one colour, as deep below the line as letters are, or deeper if it is."""
     rows, columns = formula.opacity.shape
-    below = max(0, round(DESCENT * TEXT_PX * ratio - formula.depth))  # so that picture and line end together
+    below = max(0, round(DESCENT * TEXT_PX * scale * ratio - formula.depth))  # so that picture and line end together
     shade = np.zeros((rows + below, columns), np.uint32)
     shade[:rows] = np.round(255 * formula.opacity).astype(np.uint32)
     red, green, blue = (int(colour[k : k + 2], 16) for k in (1, 3, 5))
@@ -179,7 +180,7 @@ def lay_out(document: QTextDocument) -> None:
         block = block.next()
 
 
-def rule_tables(document: QTextDocument, colour: str) -> None:
+def rule_tables(document: QTextDocument, theme: Tokens) -> None:
     """Let columns be as wide as what is in them, with thin rules; a table of many columns is set small."""
     for frame in document.rootFrame().childFrames():
         if not isinstance(frame, QTextTable):
@@ -189,14 +190,14 @@ def rule_tables(document: QTextDocument, colour: str) -> None:
         form.setWidth(QTextLength())
         form.setBorderCollapse(True)
         form.setBorder(1)
-        form.setBorderBrush(QColor(colour))
+        form.setBorderBrush(QColor(theme.line))
         form.setCellPadding(4)
         form.setTopMargin(6)
         form.setBottomMargin(10)
         frame.setFormat(form)
         if frame.columns() >= MANY_COLUMNS:
             small = QTextCharFormat()
-            small.setProperty(QTextFormat.Property.FontPixelSize, TABLE_PX)
+            small.setProperty(QTextFormat.Property.FontPixelSize, theme.px(TABLE_PX))
             cursor = frame.firstCursorPosition()
             cursor.setPosition(frame.lastCursorPosition().position(), QTextCursor.MoveMode.KeepAnchor)
             cursor.mergeCharFormat(small)

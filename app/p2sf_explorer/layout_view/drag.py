@@ -214,12 +214,13 @@ def inside(px: np.ndarray, py: np.ndarray, x: float, y: float) -> bool:
 
 def paint_value(painter: QPainter, chart: Chart, at: QPointF, words: str) -> None:
     """Write a value on a ground of its own beside the pointer, inside the picture."""
-    wide = width_of(words, VALUE_PX) + 14
-    left = at.x() + 14 if at.x() + 14 + wide < chart.width() else at.x() - 14 - wide
-    top = min(max(2.0, at.y() - 30), chart.height() - 24.0)
-    room, theme = QRectF(max(2.0, left), top, wide, 21), chart.theme
+    theme, size, gap = chart.theme, chart.theme.px(VALUE_PX), chart.theme.px(14)
+    wide = width_of(words, size) + gap
+    left = at.x() + gap if at.x() + gap + wide < chart.width() else at.x() - gap - wide
+    top = min(max(2.0, at.y() - theme.px(30)), float(chart.height() - theme.px(24)))
+    room = QRectF(max(2.0, left), top, wide, theme.px(21))
     painter.setPen(QPen(QColor(theme.accent), 1))
     painter.setBrush(QColor(theme.card))
     painter.drawRoundedRect(room, 5, 5)
     painter.setPen(QColor(theme.text))
-    write(painter, room, words, 0, VALUE_PX)
+    write(painter, room, words, 0, size)

@@ -12,6 +12,7 @@ from PySide6.QtGui import QColor, QPainter
 
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import pen, set_text, write
+from p2sf_explorer.charts.theme import TICK_PX
 from p2sf_explorer.compute.layout import Layout, Mark
 from p2sf_explorer.i18n.tr import cached_per_language, tr
 
@@ -49,7 +50,7 @@ def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
 
 @dataclass(frozen=True)
 class MarkFrame:
-    """What the places depend on, in pixels: axis, pixels per mm, size of the picture, rim of the glass, sensor."""
+    """What places depend on, in pixels: axis, pixels per mm, size of the picture, rim of the glass, sensor, type."""
 
     left: float
     axis: float
@@ -58,6 +59,7 @@ class MarkFrame:
     height: float
     rim: float
     sensor: tuple[float, float]
+    type_scale: float = 1.0
 
     @classmethod
     def of(cls, chart: Chart, layout: Layout) -> "MarkFrame":
@@ -65,7 +67,8 @@ class MarkFrame:
         drawing = layout.drawing
         (left, axis), (right, rim) = chart.to_pixels(0.0, 0.0), chart.to_pixels(1.0, drawing.half_height)
         sensor = drawing.sensor_z * (right - left) + left, layout.sensor_half * (right - left)
-        return cls(left, axis, right - left, chart.width(), chart.height(), axis - rim, sensor)
+        size = float(chart.width()), float(chart.height())
+        return cls(left, axis, right - left, *size, axis - rim, sensor, chart.theme.scale)
 
 
 @cached_per_language(4)
@@ -79,7 +82,7 @@ def places(marks: tuple[Mark, ...], frame: MarkFrame) -> tuple[Placed, ...]:
         if not -50 < x < frame.width + 50:
             continue
         bar, name = QLineF(x, frame.axis - height, x, frame.axis + height), tr(mark.name)
-        room = free_room(name, x, row_of(mark, frame), taken, frame.width)
+        room = free_room(name, x, row_of(mark, frame), taken, frame.width, frame.type_scale)
         placed.append(Placed(bar, name, room, leader(bar, room) if room else None))
         taken += [room] if room else []
     return tuple(placed)
@@ -91,14 +94,15 @@ def paint_name(painter: QPainter, chart: Chart, room: QRectF, name: str) -> None
     ground.setAlpha(225)
     painter.fillRect(room, ground)
     painter.setPen(QColor(chart.theme.mark))
-    write(painter, room, name)
+    write(painter, room, name, 0, chart.theme.tick)
 
 
 def row_of(mark: Mark, frame: MarkFrame) -> float:
     """Return the top of a name's row in pixels: above glass and stop for pupils, below for points."""
+    line = LINE_PX * frame.type_scale
     if mark.radius:
-        return max(0.0, frame.axis - frame.rim - LINE_PX - GAP_PX / 2)
-    return min(frame.height - LINE_PX, frame.axis + frame.rim + GAP_PX / 2)
+        return max(0.0, frame.axis - frame.rim - line - GAP_PX / 2)
+    return min(frame.height - line, frame.axis + frame.rim + GAP_PX / 2)
 
 
 def leader(bar: QLineF, room: QRectF) -> QLineF:
@@ -110,12 +114,12 @@ def leader(bar: QLineF, room: QRectF) -> QLineF:
     return QLineF(x, min(bottom, room.top()), foot, room.top())
 
 
-def free_room(name: str, x: float, top: float, taken: list[QRectF], width: float) -> QRectF | None:
+def free_room(name: str, x: float, top: float, taken: list[QRectF], width: float, scale: float = 1.0) -> QRectF | None:
     """Return a name's rectangle near x on its row; None where it would touch another or the edge everywhere."""
-    wide = name_width(name)
+    wide = name_width(name, round(TICK_PX * scale))
     for shift in SHIFTS:
         aside = shift * (wide + GAP_PX)
-        room = QRectF(x + aside - wide / 2, top, wide, LINE_PX)
+        room = QRectF(x + aside - wide / 2, top, wide, LINE_PX * scale)
         inside = room.left() >= 0 and room.right() <= width
         if inside and not any(room.intersects(other) for other in taken):
             return room
@@ -123,6 +127,6 @@ def free_room(name: str, x: float, top: float, taken: list[QRectF], width: float
 
 
 @lru_cache(maxsize=32)
-def name_width(name: str) -> float:
-    """Return the width of a name with a margin, in pixels."""
-    return set_text(name).size().width() + GAP_PX
+def name_width(name: str, size: int) -> float:
+    """Return the width of a name with a margin, in pixels, in type of a size."""
+    return set_text(name, size).size().width() + GAP_PX

@@ -76,15 +76,16 @@ class SourceHandle:
         space, at, theme = space_of(self._chart, shown), self.pixel(shown), self._chart.theme
         paint_break(painter, self._chart, space)
         if isfinite(shown.state.optics.depth_mm):  # else the ring says so
-            write(painter, QRectF(space.end - 10, space.axis - 18, 20, 14), "∞")
+            sign = QRectF(space.end - theme.px(10), space.axis - theme.px(18), 2 * theme.px(10), theme.px(14))
+            write(painter, sign, "∞", 0, theme.tick)
         if at.x() < space.broken:
             self._paint_leads(painter, shown, space, at)
         painter.setPen(QPen(QColor(theme.chief), 2))
         painter.setBrush(QColor(theme.card))
         painter.drawEllipse(at, RADIUS_PX, RADIUS_PX)
         painter.setPen(QColor(theme.muted))
-        rect = QRectF(at.x() - 40, at.y() + RADIUS_PX + 2, 80, 14)
-        write(painter, rect, local(written_distance(shown.state.optics.depth_mm)))
+        rect = QRectF(at.x() - theme.px(40), at.y() + RADIUS_PX + 2, 2 * theme.px(40), theme.px(14))
+        write(painter, rect, local(written_distance(shown.state.optics.depth_mm)), 0, theme.tick)
 
     def _paint_leads(self, painter: QPainter, shown: DrawnSetup, space: ObjectSpace, at: QPointF) -> None:
         """Lead from ring and axial point to where their rays come over the break."""

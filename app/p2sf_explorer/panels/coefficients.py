@@ -81,7 +81,7 @@ class CoefficientsPanel:
         button.setText(tr(text))
         button.setToolTip(tr(tip))
         button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        button.setStyleSheet("padding: 1px 2px")  # three of them fit into a card that is narrow beside a lesson
+        button.setProperty("tight", True)  # three of them fit into a card that is narrow beside a lesson
         return button
 
     def _preset_menu(self) -> QMenu:

@@ -181,7 +181,7 @@ class LayoutChart(Chart):
     def _fit(self, d: Drawing, half: float) -> None:
         """Fill the height or the width with lens and sensor; the empty object space is cropped to a strip."""
         box, length = self.area, d.right - d.left
-        rows = max(0.1, 1 - 2 * ROW_PX / box.height())  # the names' rows above and under the glass
+        rows = max(0.1, 1 - 2 * ROW_PX * self.theme.scale / box.height())  # the names' rows above and under the glass
         tall = max(2 * d.half_height / rows, 2.25 * max(d.half_height, half))
         strip = min(END_PX + STRIP_PX, SHARE * box.width())
         long = ROOM * length / (1 - strip / box.width())

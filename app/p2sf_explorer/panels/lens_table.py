@@ -9,7 +9,8 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QPushButton, QTabl
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.bending import element_of
-from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.charts.painting import metrics
+from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.editing import (
     check_surface,
     deleted,
@@ -38,7 +39,7 @@ FOCUS_TIP = (
     "Keep in focus: while the lens is edited, the sensor follows its paraxial image, or goes to the smallest RMS of "
     "the present point, so that the aberrations are seen and not the defocus."
 )
-ROW = 22  # pixels
+ROW, TYPE = 22, 13  # pixels at scale 1
 WIDTHS = {"radius": 108, "thickness": 108, "medium": 170, "semi_diameter": 140, "conic": 80, "stop": 52}
 TOOLS = (
     (
@@ -128,13 +129,20 @@ class LensTablePanel:
         self.view.setTabKeyNavigation(False)  # Tab leaves the table, the arrow keys move in it
         rows, columns = self.view.verticalHeader(), self.view.horizontalHeader()
         rows.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
-        rows.setDefaultSectionSize(ROW)
-        rows.setFixedWidth(self.view.fontMetrics().horizontalAdvance("000") + 20)  # a lens may have a hundred surfaces
         rows.setDefaultAlignment(Qt.AlignmentFlag.AlignCenter)
         columns.setHighlightSections(False)
         columns.setStretchLastSection(True)
+        self._size(LIGHT)
+
+    def _size(self, theme: Tokens) -> None:
+        """Give rows and columns room for the theme's type."""
+        rows, columns = self.view.verticalHeader(), self.view.horizontalHeader()
+        rows.setDefaultSectionSize(theme.px(ROW))
+        wide = metrics(theme.px(TYPE)).horizontalAdvance("000")  # a lens may have a hundred surfaces
+        rows.setFixedWidth(round(wide) + theme.px(20))
         for column, key in enumerate(KEYS):
-            self.view.setColumnWidth(column, max(WIDTHS.get(key, 160), columns.sectionSizeHint(column)))
+            wide = max(theme.px(WIDTHS.get(key, 160)), columns.sectionSizeHint(column))
+            self.view.setColumnWidth(column, wide)
 
     def show(self, live: Live) -> None:
         """Follow the lens."""
@@ -150,7 +158,7 @@ class LensTablePanel:
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        chosen, pointed = QColor(theme.accent), QColor(theme.accent)
+        px, chosen, pointed = theme.px, QColor(theme.accent), QColor(theme.accent)
         chosen.setAlpha(60)
         pointed.setAlpha(30)
         self.model.colours = QBrush(chosen), QBrush(pointed)
@@ -159,12 +167,13 @@ class LensTablePanel:
         self.view.setStyleSheet(
             f"QTableView {{ background: {theme.card}; alternate-background-color: {theme.raised};"
             f" selection-background-color: {theme.accent}; selection-color: {theme.accent_text}; outline: none; }}"
-            f"QTableView::item {{ padding: 0 6px; border: none; }}"
+            f"QTableView::item {{ padding: 0 {px(6)}px; border: none; }}"
             f"QTableView QLineEdit {{ background: {theme.card}; border: 1px solid {theme.accent}; border-radius: 0;"
-            f" padding: 0 2px; min-height: 0; }}"
+            f" padding: 0 {px(2)}px; min-height: 0; }}"
             f"QHeaderView, QHeaderView::section, QTableCornerButton::section {{ background: {theme.card};"
-            f" color: {theme.muted}; border: none; padding: 0 6px; font-size: 12px; }}"
+            f" color: {theme.muted}; border: none; padding: 0 {px(6)}px; font-size: {px(12)}px; }}"
         )
+        self._size(theme)
 
     def _typed(self, number: int, column: str, text: str) -> None:
         self._edit(with_value, number, column, text)

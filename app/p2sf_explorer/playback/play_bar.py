@@ -37,7 +37,6 @@ SUBJECTS = (
     ("coefficients", "the coefficients"),
     ("tabs", "the open tab"),
 )
-EDIT_WIDTH = 82
 TURN_WIDTH = 44  # holds ❚❚ and the padding of the button
 
 
@@ -71,7 +70,7 @@ class PlayBar(QFrame):
 
     def _edit(self, name: str) -> ValueEdit:
         edit = ValueEdit(self)
-        edit.setFixedWidth(EDIT_WIDTH)
+        edit.setProperty("short", True)
         edit.setAccessibleName(tr(name))
         edit.setToolTip(tr(name))
         return edit

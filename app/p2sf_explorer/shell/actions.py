@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.charts.theme import tokens
+from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import with_lens
@@ -53,6 +53,7 @@ class PanelAccess:
     """
 
     live: Callable[[], Live | None]
+    theme: Callable[[], Tokens]
     open: Callable[[str], None]
     stage: Callable[[str], None]
     card: Callable[[str], Card]
@@ -196,8 +197,7 @@ class Actions(QObject):
 
     def theory(self, panel: str = "") -> None:
         """Open the handbook, at the section of a panel where one is named."""
-        display = self._store.state.display
-        theme = tokens(display.theme, display.colours)
+        theme = self._panels.theme()
         self.handbook = self.handbook or Handbook(theme, self._window)
         self.handbook.restyle(theme)
         section = next((entry.handbook for entry in REGISTRY if entry.key == panel), "")

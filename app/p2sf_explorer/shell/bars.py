@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, Q
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.charts.theme import DARK, LIGHT, Tokens
+from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.docking.workspace_bar import WorkspaceBar
 from p2sf_explorer.exactness.slider import ExactnessButton
@@ -33,6 +33,7 @@ METHOD_WORDS = {
     "traced": "traced: exact wavefront",
     "huygens": "huygens: the reference sum",
 }
+FACTS_PX = 470  # width of the figures at the right of the status line, at scale 1
 METHOD_TIP = "Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough."
 
 
@@ -79,6 +80,12 @@ class TopBar(QFrame):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Show less in a narrow window."""
         super().resizeEvent(event)
+        self.fit()
+
+    def rescale(self, scale: float) -> None:
+        """Take a scale of type, which margins and gaps follow."""
+        self._row.setContentsMargins(*(round(scale * margin) for margin in (10, 6, 10, 6)))
+        self._row.setSpacing(round(6 * scale))
         self.fit()
 
     def minimumSizeHint(self) -> QSize:
@@ -154,9 +161,9 @@ class TopBar(QFrame):
             action.setToolTip(path)
         menu.setToolTipsVisible(True)
 
-    def show_state(self, state: State, dark: bool) -> None:
+    def show_state(self, state: State, theme: Tokens) -> None:
         """Follow a state."""
-        self.lens.show_lens(state.optics.lens, shown_title(state), DARK if dark else LIGHT)
+        self.lens.show_lens(state.optics.lens, shown_title(state), theme)
         self.edited.setVisible(state.optics.lens_text is not None)
         select(self.method, state.optics.method)
         self.tolerance.show_state(state)
@@ -178,7 +185,6 @@ class StatusLine(QWidget):
         super().__init__(parent)
         self.warning = Readout(self, colour="warning")
         self.facts = Readout(self, align=Qt.AlignmentFlag.AlignRight)
-        self.facts.setFixedWidth(470)
         self.warning.ground = self.facts.ground = "window"
         row = QHBoxLayout(self)
         row.setContentsMargins(4, 0, 4, 0)
@@ -209,6 +215,7 @@ class StatusLine(QWidget):
         """Take the colours of a theme."""
         self.warning.restyle(theme)
         self.facts.restyle(theme)
+        self.facts.setFixedWidth(theme.px(FACTS_PX))
 
 
 def shortened(sentences: Sequence[str]) -> tuple[str, ...]:

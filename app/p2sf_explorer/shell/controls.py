@@ -254,15 +254,15 @@ class Controls(QWidget):
         column.addSpacing(4)
         column.addWidget(self.sentence)
         column.addWidget(self.detail)
-        column.addWidget(scrolled(self.facts), 1)
+        self.figures = scrolled(self.facts)
+        column.addWidget(self.figures, 1)
 
     def _column(self) -> QVBoxLayout:
         """Return the column of everything, which scrolls where a screen is too low for it."""
         self.area = area = QScrollArea(self)
         page, whole = QWidget(), QVBoxLayout(self)
         column = QVBoxLayout(page)
-        column.setContentsMargins(12, 10, 12, 12)
-        column.setSpacing(SPACE - 1)
+        self._rows = column
         whole.setContentsMargins(0, 0, 0, 0)
         whole.addWidget(area)
         area.setWidgetResizable(True)
@@ -273,6 +273,11 @@ class Controls(QWidget):
         for part in (area, area.viewport(), page):
             part.setAutoFillBackground(False)
         return column
+
+    def make_slim(self, slim: bool) -> None:
+        """Show the sliders alone, or everything."""
+        for part in (self.stopping, self.aiming, self.focus_button, self.sentence, self.detail, self.figures):
+            part.setVisible(not slim)
 
     def reveal(self, key: str) -> None:
         """Scroll to the row of a quantity where the column is too low for all."""
@@ -306,7 +311,9 @@ class Controls(QWidget):
         self.facts.show_rows(tuple((name, Message(UNKNOWN), tip) for name, _, tip in self.facts.rows))
 
     def restyle(self, theme: Tokens) -> None:
-        """Take the colours of a theme."""
+        """Take the colours and the scale of a theme."""
+        self._rows.setContentsMargins(*(theme.px(margin) for margin in (12, 10, 12, 12)))
+        self._rows.setSpacing(theme.px(SPACE - 1))
         self.facts.restyle(theme)
         for row in self.rows.values():
             row.restyle(theme)

@@ -51,7 +51,7 @@ class LensChooser(QPushButton):
         self.setAccessibleName(tr("Lens"))
         self.setToolTip(tr("The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)"))
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
-        self.setStyleSheet("QPushButton { text-align: left; padding-right: 22px; }")
+        self.setObjectName("lens")
         self._name, self._title, self._theme = "", "", LIGHT
         self.gallery: Gallery | None = None
         self.clicked.connect(self.open_gallery)
@@ -62,6 +62,8 @@ class LensChooser(QPushButton):
 
     def show_lens(self, name: str, shown_title: str, theme: Tokens) -> None:
         """Show a lens by its title."""
+        if theme.scale != self._theme.scale:
+            self.updateGeometry()
         self._theme = theme
         if (name, shown_title) != (self._name, self._title):
             self._name, self._title = name, tr(shown_title)
@@ -70,11 +72,11 @@ class LensChooser(QPushButton):
 
     def sizeHint(self) -> QSize:
         """Return a width that holds most titles."""
-        return QSize(WIDE, super().sizeHint().height())
+        return QSize(self._theme.px(WIDE), super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:
         """Return a width that holds the beginning of a title, for a small window."""
-        return QSize(NARROW, super().minimumSizeHint().height())
+        return QSize(self._theme.px(NARROW), super().minimumSizeHint().height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Show as much of the title as there is room for."""
@@ -82,7 +84,7 @@ class LensChooser(QPushButton):
         self._fit()
 
     def _fit(self) -> None:
-        room = self.width() - 34
+        room = self.width() - self._theme.px(34)
         self.setText(self.fontMetrics().elidedText(self._title, Qt.TextElideMode.ElideRight, room))
 
     def open_gallery(self) -> None:
@@ -119,7 +121,6 @@ class Gallery(QFrame):
         self.list.setViewMode(QListView.ViewMode.IconMode)
         self.list.setMovement(QListView.Movement.Static)
         self.list.setResizeMode(QListView.ResizeMode.Adjust)
-        self.list.setGridSize(CELL)
         self.list.setFrameShape(QListView.Shape.NoFrame)
         self.list.setAccessibleName(tr("Shipped lenses"))
         self.list.setMouseTracking(True)
@@ -146,9 +147,10 @@ class Gallery(QFrame):
     def open_at(self, place: QPoint, name: str, theme: Tokens) -> None:
         """Show the gallery at a place on the screen, a lens chosen."""
         self.cards.theme = theme
+        self.list.setGridSize(CELL * theme.scale)
         self.list.setStyleSheet(f"QListView {{ background: {theme.card}; outline: none; }}")
         room = self.screen().availableGeometry()
-        size = SIZE.boundedTo(QSize(room.width() - 16, room.height() - 16))
+        size = (SIZE * theme.scale).boundedTo(QSize(room.width() - 16, room.height() - 16))
         corner = QPoint(min(place.x(), room.right() - size.width()), min(place.y(), room.bottom() - size.height()))
         self.setGeometry(QRect(corner, size))
         model = self.list.model()
@@ -194,7 +196,7 @@ class CardPainter(QStyledItemDelegate):
 
     def sizeHint(self, option: QStyleOptionViewItem, index: ModelIndex) -> QSize:
         """Return the size of a card."""
-        return CELL
+        return CELL * self.theme.scale
 
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: ModelIndex) -> None:
         """Paint a card, or its title alone until its figures are there."""
@@ -209,9 +211,9 @@ class CardPainter(QStyledItemDelegate):
             self._awaited.append(name)
             self._timer.start()
         painter.setPen(QColor(self.theme.text))
-        painter.setFont(small_font(12))
+        painter.setFont(small_font(self.theme.px(12)))
         words = painter.fontMetrics().elidedText(index.data(), Qt.TextElideMode.ElideRight, round(inner.width()))
-        painter.drawText(inner.adjusted(0, PICTURE + 4, 0, 0), ALIGN, words)
+        painter.drawText(inner.adjusted(0, self.theme.px(PICTURE + 4), 0, 0), ALIGN, words)
         painter.restore()
 
     def _paint_ground(self, painter: QPainter, room: QRectF, state: QStyle.StateFlag) -> None:
@@ -223,9 +225,14 @@ class CardPainter(QStyledItemDelegate):
 
     def _paint_card(self, painter: QPainter, card: LensCard, room: QRectF) -> None:
         if card.drawing:
-            paint_lens(painter, card.drawing, QRectF(room.left(), room.top(), room.width(), PICTURE - 6), self.theme)
+            paint_lens(
+                painter,
+                card.drawing,
+                QRectF(room.left(), room.top(), room.width(), self.theme.px(PICTURE - 6)),
+                self.theme,
+            )
         painter.setPen(QColor(self.theme.muted))
-        painter.setFont(small_font())
-        painter.drawText(room.adjusted(0, PICTURE + 21, 0, 0), ALIGN, local(tr(card.facts)))
+        painter.setFont(small_font(self.theme.small))
+        painter.drawText(room.adjusted(0, self.theme.px(PICTURE + 21), 0, 0), ALIGN, local(tr(card.facts)))
         words = said(card.problem) if card.problem else tr(card.character)
-        painter.drawText(room.adjusted(0, PICTURE + 37, 0, 0), ALIGN | Qt.TextFlag.TextWordWrap, words)
+        painter.drawText(room.adjusted(0, self.theme.px(PICTURE + 37), 0, 0), ALIGN | Qt.TextFlag.TextWordWrap, words)

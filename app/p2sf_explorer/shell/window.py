@@ -1,17 +1,26 @@
 """The window: from slider to picture in three steps, store → live → panels."""
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TypeVar
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDragLeaveEvent, QDropEvent, QGuiApplication, QKeyEvent
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDragLeaveEvent,
+    QDropEvent,
+    QGuiApplication,
+    QKeyEvent,
+    QShowEvent,
+)
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.charts.theme import SPACE, Tokens, palette, stylesheet, tokens
+from p2sf_explorer.charts.theme import SPACE, Tokens, palette, screen_scale, stylesheet, tokens
 from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
@@ -34,7 +43,9 @@ from p2sf_explorer.shell.bars import Banner, StatusLine, TopBar
 from p2sf_explorer.shell.controls import WIDTH, Controls
 from p2sf_explorer.shell.memory_trim import MemoryTrim
 from p2sf_explorer.shell.no_answer import NO_ANSWER, drawn
+from p2sf_explorer.shell.presentation import LARGER, Presentation
 from p2sf_explorer.shell.sharing import Sharing
+from p2sf_explorer.shell.view import View, next_stop
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.state import Display, State
@@ -70,7 +81,7 @@ class MainWindow(QMainWindow):
         self.frame_ms: float | None = None
         self.display = placed(self.store.state.display, tuple(ENTRIES))
         self._placed_from: Display | None = None
-        self._theme: Tokens = tokens(self.store.state.display.theme, self.store.state.display.colours)
+        self._theme: Tokens = self._tokens(self.store.state)
         self._styled: dict[str, Tokens] = {}
         self.panels: dict[str, Panel] = {}
         self._make_bars()
@@ -103,6 +114,7 @@ class MainWindow(QMainWindow):
         self.teaching = LessonController(self.store, self, self.lesson_room)
         access = PanelAccess(
             live=lambda: self.live,
+            theme=lambda: self._theme,
             open=self.open_panel,
             stage=self.take_stage,
             card=lambda key: self.panels[key].widget,
@@ -110,10 +122,15 @@ class MainWindow(QMainWindow):
             explain=self._explain,
             detach=self._detach,
         )
+        self.presentation = Presentation(
+            self, self.left, (self.top, self.status), lambda: self._middle.insertWidget(0, self.left), self._present
+        )
+        self.view = View(self.store, lambda: self._theme.scale, self._parts, self)
         self.workspaces = Workspaces(self.store, self.teaching, self)
         self.top.put_workspaces(WorkspaceBar(self.workspaces, self.top))
         self.commands = Actions(self, self.store, self.top, access)
-        for part in (self.sharing, self.compare, self.play, self.teaching, self.tabs, self.workspaces):
+        own = self.tabs, self.workspaces, self.view, self.presentation
+        for part in (self.sharing, self.compare, self.play, self.teaching, *own):
             for command in part.commands():
                 self.commands.add(command)
         self.sharing.fill(self.top.snapshot.menu())
@@ -147,7 +164,8 @@ class MainWindow(QMainWindow):
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.left_parts)
         middle.addWidget(self.left)
-        right = QVBoxLayout()
+        self._middle = middle
+        self._right = right = QVBoxLayout()
         right.setSpacing(SPACE)
         right.addWidget(self.compare)
         right.addWidget(self.play)
@@ -181,7 +199,7 @@ class MainWindow(QMainWindow):
             return
         self.live = live = self._answers.seen
         self.banner.hide()
-        self.top.show_state(state, self._theme.dark)
+        self.top.show_state(state, self._theme)
         self.top.tolerance.show_live(live)
         self.controls.show_live(self._answers.a)
         for key in self._visible():
@@ -215,7 +233,7 @@ class MainWindow(QMainWindow):
     def refuse(self, why: Message | P2SFError) -> None:
         """Say in the banner why something cannot be done; the last picture stays."""
         self.banner.say(why)
-        self.top.show_state(self.store.state, self._theme.dark)
+        self.top.show_state(self.store.state, self._theme)
 
     def open_panel(self, key: str) -> None:
         """Bring a panel on show, and to the front of the tabs where it is not on the stage or in the rail."""
@@ -239,6 +257,15 @@ class MainWindow(QMainWindow):
             self.take_stage(self._places()[number])
         else:
             super().keyPressEvent(event)
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        """Go on with Tab, or back with Shift+Tab, in the order of the window's parts, wherever panels stand."""
+        stop = next_stop(self, self._parts(), QApplication.focusWidget(), 1 if forward else -1)
+        if stop is None:
+            return super().focusNextPrevChild(forward)
+        reasons = Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason
+        stop.setFocus(reasons[not forward])
+        return True
 
     def _places(self) -> tuple[str, ...]:
         """Return the panels in their order: the stage, the satellites, the tab in front."""
@@ -322,6 +349,8 @@ class MainWindow(QMainWindow):
         """Put the state's panels where they stand, building each the first time it is on show."""
         if state.display is not self._placed_from:  # a slider changes nothing here
             self._placed_from, self.display = state.display, placed(state.display, tuple(ENTRIES))
+            if self.presentation.on:
+                self.display = replace(self.display, show_rail=False)
             self._place_panels(self.display)
         self.controls.setVisible(state.display.show_controls)
         self.left.setVisible(state.display.show_controls or self.teaching.active)
@@ -336,6 +365,20 @@ class MainWindow(QMainWindow):
         self.room.arrange(display)
         elsewhere = display.stage, *display.rail
         self.floating.follow(homes, apart, self.panels, lambda: self.tabs.bring_up(display.tab, elsewhere))
+
+    def _parts(self) -> tuple[QWidget, ...]:
+        """Return the parts of the window in the order in which the keyboard goes through them."""
+        satellites = self.room.satellites[: len(self.display.rail)]
+        return self.top, self.left, self.compare, self.play, self.room.stage, *satellites, self.tabs
+
+    def _present(self) -> None:
+        """Begin or end presenting: larger type on the stage, nothing beside it, only sliders in the controls."""
+        on = self.presentation.on
+        larger = replace(self._theme, scale=LARGER * self._theme.scale)
+        self.room.stage.setStyleSheet(stylesheet(larger) if on else "")
+        self.controls.make_slim(on)
+        self._placed_from = None
+        self.refresh(self.store.state)
 
     def _homes(self, display: Display) -> dict[str, Home]:
         """Return where the panels on show stand inside the window."""
@@ -362,28 +405,53 @@ class MainWindow(QMainWindow):
             self.refresh(self.store.state)
 
     def _restyle(self, state: State) -> None:
-        theme = tokens(state.display.theme, state.display.colours)
+        theme = self._tokens(state)
         if theme != self._theme:
             self._theme = theme
             self._apply_theme()
+
+    def _tokens(self, state: State) -> Tokens:
+        """Return the theme of a state, at its scale of type or at that which suits the screen."""
+        percent = state.display.scale_percent
+        scale = screen_scale(self.screen().size()) if percent is None else percent / 100
+        return tokens(state.display.theme, state.display.colours, scale)
 
     def _apply_theme(self) -> None:
         QApplication.setPalette(palette(self._theme))
         self.setStyleSheet(stylesheet(self._theme))
         self.left.setFixedWidth(self._theme.px(WIDTH))
+        self.column.setContentsMargins(*(self._theme.px(side) for side in (SPACE, SPACE, SPACE, SPACE // 2)))
+        for layout in (self.column, self._middle, self._right):
+            layout.setSpacing(self._theme.px(SPACE))
+        for parts in (self.room, self.room.parts, self.left_parts):
+            parts.rescale(self._theme.scale)
+        self.top.rescale(self._theme.scale)
         self.controls.restyle(self._theme)
         self.top.tolerance.restyle(self._theme)
         self.status.restyle(self._theme)
 
     def _style(self, key: str) -> None:
         """Give a panel the present theme, when it is first shown after a change."""
-        if self._styled.get(key) != self._theme:
-            self._styled[key] = self._theme
-            self.panels[key].restyle(self._theme)
-            self.panels[key].widget.rescale(self._theme.scale)
+        theme = self._theme
+        if self.presentation.on and key == self.display.stage:
+            theme = replace(theme, scale=LARGER * theme.scale)
+        if self._styled.get(key) != theme:
+            self._styled[key] = theme
+            self.panels[key].restyle(theme)
+            self.panels[key].widget.rescale(theme.scale)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Follow the window to another screen, whose type may be of another size."""
+        super().showEvent(event)
+        if handle := self.windowHandle():
+            handle.screenChanged.connect(self._on_screen, Qt.ConnectionType.UniqueConnection)
+
+    def _on_screen(self) -> None:
+        self.refresh(self.store.state)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """End the background work with the window."""
+        self.presentation.stop()
         self.play.stop()
         self.commands.stop()
         self.top.tolerance.stop()

@@ -289,13 +289,17 @@ def chart_at(widget: QWidget, point: QPoint) -> Chart | None:
     return found
 
 
+CHEVRON_TYPE = 15.0  # pixels: the height of type beside which a chevron has its plain size
+
+
 def paint_chevron(widget: QWidget) -> None:
     """Paint the arrow at the right end of a box that opens."""
     painter = QPainter(widget)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(widget.palette().color(QPalette.ColorRole.PlaceholderText), 1.6))
-    x, y = widget.width() - 13.0, widget.height() / 2 - 1.5
-    painter.drawPolyline(QPolygonF([QPointF(x - 3.5, y), QPointF(x, y + 3.5), QPointF(x + 3.5, y)]))
+    unit = widget.fontMetrics().height() / CHEVRON_TYPE
+    x, y, half = widget.width() - 13.0 * unit, widget.height() / 2 - 1.5 * unit, 3.5 * unit
+    painter.drawPolyline(QPolygonF([QPointF(x - half, y), QPointF(x, y + half), QPointF(x + half, y)]))
 
 
 class Chooser(QComboBox):

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QToolTip, QWidget
 
 from p2sf_explorer.charts.axes import LOCK_PX, paint_lock
 from p2sf_explorer.charts.chart import blank_pixmap
-from p2sf_explorer.charts.painting import set_text, write
+from p2sf_explorer.charts.painting import fitting, write
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.charts.view import steadied
 from p2sf_explorer.i18n.tr import local, tr
@@ -25,26 +25,30 @@ SHORT = {
     "w11": "distortion",
 }
 LEFT, NUMBER, BUTTON, GAP = 84.0, 60.0, 19.0, 4.0
-SCALE_HEIGHT = 18.0
+SCALE_HEIGHT, SMALLEST_PX = 18.0, 120
 HANDLE = 5.0
 LETTERS = (("muted", "M", "warning"), ("solo", "S", "accent"))
 
 
 @dataclass(frozen=True)
 class MixerPlaces:
-    """The mixer's geometry for a size in pixels; rows in the order of `p2sf_explorer.state.terms.TERMS`."""
+    """The mixer's geometry for a size in pixels; rows in the order of `p2sf_explorer.state.terms.TERMS`.
+
+    ``scale`` is that of type (`Tokens`), which names, numbers and buttons follow.
+    """
 
     width: float
     height: float
+    scale: float = 1.0
 
     @property
     def ends(self) -> tuple[float, float]:
         """Return the left and right end of bars and sliders."""
-        return LEFT, self.width - NUMBER - 2 * BUTTON - 2 * GAP
+        return LEFT * self.scale, self.width - (NUMBER + 2 * BUTTON + 2 * GAP) * self.scale
 
     def row(self, number: int) -> QRectF:
         """Return the rectangle of a row."""
-        tall = (self.height - SCALE_HEIGHT) / len(TERMS)
+        tall = (self.height - SCALE_HEIGHT * self.scale) / len(TERMS)
         return QRectF(0, number * tall, self.width, tall)
 
     def lock(self) -> QRectF:
@@ -53,24 +57,25 @@ class MixerPlaces:
 
     def row_at(self, y: float) -> int:
         """Return the row at a height."""
-        return min(len(TERMS) - 1, max(0, int(y * len(TERMS) / max(1.0, self.height - SCALE_HEIGHT))))
+        return min(len(TERMS) - 1, max(0, int(y * len(TERMS) / max(1.0, self.height - SCALE_HEIGHT * self.scale))))
 
     def button(self, number: int, kind: str) -> QRectF:
         """Return the rectangle of a row's "muted" or "solo" button."""
         place = [name for name, *_ in LETTERS].index(kind)
-        left = self.width - (2 - place) * BUTTON - (1 - place) * GAP / 2
-        return QRectF(left, self.row(number).center().y() - BUTTON / 2, BUTTON - 1, BUTTON)
+        side = BUTTON * self.scale
+        left = self.width - (2 - place) * side - (1 - place) * GAP * self.scale / 2
+        return QRectF(left, self.row(number).center().y() - side / 2, side - 1, side)
 
     def number(self, number: int) -> QRectF:
         """Return the rectangle of a row's number."""
         row = self.row(number)
-        return QRectF(self.ends[1] + GAP / 2, row.top(), NUMBER - GAP / 2, row.height())
+        return QRectF(self.ends[1] + GAP * self.scale / 2, row.top(), (NUMBER - GAP / 2) * self.scale, row.height())
 
     def bar(self, number: int, part: float) -> QRectF:
         """Return the bar from the middle to a part (−1 to 1) of its half length."""
         row, (left, right) = self.row(number), self.ends
         middle, end = (left + right) / 2, (left + right) / 2 + part * (right - left) / 2
-        thick = min(16.0, 0.42 * row.height())
+        thick = min(16.0 * self.scale, 0.42 * row.height())
         return QRectF(min(middle, end), row.top() + 0.36 * row.height() - thick / 2, abs(end - middle), thick)
 
     def handle(self, number: int, part: float) -> QPointF:
@@ -91,7 +96,7 @@ def clamped(value: float, limit: float) -> float:
 
 def paint_scale(painter: QPainter, places: MixerPlaces, theme: Tokens, limit: float) -> None:
     """Paint five lines and their numbers."""
-    (left, right), bottom = places.ends, places.height - SCALE_HEIGHT
+    (left, right), bottom = places.ends, places.height - SCALE_HEIGHT * places.scale
     for part in (-1.0, -0.5, 0.0, 0.5, 1.0):
         x = (left + right) / 2 + part * (right - left) / 2
         painter.setPen(QPen(QColor(theme.line if part == 0 else theme.faint), 1))
@@ -99,21 +104,20 @@ def paint_scale(painter: QPainter, places: MixerPlaces, theme: Tokens, limit: fl
         if part in (-1.0, 0.0, 1.0):
             painter.setPen(QColor(theme.muted))
             text = f"{limit * part:+g}".replace("-", "−") if part else "0"
-            write(painter, QRectF(x - 40, bottom + 2, 80, 16), text)
+            write(painter, QRectF(x - theme.px(40), bottom + 2, 2 * theme.px(40), theme.px(16)), text, 0, theme.tick)
 
 
 def paint_names(painter: QPainter, places: MixerPlaces, theme: Tokens, number: int) -> None:
     """Paint a row's symbol and its name."""
     row, name = places.row(number), TERMS[number]
-    two = row.height() >= 25
+    two = row.height() >= theme.px(25)
     painter.setPen(QColor(theme.text))
-    symbol = QRectF(0, row.center().y() - 15, 60, 16) if two else row
-    write(painter, symbol, NAMES[name], -1, 13)
+    symbol = QRectF(0, row.center().y() - theme.px(15), theme.px(60), theme.px(16)) if two else row
+    write(painter, symbol, NAMES[name], -1, theme.px(13))
     if two:
         painter.setPen(QColor(theme.muted))
-        words = tr(SHORT[name])
-        fits = set_text(words).size().width() <= LEFT - 2 * GAP
-        write(painter, QRectF(0, row.center().y(), 66, 13), words, -1, 11 if fits else 10)
+        words = fitting(tr(SHORT[name]), places.ends[0] - GAP, theme.tick)
+        write(painter, QRectF(0, row.center().y(), theme.px(66), theme.px(13)), words, -1, theme.tick)
 
 
 def paint_slider(
@@ -122,19 +126,19 @@ def paint_slider(
     """Paint a row's slider: groove, added waves, handle."""
     handle, zero = places.handle(number, part), places.handle(number, 0.0)
     left, right = places.ends
-    painter.setPen(QPen(QColor(theme.line), 2))
+    painter.setPen(QPen(QColor(theme.line), 2 * theme.scale))
     painter.drawLine(QPointF(left, zero.y()), QPointF(right, zero.y()))
-    painter.setPen(QPen(QColor(theme.accent), 2))
+    painter.setPen(QPen(QColor(theme.accent), 2 * theme.scale))
     painter.drawLine(zero, handle)
     if focused:
         halo = QColor(theme.accent)
         halo.setAlpha(80)
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(halo)
-        painter.drawEllipse(handle, HANDLE + 3, HANDLE + 3)
-    painter.setPen(QPen(QColor(theme.accent if part else theme.muted), 1.6))
+        painter.drawEllipse(handle, (HANDLE + 3) * theme.scale, (HANDLE + 3) * theme.scale)
+    painter.setPen(QPen(QColor(theme.accent if part else theme.muted), 1.6 * theme.scale))
     painter.setBrush(QColor(theme.card))
-    painter.drawEllipse(handle, HANDLE - 0.8, HANDLE - 0.8)
+    painter.drawEllipse(handle, (HANDLE - 0.8) * theme.scale, (HANDLE - 0.8) * theme.scale)
 
 
 def paint_button(painter: QPainter, room: QRectF, theme: Tokens, letter: str, colour: str, on: bool) -> None:
@@ -143,7 +147,7 @@ def paint_button(painter: QPainter, room: QRectF, theme: Tokens, letter: str, co
     painter.setBrush(QColor(getattr(theme, colour) if on else theme.raised))
     painter.drawRoundedRect(room.adjusted(0.5, 0.5, -0.5, -0.5), 4, 4)
     painter.setPen(QColor(theme.card if on else theme.muted))
-    write(painter, room, letter, 0)
+    write(painter, room, letter, 0, theme.tick)
 
 
 def paint_value(painter: QPainter, places: MixerPlaces, theme: Tokens, number: int, part: float, words: str) -> None:
@@ -152,7 +156,7 @@ def paint_value(painter: QPainter, places: MixerPlaces, theme: Tokens, number: i
     colour.setAlpha(110 if TERMS[number] == "w11" else 255)
     painter.fillRect(places.bar(number, part), colour)
     painter.setPen(QColor(theme.text))
-    write(painter, places.number(number), words, 1, 13)
+    write(painter, places.number(number), words, 1, theme.px(13))
 
 
 def paint_overflow(painter: QPainter, bar: QRectF, theme: Tokens, right: bool) -> None:
@@ -190,7 +194,7 @@ class NumberEdit(ShortField):
 
     def __init__(self, parent: QWidget):
         super().__init__(parent)
-        self.setObjectName("value")
+        self.setObjectName("cell")
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.editingFinished.connect(self.hide)
         self.hide()
@@ -228,7 +232,7 @@ class Mixer(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("What-if: waves added to the six coefficients"))
-        self.setMinimumHeight(120)
+        self.setMinimumHeight(SMALLEST_PX)
         self.edit = NumberEdit(self)
         self.edit.returnPressed.connect(self._take)
 
@@ -239,7 +243,7 @@ class Mixer(QWidget):
     @property
     def places(self) -> MixerPlaces:
         """Return the geometry of the present size."""
-        return MixerPlaces(self.width(), self.height())
+        return MixerPlaces(self.width(), self.height(), self._theme.scale)
 
     def rows_of_data(self) -> list[list[str]]:
         """Return the coefficients as they count, the lens's own, and the added waves, in waves, for the clipboard."""
@@ -266,6 +270,7 @@ class Mixer(QWidget):
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme, self._background = theme, None
+        self.setMinimumHeight(theme.px(SMALLEST_PX))
         self.update()
 
     def turn_lock(self) -> None:

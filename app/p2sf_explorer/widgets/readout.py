@@ -48,7 +48,7 @@ class Readout(QWidget):
 
     def sizeHint(self) -> QSize:
         """Return the height of one line; the width is whatever there is."""
-        return QSize(60, 20 if self._pill else 16)
+        return QSize(self._theme.px(60), self._theme.px(20 if self._pill else 16))
 
     def minimumSizeHint(self) -> QSize:
         """Return the smallest size."""
@@ -57,6 +57,7 @@ class Readout(QWidget):
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme = theme
+        self.updateGeometry()
         self.update()
 
     def event(self, event: QEvent) -> bool:
@@ -70,9 +71,9 @@ class Readout(QWidget):
         room = self.width() - (2 * PAD if self._pill else 0)
         texts = [self._text, *filter(None, self._short)]
         for text in texts:
-            if width_of(text, SIZE) <= room:
+            if width_of(text, self._theme.px(SIZE)) <= room:
                 return text
-        return metrics(SIZE).elidedText(texts[-1], Qt.TextElideMode.ElideRight, room)
+        return metrics(self._theme.px(SIZE)).elidedText(texts[-1], Qt.TextElideMode.ElideRight, room)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint ground and text."""
@@ -83,11 +84,11 @@ class Readout(QWidget):
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(self._theme.faint))
-            wide = width_of(text, SIZE) + 2 * PAD
+            wide = width_of(text, self._theme.px(SIZE)) + 2 * PAD
             painter.drawRoundedRect(QRectF(0, 0, wide, self.height()), 4, 4)
         painter.setPen(QColor(getattr(self._theme, self._colour)))
         room = QRectF(pad, 0, self.width() - 2 * pad, self.height())
-        write(painter, room, text, 1 if self._align == Qt.AlignmentFlag.AlignRight else -1, SIZE)
+        write(painter, room, text, 1 if self._align == Qt.AlignmentFlag.AlignRight else -1, self._theme.px(SIZE))
 
 
 FactRow = tuple[str, Message, str]
@@ -111,6 +112,11 @@ class FactTable(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     @property
+    def row(self) -> float:
+        """Return the height of a row in pixels."""
+        return self.ROW * self._theme.scale
+
+    @property
     def rows(self) -> tuple[FactRow, ...]:
         """Return the rows shown."""
         return self._rows
@@ -123,7 +129,7 @@ class FactTable(QWidget):
     def show_rows(self, rows: tuple[FactRow, ...]) -> None:
         """Show (name, value, definition) rows."""
         if len(rows) != len(self._rows):
-            self.setFixedHeight(round(self.ROW * len(rows)))
+            self.setFixedHeight(round(self.row * len(rows)))
             self._values = [value.text(WINDOW) for _, value, _ in rows]
             self.update()
         else:
@@ -134,17 +140,18 @@ class FactTable(QWidget):
         self._rows = rows
 
     def _room(self, number: int) -> QRectF:
-        return QRectF(0, number * self.ROW, self.width(), self.ROW)
+        return QRectF(0, number * self.row, self.width(), self.row)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self._theme = theme
+        self.setFixedHeight(round(self.row * len(self._rows)))
         self.update()
 
     def event(self, event: QEvent) -> bool:
         """Define the row under the pointer."""
         if isinstance(event, QHelpEvent):
-            row = int(event.pos().y() // self.ROW)
+            row = int(event.pos().y() // self.row)
             if row < len(self._rows):
                 QToolTip.showText(event.globalPos(), tr(self._rows[row][2]), self)
             return True
@@ -159,9 +166,9 @@ class FactTable(QWidget):
             if not changed.intersects(line.toRect()):
                 continue
             painter.setPen(QColor(self._theme.muted))
-            write(painter, line, tr(name), -1, SIZE)
+            write(painter, line, tr(name), -1, self._theme.px(SIZE))
             painter.setPen(QColor(self._theme.text))
-            write(painter, line, value, 1, SIZE)
+            write(painter, line, value, 1, self._theme.px(SIZE))
 
 
 class Scrolling(QScrollArea):

@@ -19,6 +19,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QAbstractSlider, QSizePolicy, QWidget
 
 from p2sf_explorer.charts.chart import blank_pixmap
+from p2sf_explorer.charts.painting import small_font
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import local
 from p2sf_explorer.widgets.scrub import REST_MS, claimed, notches, speed
@@ -66,8 +67,9 @@ class Slider(QAbstractSlider):
         self._rest.timeout.connect(partial(self.setSliderDown, False))
 
     def restyle(self, theme: Tokens) -> None:
-        """Take the colours of a theme."""
+        """Take the colours and the scale of a theme."""
         self._theme = theme
+        self.updateGeometry()
         self._forget_background()
 
     def set_ticks(self, ticks: tuple[tuple[float, str], ...]) -> None:
@@ -89,11 +91,11 @@ class Slider(QAbstractSlider):
 
     def sizeHint(self) -> QSize:
         """Return a height with room for the tick labels, if there are any."""
-        return QSize(160, 32 if self._ticks else 22)
+        return QSize(self._theme.px(160), self._theme.px(32 if self._ticks else 22))
 
     def minimumSizeHint(self) -> QSize:
         """Return the smallest useful size."""
-        return QSize(80, self.sizeHint().height())
+        return QSize(self._theme.px(80), self.sizeHint().height())
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take hold of the handle, or bring it under the pointer."""
@@ -163,10 +165,18 @@ class Slider(QAbstractSlider):
         return self._x(self.value() / STEPS)
 
     def _x(self, travel: float) -> float:
-        return MARGIN + travel * (self.width() - 2 * MARGIN)
+        return self._margin + travel * (self.width() - 2 * self._margin)
+
+    @property
+    def _margin(self) -> float:
+        return MARGIN * self._theme.scale
+
+    @property
+    def _middle(self) -> float:
+        return MIDDLE * self._theme.scale
 
     def _follow(self, point: QPointF) -> None:
-        travel = (point.x() - MARGIN) / max(1.0, self.width() - 2 * MARGIN)
+        travel = (point.x() - self._margin) / max(1.0, self.width() - 2 * self._margin)
         self.setValue(round(STEPS * travel))
 
     def _forget_background(self) -> None:
@@ -183,23 +193,24 @@ class Slider(QAbstractSlider):
         if not self._spectrum:
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(self._theme.accent if self.isEnabled() else self._theme.muted))
-            painter.drawRoundedRect(QRectF(MARGIN, MIDDLE - 2, self.handle_x() - MARGIN, 4), 2, 2)
-        self._paint_handle(painter, MIDDLE)
+            half = 2 * self._theme.scale
+            left, wide = self._margin, self.handle_x() - self._margin
+            painter.drawRoundedRect(QRectF(left, self._middle - half, wide, 2 * half), half, half)
+        self._paint_handle(painter, self._middle)
 
     def _painted_background(self) -> QPixmap:
         background = blank_pixmap(self, self._theme.card)
         painter = QPainter(background)
-        painter.setFont(self.font())
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self._paint_groove(painter, MIDDLE)
-        self._paint_ticks(painter, MIDDLE)
-        self._paint_marks(painter, MIDDLE)
+        self._paint_groove(painter, self._middle)
+        self._paint_ticks(painter, self._middle)
+        self._paint_marks(painter, self._middle)
         painter.end()
         return background
 
     def _paint_groove(self, painter: QPainter, middle: float) -> None:
-        half = 5.0 if self._spectrum else 2.0
-        groove = QRectF(MARGIN, middle - half, self.width() - 2 * MARGIN, 2 * half)
+        half = (5.0 if self._spectrum else 2.0) * self._theme.scale
+        groove = QRectF(self._margin, middle - half, self.width() - 2 * self._margin, 2 * half)
         painter.setPen(Qt.PenStyle.NoPen)
         if not self._spectrum:
             painter.setBrush(QColor(self._theme.line))
@@ -212,35 +223,37 @@ class Slider(QAbstractSlider):
         painter.drawRoundedRect(groove, 2, 2)
 
     def _paint_ticks(self, painter: QPainter, middle: float) -> None:
-        font = painter.font()
-        font.setPixelSize(10)
-        painter.setFont(font)
+        painter.setFont(small_font(self._theme.tick))
+        scale, gap = self._theme.scale, LABEL_GAP * self._theme.scale
         taken: list[tuple[float, float]] = []
         for travel, english in self._ticks:
             x, label = self._x(travel), local(english)
-            painter.setPen(QPen(QColor(self._theme.muted), 1))
-            painter.drawLine(QPointF(x, middle + 6), QPointF(x, middle + 9))
+            painter.setPen(QPen(QColor(self._theme.muted), scale))
+            painter.drawLine(QPointF(x, middle + 6 * scale), QPointF(x, middle + 9 * scale))
             wide = painter.fontMetrics().horizontalAdvance(label)
             left = min(max(x - wide / 2, 1.0), self.width() - wide - 1.0)
             if all(left > end or left + wide < start for start, end in taken):
-                taken.append((left - LABEL_GAP, left + wide + LABEL_GAP))
-                painter.drawText(QPointF(left, middle + 19), label)
+                taken.append((left - gap, left + wide + gap))
+                painter.drawText(QPointF(left, middle + 19 * scale), label)
 
     def _paint_marks(self, painter: QPainter, middle: float) -> None:
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(self._theme.muted))
         for travel in self._marks:
-            x, tip = self._x(travel), middle - 5
-            painter.drawPolygon(QPolygonF([QPointF(x - 3.5, tip - 5), QPointF(x + 3.5, tip - 5), QPointF(x, tip)]))
+            x, half, tall = self._x(travel), 3.5 * self._theme.scale, 5 * self._theme.scale
+            tip = middle - tall
+            painter.drawPolygon(
+                QPolygonF([QPointF(x - half, tip - tall), QPointF(x + half, tip - tall), QPointF(x, tip)])
+            )
 
     def _paint_handle(self, painter: QPainter, middle: float) -> None:
-        theme, centre = self._theme, QPointF(self.handle_x(), middle)
+        theme, centre, scale = self._theme, QPointF(self.handle_x(), middle), self._theme.scale
         if self.hasFocus():
             halo = QColor(theme.accent)
             halo.setAlpha(70)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(halo)
-            painter.drawEllipse(centre, HANDLE + 2.5, HANDLE + 2.5)
-        painter.setPen(QPen(QColor(theme.accent if self.isEnabled() else theme.muted), 2))
+            painter.drawEllipse(centre, (HANDLE + 2.5) * scale, (HANDLE + 2.5) * scale)
+        painter.setPen(QPen(QColor(theme.accent if self.isEnabled() else theme.muted), 2 * scale))
         painter.setBrush(QColor(theme.card))
-        painter.drawEllipse(centre, HANDLE - 1, HANDLE - 1)
+        painter.drawEllipse(centre, (HANDLE - 1) * scale, (HANDLE - 1) * scale)

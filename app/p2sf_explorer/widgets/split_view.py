@@ -240,12 +240,13 @@ class SplitView(QWidget):
         painter.drawEllipse(QPointF(x, area.center().y()), HANDLE_PX, HANDLE_PX)
 
     def _paint_names(self, painter: QPainter, area: QRectF, x: float) -> None:
+        px = self._theme.px
         for name, side in zip(self.names, (-1, 1), strict=True):
-            wide = set_text(name).size().width() + 2 * PAD
+            wide = set_text(name, self._theme.tick).size().width() + 2 * PAD
             left = x - PAD - wide if side < 0 else x + PAD
             if not name or left < area.left() or left + wide > area.right():
                 continue
-            _label(painter, QRectF(left, area.bottom() - 24, wide, 18), name)
+            _label(painter, QRectF(left, area.bottom() - px(24), wide, px(18)), name, self._theme.tick)
 
     def _paint_place(self, painter: QPainter, places: SplitPlaces) -> None:
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)  # a sensor's pixels are squares
@@ -270,9 +271,10 @@ class SplitView(QWidget):
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(QColor(self._theme.line), 1.0))
         painter.drawRect(room)
-        wide = set_text(name).size().width() + 2 * PAD
+        wide = set_text(name, self._theme.tick).size().width() + 2 * PAD
+        px = self._theme.px
         if name and wide < room.width():
-            _label(painter, QRectF(room.left() + PAD, room.bottom() - 24, wide, 18), name)
+            _label(painter, QRectF(room.left() + PAD, room.bottom() - px(24), wide, px(18)), name, self._theme.tick)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take hold of the split."""
@@ -313,10 +315,10 @@ class SplitView(QWidget):
         self.moved.emit(min(1.0, max(0.0, (place.x() - area.left()) / area.width())))
 
 
-def _label(painter: QPainter, room: QRectF, name: str) -> None:
+def _label(painter: QPainter, room: QRectF, name: str, size: int) -> None:
     """Write white text on a dark ground, which shows on every picture."""
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(0, 0, 0, 170))
     painter.drawRoundedRect(room, 4, 4)
     painter.setPen(QColor("#ffffff"))
-    write(painter, room, name)
+    write(painter, room, name, 0, size)

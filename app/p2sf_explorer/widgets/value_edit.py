@@ -21,10 +21,9 @@ class PlayButton(QToolButton):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.setObjectName("flat")
+        self.setObjectName("play")
         self.setText("▶")
         self.setToolTip(tr("Play this slider (Space)"))
-        self.setFixedSize(22, 22)
 
 
 STANDARD = QKeySequence.StandardKey
@@ -58,7 +57,6 @@ class ValueEdit(ShortField):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("value")
-        self.setFixedWidth(96)
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.last = ""
         self.scrub: Scrub | None = None
@@ -168,7 +166,7 @@ class MicronEdit(QWidget):
         super().__init__(parent)
         self._store, self._key, self._label = store, key, label
         self.edit = ValueEdit(self)
-        self.edit.setFixedWidth(78)
+        self.edit.setProperty("short", True)
         self.edit.setAccessibleName(tr(label))
         self.setToolTip(tr(tip))
         row = QHBoxLayout(self)

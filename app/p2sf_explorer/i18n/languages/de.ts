@@ -117,6 +117,7 @@
 <message><source>Conic K</source><translation>Konik K</translation></message>
 <message><source>Conic constant K = −e²: 0 a sphere, −1 a paraboloid.</source><translation>Kegelschnittkonstante K = −e²: 0 eine Kugel, −1 ein Paraboloid.</translation></message>
 <message><source>Contents</source><translation>Inhalt</translation></message>
+<message><source>Controls</source><translation>Regler</translation></message>
 <message><source>Cooke triplet, f/5, 50 mm, 40 degree field</source><translation>Cooke-Triplet, f/5, 50 mm, 40 Grad Feld</translation></message>
 <message><source>Copied a link of {count} letters; paste it into a window of the explorer</source><translation>Link aus {count} Zeichen kopiert; in ein Fenster des Explorers einfügen</translation></message>
 <message><source>Copy a link to what is on screen</source><translation>Link auf das Gezeigte kopieren</translation></message>
@@ -239,6 +240,7 @@
 <message><source>Lagrange invariant H = {h} mm</source><translation>Lagrange-Invariante H = {h} mm</translation></message>
 <message><source>Landscape</source><translation>Landschaft</translation></message>
 <message><source>Language</source><translation>Sprache</translation></message>
+<message><source>Larger type</source><translation>Größere Schrift</translation></message>
 <message><source>Largest blur diameter on the sensor that is still called sharp.</source><translation>Größter Unschärfedurchmesser auf dem Sensor, der noch scharf heißt.</translation></message>
 <message><source>Layout</source><translation>Aufbau</translation></message>
 <message><source>Left: sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Right: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Links: Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Rechts: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
@@ -377,6 +379,7 @@
 <message><source>Points</source><translation>Punkte</translation></message>
 <message><source>Pop out</source><translation>Lösen</translation></message>
 <message><source>Preparing the 3D view: loading it takes some seconds, once.</source><translation>Die 3D-Ansicht wird vorbereitet: das Laden dauert einmal einige Sekunden.</translation></message>
+<message><source>Present: the stage on the full screen, or back (Esc)</source><translation>Vorführen: die Bühne auf dem ganzen Bildschirm, oder zurück (Esc)</translation></message>
 <message><source>Preset</source><translation>Vorgabe</translation></message>
 <message><source>Presets</source><translation>Vorgaben</translation></message>
 <message><source>Previous step of the lesson</source><translation>Voriger Schritt der Lektion</translation></message>
@@ -406,6 +409,7 @@
 <message><source>RMS, waves</source><translation>RMS, Wellen</translation></message>
 <message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
 <message><source>Radius, mm</source><translation>Radius, mm</translation></message>
+<message><source>Rail at the right or at the bottom</source><translation>Ansichten neben der Bühne rechts oder unten</translation></message>
 <message><source>Ray fan</source><translation>Strahlfächer</translation></message>
 <message><source>Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil.</source><translation>Strahlfächer: wie weit vom Hauptstrahl ein exakter Strahl landet, über seinem Ort in der Pupille.</translation></message>
 <message><source>Rays</source><translation>Strahlen</translation></message>
@@ -476,10 +480,13 @@
 <message><source>Show A, B, A − B in turn</source><translation>A, B, A − B der Reihe nach zeigen</translation></message>
 <message><source>Show A, which the controls move</source><translation>A zeigen, das die Regler bewegen</translation></message>
 <message><source>Show B, as it was pinned</source><translation>B zeigen, wie es gemerkt wurde</translation></message>
+<message><source>Show or hide the controls</source><translation>Regler zeigen oder verbergen</translation></message>
+<message><source>Show or hide what stands beside the stage</source><translation>Zeigen oder verbergen, was neben der Bühne steht</translation></message>
 <message><source>Show the answer</source><translation>Antwort zeigen</translation></message>
 <message><source>Show the answer (Alt+Down)</source><translation>Antwort zeigen (Alt+Abwärts)</translation></message>
 <message><source>Siemens star</source><translation>Siemensstern</translation></message>
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
+<message><source>Smaller type</source><translation>Kleinere Schrift</translation></message>
 <message><source>Snapshot</source><translation>Sichern</translation></message>
 <message><source>Snapshot: PSF data or picture, with the state…</source><translation>Schnappschuss: PSF-Daten oder Bild, mit Zustand …</translation></message>
 <message><source>Solo: only this term counts (S)</source><translation>Solo: nur dieser Term zählt (S)</translation></message>
@@ -586,6 +593,8 @@
 <message><source>Three elements, the fewest that correct all five Seidel sums</source><translation>Drei Linsen, die wenigsten, die alle fünf Seidel-Summen korrigieren</translation></message>
 <message><source>Through focus</source><translation>Fokusreihe</translation></message>
 <message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Fokusreihe: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
+<message><source>To the next part of the window</source><translation>Zum nächsten Teil des Fensters</translation></message>
+<message><source>To the previous part of the window</source><translation>Zum vorigen Teil des Fensters</translation></message>
 <message><source>Tolerance</source><translation>Toleranz</translation></message>
 <message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
 <message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
@@ -595,6 +604,7 @@
 <message><source>Two achromats face to face, the stop in their common focus: for near objects only, image inverted</source><translation>Zwei Achromate einander zugewandt, die Blende in ihrem gemeinsamen Brennpunkt: nur für nahe Objekte, Bild umgekehrt</translation></message>
 <message><source>Two equal menisci about a stop: at unit magnification coma, distortion and lateral colour cancel exactly</source><translation>Zwei gleiche Menisken um eine Blende: beim Maßstab 1 heben sich Koma, Verzeichnung und Farbquerfehler genau auf</translation></message>
 <message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
+<message><source>Type that suits the screen</source><translation>Schriftgröße, die zum Bildschirm passt</translation></message>
 <message><source>Typed numbers may have a decimal point or a decimal comma; files and the command line take a decimal point.</source><translation>Getippte Zahlen dürfen Dezimalpunkt oder Dezimalkomma haben; Dateien und die Kommandozeile nehmen den Dezimalpunkt.</translation></message>
 <message><source>Undo</source><translation>Rückgängig</translation></message>
 <message><source>Undo: take back one step (Ctrl+Z)</source><translation>Rückgängig: einen Schritt zurücknehmen (Strg+Z)</translation></message>
@@ -604,6 +614,7 @@
 <message><source>Unmeasured. When the sliders rest a plan follows.</source><translation>Ungemessen. Wenn die Regler ruhen, folgt ein Plan.</translation></message>
 <message><source>Unpin</source><translation>B lösen</translation></message>
 <message><source>Values with semicolons between; empty: evenly spread by themselves</source><translation>Werte mit Strichpunkten dazwischen; leer: von selbst gleichmäßig verteilt</translation></message>
+<message><source>View</source><translation>Darstellung</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
 <message><source>W modulo 1, waves</source><translation>W modulo 1, Wellen</translation></message>
 <message><source>W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm</source><translation>W × {front} längs der Strahlen · PSF × {psf} breit, Höhe: {scale} · {wavelength} nm</translation></message>
