@@ -59,6 +59,7 @@ def _open(state: State, geometry: dict[str, str]) -> int:
 
     def made(state: State) -> MainWindow:
         window = MainWindow(state)
+        window.fit_screen()
         SessionKeeper(window, window.store, lambda: window.floating.open, geometry)
         window.teaching.offer_once()
         return window

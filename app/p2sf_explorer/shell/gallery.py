@@ -3,27 +3,30 @@
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtCore import QEventLoop, QSize, QTimer
 from PySide6.QtWidgets import QApplication
 
-from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.charts.theme import configure_plots, screen_scale
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import State, changed, new_state
-from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
+from p2sf_explorer.state.workspaces import TEACH, WORKSPACES, on_stage, with_workspace
 
-SIZES = {"small": (1280, 800), "large": (1920, 1080)}
+SIZES = {"small": (1280, 800), "large": (1920, 1080), "wide": (2560, 1440), "wall": (3840, 2160)}
+EVERY_SIZE, ONE_SIZE = "workspace_", "panel_"  # how the names of states begin that are shown in all sizes, or in one
+USUAL = "small", "large"
+THEMES = "light", "dark"
 LONGEST_MS = 20_000  # for the background measurement of one picture
 LOOK_MS = 50
 
 
 def states() -> dict[str, State]:
-    """Return the states to show: the first picture in both themes, and every other tab."""
-    tabs = [entry.key for entry in REGISTRY if entry.key != State().display.tab]
-    shown = {"first_light": new_state(theme="light"), "first_dark": new_state(theme="dark")}
+    """Return the states to show: every workspace in both themes, what else there is, and every panel on the stage."""
+    panels = [entry.key for entry in REGISTRY if entry.key != State().display.stage]
+    shown = {f"{EVERY_SIZE}{name}_{theme}": workspace(name, theme) for theme in THEMES for name in WORKSPACES}
     shown["close_up"] = new_state(lens="cooke_triplet", depth_mm=400.0, focus_mm=400.0, field_deg=14.0, theme="light")
     shown["eye"] = new_state(lens="eye_navarro", field_deg=15.0, wavelength_nm=543.0, phase="wrapped", theme="dark")
     shown["surface"] = new_state(phase="surface", theme="dark")
@@ -36,7 +39,14 @@ def states() -> dict[str, State]:
         shown[f"compare_{side}"] = changed(pair, shown=side)
     shown["lesson"] = changed(shipped_lessons()[4].state(1, new_state(theme="light")), lesson_told=True)
     shown["german"] = new_state(theme="light", language="de", tab="first_order")
-    return shown | matrices() | {f"tab_{tab}": new_state(tab=tab, theme="light") for tab in tabs}
+    first = new_state(theme="light")
+    return shown | matrices() | {f"{ONE_SIZE}{key}": changed(first, **on_stage(first.display, key)) for key in panels}
+
+
+def workspace(name: str, theme: str) -> State:
+    """Return the first state in a workspace; that of teaching with the first lesson."""
+    first = new_state(theme=theme)
+    return shipped_lessons()[0].state(0, first) if name == TEACH else with_workspace(first, name, WORKSPACES[name])
 
 
 def matrices() -> dict[str, State]:
@@ -61,7 +71,8 @@ def settle(window: MainWindow) -> None:
 
 
 def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
-    """Save a picture of the window in a state, its accuracy ``measured`` or not."""
+    """Save a picture of the window in a state, as on a screen of this size, its accuracy ``measured`` or not."""
+    state = changed(state, scale_percent=100 * screen_scale(QSize(*size)))
     set_language(
         ENGLISH if state.display.language == "system" else state.display.language
     )  # the same pictures on every machine
@@ -71,6 +82,11 @@ def picture(state: State, size: tuple[int, int], path: Path, measured: bool = Tr
     settle(window)
     window.grab().save(str(path))
     window.close()
+
+
+def sizes_of(name: str) -> tuple[str, ...]:
+    """Return the sizes in which a state is shown."""
+    return tuple(SIZES) if name.startswith(EVERY_SIZE) else USUAL[:1] if name.startswith(ONE_SIZE) else USUAL
 
 
 def main(arguments: list[str]) -> int:
@@ -85,7 +101,7 @@ def main(arguments: list[str]) -> int:
     configure_plots()
     for name, state in states().items():
         for size, pixels in SIZES.items():
-            if size == "small" or not name.startswith("tab_"):
+            if size in sizes_of(name):
                 picture(state, pixels, folder / f"{name}_{size}.png")
                 print(folder / f"{name}_{size}.png")
     return 0

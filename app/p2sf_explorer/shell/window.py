@@ -6,7 +6,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TypeVar
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -62,6 +62,7 @@ T = TypeVar("T")
 
 ENTRIES = {entry.key: entry for entry in REGISTRY}
 DIGIT_MODIFIERS = Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.KeypadModifier
+FIRST_SIZE, FRAME_PX = (1440, 900), 40  # of the window at the first start, and what a desktop adds above it
 ALWAYS = "layout", "psf", "coefficients"  # panels that other parts of the window speak to
 
 
@@ -181,7 +182,13 @@ class MainWindow(QMainWindow):
         self.column.addLayout(middle, 1)
         self.column.addWidget(self.status)
         self.setCentralWidget(body)
-        self.resize(1440, 900)
+        self.resize(*FIRST_SIZE)
+
+    def fit_screen(self) -> None:
+        """Take the first size, at the present scale of type, as far as the screen has room for it and its frame."""
+        room = self.screen().availableSize()
+        wanted = QSize(*FIRST_SIZE) * self._theme.scale
+        self.resize(wanted.boundedTo(QSize(room.width(), room.height() - self._theme.px(FRAME_PX))))
 
     def refresh(self, state: State) -> None:
         """Compute the answer for a state and paint it; where there is none, cover what belongs to another one."""
@@ -249,11 +256,11 @@ class MainWindow(QMainWindow):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Put the satellite of a digit on the stage, unless the digit is typed into a value or a table.
 
-        A table passes on even those keys that begin an edit.
+        This goes for hidden ones too, as while presenting. A table passes on even those keys that begin an edit.
         """
         number, typed = event.key() - Qt.Key.Key_0, isinstance(QApplication.focusWidget(), QLineEdit)
-        shown = 1 <= number < len(self._places()) and self.display.show_rail
-        if shown and event.modifiers() in DIGIT_MODIFIERS and not typed:
+        known = 1 <= number < len(self._places())
+        if known and event.modifiers() in DIGIT_MODIFIERS and not typed:
             self.take_stage(self._places()[number])
         else:
             super().keyPressEvent(event)

@@ -1,14 +1,19 @@
 from PySide6.QtGui import QImage
 
 from p2sf_explorer.panels import REGISTRY
-from p2sf_explorer.shell.gallery import picture, states
+from p2sf_explorer.shell.gallery import SIZES, picture, sizes_of, states
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.workspaces import WORKSPACES
 
 
-def test_every_tab_is_in_the_gallery_and_every_state_differs():
+def test_every_panel_and_workspace_is_in_the_gallery_and_every_state_differs():
     shown = states()
-    assert {state.display.tab for state in shown.values()} >= {entry.key for entry in REGISTRY}
+    assert {state.display.stage for state in shown.values()} >= {entry.key for entry in REGISTRY}
+    taken = {(state.display.workspace, state.display.theme): sizes_of(name) for name, state in reversed(shown.items())}
+    for name in WORKSPACES:
+        for theme in ("light", "dark"):
+            assert taken[name, theme] == tuple(SIZES), name
     assert len(set(shown.values())) == len(shown)
     matrices = [state.matrix for state in shown.values() if state.display.stage == "matrix"]
     assert {view.what for view in matrices} == set(CHOICES["matrix_what"])
