@@ -256,6 +256,9 @@ class Controls(QWidget):
         column.addWidget(self.detail)
         self.figures = scrolled(self.facts)
         column.addWidget(self.figures, 1)
+        self._below = QWidget()  # takes the room of the figures where only the sliders are shown
+        column.addWidget(self._below, 1)
+        self._below.hide()
 
     def _column(self) -> QVBoxLayout:
         """Return the column of everything, which scrolls where a screen is too low for it."""
@@ -278,6 +281,7 @@ class Controls(QWidget):
         """Show the sliders alone, or everything."""
         for part in (self.stopping, self.aiming, self.focus_button, self.sentence, self.detail, self.figures):
             part.setVisible(not slim)
+        self._below.setVisible(slim)
 
     def reveal(self, key: str) -> None:
         """Scroll to the row of a quantity where the column is too low for all."""
