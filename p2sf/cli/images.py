@@ -187,7 +187,12 @@ def figures(result: Psf, energy: Energy | None = None) -> dict[str, Any]:
     """
     if energy:
         radii = {"radius_50_um": energy.radius_50_um, "radius_80_um": energy.radius_80_um}
-        return {"centroid_um": [0.0, energy.centroid_um], **radii, "rms_um": energy.rms_um, "share_of": "all light"}
+        light = {
+            "rms_um": energy.rms_um,
+            "share_of": "all light",
+            "geometric_limit_departs_by": energy.departure or None,
+        }
+        return {"centroid_um": [0.0, energy.centroid_um], **radii, **light}
     x, y = centroid(result)
     half, most = (float(radius_of_energy(result, share)) for share in (0.5, 0.8))
     radii = {"radius_50_um": half, "radius_80_um": most}
@@ -214,6 +219,7 @@ def summary(result: Psf, aim: str, output: Path | None, energy: Energy | None = 
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
         (f"radius of 50 % of {light}", measured["radius_50_um"], "µm"),
         (f"radius of 80 % of {light}", measured["radius_80_um"], "µm"),
+        *([("these radii", energy.note, "")] if energy and energy.note else []),
         *([("RMS radius of the rays", measured["rms_um"], "µm")] if energy else []),
         ("predicted 1 − R²", *prediction(result.predicted_error)),
         ("sampling", result.sampling, ""),

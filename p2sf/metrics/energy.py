@@ -8,7 +8,7 @@ Parseval's theorem with the transform of a disc (Goodman 2005, eq. 2-35). The tr
 of the pupil on an even grid, by FFT, gathered in rings of equal |ν|.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import pi
 
@@ -30,6 +30,8 @@ RADII = 128  # of a tabulated curve
 BEYOND = 12.0  # λ/2NA beyond the outermost ray up to which a curve is tabulated
 HALF_PERIOD = 0.5  # of the PSF, which repeats
 GEOMETRIC = 400  # rows and columns of landing points
+JUDGED = 180.0  # waves of slope, to which a pupil is scaled where both roads are compared
+COMPARED = 64  # radii
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,10 +68,14 @@ class RingSums:
 
 @dataclass(frozen=True, eq=False)
 class LandingPoints:
-    """Where rays land about a point, ascending in µm, and the light up to each: energy where diffraction is nothing."""
+    """Where rays land about a point, ascending in µm, and the light up to each: energy where diffraction is nothing.
+
+    ``departure``: how far it lies at most from a sum of waves, as measured on the same pupil with a JUDGED slope.
+    """
 
     radius_um: np.ndarray
     light: np.ndarray
+    departure: float = float("nan")
 
     def within(self, radius_um: np.ndarray) -> np.ndarray:
         """Return the share of all light within each radius, (n,)."""
@@ -86,7 +92,23 @@ def energy_of(pupil: FrequencyPupil, centre_um: float | None = None) -> "RingSum
     """Return the energy of a pupil about (0, ``centre_um``), its centroid if not given."""
     centre = pupil.centroid_um if centre_um is None else centre_um
     across = samples_across(pupil, centre)
-    return ring_sums(pupil, centre, across) if across <= MOST_ACROSS else landing_points(pupil, centre)
+    if across <= MOST_ACROSS:
+        return ring_sums(pupil, centre, across)
+    return replace(landing_points(pupil, centre), departure=departure_of_rays(pupil, centre))
+
+
+def departure_of_rays(pupil: FrequencyPupil, centre_um: float) -> float:
+    """Return the largest difference between energy by waves and by landing points, of a pupil with a JUDGED slope.
+
+    With the phase all distances scale, but diffraction does not: in the pupil itself it matters less than there.
+    """
+    reach = reach_of(pupil)
+    scale = JUDGED / max(reach.x, reach.y)
+    smaller = replace(pupil, phase=scale * pupil.phase, centroid_um=scale * pupil.centroid_um)
+    waves = ring_sums(smaller, scale * centre_um, samples_across(smaller, scale * centre_um))
+    rays = landing_points(smaller, scale * centre_um)
+    radius = np.linspace(0, float(rays.radius_um[-1]), COMPARED)
+    return float(np.abs(waves.within(radius) - rays.within(radius)).max())
 
 
 def samples_across(pupil: FrequencyPupil, centre_um: float) -> int:

@@ -18,7 +18,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError, SamplingError
 from p2sf.lens.lens import Lens, lens_range_um
 from p2sf.lens.source import Source
-from p2sf.messages import Alternatives
+from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
 from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, otf_slices
@@ -33,6 +33,7 @@ FREQUENCIES = 257
 COLOURS = 21  # wavelengths of a continuous spectrum, as the colour PSF has them
 SHOWN = 4.0  # RMS radii, and periods of the cut-off, that a line spread is shown over
 POINTS = 513
+ROADS_AGREE = 1e-3  # of energy by landing points and by waves
 PARTS = (0.5, 0.8)  # of the light, whose radii are quoted
 
 
@@ -58,6 +59,8 @@ class Energy:
 
     ``centroid_um``: along y from the chief ray. ``radius_50_um``, ``radius_80_um``: what holds half and 80 % of all
     light. ``rms_um``: RMS distance of the rays from the centroid; that of the light is infinite behind any hard edge.
+    ``departure``: of a blur too large for a sum of waves it is that of landing points, the geometric limit, and this is
+    how far from waves it may lie; above ROADS_AGREE it is not to be trusted so far. 0 for waves.
     """
 
     radius_um: np.ndarray
@@ -67,6 +70,20 @@ class Energy:
     radius_80_um: float
     rms_um: float
     method: str
+    departure: float = 0.0
+
+    @property
+    def note(self) -> Message | None:
+        """Return what is to be said of a geometric limit; None of a sum of waves."""
+        if not self.departure:
+            return None
+        if self.departure <= ROADS_AGREE:
+            return Message("geometric limit, by the landing points of rays")
+        return Message(
+            "geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, "
+            "not to be trusted beyond that",
+            departure=self.departure,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,7 +199,8 @@ def energy_in(parts: Parts, method: str, radius_um: ArrayLike | None = None) -> 
         radius = np.asarray(radius_um, dtype=float)
         fraction = _within(parts, found, radius)
     square = sum(p.share * (p.pupil.rms_um**2 + (p.centroid_um - centre) ** 2) for p in parts)
-    return Energy(radius, fraction, centre, half, most, float(np.sqrt(square)), method)
+    departure = max((one.departure for one in found if isinstance(one, LandingPoints)), default=0.0)
+    return Energy(radius, fraction, centre, half, most, float(np.sqrt(square)), method, departure)
 
 
 Found = Sequence[RingSums | LandingPoints]

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import SamplingError
+from p2sf.psf.pixel_integrals import ROUNDING, critical_pixel_um
 from p2sf.psf.result import Psf
 
 NEAR, FINER = 6, 5  # for its energy a PSF is interpolated: within so many pixels of its centre, so much finer
@@ -47,7 +48,7 @@ class Mtf(NamedTuple):
 
 def resolved(psf: Psf, na: float | np.ndarray) -> bool:
     """Return whether the pitch is at most λ/(4 NA), so that samples hold all that a PSF of this aperture does."""
-    return bool(np.all(psf.pixel_um * 4 * np.asarray(na) <= psf.wavelength_um * (1 + 1e-9)))
+    return bool(np.all(psf.pixel_um <= critical_pixel_um(psf.wavelength_um, na) * (1 + ROUNDING)))
 
 
 def strehl(psf: Psf) -> float | np.ndarray | None:
@@ -190,13 +191,23 @@ def profiles(psf: Psf, through: str = "chief") -> Cuts:
     return Cuts(psf.x_um, along_x, psf.y_um, along_y)
 
 
-def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None) -> Mtf:
+def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None, na: float | None = None) -> Mtf:
     """Return the contrast of sine patterns, |FT of the PSF| over its value at zero, along y and along x.
 
     Frequencies are in cycles per mm, by default from 0 to the Nyquist frequency of the pitch; beyond it is NaN.
     Tangential contrast is that of a pattern that varies along y, the direction of the field. Light outside the window
-    is missing, which raises every contrast by up to its share.
+    is missing, which raises every contrast by up to its share. With the numerical aperture ``na``, samples that are not
+    `resolved` raise SamplingError: what lies between them folds into every frequency.
     """
+    if na is not None and not resolved(psf, na):
+        raise SamplingError(
+            "{count} samples {pixel_um:.3g} µm apart hold no contrast of a PSF of aperture {na:.3g}: λ/(4 NA) is "
+            "{critical:.3g} µm; sample it so closely, or take the MTF of the lens",
+            count=psf.values.shape[-1],
+            pixel_um=psf.pixel_um,
+            na=na,
+            critical=float(np.max(critical_pixel_um(psf.wavelength_um, na))),
+        )
     if frequency_per_mm is None:
         frequency_per_mm = np.linspace(0, UM_PER_MM / (2 * psf.pixel_um), max(psf.values.shape[-2:]) + 1)
     frequency = np.asarray(frequency_per_mm, dtype=float)

@@ -12,6 +12,7 @@ from p2sf.metrics.energy import landing_points, ring_sums, samples_across
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.metrics.measures import PupilPart, energy_in
 from p2sf.metrics.perfect import circle_energy
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
@@ -105,3 +106,29 @@ def test_energy_may_exceed_that_of_a_perfect_lens_between_its_dark_rings():
     assert perfect == pytest.approx(circle_energy(v / (2 * np.pi)), abs=1e-12)
     assert exact - perfect == pytest.approx(5.6e-3, abs=1e-4)
     assert found.fraction[0] == pytest.approx(exact, abs=1e-4)
+
+
+def test_a_blur_beyond_any_sum_of_waves_says_so_and_how_far_it_is_to_be_trusted():
+    """900 waves of defocus: the energy of an even disc, R². At 180 waves a sum of waves departs by over 1e-3."""
+    pupil = pupil_of_coefficients(waves(wd=450.0))
+    found = energy_in([PupilPart(pupil)], "seidel")
+    radius = 900.0 * UNIT
+    assert found.note and 1e-3 < found.departure < 0.02
+    assert "not to be trusted" in str(found.note)
+    assert found.radius_50_um == pytest.approx(radius * np.sqrt(0.5), rel=0.01)
+    assert energy_in([PupilPart(pupil_of_coefficients(waves(wd=5.0)))], "seidel").note is None
+
+
+@pytest.mark.parametrize(("name", "field"), [("cooke_triplet", 20.0), ("tessar", 20.5)])
+def test_of_a_clipped_pupil_it_is_the_light_in_a_window_of_the_reference(name, field):
+    """Rims take rays away; the reference sums the rest one by one, and knows nothing of the pupil's polynomials."""
+    lens, source = find_lens(name), Source(field_deg=field)
+    pupil, whole = pupil_of_rays(lens, source, clip=True), pupil_of_rays(lens, source)
+    assert pupil.half_y < 0.99 * whole.half_y
+    found = energy_in([PupilPart(pupil)], "traced")
+    pitch = 1 / (24 * max(pupil.half_x, pupil.half_y))
+    psf = huygens_psf(lens, source, 320, pitch, clip=True)
+    distance = np.hypot(psf.x_um, (psf.y_um - found.centroid_um)[:, None])
+    for radius, share in ((found.radius_50_um, 0.5), (found.radius_80_um, 0.8)):
+        inside = np.clip((radius - distance) / pitch + 0.5, 0, 1)
+        assert psf.energy * (psf.values * inside).sum() == pytest.approx(share, abs=3e-3)

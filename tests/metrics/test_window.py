@@ -150,3 +150,10 @@ def test_contrast_beyond_the_nyquist_frequency_is_unknown_and_not_a_mirror_image
 def test_samples_hold_a_psf_up_to_a_pitch_of_a_quarter_of_lambda_over_na():
     limit = WAVELENGTH_UM / (4 * NA)
     assert resolved(seidel_psf(waves(), 16, limit), NA) and not resolved(seidel_psf(waves(), 16, 1.01 * limit), NA)
+
+
+def test_contrast_of_samples_too_far_apart_for_the_aperture_is_refused():
+    psf = seidel_psf(waves(), 16, 1.01 * WAVELENGTH_UM / (4 * NA))
+    with pytest.raises(SamplingError, match=r"16 samples .* apart hold no contrast"):
+        mtf(psf, na=NA)
+    assert mtf(psf).tangential[0] == pytest.approx(1)  # an aperture that nobody states cannot be judged

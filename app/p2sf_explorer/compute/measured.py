@@ -22,24 +22,32 @@ BY_RAYS, BY_COEFFICIENTS = Message("exact rays"), Message("six coefficients")
 
 @dataclass(frozen=True)
 class MeasureRequest:
-    """Everything a measure depends on. ``six``: the coefficients' values where they make the picture, else empty."""
+    """Everything a measure depends on. ``six``: the coefficients' values where they make the picture, else empty.
+
+    ``beside_rays``: the picture is the density of rays, and no sum of waves.
+    """
 
     lens: Lens
     source: Source
     clip: bool
     six: tuple[float, ...] = ()
+    beside_rays: bool = False
 
     @property
     def method(self) -> Message:
         """Return what described the pupil."""
-        return BY_COEFFICIENTS if self.six else BY_RAYS
+        method = BY_COEFFICIENTS if self.six else BY_RAYS
+        if not self.beside_rays:
+            return method
+        return Message("{method}, by waves of the pupil; the picture is the density of its rays", method=method)
 
 
 def measure_request(live: Live) -> MeasureRequest:
     """Return what is to be measured: the six coefficients where they make the picture, else exact rays."""
     by_six = live.method == "seidel" or live.setup.altered
     six = tuple(float(value) for value in vars(live.setup.coefficients).values()) if by_six else ()
-    return MeasureRequest(live.setup.lens, live.setup.source, live.state.optics.clip and not by_six, six)
+    beside_rays = live.psf.method == "geometric" and live.quality == "settled" and live.pending is None
+    return MeasureRequest(live.setup.lens, live.setup.source, live.state.optics.clip and not by_six, six, beside_rays)
 
 
 @lru_cache(maxsize=4)

@@ -127,7 +127,7 @@ def axial_heights(setup: ParaxialSetup, depths: np.ndarray, sensor_mm: float | N
 
 
 def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
-    """Return twice the RMS radius of the exact rays' spot at the present field, µm, per depth."""
+    """Return twice the RMS radius of the exact rays' spot at the present field, µm, per depth, weighted by light."""
     s = live.setup
     source = Source(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
     try:
@@ -137,8 +137,10 @@ def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
         return np.full(len(depths), np.nan)
     lost = rays.passed.sum(-1) < FEWEST
     x, y = (np.where(np.isfinite(v), v, 0.0) for v in (rays.dx, rays.dy))
-    count = np.maximum(rays.passed.sum(-1), 1)
-    square = (x * x + y * y).sum(-1) / count - (x.sum(-1) / count) ** 2 - (y.sum(-1) / count) ** 2
+    light = np.where(rays.passed, rays.weight, 0.0)
+    total = np.where(lost, 1.0, light.sum(-1))
+    mean_x, mean_y = ((light * v).sum(-1) / total for v in (x, y))
+    square = (light * (x * x + y * y)).sum(-1) / total - mean_x**2 - mean_y**2
     return np.where(lost, np.nan, 2 * UM_PER_MM * np.sqrt(np.maximum(square, 0.0)))
 
 

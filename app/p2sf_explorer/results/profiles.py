@@ -82,7 +82,8 @@ def with_energy(curves: ProfileCurves, request: MeasureRequest) -> ProfileCurves
     found = energy_in(measured_parts(request), "")
     within = energy_at(found, np.abs(curves.position_um))
     radii = found.radius_50_um, found.radius_80_um, found.rms_um
-    return replace(curves, energy=within, radii_um=radii, method=request.method, pending=None)
+    said = Message("{method}; {note}", method=request.method, note=found.note) if found.note else request.method
+    return replace(curves, energy=within, radii_um=radii, method=said, pending=None)
 
 
 def answer(curves: ProfileCurves, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> ProfileCurves:

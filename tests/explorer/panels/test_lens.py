@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
+from p2sf.lens.source import Source
 from p2sf.lensfile.library import shipped_lenses
+from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.i18n.messages import WINDOW
-from p2sf_explorer.results.depth_of_field import axial_heights, depth_of_field, highest
+from p2sf_explorer.results.depth_of_field import axial_heights, depth_of_field, highest, real_blur
 from p2sf_explorer.results.field import field_curves
 from p2sf_explorer.results.first_order import first_order
 from p2sf_explorer.state.scales import told_apart
@@ -212,3 +214,18 @@ def test_a_lens_that_is_put_aside_is_not_drawn(window):
     assert "put aside" in card.overlay.text
     window.store.update(free_pupil=False)
     assert not card.overlay.text
+
+
+def test_the_exact_blur_is_the_rms_of_the_light_and_not_of_the_rays():
+    """Through the real stop of a wide lens rays stand for unequal light: by as much as the spot's own RMS says."""
+    picture = live(new_state(lens="reverse_telephoto", depth_mm=np.inf, focus_mm=np.inf, field_deg=30.0, f_number=4.0))
+    setup = picture.setup
+    blur = real_blur(picture, np.array([np.inf, 400.0]), 6)
+    for depth, found in zip((np.inf, 400.0), blur, strict=True):
+        source = Source(depth, setup.source.field_slope, setup.source.wavelength_um)
+        rays = pencil(setup.lens, source, *hexapolar(6))
+        assert np.ptp(rays.weight) > 0.05 * rays.weight.mean()
+        share, y = rays.weight / rays.weight.sum(), 1000 * np.stack([rays.dx, rays.dy])
+        off = y - (y * share).sum(1, keepdims=True)
+        assert found == pytest.approx(2 * np.sqrt((off**2 * share).sum()), rel=1e-6)  # as the weights, differences
+        assert found != pytest.approx(2 * np.hypot(*y.std(1)), rel=1e-4)

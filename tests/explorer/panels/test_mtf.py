@@ -1,12 +1,14 @@
 """The MTF as painted, straight lines between its frequencies, against its integral over the pupil and a closed form."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from p2sf.metrics.measures import mtf_of
 from p2sf.metrics.perfect import diffraction_mtf
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.measured import MeasureRequest, measured_parts
+from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts
 from p2sf_explorer.results.mtf import contrast
 from p2sf_explorer.state.state import changed, new_state
 from tests.support.overlap import overlap
@@ -52,3 +54,13 @@ def test_a_slow_transfer_function_follows_and_no_wrong_curve_is_shown(window, qt
     frequency, contrast = panel.curves["tangential"].data()
     at_20 = mtf_of(measured_parts(request), "", [20.0]).tangential[0]
     assert np.interp(20.0, frequency, contrast) == pytest.approx(at_20, abs=0.02)
+
+
+def test_beside_a_picture_of_rays_the_contrast_says_that_it_is_of_waves():
+    answer = live(new_state(lens="achromat_f6", depth_mm=np.inf, focus_mm=np.inf))
+    assert "density" not in str(measure_request(answer).method)
+    beside = replace(answer, psf=replace(answer.psf, method="geometric"))
+    assert (
+        str(measure_request(beside).method)
+        == "exact rays, by waves of the pupil; the picture is the density of its rays"
+    )

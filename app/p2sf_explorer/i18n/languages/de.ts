@@ -914,6 +914,8 @@
 <message><source>free some space or choose another disk</source><translation>Platz schaffen oder einen anderen Datenträger wählen</translation></message>
 <message><source>frequency on the sensor, 1/mm</source><translation>Ortsfrequenz auf dem Sensor, 1/mm</translation></message>
 <message><source>from</source><translation>von</translation></message>
+<message><source>geometric limit, by the landing points of rays</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen</translation></message>
+<message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
 <message><source>geometric: ray density, no diffraction; {percent:.0f} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts der Pupille im Bild</translation></message>
 <message><source>give the name of a file in it</source><translation>den Namen einer Datei darin angeben</translation></message>
@@ -1551,6 +1553,7 @@
 <message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
 <message><source>{count} rays</source><translation>{count} Strahlen</translation></message>
+<message><source>{count} samples {pixel_um:.3g} µm apart hold no contrast of a PSF of aperture {na:.3g}: λ/(4 NA) is {critical:.3g} µm; sample it so closely, or take the MTF of the lens</source><translation>{count} Proben im Abstand {pixel_um:.3g} µm halten keinen Kontrast einer PSF der Apertur {na:.3g}: λ/(4 NA) sind {critical:.3g} µm; so dicht abtasten oder die MTF des Objektivs nehmen</translation></message>
 <message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
 <message><source>{count} surfaces, {stop}, {aperture}; {wavelengths:g} nm; fields {angles:.4g}°</source><translation>{count} Flächen, {stop}, {aperture}; {wavelengths:g} nm; Felder {angles:.4g}°</translation></message>
 <message><source>{count} wavelengths</source><translation>{count} Wellenlängen</translation></message>
@@ -1581,9 +1584,11 @@
 <message><source>{method} here: {ms} ms, {error}</source><translation>{method} hier: {ms} ms, {error}</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
 <message><source>{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto to see ray density</source><translation>{method} bräuchte {count:.2g} Pupillenproben für diese Unschärfe, was zu lange dauert; {remedy} oder auto wählen, um die Strahlendichte zu sehen</translation></message>
+<message><source>{method}, by waves of the pupil; the picture is the density of its rays</source><translation>{method}, durch Wellen der Pupille; das Bild ist die Dichte ihrer Strahlen</translation></message>
 <message><source>{method}, {count} numbers</source><translation>{method}, {count} Zahlen</translation></message>
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; a smooth fit would miss {tolerance:g}</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; eine glatte Anpassung verfehlte {tolerance:g}</translation></message>
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; {lost} of {count} rays are lost, and a smooth pupil does not describe that</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; {lost} von {count} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
+<message><source>{method}; {note}</source><translation>{method}; {note}</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
 <message><source>{name} has changed on disk and was read again</source><translation>{name} hat sich auf dem Datenträger geändert und wurde neu gelesen</translation></message>
