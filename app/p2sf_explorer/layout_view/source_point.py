@@ -91,6 +91,8 @@ class SourceHandle:
         """Lead from ring and axial point to where their rays come over the break."""
         axial = QPointF(at.x(), space.axis)
         for ray in shown.layout.rays:
+            if len(ray.z) < 2:  # it meets no surface
+                continue
             height = float(ray.y[0] + (space.break_z - ray.z[0]) * (ray.y[1] - ray.y[0]) / (ray.z[1] - ray.z[0]))
             colour, start = ("marginal", axial) if ray.kind == "marginal" else ("chief", at)
             groups = shown.layout.groups
