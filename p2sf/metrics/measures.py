@@ -6,7 +6,7 @@ PSF has them (`p2sf.psf.polychromatic`); a single wavelength is a sum of one.
 See handbook 6.3.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +21,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
 from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays
-from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, otf_slices
+from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import choose
 from p2sf.psf.polychromatic import chief_shifts_um
@@ -162,9 +162,14 @@ def centroid_of(parts: Parts) -> float:
     return sum(part.share * part.centroid_um for part in parts)
 
 
-def mtf_of(parts: Parts, method: str, frequency_per_mm: ArrayLike | None = None) -> Mtf:
-    """Return the contrast at frequencies in cycles per mm, by default FREQUENCIES even ones up to the cut-off."""
-    slices = [otf_slices(part.pupil) for part in parts]
+def mtf_of(
+    parts: Parts, method: str, frequency_per_mm: ArrayLike | None = None, cancelled: Callable[[], bool] = never
+) -> Mtf:
+    """Return the contrast at frequencies in cycles per mm, by default FREQUENCIES even ones up to the cut-off.
+
+    ``cancelled`` is polled now and then and ends the work with `Cancelled`.
+    """
+    slices = [otf_slices(part.pupil, cancelled) for part in parts]
     if frequency_per_mm is None:
         cut_off = max(one.cut_off for both in slices for one in both)
         frequency_per_mm = np.linspace(0, UM_PER_MM * cut_off, FREQUENCIES)

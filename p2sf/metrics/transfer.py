@@ -18,26 +18,33 @@ from numpy.polynomial.chebyshev import chebvander
 from scipy import fft
 
 from p2sf.conventions import protected
-from p2sf.errors import SamplingError
+from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, Reach, reach_of, uniform_disc
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
 
-FEWEST_LINES, LINES_PER_WAVE, LINES_PER_END = 48, 3.0, 1.0
+FEWEST_LINES, LINES_PER_WAVE, LINES_PER_END = 48, 2.5, 0.75
 FEWEST_SAMPLES, SAMPLES_PER_WAVE = 128, 8.0
 MOST_SAMPLES = 2**25  # of all lines: slopes of some 1500 waves, seconds of work
 AT_ONCE = 2**14  # samples of the lines in one block, so that a block stays in the cache
 END = 3  # samples at the end of a line whose weights differ from 1
 ENDS = np.arange(END)[:, None]
 GREGORY = np.array([1 / 2, 1 / 12, 0.0])  # −B₁, B₂/2, B₃/3: see `end_weights`
+CALIBRATED = 512  # lines: with more, what a calibration mends is below 1e-6
 SMALLEST = 1e-6  # of a calibrating contrast: below, both are nothing
 
 Counts = tuple[int, int]
 """Lines, and samples along each."""
 Sums = tuple[np.ndarray, np.ndarray]
 """Autocorrelations at even lags, complex, and those of the modulus, real."""
-LineSum = Callable[[FrequencyPupil, Counts], Sums]
+Stop = Callable[[], bool]
+LineSum = Callable[[FrequencyPupil, Counts, Stop], Sums]
+
+
+def never() -> bool:
+    """Return that nothing is to be stopped."""
+    return False
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,17 +80,23 @@ class OtfSlice:
         return real + 1j * imaginary, perfect
 
 
-def otf_slices(pupil: FrequencyPupil) -> tuple[OtfSlice, OtfSlice]:
-    """Return the transfer function along x and along y. Raises SamplingError where that takes too many samples."""
+def otf_slices(pupil: FrequencyPupil, cancelled: Stop = never) -> tuple[OtfSlice, OtfSlice]:
+    """Return the transfer function along x and along y. Raises SamplingError where that takes too many samples.
+
+    ``cancelled`` is polled between blocks of lines and ends the work with `Cancelled`.
+    """
     across, along = _line_counts(reach_of(pupil))
     return (
-        _slice(_row_sum, pupil, across, 2 * pupil.half_x, False),
-        _slice(_column_sum, pupil, along, 2 * pupil.half_y, True),
+        _slice(_row_sum, pupil, across, 2 * pupil.half_x, False, cancelled),
+        _slice(_column_sum, pupil, along, 2 * pupil.half_y, True, cancelled),
     )
 
 
-def _slice(line_sum: LineSum, pupil: FrequencyPupil, counts: Counts, cut_off: float, along_y: bool) -> OtfSlice:
-    (own, perfect), factor = line_sum(pupil, counts), _calibration(counts, line_sum)
+def _slice(
+    line_sum: LineSum, pupil: FrequencyPupil, counts: Counts, cut_off: float, along_y: bool, cancelled: Stop = never
+) -> OtfSlice:
+    own, perfect = line_sum(pupil, counts, cancelled)
+    factor = _calibration(counts, line_sum) if counts[0] <= CALIBRATED else np.ones(own.size)
     return OtfSlice(cut_off / counts[1], own * (factor / own[0].real), perfect * (factor / perfect[0]), along_y)
 
 
@@ -142,7 +155,7 @@ def _counts(across: float, along: float) -> Counts:
     return lines, samples
 
 
-def _row_sum(pupil: FrequencyPupil, counts: Counts) -> Sums:
+def _row_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> Sums:
     """Return the sums over rows of their autocorrelations at the lags 0 … counts[1], up to a factor."""
     lines, samples = counts
     angle, step = np.arange(1, lines + 1) * (pi / (lines + 1)), 2 / samples  # rows at Gauss–Chebyshev points
@@ -152,7 +165,7 @@ def _row_sum(pupil: FrequencyPupil, counts: Counts) -> Sums:
     lines_of = _Lines(pupil, rows_y, x, np.sin(angle), True)
     length = _even_length(4 * half + 2)
     total = np.zeros((2, length // 2 + 1), complex)
-    for some, packed in _blocks(lines, half, length):
+    for some, packed in _blocks(lines, half, length, cancelled):
         count = some.stop - some.start
         lines_of.pack(some, place <= last[some, None], packed[:, half : 2 * half])
         packed[:, :half] = packed[:, 2 * half - 1 : half - 1 : -1]
@@ -167,7 +180,7 @@ def _row_sum(pupil: FrequencyPupil, counts: Counts) -> Sums:
     return own, perfect
 
 
-def _column_sum(pupil: FrequencyPupil, counts: Counts) -> Sums:
+def _column_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> Sums:
     """Return the sums over columns of their autocorrelations about the centroid, as `_row_sum` does over rows."""
     lines, samples = counts
     angle, step, size = (np.arange(lines) + 0.5) * (pi / (2 * lines)), 2 / samples, samples + 4
@@ -179,7 +192,7 @@ def _column_sum(pupil: FrequencyPupil, counts: Counts) -> Sums:
     lines_of = _Lines(pupil, columns_x, y, np.sin(angle), False)
     length = fft.next_fast_len(2 * size)
     total = np.zeros((2, length), complex)
-    for some, upper in _blocks(lines, size, length):
+    for some, upper in _blocks(lines, size, length, cancelled):
         inside = (place <= top[some, None]) & (place >= bottom[some, None])
         lines_of.pack(some, inside, upper[:, :size])
         upper[:, size:] = 0
@@ -236,11 +249,13 @@ def _add_power(total: np.ndarray, spectrum: np.ndarray, other: np.ndarray, count
     total[1] += other[count:].sum(0, dtype=complex)
 
 
-def _blocks(lines: int, samples: int, length: int) -> Iterator[tuple[slice, np.ndarray]]:
+def _blocks(lines: int, samples: int, length: int, cancelled: Stop) -> Iterator[tuple[slice, np.ndarray]]:
     """Yield an even number of lines at a time, and room for their spectra and for those of their moduli."""
     size = max(2, AT_ONCE // samples // 2 * 2)
     room = np.empty((size + size // 2, length), np.complex64)
     for start in range(0, lines, size):
+        if cancelled():
+            raise Cancelled("the transfer function was stopped")
         stop = min(start + size, lines)
         yield slice(start, stop), room[: 3 * (stop - start) // 2]
 
@@ -270,7 +285,7 @@ def _calibration(counts: Counts, line_sum: LineSum) -> np.ndarray:
     The lines that a lag leaves no longer than nothing end a sum too abruptly, by 1e-4 where lines are few, and by as
     much for any pupil near an ellipse. The factor takes that away, to 1e-6 for such a pupil.
     """
-    found = line_sum(uniform_disc(), counts)[1]
+    found = line_sum(uniform_disc(), counts, never)[1]
     found /= found[0]
     exact = circle_contrast(np.linspace(0, 1, counts[1] + 1))
     return protected(np.divide(exact, found, out=np.ones_like(found), where=found > SMALLEST))

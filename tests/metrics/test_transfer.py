@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import roots_legendre
 
-from p2sf.errors import GeometryError
+from p2sf.errors import Cancelled, GeometryError
 from p2sf.lens.lens import with_aim, with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
@@ -94,7 +94,7 @@ def test_the_bound_holds_for_sums_far_too_coarse(lines):
     """30 waves of coma by some lines of 40 samples: no figure is right, and none is above the bound."""
     pupil = pupil_of_coefficients(waves(w31=10.0, w22=8.0, wd=2.0))
     for line_sum in (transfer._row_sum, transfer._column_sum):
-        own, perfect = line_sum(pupil, (lines, 40))
+        own, perfect = line_sum(pupil, (lines, 40), transfer.never)
         assert (np.abs(own) <= perfect + 1e-6 * perfect[0]).all()
 
 
@@ -159,3 +159,15 @@ def test_slices_have_unit_contrast_at_zero_and_none_at_the_cut_off():
         assert one.values[0] == pytest.approx(1)
         assert abs(one.values[-1]) < 1e-6
         assert one.cut_off == pytest.approx(CUT_OFF, rel=1e-6)
+
+
+def test_a_long_sum_ends_between_blocks_when_it_is_stopped():
+    asked = []
+
+    def after_three() -> bool:
+        asked.append(1)
+        return len(asked) > 3
+
+    with pytest.raises(Cancelled):
+        otf_slices(pupil_of_coefficients(waves(w40=100.0)), after_three)
+    assert len(asked) == 4

@@ -7,6 +7,7 @@ import numpy as np
 
 from p2sf.messages import Message
 from p2sf.metrics.measures import mtf_of
+from p2sf.metrics.transfer import never
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts, mtf_is_live
 
@@ -33,15 +34,15 @@ def contrast(live: Live) -> Contrast | MeasureRequest:
     return contrast_of(request) if mtf_is_live(request) else request
 
 
-def contrast_of(request: MeasureRequest) -> Contrast:
-    """Return the MTF of a request. Raises P2SFError where its pupil has none."""
+def contrast_of(request: MeasureRequest, stopped: Callable[[], bool] = never) -> Contrast:
+    """Return the MTF of a request. Raises P2SFError where its pupil has none, Cancelled when stopped."""
     parts = measured_parts(request)
     cut_off = 1000 * max(parts[0].pupil.cut_off_per_um)
-    found = mtf_of(parts, "", np.linspace(0, cut_off, INTERVALS + 1))
+    found = mtf_of(parts, "", np.linspace(0, cut_off, INTERVALS + 1), stopped)
     perfect = np.maximum(found.perfect_tangential, found.perfect_sagittal)
     return Contrast(found.frequency_per_mm, found.tangential, found.sagittal, perfect, request.method)
 
 
 def answer(request: MeasureRequest, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Contrast:
-    """Return the MTF of a request, for a worker."""
-    return contrast_of(request)
+    """Return the MTF of a request, for a worker; Cancelled when stopped."""
+    return contrast_of(request, stopped)
