@@ -14,7 +14,6 @@ from p2sf_explorer.files.opening import opened
 from p2sf_explorer.state.link import state_of_link
 from p2sf_explorer.state.state import ENTRIES, State, changed, entry
 from p2sf_explorer.state.state_files import RENAMED, read_state
-from p2sf_explorer.state.workspaces import Workspace
 from tests.support.reference import DATA
 
 FILES = DATA / "version_0_1"
@@ -22,7 +21,8 @@ EXPECTED = json.loads((FILES / "expected.json").read_text(encoding="utf-8"))
 for state in EXPECTED.values():  # as version 0.1 wrote them, when rays always filled the paraxial pupil
     for side in (state, state["pinned"] or {}):
         side["aim"] = "paraxial"
-NEWER = {name for name in vars(Workspace("", (), "", 0.5)) if name != "tab"} | {"workspace", "scale_percent"}
+OLD = {new: name for name, new in RENAMED.items()}  # the names that version 0.1 gave the entries it knew
+NEWER = {name for name in ENTRIES if OLD.get(name, name) not in EXPECTED["plain"]}
 LINKS = json.loads((FILES / "links.json").read_text(encoding="utf-8"))
 SNAPSHOTS = sorted(FILES.glob("snapshot_*.*"))
 
@@ -30,11 +30,14 @@ SNAPSHOTS = sorted(FILES.glob("snapshot_*.*"))
 def entries(state: State) -> dict:
     """Return a state's entries under the names, and as the plain values, that version 0.1 gave them.
 
-    It knew no stage: the window then opens in its first arrangement, with the tab of the state in front.
+    What it did not know, such as a stage, is as at the first start.
     """
     assert all(entry(state, name) == entry(State(), name) for name in NEWER)
-    old = {new: name for name, new in RENAMED.items()}
-    return {old.get(name, name): plain(entry(state, name)) for name in ENTRIES if name not in NEWER}
+    return {OLD.get(name, name): plain(entry(state, name)) for name in ENTRIES if name not in NEWER}
+
+
+def test_the_stage_is_among_what_it_did_not_know():
+    assert {"stage", "rail", "workspace", "scale_percent"} <= NEWER and "tab" not in NEWER
 
 
 def plain(value):
