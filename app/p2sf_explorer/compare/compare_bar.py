@@ -2,6 +2,7 @@
 
 from html import escape
 
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QButtonGroup, QFrame, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
 
 from p2sf.messages import Message
@@ -67,8 +68,11 @@ class CompareBar(QFrame):
             button.clicked.connect(lambda _=False, key=key: store.update(shown=key))
         self.swap.clicked.connect(self.exchange)
         self.unpin.clicked.connect(lambda: store.replace(unpin(store.state)))
-        menu = self._menu = QMenu(self)  # kept: its actions go with it
-        self.links = {key: menu.addAction(tr(LINK_WORDS[key])) for key in LINKABLE}
+        menu = self._menu = QMenu(self)
+        self.links = {
+            key: QAction(tr(LINK_WORDS[key]), self) for key in LINKABLE
+        }  # the bar's, not the menu's: they stay
+        menu.addActions(list(self.links.values()))
         for key, action in self.links.items():
             action.setCheckable(True)
             action.triggered.connect(lambda _=False, key=key: store.update(linked=link_toggled(store.state, key)))
