@@ -69,9 +69,7 @@ class CompareBar(QFrame):
         self.swap.clicked.connect(self.exchange)
         self.unpin.clicked.connect(lambda: store.replace(unpin(store.state)))
         menu = self._menu = QMenu(self)
-        self.links = {
-            key: QAction(tr(LINK_WORDS[key]), self) for key in LINKABLE
-        }  # the bar's, not the menu's: they stay
+        self.links = {key: QAction(tr(LINK_WORDS[key]), self) for key in LINKABLE}  # not the menu's
         menu.addActions(list(self.links.values()))
         for key, action in self.links.items():
             action.setCheckable(True)
