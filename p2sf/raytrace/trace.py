@@ -77,6 +77,8 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
     ``z``: (surfaces, …) mm from the first vertex, NaN where the ray failed. A ray beyond the edge of the glass does so,
     where the surfaces it is traced to have crossed; a thickness below 0 puts two of them in that order on purpose.
     """
+    if not len(z):
+        return None
     behind = np.array([surface.thickness >= 0 for surface in lens.surfaces[: len(z) - 1]], bool)
     back = (np.diff(z, axis=0) < 0).any(tuple(range(1, z.ndim))) & behind
     if not back.any():

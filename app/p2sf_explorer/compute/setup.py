@@ -33,10 +33,11 @@ from p2sf_explorer.state.what_if import altered
 class ParaxialSetup:
     """One lens, opened and focused as the state says, and everything paraxial about it at this source.
 
-    ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand. ``object_y_mm``: y of
-    the source, None at infinity.
+    ``prescription`` is the lens before it was opened and focused. ``coefficients`` make the picture; they are the
+    lens's ``own`` unless ``altered`` by hand. ``object_y_mm``: y of the source, None at infinity.
     """
 
+    prescription: Lens
     lens: Lens
     source: Source
     stop: Stop
@@ -120,12 +121,14 @@ def shipped() -> tuple[str, ...]:
 
 def paraxial_setup(state: State) -> ParaxialSetup:
     """Return everything paraxial about the state; P2SFError where there is no answer."""
-    axial = _axial(prescription(state), _request(state, None))
+    file_lens = prescription(state)
+    axial = _axial(file_lens, _request(state, None))
     setup = with_field(axial.setup, _request(state, state.optics.field_deg))
     source, stop = setup.source, setup.stop
     own = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     gap = source.depth_mm + float(axial.pupils.entrance_from_first)
     return ParaxialSetup(
+        prescription=file_lens,
         lens=setup.lens,
         source=source,
         stop=stop,

@@ -9,7 +9,6 @@ from PySide6.QtGui import QColor, QPainter, QPen
 from p2sf.errors import P2SFError
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import width_of, write
-from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.layout_view.grips import (
     Grip,
     Span,
@@ -73,7 +72,7 @@ class LayoutDrag:
 
     def grips(self, shown: DrawnSetup) -> Iterator[Grip]:
         """Yield everything to hold but the source and the glass."""
-        yield from stop_grips(shown.state, shown.setup, shown.layout)
+        yield from stop_grips(shown.setup, shown.layout)
         yield from surface_grips(shown.setup.lens, self._store.selection)
         yield sensor_grip(shown.layout)
 
@@ -199,7 +198,7 @@ class LayoutDrag:
         found = self.find(shown, point)
         if found is None:
             return ""
-        bends = found.kind == "glass" and can_bend(prescription(shown.state), found.surfaces)
+        bends = found.kind == "glass" and can_bend(shown.setup.prescription, found.surfaces)
         return "bend" if bends else found.kind
 
 

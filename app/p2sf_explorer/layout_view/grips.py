@@ -43,13 +43,13 @@ def sensor_grip(layout: Layout) -> Grip:
     return Grip("sensor", layout.drawing.sensor_z, 0.0)
 
 
-def stop_grips(state: State, setup: ParaxialSetup, layout: Layout) -> tuple[Grip, ...]:
+def stop_grips(setup: ParaxialSetup, layout: Layout) -> tuple[Grip, ...]:
     """Return the grips of the stop's rim, and of its place where it can move within an air gap."""
     z, rim = layout.drawing.stop_z, layout.drawing.stop_rim
     found = []
-    if isfinite(ranges(prescription(state)).file_f_number):
+    lens = setup.prescription
+    if isfinite(ranges(lens).file_f_number):
         found += [Grip("rim", z, side * rim) for side in (1.0, -1.0)]
-    lens = prescription(state)
     if lens.stop_surface == int(setup.stop.surface) and lens.stop_surface > 1 and stop_gap(lens):
         found.append(Grip("stop", z, rim))
     return tuple(found)

@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPen
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import pen, write
 from p2sf_explorer.compute.layout import Layout
-from p2sf_explorer.compute.setup import ParaxialSetup, prescription, ranges
+from p2sf_explorer.compute.setup import ParaxialSetup, ranges
 from p2sf_explorer.i18n.tr import local
 from p2sf_explorer.layout_view.object_space import ObjectSpace, object_space
 from p2sf_explorer.state.scales import written_distance
@@ -40,7 +40,7 @@ class DrawnSetup(Protocol):
 def space_of(chart: Chart, shown: DrawnSetup) -> ObjectSpace:
     """Return where a chart draws sources at present."""
     (origin, axis), (right, _) = chart.to_pixels(0.0, 0.0), chart.to_pixels(1.0, 0.0)
-    drawing, limits = shown.layout.drawing, ranges(prescription(shown.state))
+    drawing, limits = shown.layout.drawing, ranges(shown.setup.prescription)
     return object_space(
         (float(origin), float(axis), float(right - origin)),
         (chart.width(), chart.height()),

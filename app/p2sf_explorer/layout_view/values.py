@@ -4,7 +4,7 @@ from math import isfinite
 
 from p2sf.lens.lens import Lens
 from p2sf_explorer.compute.quantities import F_NUMBER, FIELD, SHIFT
-from p2sf_explorer.compute.setup import prescription, ranges
+from p2sf_explorer.compute.setup import ranges
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.layout_view.grips import Grip, can_bend, shape_of
 from p2sf_explorer.layout_view.source_point import DrawnSetup
@@ -30,12 +30,12 @@ def _sensor(grip: Grip, shown: DrawnSetup) -> str:
 
 
 def _rim(grip: Grip, shown: DrawnSetup) -> str:
-    number = F_NUMBER.write(F_NUMBER.shown(shown.state, ranges(prescription(shown.state))))
+    number = F_NUMBER.write(F_NUMBER.shown(shown.state, ranges(shown.setup.prescription)))
     return tr("{f_number}, stop ⌀ {diameter} mm", f_number=number, diameter=_mm(2 * shown.layout.drawing.stop_rim))
 
 
 def _stop(grip: Grip, shown: DrawnSetup) -> str:
-    lens = prescription(shown.state)
+    lens = shown.setup.prescription
     number = lens.stop_surface or 0
     behind = lens.surfaces[number - 2].thickness
     return tr("stop {gap} mm behind surface {number}", gap=_mm(behind), number=number - 1)
@@ -43,17 +43,17 @@ def _stop(grip: Grip, shown: DrawnSetup) -> str:
 
 def _edge(grip: Grip, shown: DrawnSetup) -> str:
     number = grip.surfaces[0]
-    return tr("radius {number}: {radius} mm", number=number, radius=_radius(prescription(shown.state), number))
+    return tr("radius {number}: {radius} mm", number=number, radius=_radius(shown.setup.prescription, number))
 
 
 def _vertex(grip: Grip, shown: DrawnSetup) -> str:
     number = grip.surfaces[0] - 1
-    thick = prescription(shown.state).surfaces[number - 1].thickness
+    thick = shown.setup.prescription.surfaces[number - 1].thickness
     return tr("thickness {number}: {thickness} mm", number=number, thickness=_mm(thick))
 
 
 def _glass(grip: Grip, shown: DrawnSetup) -> str:
-    lens, (first, last) = prescription(shown.state), grip.surfaces
+    lens, (first, last) = shown.setup.prescription, grip.surfaces
     if can_bend(lens, grip.surfaces):
         radii = " / ".join(_radius(lens, number) for number in (first, last))
         return tr("bending X = {shape}, R = {radii} mm", shape=signed(shape_of(lens, grip.surfaces), 3), radii=radii)

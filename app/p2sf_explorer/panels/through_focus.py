@@ -11,7 +11,7 @@ from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.charts.plots import BRIGHTNESS
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.setup import prescription, ranges
+from p2sf_explorer.compute.setup import ranges
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.through_focus import Focused, Strip, answer
 from p2sf_explorer.state.scales import signed
@@ -120,7 +120,7 @@ class ThroughFocusPanel:
             self.asking.again()
         self.chart.show_sensor(live.state.optics.sensor_shift_um)
         if isinstance(asked, Message):
-            half = ranges(prescription(live.state)).shift_um
+            half = ranges(live.setup.prescription).shift_um
             self.chart.set_range((-half, half), (0.0, 1.0))
             self.chart.show_tiles((), 1.0)
             self.chart.show_notes([])

@@ -152,7 +152,7 @@ def test_places_and_sources_invert_one_another():
 
 def grip_of(chart, window, kind, number=0):
     live = chart.live
-    every = (*stop_grips(live.state, live.setup, live.layout), sensor_grip(live.layout))
+    every = (*stop_grips(live.setup, live.layout), sensor_grip(live.layout))
     every += surface_grips(live.setup.lens, window.store.selection)
     return next(grip for grip in every if grip.kind == kind and (not number or grip.surfaces == (number, number)))
 
@@ -246,7 +246,7 @@ def test_the_rim_under_the_hand_is_the_f_number():
     """Against the paraxial pupil itself, which the drag does not ask."""
     start = changed(FIRST, lens="double_gauss_28")
     setup = paraxial_setup(start)
-    grip = stop_grips(start, setup, layout(setup))[0]
+    grip = stop_grips(setup, layout(setup))[0]
     state = dragged(grip, start, grip.z, grip.y / 2)
     lens, before = paraxial_setup(state).lens, load("double_gauss_28")
     own = float(f_number(before, before.reference_wavelength_um))
@@ -259,7 +259,7 @@ def test_a_moved_stop_keeps_speed_and_spherical_aberration():
     """W40 does not change when the stop moves and the axial beam does not (Welford 1986, stop-shift equations)."""
     start = changed(FIRST, lens="double_gauss_28", keep_focus="off")
     setup = paraxial_setup(start)
-    grip = next(g for g in stop_grips(start, setup, layout(setup)) if g.kind == "stop")
+    grip = next(g for g in stop_grips(setup, layout(setup)) if g.kind == "stop")
     lens, moved = prescription(start), prescription(dragged(grip, start, grip.z - 3.0, 0.0))
     assert vertices(moved)[5] == pytest.approx(vertices(lens)[5] - 3.0)
     assert vertices(moved)[6:] == pytest.approx(vertices(lens)[6:])

@@ -9,7 +9,7 @@ from p2sf_explorer.panels.psf import badge_words, tip_words, top_value, unit_of
 from p2sf_explorer.shell.bars import shortened
 from p2sf_explorer.state.state import changed, new_state
 
-BLURRED = changed(default_state("double_gauss_28"), depth_mm=30.0, method="auto")
+BLURRED = changed(default_state("double_gauss_28"), depth_mm=10.0, method="auto")
 
 
 def test_the_picture_is_summed_for_the_pixels_it_is_shown_on(window, qtbot):
