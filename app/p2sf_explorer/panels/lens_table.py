@@ -65,6 +65,7 @@ class LensTablePanel:
         self.bending, self.stop_place = bending_slider(store), stop_slider(store)
         self.focus = chooser(FOCUS, FOCUS_TIP, self.widget)
         self._start: State = store.state
+        self._lens: Lens | None = None  # as shown; its file may be spoilt by now
         self.buttons = {method: self._button(text, tip, method) for text, tip, method in TOOLS}
         self._prepare()
         self.widget.set_body(self.view)
@@ -94,11 +95,13 @@ class LensTablePanel:
 
     def _select(self, index: QModelIndex) -> None:
         """Select the element that the clicked surface belongs to."""
-        self._store.select(element_of(prescription(self._store.state), index.row() + 1))
+        if self._lens:
+            self._store.select(element_of(self._lens, index.row() + 1))
 
     def _mark(self, _: object = None) -> None:
         self.model.mark(self._store.selection, self._store.pointed_at)
-        show_bending(self.bending, prescription(self._store.state), self._store.selection)
+        if self._lens:
+            show_bending(self.bending, self._lens, self._store.selection)
 
     def _begin_scrub(self) -> None:
         self._start = self._store.state
@@ -149,6 +152,7 @@ class LensTablePanel:
         rows: Rows = live.views["lens"]
         self.model.show_rows(rows)
         self.buttons["_revert"].setEnabled(rows.edited)
+        self._lens = rows.lens
         select(self.focus, live.state.display.keep_focus)
         show_stop(self.stop_place, rows.lens)
         self._mark()
