@@ -23,7 +23,7 @@ from p2sf_explorer.charts.hand import Hand
 from p2sf_explorer.charts.painting import pen, polylines
 from p2sf_explorer.charts.reading import Reading, Samples, curves_at, map_at, place_at, vertex_at
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.charts.view import AxisView, Span, panned, steadied, width, zoomed
+from p2sf_explorer.charts.view import AxisView, Span, panned, width, zoomed
 from p2sf_explorer.i18n.tr import tr
 
 THICK = (0.5, 0.9)  # px between the thin lines of a thick one
@@ -32,6 +32,7 @@ Grid = tuple[str, np.ndarray, np.ndarray, np.ndarray]
 FINEST = 1e-6  # of an axis: finer digits of a curve's value are not read
 TICK_PX = 4  # within the area
 AIR = 1.04  # of a picture's extent that its axes show
+FILLED = 0.6  # of its axes' length that a map fills at least, or they become shorter
 NEAR_PX = 9.0  # of a pinned marker, within which another press of its key or a click takes it away
 
 
@@ -122,7 +123,7 @@ class Chart(QWidget):
         self.left_axis = self.left_name = True
         self._labels, self.round, self.framed = (tr(bottom), tr(left)), aspect, framed
         self.x_axis, self.y_axis = AxisView(), AxisView()
-        self._whole = 0.0  # of both axes, where they change in steps
+        self._half = 0.0  # of both axes of a map
         self.samples: Samples | None = None
         self.bar: Lockable | None = None  # of the image's colours
         self.ground: int | None = None  # 0xffRRGGBB beyond the image
@@ -167,10 +168,13 @@ class Chart(QWidget):
             self.forget_background()
 
     def set_extent(self, half: float, steady: bool = False) -> None:
-        """Show −half to half on both axes, or in ``steady`` steps of 1-2-5 times the whole."""
-        if steady:
-            self._whole = steadied((0.0, self._whole), (0.0, 2 * half))[1]
-            half = self._whole / 2
+        """Show −half to half on both axes; with ``steady`` stay as wide as before while a map fills most of that.
+
+        A map has round widths of its own, so that no rounding comes on top: it would leave much of the plot empty.
+        """
+        if not (steady and FILLED * self._half <= half <= self._half):
+            self._half = half
+        half = self._half
         self.set_range((-AIR * half, AIR * half), (-AIR * half, AIR * half))
 
     @property

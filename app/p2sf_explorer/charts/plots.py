@@ -251,7 +251,7 @@ class HeatMap(QWidget):
         return self._rect
 
     def set_extent(self, half: float, steady: bool = False) -> None:
-        """Show −half to half on both axes, or in ``steady`` steps of 1-2-5 times the whole."""
+        """Show −half to half on both axes, as `Chart.set_extent`."""
         self.chart.set_extent(half, steady)
 
     def set_map(self, name: str) -> None:
