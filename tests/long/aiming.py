@@ -3,29 +3,26 @@
 For five lenses whose pupils are far from their paraxial image, R² of the reference's PSF and the light of the field,
 relative to the axis, against the plain sum over rays that the referee traced backwards from a dense square grid in the
 stop, each with the area of its cell in the plane of the entrance pupil (near objects: solid angle × distance²). Then
-where the program's own rays meet the stop, of its rim; the distortion of a symmetric 1:1 lens; and what a pencil and
-the methods that trace cost against the paraxial pupil, measured in turns.
+where the program's own rays meet the stop, of its rim, and the distortion of a symmetric 1:1 lens. What this filling
+costs beside the paraxial one is measured by ``python -m tests.benchmarks.aiming``.
 """
 
 import argparse
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
-from statistics import median
-from time import thread_time
 
 import numpy as np
 from scipy.optimize import brentq
 
 from p2sf.glass.media import ConstantIndex
-from p2sf.lens.lens import Aim, Aperture, Lens, Surface, with_aim, with_sensor
+from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import field_from_object_height
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.aiming import pupil_rays
@@ -36,7 +33,7 @@ from tests.support.waves import r_squared
 
 LENSES = ("wide_angle_35", "periskop", "reverse_telephoto", "cooke_triplet", "eye_navarro")
 NEAR_MM = {"reverse_telephoto": 30.0, "eye_navarro": 250.0}  # the others 1 m
-PIXELS, TURNS = 48, 9
+PIXELS = 48
 R2, LIGHT, STOP, DISTORTION_MM = 0.999999, 1e-4, 1e-9, 1e-12
 
 
@@ -116,28 +113,6 @@ def distortion_mm(lens: Lens, height: float) -> float:
     return float(pencil(lens, source, [0.0], [0.1]).chief_y.item()) - height
 
 
-def cost(work: Callable[[Lens], object], lens: Lens) -> float:
-    """Return what some work costs with rays through the stop over that through the paraxial pupil, taken in turns."""
-    took: dict[Aim, list[float]] = {"stop": [], "paraxial": []}
-    for _ in range(TURNS):
-        for aim, times in took.items():
-            aimed, begun = with_aim(lens, aim), thread_time()
-            work(aimed)
-            times.append(thread_time() - begun)
-    return median(took["stop"]) / median(took["paraxial"])
-
-
-def costs(lens: Lens, source: Source) -> str:
-    """Return what a pencil and the methods that trace cost, each over the paraxial pupil's."""
-    nodes = disc_nodes(24, 48)
-    parts: dict[str, Callable[[Lens], object]] = {
-        "pencil": lambda aimed: pencil(aimed, source, nodes.xi, nodes.eta),
-        "fitted": lambda aimed: render(aimed, source, method="fitted"),
-        "traced": lambda aimed: render(aimed, source, method="traced"),
-    }
-    return ", ".join(f"{name} × {cost(work, lens):.2f}" for name, work in parts.items())
-
-
 def main() -> None:
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--cells", type=int, default=2000, help="cells of the referee's grid across the stop")
@@ -146,8 +121,8 @@ def main() -> None:
         for focused, source in cases(lens):
             found = row(focused, source, cells)
             bad += not found.good
-            print(f"{found.name:32} 1 − R² {found.error:.1e}, light {found.light:.1e}, stop {found.stop:.1e}, ", end="")
-            print(costs(focused, source), flush=True)
+            figures = f"1 − R² {found.error:.1e}, light {found.light:.1e}, stop {found.stop:.1e}"
+            print(f"{found.name:32} {figures}", flush=True)
     lens = with_aim(symmetric_lens(), "stop")
     for height in (2.0, 10.0, 20.0):
         miss = distortion_mm(lens, height)

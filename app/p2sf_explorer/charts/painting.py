@@ -83,8 +83,10 @@ def letter_width(letter: str, size: int) -> float:
 
 
 def fitting(words: str, room: float, size: int = 11) -> str:
-    """Return a text as far as it fits: whole, without its part in brackets, or elided."""
-    for text in (words, words.partition(" (")[0]):
+    """Return a text as far as it fits: whole, without its part in brackets, its first word and unit, or elided."""
+    bare = words.partition(" (")[0]
+    name, comma, unit = bare.rpartition(", ")
+    for text in (words, bare, name.partition(" ")[0] + comma + unit):
         if width_of(text, size) <= room:
             return text
     return metrics(size).elidedText(text, Qt.TextElideMode.ElideRight, room)

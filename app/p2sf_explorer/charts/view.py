@@ -6,7 +6,8 @@ from math import ceil, floor
 from p2sf_explorer.state.scales import nice
 
 Span = tuple[float, float]
-KEPT = 0.35  # of an automatic range that data fill at least: less than 2/5, so that 1-2-5 steps do not flicker
+STEPS = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)  # times a power of ten: the widths of automatic ranges
+KEPT = 0.5  # of an automatic range that data fill at least: less than 3/5, so that the steps do not flicker
 PARTS = 10  # into which the width of a range is divided for its round ends
 DEEPEST, WIDEST = 1e-4, 20.0  # of the range without zoom, that zooming leads to
 
@@ -78,22 +79,22 @@ def kind(span: Span) -> str:
 def steadied(kept: Span, wanted: Span) -> Span:
     """Return the automatic range for data from end to end: ``kept`` while they fit and fill it, else a round one.
 
-    A drag thus changes the range rarely, and by a factor that is seen: 1-2-5 steps, with hysteresis.
+    A drag thus changes the range rarely, and by a factor that is seen, with hysteresis.
     """
     fits = kept[0] <= wanted[0] and wanted[1] <= kept[1] and width(wanted) >= KEPT * width(kept)
     return kept if fits and kind(wanted) in ("", kind(kept)) else rounded(wanted)
 
 
 def rounded(wanted: Span) -> Span:
-    """Return a range of 1, 2 or 5·10ᵏ, round ends and the symmetry of the data's.
+    """Return a range of one of `STEPS`·10ᵏ, round ends and the symmetry of the data's.
 
     Where both ends are free, it is wider by a tenth if round ends ask for that.
     """
     if of := kind(wanted):
-        end = nice(max(abs(wanted[0]), abs(wanted[1]), 1e-300))
+        end = nice(max(abs(wanted[0]), abs(wanted[1]), 1e-300), STEPS)
         return (-end if of != "up" else 0.0), (end if of != "down" else 0.0)
     middle, half = sum(wanted) / 2, max(width(wanted), 1e-12 * abs(wanted[0])) / 2
-    whole = nice(2 * half)
+    whole = nice(2 * half, STEPS)
     step = whole / PARTS
     low = step * min(round((middle - whole / 2) / step), floor((middle - half) / step))
     return low, max(low + whole, step * ceil((middle + half) / step))

@@ -36,6 +36,7 @@ from p2sf_explorer.widgets.copying import copy_menu
 LIST_AIR = 24  # pixels beside the longest line of an open list
 PANEL_MIME = "application/x-p2sf-panel"  # of a panel's key while its title is dragged
 TALLEST = 200  # pixels at scale 1: a panel that needs more than this is cut, or scrolls, where there is less
+READOUT_LINES = 2  # at most, where it stands below the title
 DRAGGED_PX = 240  # width of the small picture under the pointer
 TO_STAGE = "Put this panel on the stage (double-click its title, or drag it there)"
 APART = "Open this panel in its own window, or put it back (Ctrl+D)"
@@ -162,6 +163,7 @@ class Card(QFrame):
             if (self.under if fits else self.head).indexOf(tool) >= 0:
                 (self.under if fits else self.head).removeWidget(tool)
                 self._put(tool, fits)
+        self.readout.setWordWrap(False)  # so that its hint is the width of one line
         words = self.readout.sizeHint().width() if self.readout.text() else 0
         self._put_readout(words + (tools if fits else 0) <= room)
 
@@ -171,6 +173,9 @@ class Card(QFrame):
         return self.width() - margins.left() - margins.right()
 
     def _put_readout(self, beside_title: bool) -> None:
+        """Put the readout at the end of the title's line, or below it on up to two lines."""
+        self.readout.setWordWrap(not beside_title)
+        self.readout.setMaximumHeight(READOUT_LINES * self.readout.fontMetrics().lineSpacing())
         if beside_title == (self.head.indexOf(self.readout) >= 0):
             return
         if beside_title:

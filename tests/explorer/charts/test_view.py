@@ -49,12 +49,12 @@ def test_a_growing_and_shrinking_peak_changes_the_scale_rarely_and_by_steps_that
         for value in values:
             kept = steadied(kept, shape(value))
             assert kept[0] <= shape(value)[0] and shape(value)[1] <= kept[1]
-            assert width(shape(value)) >= 0.3 * width(kept), "the data fill the axis"
+            assert width(shape(value)) >= 0.45 * width(kept), "the data fill the axis"
             seen += [kept] if kept not in seen[-1:] else []
-        most = 11 if shape is not SHAPES[-1] else 20  # three steps a decade, and as many moves where both ends are free
+        most = 20 if shape is not SHAPES[-1] else 40  # six steps a decade, and as many moves where both ends are free
         assert len(seen) <= most
         ratios = [max(width(a), width(b)) / min(width(a), width(b)) for a, b in pairwise(seen[1:])]
-        assert min(ratios) > (1.8 if shape is not SHAPES[-1] else 1.0)
+        assert min(ratios) > (1.3 if shape is not SHAPES[-1] else 1.0)
 
 
 def test_a_peak_that_trembles_about_a_step_does_not_change_the_scale():
@@ -62,7 +62,7 @@ def test_a_peak_that_trembles_about_a_step_does_not_change_the_scale():
     for k in range(100):
         kept = steadied(kept, (-2.0 - 0.1 * (-1) ** k, 2.0 + 0.1 * (-1) ** k))
         seen.add(kept)
-    assert seen == {(-5.0, 5.0)}
+    assert seen == {(-3.0, 3.0)}
 
 
 def test_a_scale_about_zero_is_given_up_for_one_from_zero():
