@@ -38,8 +38,7 @@ class ExactnessButton(QPushButton):
     def __init__(self, store: Store, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._store = store
-        self.setStyleSheet("QPushButton { text-align: left; padding-right: 20px; }")
-        self.setMinimumWidth(96)
+        self.setStyleSheet("QPushButton { text-align: left; padding-right: 1.7em; }")
         self.panel = ExactnessPanel(store, self)
         self.clicked.connect(self._open)
 
@@ -53,8 +52,9 @@ class ExactnessButton(QPushButton):
         self.panel.show_state(state)
 
     def restyle(self, theme: Tokens) -> None:
-        """Take the colours of a theme."""
+        """Take the colours and the scale of a theme."""
         self.panel.slider.restyle(theme)
+        self.panel.setFixedWidth(theme.px(PANEL_PX))
 
     def stop(self) -> None:
         """End the worker's thread."""
@@ -111,7 +111,6 @@ class ExactnessPanel(QFrame):
         column.addLayout(grid)
         for label in (self.asked, self.costing, self.given):
             column.addWidget(label)
-        self.setFixedWidth(PANEL_PX)
 
     def open_at(self, place: QPoint) -> None:
         """Show the panel at a place of the screen and measure what each method costs here."""
