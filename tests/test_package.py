@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[1]
 LAYERS = (
     "p2sf.conventions p2sf.messages p2sf.notebook",
     "p2sf.errors",
-    "p2sf.parameters",
+    "p2sf.parameters p2sf.threads",
     "p2sf.files p2sf.glass p2sf.colour p2sf.pupil",
     "p2sf.lens",
     "p2sf.paraxial",

@@ -1,0 +1,181 @@
+"""Threads for work that falls into parts, and BLAS held to one thread meanwhile.
+
+The parts are the caller's and do not depend on the number of threads, and results come in the order of the parts, so
+that sums of them are the same to the last bit on any number of threads. NumPy leaves the interpreter's lock within its
+loops over large arrays, products and FFTs only: a part that two threads are to share should take some milliseconds.
+
+BLAS splits a product among threads of its own once it has some 2¹⁸ multiplications. The products of a PSF are hardly
+larger: two threads then wait for each other at the end of each one, and a sum of many takes several times as long.
+Hence all work of this library runs within `one_blas_thread`, and threads work on different parts instead.
+"""
+
+import os
+import sys
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ContextDecorator
+from contextvars import copy_context
+from functools import lru_cache
+from itertools import chain, islice
+from threading import Lock, local
+from typing import Any, TypeVar
+
+from p2sf.errors import RequestError
+
+VARIABLE = "P2SF_THREADS"
+AHEAD = 2  # parts per thread that may be under way or waiting for the caller: no thread idles, and little is kept
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+_here = local()  # ``worker`` is set in threads of a pool
+
+
+def threads_or_default(threads: int | None = None) -> int:
+    """Return how many threads to use: as asked, else as the environment says, else the cores this process may use.
+
+    Raises RequestError for a number, asked or in P2SF_THREADS, that is none from 1 on.
+    """
+    if threads is not None:
+        if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
+            raise RequestError(
+                "{parameter} is {value}; give a whole number from 1 on", parameter="threads", value=threads
+            )
+        return threads
+    asked = os.environ.get(VARIABLE, "").strip()
+    if not asked:
+        return _usable_cores()
+    if not asked.isdecimal() or int(asked) < 1:
+        raise RequestError(
+            "the environment variable {name} is {value}; give a whole number from 1 on", name=VARIABLE, value=asked
+        )
+    return int(asked)
+
+
+def _usable_cores() -> int:
+    if sys.platform == "linux":  # a batch system or a container may have left this process a part of the machine
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def mapped(function: Callable[[Item], Result], items: Iterable[Item], threads: int | None = None) -> list[Result]:
+    """Return ``function(item)`` of every item, in order, computed by so many threads (`threads_or_default`).
+
+    Raises what ``function`` raises for the first item that fails, once the items under way are done.
+    """
+    return list(mapped_lazily(function, items, threads))
+
+
+def mapped_lazily(
+    function: Callable[[Item], Result], items: Iterable[Item], threads: int | None = None
+) -> Iterator[Result]:
+    """Yield what `mapped` returns; no more than AHEAD results per thread are computed before they are taken.
+
+    Within a part everything is done by the part's own thread, so that pools do not multiply; and in the context of the
+    caller, `numpy.errstate` for one.
+    """
+    count = 1 if getattr(_here, "worker", False) else threads_or_default(threads)
+    remaining = iter(items)
+    first = list(islice(remaining, 2))
+    with one_blas_thread:
+        if count == 1 or len(first) < 2:
+            yield from map(function, chain(first, remaining))
+        else:
+            yield from _by_pool(function, chain(first, remaining), count)
+
+
+def _by_pool(function: Callable[[Item], Result], items: Iterable[Item], count: int) -> Iterator[Result]:
+    waiting: deque[Future[Result]] = deque()
+    with ThreadPoolExecutor(count, initializer=_become_worker) as pool:
+        try:
+            for item in items:
+                waiting.append(pool.submit(copy_context().run, function, item))
+                if len(waiting) == AHEAD * count:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+        finally:
+            for future in waiting:  # after an error, or where the caller takes no more
+                future.cancel()
+
+
+def _become_worker() -> None:
+    """Mark the thread as one of a pool; it stays within `one_blas_thread`, which ends with it."""
+    _here.worker = True
+    _of_this_thread().enter(_blas("scipy.linalg" in sys.modules)[1])
+
+
+class _OneBlasThread(ContextDecorator):
+    """Holds BLAS to one thread while anyone is within; the number of before returns with the last one's leaving.
+
+    Most BLAS libraries have one number for the whole process: threads within share it, and a count tells who is the
+    last. Those built on OpenMP have a number for each thread. Entering costs some microseconds for the first, one for
+    the others.
+    """
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._process = _Held()
+
+    def __enter__(self) -> None:
+        shared, own = _blas("scipy.linalg" in sys.modules)
+        with self._lock:
+            self._process.enter(shared)
+        _of_this_thread().enter(own)
+
+    def __exit__(self, *error: object) -> None:
+        _of_this_thread().leave()
+        with self._lock:
+            self._process.leave()
+
+
+class _Held:
+    """How many are within, and the libraries that they hold to one thread with their numbers of before."""
+
+    def __init__(self) -> None:
+        self.within = 0
+        self.before: list[tuple[Any, int]] = []
+
+    def enter(self, libraries: list[Any]) -> None:
+        """Set the number of each library to 1, if this is the first one within."""
+        self.within += 1
+        if self.within == 1:
+            self.before = [(library, found) for library in libraries if (found := library.get_num_threads()) != 1]
+            for library, _ in self.before:
+                _set(library, 1)
+
+    def leave(self) -> None:
+        """Restore the numbers of before, if this is the last one within."""
+        self.within -= 1
+        if self.within == 0:
+            for library, number in self.before:
+                _set(library, number)
+
+
+def _of_this_thread() -> _Held:
+    if not hasattr(_here, "held"):
+        _here.held = _Held()
+    held: _Held = _here.held
+    return held
+
+
+def _set(library: Any, number: int) -> None:
+    library.set_num_threads(number)
+    if hasattr(library, "clear_controlling_thread"):
+        library.clear_controlling_thread()  # or threadpoolctl 3.8 would ignore every thread but this one from now on
+
+
+@lru_cache(maxsize=2)
+def _blas(with_scipy: bool) -> tuple[list[Any], list[Any]]:
+    """Return the BLAS libraries that have one number for all threads, and those that have one for each.
+
+    They are NumPy's, and SciPy's own once ``scipy.linalg`` is loaded.
+    """
+    from threadpoolctl import ThreadpoolController
+
+    found = ThreadpoolController().select(user_api="blas").lib_controllers
+    own = [library for library in found if getattr(library, "threading_layer", "") == "openmp"]
+    return [library for library in found if library not in own], own
+
+
+one_blas_thread = _OneBlasThread()
