@@ -21,6 +21,7 @@ USUAL = "small", "large"
 THEMES = "light", "dark"
 LONGEST_MS = 20_000  # for the background measurement of one picture
 LOOK_MS = 50
+IDLE_LOOKS = 8  # in a row: a panel waits a moment after it was resized before it asks for a finer picture
 
 
 def states() -> dict[str, State]:
@@ -62,7 +63,15 @@ def matrices() -> dict[str, State]:
 def settle(window: MainWindow) -> None:
     """Let the window paint, and its background measurement end."""
     loop, looking, longest = QEventLoop(), QTimer(), QTimer()
-    looking.timeout.connect(lambda: None if window.is_busy() else loop.quit())
+    idle = 0
+
+    def look() -> None:
+        nonlocal idle
+        idle = 0 if window.is_busy() else idle + 1
+        if idle == IDLE_LOOKS:
+            loop.quit()
+
+    looking.timeout.connect(look)
     longest.setSingleShot(True)
     longest.timeout.connect(loop.quit)
     looking.start(LOOK_MS)
