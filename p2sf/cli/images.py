@@ -199,6 +199,12 @@ def figures(result: Psf, energy: Energy | None = None) -> dict[str, Any]:
     return {"centroid_um": [float(x), float(y)], **radii, "rms_um": None, "share_of": "the picture's light"}
 
 
+def window_of(result: Psf) -> Message:
+    """Return where figures come from that have no pupil to be summed from."""
+    width = result.values.shape[-1] * result.pixel_um
+    return Message("read off a window {width:g} µm wide, sampled every {pixel:g} µm", width=width, pixel=result.pixel_um)
+
+
 def prediction(error: float | None) -> tuple[float | None, Message | str]:
     """Return what a method is predicted to miss, and a note where that is much or unknown."""
     if error is None:
@@ -219,7 +225,7 @@ def summary(result: Psf, aim: str, output: Path | None, energy: Energy | None = 
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
         (f"radius of 50 % of {light}", measured["radius_50_um"], "µm"),
         (f"radius of 80 % of {light}", measured["radius_80_um"], "µm"),
-        *([("these radii", energy.note, "")] if energy and energy.note else []),
+        *([("these radii", note, "")] if (note := energy.note if energy else window_of(result)) else []),
         *([("RMS radius of the rays", measured["rms_um"], "µm")] if energy else []),
         ("predicted 1 − R²", *prediction(result.predicted_error)),
         ("sampling", result.sampling, ""),

@@ -81,6 +81,7 @@ def test_a_fitted_gaussian_has_a_dash_for_its_strehl_ratio(said, tmp_path):
     text = said("psf", "landscape", "--method", "gaussian", "--pixels", 16, "-o", where)
     assert where.stat().st_size > 1000
     assert any(line.split()[:3] == ["Strehl", "ratio", "–"] for line in text.splitlines())
+    assert "read off a window" in text
 
 
 def test_auto_is_the_default_and_takes_the_cheapest_method_that_holds(capsys):

@@ -13,6 +13,7 @@ from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pu
 from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
 from p2sf.metrics.perfect import diffraction_mtf
 from p2sf.metrics.transfer import end_weights, otf_slices
+from p2sf.psf.huygens import huygens_psf
 from p2sf.raytrace.fit import fit
 from tests.support.overlap import overlap
 from tests.support.waves import NA, WAVELENGTH_UM, waves
@@ -171,3 +172,23 @@ def test_a_long_sum_ends_between_blocks_when_it_is_stopped():
     with pytest.raises(Cancelled):
         otf_slices(pupil_of_coefficients(waves(w40=100.0)), after_three)
     assert len(asked) == 4
+
+
+@pytest.mark.parametrize(("name", "field"), [("cooke_triplet", 20.0), ("tessar", 20.5)])
+def test_of_a_clipped_pupil_it_is_that_of_a_window_of_the_reference_up_to_the_light_beyond(name, field):
+    """The reference sums the rays that the rims leave, one by one.
+
+    What its window lacks of the OTF is the Fourier integral over the light beyond, nowhere above that light.
+    """
+    lens, source = find_lens(name), Source(field_deg=field)
+    pupil, whole = pupil_of_rays(lens, source, clip=True), pupil_of_rays(lens, source)
+    frequency = np.linspace(0, 2 * max(pupil.half_x, pupil.half_y), 40)
+    psf = huygens_psf(lens, source, 320, 1 / (12 * max(pupil.half_x, pupil.half_y)), clip=True)
+    lines = (psf.x_um, psf.values.sum(0)), (psf.y_um, psf.values.sum(1))
+    expected = [np.abs(np.exp(-2j * np.pi * np.outer(frequency, at)) @ (psf.energy * line)) for at, line in lines]
+    found, unclipped = (mtf_of([PupilPart(p)], "traced", 1000 * frequency) for p in (pupil, whole))
+    beyond = 1 - psf.energy
+    assert beyond < 0.01
+    assert np.abs(found.sagittal - expected[0]).max() < beyond + 1e-4  # and what the pupil's polynomials miss
+    assert np.abs(found.tangential - expected[1]).max() < beyond + 1e-4
+    assert np.abs(unclipped.tangential - expected[1]).max() > 5 * beyond, "the rims matter here"
