@@ -201,8 +201,9 @@ def figures(result: Psf, energy: Energy | None = None) -> dict[str, Any]:
 
 def window_of(result: Psf) -> Message:
     """Return where figures come from that have no pupil to be summed from."""
-    width = result.values.shape[-1] * result.pixel_um
-    return Message("read off a window {width:g} µm wide, sampled every {pixel:g} µm", width=width, pixel=result.pixel_um)
+    pixel = result.pixel_um
+    width = result.values.shape[-1] * pixel
+    return Message("read off a window {width:g} µm wide, sampled every {pixel:g} µm", width=width, pixel=pixel)
 
 
 def prediction(error: float | None) -> tuple[float | None, Message | str]:

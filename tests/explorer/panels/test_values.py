@@ -16,6 +16,7 @@ from scipy.special import j1
 
 from p2sf import encircled_energy, mtf
 from p2sf.conventions import slope_from_degrees
+from p2sf.lens.source import Source
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.paraxial.seidel import chromatic_sums, coefficients, seidel_sums
@@ -25,7 +26,7 @@ from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
 from p2sf.raytrace.field_curves import colour_shift, heights, real_foci, seidel_foci
-from p2sf.raytrace.pencil import opd_fan, ray_fan, spot
+from p2sf.raytrace.pencil import opd_fan, pencil, ray_fan, spot
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.reference import REFERENCE_TOLERANCE, measure
@@ -308,3 +309,55 @@ def test_accuracy(window, qtbot, setup):
         agree(reading.values[0].text, 100 * truth, 1e-2)  # the sums differ by what either is known to
     panel.body.setVisible(False)
     panel.empty.setVisible(True)
+
+
+def test_overlays(window, qtbot, setup):
+    """Each field's MTF by a call of its own."""
+    for reading in readings(window, qtbot, "curves"):
+        for value in reading.values:
+            field, direction = value.name.split("° ")
+            source = Source(field_deg=float(field), wavelength_nm=1000 * setup.source.wavelength_um)
+            found = mtf(setup.lens, source, "seidel", frequency_per_mm=[reading.x], aim="stop")
+            agree(value.text, getattr(found, direction)[0], 1e-6)
+
+
+def test_matrix(window, qtbot, setup):
+    """Each tile's sample is that of its field's and colour's PSF, as light per area."""
+    window.store.replace(STATE)
+    window.open_panel("matrix")
+    qtbot.waitUntil(lambda: not window.is_busy(), timeout=30000)
+    QApplication.processEvents()
+    charts = [chart for chart in window.panels["matrix"].widget.findChildren(Chart) if chart.isVisible()]
+    points = [(field, nm) for field in (0.0, 10.0, 14.0) for nm in (486.1327, 587.5618, 656.2725)]
+    assert len(charts) == len(points)
+    for chart, (field, nm) in zip(charts, points, strict=True):
+        c = coefficients(setup.lens, inf, float(slope_from_degrees(field)), nm / 1000, setup.stop)
+        _, _, wide, _ = chart.samples.rect
+        count = len(chart.samples.values)
+        psf = seidel_psf(c, count, wide / count, "settled")
+        for across, up in PLACES:
+            reading = chart.read(across * wide - wide / 2, up * wide - wide / 2)
+            row, column = (round(v / psf.pixel_um) + count // 2 for v in (reading.y, reading.x))
+            truth = psf.values[row, column] * psf.energy / psf.pixel_um**2
+            agree(reading.values[0].text, truth, 1e-4 * psf.values.max() / psf.pixel_um**2)  # tiles keep 1e-4 of a peak
+
+
+def test_lateral_colour(window, qtbot, setup):
+    """Where chief rays land beside that of the shown wavelength."""
+
+    def landing(um: float) -> float:
+        return 1e3 * float(pencil(setup.lens, Source(inf, setup.source.field_slope, um), [0.0], [0.0]).chief_y.item())
+
+    for reading in readings(window, qtbot, "colour", 1):
+        shift = landing(reading.x / 1000) - landing(setup.source.wavelength_um)
+        agree(reading.values[0].text, shift, 1e-4)
+
+
+def test_layout(window, qtbot, setup):
+    """The chief ray passes through the middle of the stop and lands where the image height is said to be."""
+    list(readings(window, qtbot, "layout"))
+    chart = window.panels["layout"].widget.findChildren(Chart)[0]
+    places = np.cumsum([0.0, *(surface.thickness for surface in setup.lens.surfaces[:-1])])
+    height = float(pencil(setup.lens, setup.source, [0.0], [0.0]).chief_y.item())
+    for z, truth in ((places[setup.lens.stop_surface - 1], 0.0), (places[-1] + setup.lens.sensor_mm, height)):
+        agree(chart.read(z, 0.0).values[0].text, truth, 1e-6)
