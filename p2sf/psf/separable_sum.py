@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 from numpy.typing import DTypeLike
 
-from p2sf.conventions import centred_axis, protected
+from p2sf.conventions import protected
 from p2sf.errors import SamplingError
 from p2sf.messages import Message
 from p2sf.psf.plane_waves import pupil_amplitude
@@ -32,7 +32,7 @@ PREVIEW = 0.85  # of the settled counts: 1 − R² against the settled sum is be
 NEWTON_STEPS = 8
 MORE_NODES = 10  # than the order of a fit's phase: polynomials of twice as high an order along each row
 STRIDE = 4  # of the cosines that are computed; the others follow from them
-NODES_AT_ONCE = 4096  # so many that their cosines stay in the cache
+NODES_AT_ONCE = 8192  # so many that their cosines stay in the cache
 SETTLED = 1e-5  # a last step this small leaves its square, 1e-10 of the pupil: 1e-8 waves at a slope of 100
 
 
@@ -68,14 +68,14 @@ class FrequencyRows:
     ) -> np.ndarray:
         """Return the intensity (y, x) of phases in waves and fx in cycles/µm, (rows, nodes), on a centred grid."""
         together = max(1, IN_MEMORY // self.columns)
-        field = np.zeros((pixels, pixels), np.result_type(dtype, np.complex64))
+        field = np.zeros((pixels, pixels // 2 + 1), np.result_type(dtype, np.complex64))
         for first in range(0, len(self.fy), together):
             some = slice(first, first + together)
             part = FrequencyRows(self.fy[some], self.xi[some], self.eta[some], self.weight[some], self.columns)
             weight, waves, cycles = part.on_columns(phase[some], fx[some])
             field += sum_rows(pupil_amplitude(weight, waves, dtype), cycles, part.fy, pixels, pixel_um)
         intensity: np.ndarray = field.real**2 + field.imag**2
-        return intensity
+        return intensity[:, np.abs(np.arange(pixels) - pixels // 2)]
 
     def on_columns(self, phase: np.ndarray, fx: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return weights, phases and fx at all columns, (rows, columns/2), from those at the nodes."""
@@ -189,19 +189,22 @@ def _refining(few: int, columns: int) -> np.ndarray:
 
 
 def sum_rows(amplitude: np.ndarray, fx: np.ndarray, fy: np.ndarray, pixels: int, pixel_um: float) -> np.ndarray:
-    """Return the field (y, x) on a centred grid, Σ amplitude·cos(2π fx·x)·exp(2πi fy·y) over (rows, columns).
+    """Return the field Σ amplitude·cos(2π fx·x)·exp(2πi fy·y) over (rows, columns), shape (pixels, pixels//2 + 1).
 
-    Precision follows ``amplitude``. Samples −x are those of x; the sum goes along the rows first, then across them.
+    y as of a centred grid; x = 0, 1 … samples either side of the middle, which are alike. Precision follows
+    ``amplitude``. The sum goes along the rows first, then across them, where the parts even and odd in y give ±y.
     """
     half = pixels // 2
-    dtype = amplitude.real.dtype
-    parts = sum_across(amplitude, 2 * np.pi * pixel_um * fx, half + 1)
-    y = centred_axis(pixels, pixel_um)
-    cosine, sine = cosine_sine(np.outer(y, fy), dtype)
+    parts = sum_across(amplitude, 2 * np.pi * pixel_um * fx, half + 1).reshape(len(fy), -1)
+    tables = cosine_sine(np.outer(pixel_um * np.arange(half + 1), fy), amplitude.real.dtype)
+    even, odd = ((table @ parts).reshape(-1, 2, half + 1) for table in tables)
     field = np.empty((pixels, half + 1), amplitude.dtype)
-    field.real = cosine @ parts[:, 0] - sine @ parts[:, 1]
-    field.imag = cosine @ parts[:, 1] + sine @ parts[:, 0]
-    return field[:, np.abs(np.arange(pixels) - half)]
+    most, above, below = pixels - half, field[half:], field[:half][::-1]
+    np.subtract(even[:most, 0], odd[:most, 1], out=above.real)
+    np.add(even[:most, 1], odd[:most, 0], out=above.imag)
+    np.add(even[1:, 0], odd[1:, 1], out=below.real)
+    np.subtract(even[1:, 1], odd[1:, 0], out=below.imag)
+    return field
 
 
 def sum_across(amplitude: np.ndarray, angle: np.ndarray, count: int) -> np.ndarray:
@@ -210,17 +213,17 @@ def sum_across(amplitude: np.ndarray, angle: np.ndarray, count: int) -> np.ndarr
     All follow (`_unfolding`) from the sums Q of amplitude·cos(rθ), r = 0 … 3, with every fourth cosine, which saves
     three quarters of the cosines and of the products.
     """
-    parts = np.stack([amplitude.real, amplitude.imag], axis=1)[:, :, None]
-    steps, columns = -(-count // STRIDE), angle.shape[1]
-    sums = np.empty((len(parts), 2 * STRIDE, steps), parts.dtype)
+    parts = np.stack([amplitude.real, amplitude.imag])[:, None]
+    (rows, columns), steps = angle.shape, -(-count // STRIDE)
+    sums = np.empty((rows, 2 * STRIDE, steps), parts.dtype)
     size = max(1, NODES_AT_ONCE // columns)
-    for start in range(0, len(parts), size):
+    for start in range(0, rows, size):
         some = slice(start, start + size)
         near, far = _cosines(angle[some], steps, parts.dtype)
-        weighted = (parts[some] * near[:, None]).reshape(-1, 2 * STRIDE, columns)
-        np.matmul(weighted, far.swapaxes(1, 2), out=sums[some])
+        weighted = (parts[:, :, some] * near).reshape(2 * STRIDE, -1, columns)
+        np.matmul(weighted.swapaxes(0, 1), np.moveaxis(far, 0, -1), out=sums[some])  # both are views
     unfolded: np.ndarray = sums.reshape(-1, STRIDE * steps) @ _unfolding(steps, parts.dtype)[:, :count]
-    return unfolded.reshape(len(parts), 2, count)
+    return unfolded.reshape(rows, 2, count)
 
 
 @lru_cache(maxsize=16)
@@ -237,24 +240,24 @@ def _unfolding(steps: int, dtype: np.dtype) -> np.ndarray:
 
 
 def _cosines(angle: np.ndarray, steps: int, dtype: np.dtype) -> tuple[np.ndarray, np.ndarray]:
-    """Return cos(rθ), r = 0 … 3, and cos(4kθ), k = 0 … steps − 1, each (rows, number, columns).
+    """Return cos(rθ), r = 0 … 3, and cos(4kθ), k = 0 … steps − 1, each (number, rows, columns).
 
     A cosine is cheap in float32 and expensive in float64, where Chebyshev's recurrence replaces it.
     """
     if dtype == np.float32:
-        angle = (angle - 2 * np.pi * np.rint(angle / (2 * np.pi))).astype(dtype)[:, None]
-        multiple = np.arange(max(STRIDE, steps), dtype=dtype)[:, None]
-        return np.cos(multiple[:STRIDE] * angle), np.cos((STRIDE * multiple[:steps]) * angle)
+        angle = (angle - 2 * np.pi * np.rint(angle / (2 * np.pi))).astype(dtype)
+        far = np.arange(0, STRIDE * steps, STRIDE, dtype=dtype)[:, None, None] * angle
+        return chebyshev(np.cos(angle), STRIDE), np.cos(far, out=far)
     near = chebyshev(np.cos(angle), STRIDE)
-    return near, chebyshev(2 * near[:, 2] ** 2 - 1, steps)
+    return near, chebyshev(2 * near[2] ** 2 - 1, steps)
 
 
 def chebyshev(cosine: np.ndarray, count: int) -> np.ndarray:
-    """Return cos(mθ) from cos θ (rows, columns), m = 0 … count − 1, (rows, count, columns); errors grow with m²."""
-    out = np.ones((len(cosine), count, cosine.shape[1]))
-    out[:, 1:2] = cosine[:, None]
+    """Return cos(mθ) from cos θ, m = 0 … count − 1 on the first axis; errors grow with m²."""
+    out = np.ones((count, *cosine.shape), cosine.dtype)
+    out[1:2] = cosine
     twice = 2 * cosine
     for m in range(2, count):
-        np.multiply(twice, out[:, m - 1], out=out[:, m])
-        out[:, m] -= out[:, m - 2]
+        np.multiply(twice, out[m - 1], out=out[m])
+        out[m] -= out[m - 2]
     return out

@@ -107,15 +107,23 @@ def _product(one: _Powers, two: _Powers, size: tuple[int, int]) -> np.ndarray:
 
 
 def basis_by_powers(order: int, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return `basis` of the even and of the odd terms, each (terms, points), as products of powers.
+    """Return `basis` of the even and of the odd terms, each (…, terms, points), as products of powers.
 
     Several times as fast; more digits cancel as the order grows: errors of some 1e-13 at order 6 and 1e-9 at 18.
     """
     down, along = _exponents(order)
-    squares, lines = (np.vander(v, order + 1, increasing=True).T for v in (xi * xi, eta))
-    table = squares[down] * lines[along]
+    table = rising_powers(xi * xi, order + 1)[..., down, :] * rising_powers(eta, order + 1)[..., along, :]
     even, odd = (form[:, down, along] @ table for form in (powers(order), powers(order, True)))
-    return even, odd * xi
+    return even, odd * xi[..., None, :]
+
+
+def rising_powers(x: np.ndarray, count: int) -> np.ndarray:
+    """Return xᵏ, k = 0 … count − 1, (…, powers, points)."""
+    out = np.empty((*x.shape[:-1], count, x.shape[-1]))
+    out[..., 0, :] = 1.0
+    out[..., 1:, :] = x[..., None, :]
+    np.multiply.accumulate(out[..., 1:, :], axis=-2, out=out[..., 1:, :])
+    return out
 
 
 @lru_cache(maxsize=32)

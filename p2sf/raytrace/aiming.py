@@ -18,7 +18,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
 from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike import basis, basis_by_powers, gradient, powers
+from p2sf.pupil.zernike import basis, basis_by_powers, gradient, powers, rising_powers
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Index, launch, per_ray, run
 
@@ -398,9 +398,10 @@ def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.n
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
     """Return entrance points from which Newton's method starts: by the pupil map, or for few rays the paraxial ones."""
-    if xi.size < FEW or not _single(enter):
+    if xi.size < FEW:
         return _paraxial(enter, xi, eta)
-    found = _rough_map(lens, enter) if stop else _cached_rough_map(lens, source)
+    known = stop is None and isinstance(source, Source)
+    found = _cached_rough_map(lens, source) if known else _rough_map(lens, enter)
     if found is None:
         return _paraxial(enter, xi, eta)
     x, y = StopMap.of(ROUGH_ORDER, *found).at(xi, eta)
@@ -415,7 +416,10 @@ def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
 
 @dataclass(frozen=True, eq=False)
 class StopMap:
-    """Polynomials over the stop: ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ for entrance points x/ξ and y (mm), and weights."""
+    """Polynomials over the stop: ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ for entrance points x/ξ and y (mm), and weights.
+
+    The axes of `Sources` stand between the first axis, which tells these apart, and the powers.
+    """
 
     table: np.ndarray
 
@@ -424,23 +428,16 @@ class StopMap:
         """Return the map of coefficients of `zernike`: of x those of the odd terms, of y and weights of the even."""
         forms = powers(order, True), *(powers(order) for _ in even)
         parts = [part @ form.reshape(len(form), -1) for part, form in zip((x, *even), forms, strict=True)]
-        return cls(np.stack(parts).reshape(len(parts), *forms[0].shape[1:]).swapaxes(1, 2))
+        return cls(np.stack(parts).reshape(len(parts), *x.shape[:-1], *forms[0].shape[1:]).swapaxes(-1, -2))
 
     def at(self, xi: Nodes, eta: Nodes) -> np.ndarray:
         """Return entrance points x and y, and weights where the map has them, at points of the stop."""
-        _, along, across = self.table.shape
-        values: np.ndarray = np.einsum("kbn,bn->kn", self.table @ _powers(xi * xi, across), _powers(eta, along))
+        along, across = self.table.shape[-2:]
+        values: np.ndarray = np.einsum(
+            "...bn,bn->...n", self.table @ rising_powers(xi * xi, across), rising_powers(eta, along)
+        )
         values[0] *= xi
         return values
-
-
-def _powers(x: np.ndarray, count: int) -> np.ndarray:
-    """Return xᵏ, k = 0 … count − 1, (powers, points)."""
-    out = np.empty((count, x.size))
-    out[0] = 1.0
-    out[1:] = x
-    np.multiply.accumulate(out[1:], axis=0, out=out[1:])
-    return out
 
 
 @lru_cache(maxsize=64)
@@ -464,15 +461,17 @@ def _rough_map(lens: Lens, enter: Entrance) -> Point | None:
     """Return coefficients of the entrance points x and y over the stop, confirmed by no ray; None if rays are lost.
 
     Rays through the paraxial pupil land on the stop at scattered points; a least-squares fit over those gives the map
-    from the stop back to the pupil without a search.
+    from the stop back to the pupil without a search. Of several sources, those that lose a ray keep the paraxial map.
     """
     nodes, rim = disc_nodes(*ROUGH_NODES), float(np.max(enter.stop.semi_diameter))
-    x, y = (float(enter.radius.item()) * v for v in (nodes.xi, nodes.eta))
+    x, y = _paraxial(enter, nodes.xi, nodes.eta)
     beam = _at_stop(lens, enter, (x, y))
-    scale = float(enter.upright.item()) / rim
-    if not np.isfinite(beam.x + beam.y).all():
+    met = np.isfinite(beam.x + beam.y).all(-1, keepdims=True)
+    if not met.any():
         return None
-    even, odd = basis_by_powers(ROUGH_ORDER, *(scale * v.ravel() for v in (beam.x, beam.y)))
+    scale = enter.upright / rim
+    landed = np.where(met, scale * beam.x, nodes.xi), np.where(met, scale * beam.y, nodes.eta)
+    even, odd = basis_by_powers(ROUGH_ORDER, *landed)
     return _least_squares(odd, x), _least_squares(even, y)
 
 
@@ -511,7 +510,8 @@ def _fine_projections() -> tuple[np.ndarray, np.ndarray]:
 
 
 def _least_squares(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Return the solution by the normal equations, which lose digits that a guess does not need."""
-    normal = rows @ rows.T
-    normal.flat[:: len(normal) + 1] *= 1 + RIDGE
-    return np.linalg.solve(normal, rows @ values)
+    """Return the solutions (…, rows) by the normal equations, which lose digits that a guess does not need."""
+    normal = rows @ rows.swapaxes(-1, -2)
+    np.einsum("...ii->...i", normal)[...] *= 1 + RIDGE  # a view of the diagonal
+    solution: np.ndarray = np.linalg.solve(normal, rows @ values[..., None])[..., 0]
+    return solution

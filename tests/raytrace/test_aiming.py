@@ -163,6 +163,19 @@ def test_many_sources_are_aimed_at_once():
         np.testing.assert_allclose(together.weight[i, j], alone.weight, rtol=1e-5)
 
 
+def test_a_source_whose_rays_are_lost_leaves_the_others_their_aim():
+    """At 1° the relay's pupil lies outside its glass; the sources on and near the axis are aimed as they are alone."""
+    lens, (xi, eta) = with_aim(find_lens("relay"), "stop"), disc(40)
+    slopes = np.tan(np.deg2rad([0.0, 0.1, 1.0]))
+    together = pupil_rays(lens, Sources(150.0, slopes, 0.5875618), xi, eta)
+    assert np.isnan(together.x[2]).any()
+    for number in (0, 1):
+        alone = pupil_rays(lens, Source(150.0, float(slopes[number]), 0.5875618), xi, eta)
+        # Aimed to 1e-10 of the pupil's radius each.
+        off = np.hypot(together.x[number] - alone.x, together.y[number] - alone.y)
+        assert off.max() < 1e-9 * float(entrance(lens, Source(150.0, 0.0, 0.5875618)).radius[0])
+
+
 def test_a_map_that_the_rim_disproves_is_not_used():
     lens = with_aim(find_lens("petzval"), "stop")
     steep = Source(inf, np.tan(np.deg2rad(7.0)), 0.5875618)
