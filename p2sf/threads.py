@@ -12,19 +12,20 @@ Hence all work of this library runs within `one_blas_thread`, and threads work o
 import os
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import ContextDecorator
 from contextvars import copy_context
 from functools import lru_cache
 from itertools import chain, islice
+from math import inf
 from threading import Lock, local
 from typing import Any, TypeVar
 
 from p2sf.errors import RequestError
 
 VARIABLE = "P2SF_THREADS"
-AHEAD = 2  # parts per thread that may be under way or waiting for the caller: no thread idles, and little is kept
+AHEAD = 2  # parts per thread, so that none idles while the caller takes one, and little is kept
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -63,39 +64,56 @@ def mapped(function: Callable[[Item], Result], items: Iterable[Item], threads: i
 
     Raises what ``function`` raises for the first item that fails, once the items under way are done.
     """
-    return list(mapped_lazily(function, items, threads))
+    results: list[Result] = []
+    for_each(function, items, results.append, threads, ahead=None)
+    return results
 
 
-def mapped_lazily(
-    function: Callable[[Item], Result], items: Iterable[Item], threads: int | None = None
-) -> Iterator[Result]:
-    """Yield what `mapped` returns; no more than AHEAD results per thread are computed before they are taken.
+def for_each(
+    function: Callable[[Item], Result],
+    items: Iterable[Item],
+    take: Callable[[Result], object],
+    threads: int | None = None,
+    ahead: int | None = AHEAD,
+) -> None:
+    """Call ``take(function(item))`` for every item in order: ``function`` in threads, ``take`` in the caller's own.
 
-    Within a part everything is done by the part's own thread, so that pools do not multiply; and in the context of the
-    caller, `numpy.errstate` for one.
+    No more than ``ahead`` results per thread, if that is a number, are under way or wait for ``take``, whose errors end
+    the work.
+    ``function`` sees the context of the caller, `numpy.errstate` for one. What it shares among threads in turn is done
+    by its own thread, so that pools do not multiply.
     """
-    count = 1 if getattr(_here, "worker", False) else threads_or_default(threads)
     remaining = iter(items)
     first = list(islice(remaining, 2))
+    several = len(first) > 1 and not getattr(_here, "worker", False)
+    count = threads_or_default(threads) if several or threads is not None else 1
     with one_blas_thread:
-        if count == 1 or len(first) < 2:
-            yield from map(function, chain(first, remaining))
-        else:
-            yield from _by_pool(function, chain(first, remaining), count)
+        if several and count > 1:
+            _by_pool(function, chain(first, remaining), take, count, inf if ahead is None else ahead * count)
+            return
+        for item in chain(first, remaining):
+            take(function(item))
 
 
-def _by_pool(function: Callable[[Item], Result], items: Iterable[Item], count: int) -> Iterator[Result]:
+def _by_pool(
+    function: Callable[[Item], Result],
+    items: Iterable[Item],
+    take: Callable[[Result], object],
+    count: int,
+    most: float,
+) -> None:
+    """Do the work of `for_each` by so many threads, with ``most`` results under way or waiting."""
     waiting: deque[Future[Result]] = deque()
     with ThreadPoolExecutor(count, initializer=_become_worker) as pool:
         try:
             for item in items:
                 waiting.append(pool.submit(copy_context().run, function, item))
-                if len(waiting) == AHEAD * count:
-                    yield waiting.popleft().result()
+                if len(waiting) >= most:
+                    take(waiting.popleft().result())
             while waiting:
-                yield waiting.popleft().result()
+                take(waiting.popleft().result())
         finally:
-            for future in waiting:  # after an error, or where the caller takes no more
+            for future in waiting:  # after an error
                 future.cancel()
 
 

@@ -11,7 +11,7 @@ from threadpoolctl import ThreadpoolController, threadpool_info, threadpool_limi
 
 from p2sf import threads
 from p2sf.errors import Cancelled, RequestError
-from p2sf.threads import AHEAD, mapped, mapped_lazily, one_blas_thread, threads_or_default
+from p2sf.threads import AHEAD, for_each, mapped, one_blas_thread, threads_or_default
 
 PATIENCE = 30  # seconds until a test that hangs fails
 
@@ -101,17 +101,23 @@ def test_the_first_item_that_fails_is_the_error_and_ends_the_work(count):
             raise Cancelled("stopped at {item}", item=item)
 
     with pytest.raises(Cancelled, match="stopped at 4"):
-        mapped(fails, range(1000), count)
+        for_each(fails, range(1000), lambda result: None, count)
     assert len(started) <= 5 + AHEAD * count
 
 
-def test_results_that_nobody_takes_are_not_computed():
-    started, seen = [], []
-    for result in mapped_lazily(lambda item: started.append(item) or item, range(1000), 2):
-        seen.append(result)
+def test_results_are_taken_in_order_by_the_caller_and_few_wait_for_it():
+    started, taken = [], []
+
+    def take(result):
+        assert current_thread() is caller
+        taken.append(result)
         if result == 3:
-            break
-    assert seen == [0, 1, 2, 3]
+            raise Cancelled("enough")
+
+    caller = current_thread()
+    with pytest.raises(Cancelled, match="enough"):
+        for_each(lambda item: started.append(item) or item, range(1000), take, 2)
+    assert taken == [0, 1, 2, 3]
     assert len(started) <= 4 + 2 * AHEAD
 
 

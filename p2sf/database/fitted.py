@@ -26,6 +26,7 @@ from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.zernike import basis, gradient, terms
 from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays
 from p2sf.raytrace.ray_field import Steepness
+from p2sf.threads import mapped
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,14 +87,20 @@ class FittedDatabase:
         made = Origin("fitted", found.numbers, 0, sampling, started, SETTLED_TOLERANCE)
         return psf_from_intensity(intensity, pixel_um, source.wavelength_um, None, made)
 
-    def rendered(self, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32) -> np.ndarray:
+    def rendered(
+        self, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32, threads: int | None = None
+    ) -> np.ndarray:
         """Return unit-sum PSFs, (*points' broadcast shape, pixels, pixels), as `database.render.rendered` does."""
         pixels, pixel_um = sampling.pixels, sampling.pixel_um or critical_pixel_um(self)
         axes = np.broadcast_arrays(*points)
         out = np.empty((axes[0].size, pixels, pixels), dtype)
-        for k, point in enumerate(zip(*(x.ravel().tolist() for x in axes), strict=True)):
+
+        def fill(numbered: tuple[int, tuple[float, ...]]) -> None:
+            k, point = numbered
             values, _ = summed(self.fit_at(Source(*point)), pixels, pixel_um, sampling.quality)
             out[k] = values / values.sum(dtype=float)
+
+        mapped(fill, enumerate(zip(*(x.ravel().tolist() for x in axes), strict=True)), threads)
         return out.reshape(*axes[0].shape, pixels, pixels)
 
     @cached_property

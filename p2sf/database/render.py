@@ -15,6 +15,7 @@ from p2sf.psf import pixel_integrals
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, check_window, seidel_psf
 from p2sf.psf.seidel_stack import stack_of
+from p2sf.threads import mapped
 
 Points = Iterable[ArrayLike]
 """Depth (mm), field slope and wavelength (µm), which broadcast."""
@@ -55,38 +56,54 @@ class Sampling:
     quality: str = "settled"
 
 
-def rendered(database: Database, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32) -> np.ndarray:
+def rendered(
+    database: Database,
+    points: Points,
+    sampling: Sampling,
+    dtype: DTypeLike = np.float32,
+    threads: int | None = None,
+) -> np.ndarray:
     """Return unit-sum PSFs, (*points' broadcast shape, pixels, pixels), at (depth mm, slope, wavelength µm).
 
-    They are summed in batches (`seidel_stack`), so that little more memory than the result is used. Raises
+    They are summed in batches (`seidel_stack`), so that little more memory than the result is used, and by ``threads``
+    (`p2sf.threads`), whose number does not change a bit of them. Raises
     DatabaseError outside the database's space, GeometryError and SamplingError where there is no PSF to sample.
     """
     if hasattr(database, "rendered"):
-        values: np.ndarray = database.rendered(points, sampling, dtype)
+        values: np.ndarray = database.rendered(points, sampling, dtype, threads)
         return values
     pixels, pixel_um = sampling.pixels, sampling.pixel_um or critical_pixel_um(database)
     found = database.coefficients(*(np.asarray(x, dtype=float) for x in points))
     check_image(found)
     check_window(found, pixels, pixel_um)
-    return stack_of(found, pixels, pixel_um, sampling.quality, dtype).values
+    return stack_of(found, pixels, pixel_um, sampling.quality, dtype, threads).values
 
 
-def rendered_light(database: Database, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32) -> np.ndarray:
+def rendered_light(
+    database: Database,
+    points: Points,
+    sampling: Sampling,
+    dtype: DTypeLike = np.float32,
+    threads: int | None = None,
+) -> np.ndarray:
     """Return what `rendered` does, as light per pixel where the pitch exceeds that of `critical_pixel_um`.
 
-    One PSF after the other: the finer samples may be a hundred times as many.
+    Each thread takes one PSF after the other: the finer samples may be a hundred times as many.
     """
     across = samples_per_pixel(database, sampling)
     if across == 1:
-        return rendered(database, points, sampling, dtype)
+        return rendered(database, points, sampling, dtype, threads)
     pitch = (sampling.pixel_um or critical_pixel_um(database)) / across
     fine = replace(sampling, pixels=pixel_integrals.fine_side(sampling.pixels, across), pixel_um=pitch)
     depth, slope, wavelength = np.broadcast_arrays(*points)
     found = np.empty((*depth.shape, sampling.pixels, sampling.pixels), dtype)
-    for index in np.ndindex(depth.shape):
+
+    def fill(index: tuple[int, ...]) -> None:
         one = rendered(database, (depth[index], slope[index], wavelength[index]), fine, dtype)
         light = pixel_integrals.light_per_pixel(one, sampling.pixels, across)
         found[index] = light / light.sum(dtype=float)
+
+    mapped(fill, np.ndindex(depth.shape), threads)
     return found
 
 

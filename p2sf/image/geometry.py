@@ -5,6 +5,7 @@ import numpy as np
 from p2sf.pixel_kernels import SensorMap
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.scene.sensor import Sensor
+from p2sf.threads import mapped
 
 MORE = 4  # heights where rims clip, whose vignetting begins and ends suddenly
 VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is ignored
@@ -16,11 +17,13 @@ def distortion_px(seen: SensorMap, sensor: Sensor) -> float:
     return float(np.abs(seen.ideal_height(heights) - heights).max() / sensor.pixel_mm)
 
 
-def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3) -> np.ndarray:
+def distorted(
+    values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3, threads: int | None = None
+) -> np.ndarray:
     """Return the picture as real chief rays place it, (rows, columns, channels) float32.
 
     ``values`` is the undistorted (paraxial) image on the same pixels; each pixel takes what lands on it, by a spline of
-    this ``order``. Beyond the picture its outermost pixels are repeated.
+    this ``order``. Beyond the picture its outermost pixels are repeated. ``threads`` (`p2sf.threads`) share channels.
     """
     from scipy.ndimage import map_coordinates
 
@@ -33,8 +36,12 @@ def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 
     column = (ratio * x - sensor.centre_mm[0]) / sensor.pixel_mm + (sensor.columns - 1) / 2
     row = (sensor.rows - 1) / 2 - (ratio * y[:, None] - sensor.centre_mm[1]) / sensor.pixel_mm
     places = np.stack([row, column]).astype(np.float32)
-    planes = (map_coordinates(plane, places, order=order, mode="nearest") for plane in np.moveaxis(values, -1, 0))
-    return np.stack([*planes], axis=-1).astype(np.float32)
+
+    def moved(plane: np.ndarray) -> np.ndarray:
+        found: np.ndarray = map_coordinates(plane, places, order=order, mode="nearest")
+        return found
+
+    return np.stack(mapped(moved, np.moveaxis(values, -1, 0), threads), axis=-1).astype(np.float32)
 
 
 def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:

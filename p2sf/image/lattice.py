@@ -1,18 +1,13 @@
 """Kernels at the nodes of a lattice over a picture; between the nodes they are interpolated."""
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import nodes_along
-
-WORKERS = 2
-# Pixels of a kernel in all channels, such as three of 74²: NumPy's calls on smaller ones are so short that two threads
-# mostly wait for the interpreter's lock. The kernels are the same either way.
-THREADED = 2**14
+from p2sf.threads import for_each
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,38 +38,39 @@ def build_lattice(
     counts: tuple[int, int],
     mirrored: bool = False,
     watch: Progress | None = None,
+    threads: int | None = None,
+    beside: Callable[[], object] | None = None,
 ) -> Lattice:
     """Return the lattice of ``kernel_at(row, column)`` over a picture of this shape.
 
     ``mirrored``: the picture is centred on the axis of a lens, so that one quarter of the kernels gives the others.
+    ``threads`` (`p2sf.threads`) share the kernels; the first to start calls ``beside``. NumPy's calls on small kernels
+    are so short that two threads mostly wait for the interpreter's lock: large arrays of other work keep both busy.
     """
     rows, columns = (nodes_along(n, c) for n, c in zip(shape, counts, strict=True))
     down, right = ((len(n) + 1) // 2 if mirrored else len(n) for n in (rows, columns))
     wanted = [(a, b) for a in range(down) for b in range(right)]
     watch = watch or Progress()
     watch.expect(len(wanted))
+    computed: dict[tuple[int, int], np.ndarray] = {}
 
-    def one(node: tuple[int, int]) -> np.ndarray:
-        watch.advance()
-        return kernel_at(float(rows[node[0]]), float(columns[node[1]]))
+    def one(node: tuple[int, int] | None) -> tuple[tuple[int, int], np.ndarray] | None:
+        if node is not None:
+            return node, kernel_at(float(rows[node[0]]), float(columns[node[1]]))
+        if beside is not None:
+            beside()
+        return None
 
-    first = one(wanted[0])
-    rest = _each(one, wanted[1:], first.size >= THREADED)
-    computed = dict(zip(wanted, (first, *rest), strict=True))
+    def take(found: tuple[tuple[int, int], np.ndarray] | None) -> None:
+        if found is not None:
+            computed[found[0]] = found[1]
+            watch.advance()
+
+    for_each(one, [None, *wanted], take, threads, ahead=None)
     lines = [
         [_mirrored(computed, a, b, len(rows), len(columns)) for b in range(len(columns))] for a in range(len(rows))
     ]
     return Lattice(rows, columns, lines)
-
-
-def _each(
-    make: Callable[[tuple[int, int]], np.ndarray], nodes: list[tuple[int, int]], threaded: bool
-) -> list[np.ndarray]:
-    """Return ``make(node)`` of every node, by WORKERS threads or one after the other."""
-    if not threaded:
-        return [make(node) for node in nodes]
-    with ThreadPoolExecutor(WORKERS) as pool:
-        return list(pool.map(make, nodes))
 
 
 def _mirrored(computed: dict[tuple[int, int], np.ndarray], a: int, b: int, rows: int, columns: int) -> np.ndarray:

@@ -4,14 +4,20 @@ The deviations of a set of unit-sum kernels from their mean have zero sum, and s
 whatever the rank, all light is kept (PCA of PSFs, Lauer 2002; singular values as in Eckart & Young 1936).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 from p2sf.image.lattice import Lattice, common_size
 from p2sf.image.progress import Progress
+from p2sf.threads import for_each
 
 TILE = 256
+
+Corner = tuple[int, int]
+"""Row and column of a tile's first pixel."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,11 +56,16 @@ def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, rank: int
 
 
 def low_rank_blur(
-    values: np.ndarray, parts: list[LowRank], watch: Progress | None = None, border: int = 0
+    values: np.ndarray,
+    parts: list[LowRank],
+    watch: Progress | None = None,
+    border: int = 0,
+    threads: int | None = None,
 ) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
 
-    Strengths are cubic splines between the nodes. ``border`` as in `overlap.overlap_add`. Tiles bound the memory.
+    Strengths are cubic splines between the nodes. ``border`` and ``threads`` as in `overlap.overlap_add`. Tiles bound
+    the memory.
     """
     values, size = np.asarray(values, np.float32), parts[0].mean.shape[0]
     rows, columns, channels = values.shape
@@ -62,17 +73,39 @@ def low_rank_blur(
     watch = watch or Progress()
     watch.expect(channels * -(-rows // TILE) * -(-columns // TILE))
     for channel, part in enumerate(parts):
-        maps = [_spline(n, np.arange(p) - border) for n, p in ((part.row_nodes, rows), (part.column_nodes, columns))]
-        fast, spectra = _spectra(part, min(TILE, rows), min(TILE, columns))
-        for top in range(0, rows, TILE):
-            for left in range(0, columns, TILE):
-                tile = values[top : top + TILE, left : left + TILE, channel]
-                cut = maps[0][top : top + TILE], maps[1][left : left + TILE]
-                blurred = _blur_tile(tile, part, cut, fast, spectra)
-                height, width = (n + size - 1 for n in tile.shape)
-                out[top : top + height, left : left + width, channel] += blurred[:height, :width]
-                watch.advance()
+        for_each(
+            _tiles_blur(values[..., channel], part, border),
+            product(range(0, rows, TILE), range(0, columns, TILE)),
+            _adding(out[..., channel], watch),
+            threads,
+        )
     return out
+
+
+def _tiles_blur(plane: np.ndarray, part: LowRank, border: int) -> Callable[[Corner], tuple[Corner, np.ndarray]]:
+    """Return the function that blurs the tile at a corner (top, left) of one channel and returns both."""
+    (rows, columns), size = plane.shape, part.mean.shape[0]
+    maps = [_spline(n, np.arange(p) - border) for n, p in ((part.row_nodes, rows), (part.column_nodes, columns))]
+    fast, spectra = _spectra(part, min(TILE, rows), min(TILE, columns))
+
+    def blurred(corner: Corner) -> tuple[Corner, np.ndarray]:
+        down, right = (slice(start, start + TILE) for start in corner)
+        tile = plane[down, right]
+        height, width = (n + size - 1 for n in tile.shape)
+        return corner, _blur_tile(tile, part, (maps[0][down], maps[1][right]), fast, spectra)[:height, :width]
+
+    return blurred
+
+
+def _adding(out: np.ndarray, watch: Progress) -> Callable[[tuple[Corner, np.ndarray]], None]:
+    """Return the function that adds a blurred tile to one channel of the picture."""
+
+    def take(found: tuple[Corner, np.ndarray]) -> None:
+        (top, left), tile = found
+        out[top : top + tile.shape[0], left : left + tile.shape[1]] += tile
+        watch.advance()
+
+    return take
 
 
 def _spectra(part: LowRank, rows: int, columns: int) -> tuple[tuple[int, ...], np.ndarray]:

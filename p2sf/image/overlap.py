@@ -4,20 +4,26 @@ This is exactly the linear interpolation of kernels between nodes: a source pixe
 kernels of the four nodes around it, so that its sum is kept (overlap-add, Nagy & O'Leary 1998, §3).
 """
 
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 
-from p2sf.image.lattice import WORKERS, Lattice
+from p2sf.image.lattice import Lattice
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
+from p2sf.threads import for_each
 
 
-def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = None, border: int = 0) -> np.ndarray:
+def overlap_add(
+    values: np.ndarray,
+    lattice: Lattice,
+    watch: Progress | None = None,
+    border: int = 0,
+    threads: int | None = None,
+) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
 
     ``values``: (rows, columns, channels) float32, whose outer ``border`` pixels lie outside the lattice's picture and
-    take the kernels of its edge. Memory beyond the result is one patch.
+    take the kernels of its edge. Patches are convolved by ``threads`` (`p2sf.threads`) and added in order, so that the
+    result is the same on any number. Memory beyond it is a few patches for each thread.
     """
     values, half = np.asarray(values, np.float32), lattice.half
     planes = np.moveaxis(values, -1, 0)
@@ -38,11 +44,11 @@ def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = N
         edge = half - kernel.shape[-1] // 2
         return rows.start + edge, columns.start + edge, convolve(planes[:, rows, columns] * weight, kernel)
 
-    with ThreadPoolExecutor(WORKERS) as pool:
-        for first in range(0, len(jobs), 2 * WORKERS):  # few at a time, so that few patches wait in memory
-            for patch in pool.map(convolved, jobs[first : first + 2 * WORKERS]):
-                _add(out, *patch)
-                watch.advance()
+    def take(patch: tuple[int, int, np.ndarray]) -> None:
+        _add(out, *patch)
+        watch.advance()
+
+    for_each(convolved, jobs, take, threads)
     return np.moveaxis(out, 0, -1)
 
 

@@ -28,8 +28,9 @@ from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, radiometric, whole_nodes
+from p2sf.threads import for_each
 
-BLOCK = 8192  # rays at a time: few enough for a second-level cache and to check for cancellation every few ms
+BLOCK = 4096  # rays at a time, by one thread: few enough for a second-level cache and to be cancelled every few ms
 GROWTH = 1.3
 MOST_NODES = 2**22
 PROBE = 12, 36
@@ -61,6 +62,7 @@ def huygens_psf(
     cancelled: Callable[[], bool] | None = None,
     clip: bool = False,
     amplitude: Amplitude = "area",
+    threads: int | None = None,
 ) -> Psf:
     """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
 
@@ -69,7 +71,8 @@ def huygens_psf(
     128² grid has or as the blur needs, for a preview of no guaranteed accuracy. ``progress`` is called with the
     fraction done; ``cancelled`` is called between blocks, and True ends the work with `Cancelled`. ``amplitude``
     "area" gives each ray the field of its cell's area in the entrance pupil, as other programs do; "radiometric" the
-    root of that times the cell's area over direction cosines, which conserves the energy of each cell. Raises
+    root of that times the cell's area over direction cosines, which conserves the energy of each cell. ``threads``
+    (`p2sf.threads`) share the rays, and the sum does not depend on their number. Raises
     GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there, and the
     radiometric amplitude is refused.
     """
@@ -77,12 +80,12 @@ def huygens_psf(
     window = pixels, pixel_um
     pupil = fit(lens, source) if amplitude == "radiometric" else None
     if tolerance is None:
-        found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, live=True), pupil)
+        found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, True, threads), pupil)
         sampling = _sampling(lens, counts, found, clip, Message("one pass in float32"))
         error = EDGE_ERROR if clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
         made = Origin("huygens", 0, _nodes(counts), sampling, started, None, error)
     else:
-        watch = _Watch(progress, cancelled)
+        watch = _Watch(progress, cancelled, threads=threads)
         found, counts, reached, rays = _settle(lens, source, window, clip, tolerance, watch, pupil)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
         sampling = _sampling(lens, counts, found, clip, None if reached <= tolerance else short)
@@ -185,23 +188,51 @@ def huygens_field(
     nodes = _nodes_of(lens, source, counts, clip)
     blur = None if watch.live else pencil_blur(lens, source, nodes, pupil)
     axis, dtype = centred_axis(*window), np.float32 if watch.live else np.float64
-    total: np.ndarray | float = 0.0
-    lost, spread, area, light = 0, 0.0, 0.0, 0.0
-    for first in range(0, nodes.xi.size, BLOCK):
+    total = _Share(np.zeros((), np.result_type(dtype, np.complex64)), 0.0, 0.0, 0, 0, 0.0)
+
+    def share(first: int) -> _Share:
         part = slice(first, first + BLOCK)
-        data, share = _block(lens, source, nodes, part)
-        weight = share * data.weight
+        data, area = _block(lens, source, nodes, part)
+        weight = area * data.weight
         if pupil is not None:
-            weight = share * radiometric(data.weight, pupil.jacobian(nodes.xi[part], nodes.eta[part]))
-        area, light = area + share.sum(), light + weight.sum()
-        lost += int((share == 0).sum())
-        spread = max(spread, float(np.hypot(data.fx, data.fy).max(initial=0)))
+            weight = area * radiometric(data.weight, pupil.jacobian(nodes.xi[part], nodes.eta[part]))
         amplitude = pupil_amplitude(weight, data.phase, dtype)
-        fx, fy = data.fx.astype(dtype), data.fy.astype(dtype)
-        total = total + sum_plane_waves(amplitude, fx, fy, axis, axis)
-        watch.advance(weight.size)
+        field = sum_plane_waves(amplitude, data.fx.astype(dtype), data.fy.astype(dtype), axis, axis)
+        spread = float(np.hypot(data.fx, data.fy).max(initial=0))
+        return _Share(field, area.sum(), weight.sum(), area.size, int((area == 0).sum()), spread)
+
+    def take(found: _Share) -> None:
+        nonlocal total
+        total = total.plus(found)
+        watch.advance(found.nodes)
+
+    for_each(share, range(0, nodes.xi.size, BLOCK), take, watch.threads)
     # Light over area is the mean weight, exactly 1 for an evenly filled pupil.
-    return Field(np.asarray(total) / (light / area), blur if resolved(spread, window[1]) else None, lost)
+    values = total.field / (total.light / total.area)
+    return Field(values, blur if resolved(total.spread, window[1]) else None, total.lost)
+
+
+@dataclass(frozen=True)
+class _Share:
+    """What some rays add up to: field, pupil area, light; how many they are, how many are lost, the farthest cycle."""
+
+    field: np.ndarray
+    area: float
+    light: float
+    nodes: int
+    lost: int
+    spread: float
+
+    def plus(self, other: "_Share") -> "_Share":
+        """Return what both add up to."""
+        return _Share(
+            self.field + other.field,
+            self.area + other.area,
+            self.light + other.light,
+            self.nodes + other.nodes,
+            self.lost + other.lost,
+            max(self.spread, other.spread),
+        )
 
 
 def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNodes:
@@ -241,15 +272,16 @@ def _sampling(lens: Lens, counts: Counts, found: Field, clip: bool, convergence:
 
 
 class _Watch:
-    """Reports progress, and ends the work where the caller cancels it."""
+    """How the work is done: its progress reported, ended where the caller cancels it, live or settled, by threads."""
 
     def __init__(
         self,
         progress: Callable[[float], None] | None = None,
         cancelled: Callable[[], bool] | None = None,
         live: bool = False,
+        threads: int | None = None,
     ) -> None:
-        self.progress, self.cancelled, self.live = progress, cancelled, live
+        self.progress, self.cancelled, self.live, self.threads = progress, cancelled, live, threads
         self.finished, self.expected = 0, 0
 
     def expect(self, nodes: int) -> None:

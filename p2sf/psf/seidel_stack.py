@@ -5,7 +5,7 @@ and summed in batches, on the samples that the steepest of a batch needs. A batc
 much as several PSFs, so smaller batches would save less than they cost.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, sqrt
 
@@ -18,10 +18,15 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import bound_of, chords_of, steepest_of
 from p2sf.psf._seidel_sum import BATCH, batch_intensities, groups, shape_terms
 from p2sf.pupil.quadrature import RowNodes, chord_rows, chords_for, even_count, grid_rows
+from p2sf.threads import mapped
 
 PREVIEW_GRID = 128
 LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
 SORTED_AT_ONCE = 512  # PSFs whose slopes are found together, which takes some mebibytes
+NODES_TOGETHER = 2**18  # nodes of quarter pupils that a thread sums at a time: some 5 ms of work
+
+Part = tuple[slice | np.ndarray, RowNodes]
+"""Indices of PSFs that are summed together, and their nodes."""
 
 
 @dataclass(frozen=True)
@@ -34,31 +39,59 @@ class SummedStack:
     sampling: Message
 
 
-def stack_of(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str, dtype: DTypeLike) -> SummedStack:
-    """Return the PSFs of broadcast coefficients by `_seidel_sum`; SamplingError for too many pupil samples."""
+def stack_of(
+    coefficients: Coefficients,
+    pixels: int,
+    pixel_um: float,
+    quality: str,
+    dtype: DTypeLike,
+    threads: int | None = None,
+) -> SummedStack:
+    """Return the PSFs of broadcast coefficients by `_seidel_sum`; SamplingError for too many pupil samples.
+
+    ``threads`` as in `p2sf.threads`; the PSFs are the same on any number of them.
+    """
     terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
     values = np.empty((len(terms), pixels, pixels), dtype)
     total, peak = np.empty(len(terms)), np.empty(len(terms))
-    most: RowNodes | None = None
-    for some, rows in stack_parts(terms, pixels, pixel_um, quality):
-        found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
-        flat = found.reshape(len(found), -1)
-        total[some], peak[some] = np.add.reduce(flat, 1, float), np.maximum.reduce(flat, 1)
-        flat /= total[some, None].astype(dtype)
-        values[some] = found
-        most = rows if most is None or rows.weight.size > most.weight.size else most
+
+    def fill(parts: list[Part]) -> RowNodes:
+        for some, rows in parts:
+            found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
+            flat = found.reshape(len(found), -1)
+            total[some], peak[some] = np.add.reduce(flat, 1, float), np.maximum.reduce(flat, 1)
+            flat /= total[some, None].astype(dtype)
+            values[some] = found
+        return max((rows for _, rows in parts), key=_size)
+
+    used = mapped(fill, _shares(stack_parts(terms, pixels, pixel_um, quality)), threads)
     sampling = Message(
         "{nodes}, {precision}" if len(terms) <= 1 else "up to {nodes}, {precision}",
-        nodes=most.name if most else Message("no nodes"),
+        nodes=max(used, key=_size).name if used else Message("no nodes"),
         precision=values.dtype.type.__name__,
     )
     return SummedStack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), sampling)
 
 
-def stack_parts(
-    terms: np.ndarray, pixels: int, pixel_um: float, quality: str
-) -> Iterator[tuple[slice | np.ndarray, RowNodes]]:
+def _size(rows: RowNodes) -> int:
+    return rows.weight.size
+
+
+def _shares(parts: Iterable[Part]) -> Iterator[list[Part]]:
+    """Yield parts together, as many as make it worth while to hand them to a thread."""
+    share, nodes = [], 0
+    for some, rows in parts:
+        share.append((some, rows))
+        nodes += _size(rows) * (1 if isinstance(some, slice) else len(some))
+        if nodes >= NODES_TOGETHER:
+            yield share
+            share, nodes = [], 0
+    if share:
+        yield share
+
+
+def stack_parts(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> Iterator[Part]:
     """Yield the indices of PSFs that are summed together and the pupil samples they need.
 
     ``terms``: (PSFs, 5) as `shape_terms` gives them. Raises SamplingError for too many samples.
