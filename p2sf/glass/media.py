@@ -166,7 +166,23 @@ def checked_wavelength(medium: Medium, wavelength_um: ArrayLike) -> Values:
     )
 
 
-AIR = ConstantIndex(1.0)
+@dataclass(frozen=True)
+class Mirror:
+    """What stands in the place of a medium behind a mirror: light goes back in the medium that it came from."""
+
+    label: str = "mirror"
+
+    @property
+    def range_um(self) -> Range:
+        """Return None: a mirror reflects every wavelength."""
+        return None
+
+    def index(self, wavelength_um: ArrayLike) -> np.ndarray:
+        """Raise GlassError: `Lens.media` has the medium in front of the mirror in its place."""
+        raise GlassError("a mirror has no refractive index; ask for that of the medium in front of it")
+
+
+AIR, MIRROR = ConstantIndex(1.0), Mirror()
 
 
 @lru_cache(maxsize=4096)
@@ -192,7 +208,7 @@ def constant_index(value: float) -> ConstantIndex:
 
 
 def parse_medium(medium: object) -> Medium:
-    """Return the medium that a user wrote: a glass name, "air", an index, or a table of nd and vd.
+    """Return the medium that a user wrote: a glass name, "air", "mirror", an index, or a table of nd and vd.
 
     A table ``{wavelengths_um = […], n = […]}``, with a ``label`` if wanted, gives measured indices.
     Raises GlassError.
@@ -212,7 +228,7 @@ def _from_text(text: str) -> Medium:
     if text.lower() in ("air", ""):
         return AIR
     if text.lower() in ("mirror", "reflect"):
-        raise GlassError('glass "{name}" is a mirror, which P2SF does not trace; give a refracting lens', name=text)
+        return MIRROR
     try:
         return constant_index(float(text))
     except ValueError as error:

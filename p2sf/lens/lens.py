@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from itertools import accumulate
 from math import inf, isfinite
+from operator import mul
 from typing import Literal
 
 import numpy as np
@@ -10,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError
-from p2sf.glass.media import AIR, Medium
+from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.notebook import html_table
 
 # Far below any atom, and far above where the cube of a curvature overflows.
@@ -24,16 +26,16 @@ USUAL_AIM: Aim = "stop"
 
 @dataclass(frozen=True)
 class Surface:
-    """One refracting surface, or a bare plane such as a stop, and what follows it.
+    """One refracting or reflecting surface, or a bare plane such as a stop, and what follows it.
 
     Parameters
     ----------
     radius : float
         Radius of curvature, mm, positive where the centre lies to the right; inf for a plane.
     thickness : float
-        Distance to the next vertex, or of the last surface to the sensor, mm.
+        Distance to the next vertex, or of the last surface to the sensor, mm; negative where light runs back.
     medium : Medium
-        What the light enters behind the surface.
+        What the light enters behind the surface; MIRROR for a surface that reflects it.
     conic : float
         Conic constant K; 0 is a sphere, −1 a paraboloid.
     aspheric : tuple of float
@@ -54,6 +56,11 @@ class Surface:
         """Return 1/radius, per mm."""
         return 1.0 / self.radius
 
+    @property
+    def reflects(self) -> bool:
+        """Return whether this is a mirror."""
+        return self.medium == MIRROR
+
 
 @dataclass(frozen=True)
 class Aperture:
@@ -68,7 +75,7 @@ class Aperture:
 
 @dataclass(frozen=True)
 class Lens:
-    """A rotationally symmetric refracting lens and its sensor; `p2sf.load_lens` reads one.
+    """A rotationally symmetric system of lenses and mirrors and its sensor; `p2sf.load_lens` reads one.
 
     Parameters
     ----------
@@ -167,7 +174,15 @@ class Lens:
     @cached_property
     def media(self) -> tuple[Medium, ...]:
         """Return the media in the order light meets them, one more than there are surfaces."""
-        return (self.object_medium, *(surface.medium for surface in self.surfaces))
+        media = [self.object_medium]
+        for surface in self.surfaces:
+            media.append(media[-1] if surface.reflects else surface.medium)
+        return tuple(media)
+
+    @cached_property
+    def directions(self) -> tuple[int, ...]:
+        """Return for every medium 1 where light runs to the right in it, −1 after an odd number of mirrors."""
+        return tuple(accumulate((-1 if surface.reflects else 1 for surface in self.surfaces), mul, initial=1))
 
 
 def with_sensor(lens: Lens, sensor_mm: float) -> Lens:
@@ -191,13 +206,15 @@ def with_aim(lens: Lens, aim: Aim) -> Lens:
 def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:
     """Return the refractive index of every medium, shape (surfaces + 1, *wavelength_um.shape).
 
-    Raises GlassError for a wavelength, µm, outside a glass's data.
+    It is negative where light runs to the left: a mirror is then a surface with n' = −n, and every equation of
+    refraction holds for it (Welford 1986, §4.7). Raises GlassError for a wavelength, µm, outside a glass's data.
     """
     wavelength, media = np.asarray(wavelength_um, dtype=float), lens.media
     known = {id(medium): medium.index(wavelength) for medium in {id(medium): medium for medium in media}.values()}
     rows = np.empty((len(media), *wavelength.shape))
-    for number, medium in enumerate(media):  # np.stack takes 50 µs for the scalars of a dozen surfaces, this 4
-        rows[number] = known[id(medium)]
+    # np.stack takes 50 µs for the scalars of a dozen surfaces, this 4.
+    for number, (medium, direction) in enumerate(zip(media, lens.directions, strict=True)):
+        rows[number] = known[id(medium)] if direction > 0 else -known[id(medium)]
     return rows
 
 

@@ -6,7 +6,7 @@ from math import inf, isfinite
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
-from p2sf.glass.media import AIR, Medium
+from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile import conjugates
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
@@ -68,7 +68,8 @@ def _media(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensTex
     """Return the object medium and the medium behind each surface."""
     media = [_medium(raw.object_glass, None, sources, notes, source)]
     for surface in raw.surfaces:
-        media.append(media[-1] if surface.keeps_medium else _medium(surface.glass, surface, sources, notes, source))
+        here = next(medium for medium in reversed(media) if medium != MIRROR)
+        media.append(here if surface.keeps_medium else _medium(surface.glass, surface, sources, notes, source))
     return media
 
 

@@ -11,7 +11,7 @@ from math import inf
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
-from p2sf.glass.media import Medium, measured_index
+from p2sf.glass.media import MIRROR, Medium, measured_index
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
@@ -162,11 +162,10 @@ def distance(reading: CodeVReading, value: float, surface: RawSurface, line: int
 def read_glass(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     """Read a glass: NAME_MAKER, a private name, nnnvvv, or nnn.vvv; REFL is a mirror."""
     word = command.words[0] if command.words else ""
-    if word.upper() in ("REFL", "REFR", "AIR", ""):
-        if word.upper() == "REFL":
-            raise reading.source.error(
-                "{surface} is a mirror (REFL); only refracting lenses are read", command.line, surface=surface.name
-            )
+    if word.upper() in ("REFR", "AIR", ""):
+        return
+    if word.upper() == "REFL":
+        surface.glass = RawGlass(medium=MIRROR, line=command.line)
         return
     code = re.fullmatch(r"(\d{3,9})\.(\d{3,9})|(\d{3})(\d{3})", word)
     if code:
@@ -300,6 +299,7 @@ ON_SURFACE = {
     "STO": _stop,
     "SLB": _label,
     "GLA": read_glass,
+    "RMD": read_glass,  # the mode of refraction: REFL or REFR
     "THI": _thickness,
     "K": _set("conic", Message("conic constant")),
     "CIR": _rim,
@@ -322,7 +322,7 @@ IN_SYSTEM = {
 def read_codev(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a .seq file; LensFileError with its line for what P2SF does not trace.
 
-    Refused by surface number and name: reflections, tilts and decentres, diffractive, toric and other
+    Refused by surface number and name: tilts and decentres, diffractive, toric and other
     surfaces that are not spheres, conics or even aspheres.
     """
     reading = CodeVReading(source, notes)
@@ -393,7 +393,7 @@ def _refuse_unless_zero(
     if reading.image is surface and surface is not None:
         where = Message("the image surface")
     raise reading.source.error(
-        "{surface} {reason} ({command}); only centred refracting lenses are read",
+        "{surface} {reason} ({command}); only centred systems are read",
         command.line,
         surface=where,
         reason=reason,

@@ -55,7 +55,7 @@ def trace(lens: Lens, stop: int, wavelength_um: float) -> Paraxial:
 
 def _indices(lens: Lens, wavelength_um: float) -> list[float]:
     known = {medium: float(medium.index(wavelength_um)) for medium in dict.fromkeys(lens.media)}
-    return [known[medium] for medium in lens.media]
+    return [direction * known[medium] for medium, direction in zip(lens.media, lens.directions, strict=True)]
 
 
 def _running_matrices(lens: Lens, index: list[float]) -> list[tuple[float, float, float, float]]:

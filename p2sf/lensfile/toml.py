@@ -12,8 +12,8 @@ f_number = 8
 
 [[surface]]                      # in the order light meets them
 radius = 50.0                    # > 0: centre of curvature to the right; inf is a plane
-thickness = 4.0                  # to the next surface; the last one to the sensor
-glass = "SCHOTT N-BK7"           # or 1.5168, or { nd = 1.5168, vd = 64.17 }; left out: air
+thickness = 4.0                  # to the next surface, the last one to the sensor; < 0 where light runs back
+glass = "SCHOTT N-BK7"           # or 1.5168, or { nd = 1.5168, vd = 64.17 }, or "mirror"; left out: air
 semi_diameter = 10.0             # clear rim; left out: unlimited
 conic = -1.0
 aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
@@ -31,7 +31,7 @@ from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass, TabulatedIndex
+from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, Mirror, ModelGlass, TabulatedIndex
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface
 from p2sf.lensfile.agf import FormulaGlass
 from p2sf.lensfile.storage import read_text, write_text
@@ -105,7 +105,7 @@ def _medium(medium: Medium) -> str:
         return '"air"'
     if isinstance(medium, ConstantIndex):
         return _number(medium.value)
-    if isinstance(medium, CatalogueGlass):
+    if isinstance(medium, CatalogueGlass | Mirror):
         return _text(medium.label)
     if isinstance(medium, ModelGlass):
         return f"{{ nd = {_number(medium.nd)}, vd = {_number(medium.vd)} }}"

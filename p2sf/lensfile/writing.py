@@ -9,7 +9,7 @@ from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import LensFileError
-from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
+from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
 from p2sf.lensfile.conjugates import limiting_rim, trace
@@ -99,6 +99,8 @@ def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list
 
 
 def _zemax_glass(medium: Medium) -> str:
+    if medium == MIRROR:
+        return "  GLAS MIRROR 0 0 1.5 40 0 0 0 0 0 0"
     if isinstance(medium, ConstantIndex):
         return f"  GLAS ___BLANK 1 0 {medium.value!r} 0 0 0 0 0 0 0"
     if isinstance(medium, ModelGlass):
@@ -143,10 +145,12 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     """Return the lens as ISET JSON, its indices at the reference wavelength, or over 400 to 700 nm if ``spectral``.
 
     A stop on a refracting surface becomes a plane at its vertex, because ISET marks a stop by its index 0.
-    Raises LensFileError where the object is not in air.
+    Raises LensFileError where the object is not in air, and for mirrors.
     """
     if lens.object_medium != AIR:
         raise LensFileError("the object stands in a medium, which an ISET file cannot say; save as TOML")
+    if any(surface.reflects for surface in lens.surfaces):
+        raise LensFileError("the lens has mirrors, which an ISET file cannot say; save as TOML")
     wave = lens.reference_wavelength_um
     stop = lens.stop_surface or limiting_rim(lens, wave)[0]
     rows = []

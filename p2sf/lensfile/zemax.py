@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import NoReturn
 
+from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
@@ -314,7 +315,8 @@ def _glass(reading: ZemaxReading, words: list[str]) -> None:
     """Read GLAS name mode pickup nd vd …; mode 1 to 3 with the name ___BLANK is a model glass."""
     name = words[1] if len(words) > 1 else ""
     if name.upper() == "MIRROR":
-        reading.refuse("{surface} is a mirror; only refracting lenses are read")
+        reading.surface.glass = RawGlass(medium=MIRROR, line=reading.line)
+        return
     nd, vd = (reading.number(words, place, what, 0.0) for place, what in ((4, "nd"), (5, "vd")))
     beside = None if (nd, vd) in PLACEHOLDERS or not (1.2 < nd < 2.5 and 15 < vd < 100) else (nd, vd)
     if name.upper() == "___BLANK":
@@ -363,7 +365,7 @@ IN_SYSTEM = {
 def read_zemax(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a .zmx file; LensFileError with its line for what P2SF does not trace.
 
-    Refused by surface number and name: mirrors, gratings, coordinate breaks, toroids, gradients,
+    Refused by surface number and name: gratings, coordinate breaks, toroids, gradients,
     non-sequential parts, black boxes, decentred or non-circular clear rims, and any unknown type.
     """
     reading = ZemaxReading(source, notes)

@@ -2,8 +2,9 @@
 
 Rays have *optical* direction cosines (P, Q, R) = n·(L, M, N) and the ray parameter τ is length
 per index, so that a step τ moves a point by τ(P, Q, R) and adds n²τ to the optical path: nothing is
-divided by the index. The functions change a `Beam` in place, which is what makes thousands of rays
-fast; none leaves this folder.
+divided by the index. Behind an odd number of mirrors the index is negative and so is R; (P, Q, R) is then
+|n|·(L, M, N) of the ray as it travels, and a mirror is refraction into n' = −n. The functions change a `Beam` in
+place, which is what makes thousands of rays fast; none leaves this folder.
 """
 
 from enum import IntEnum
@@ -107,7 +108,7 @@ def _conic_step(beam: Beam, curvature: float, conic: float, index: FloatOrArray)
     np.subtract(beam.r, g, out=g)
     square = g * g
     square -= f * (curvature * (index * index + (conic * beam.r * beam.r if conic else 0.0)))
-    g += np.sqrt(square)
+    g += _along(np.sqrt(square), index)
     f /= g
     return f, square
 
@@ -120,7 +121,7 @@ def _meet_conic(beam: Beam, surface: Surface, index: FloatOrArray, number: int) 
     depth = beam.z.max() if curvature > 0 else beam.z.min()
     if not curvature * (1 + conic) * depth < 1:
         beam.fail(~(curvature * (1 + conic) * beam.z < 1), Status.MISSED, number)
-    along = np.sqrt(along_square)
+    along = _along(np.sqrt(along_square), index)
     if not conic:
         return Normal(curvature, None, None, along, along_square)
     bulge = curvature * beam.z
@@ -159,7 +160,7 @@ def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int
             break
         beam.advance(np.where(open_, miss / along, 0.0), index)
     beam.fail(~np.isfinite(miss), Status.MISSED, number)
-    beam.fail(open_ | ~(along > 0), Status.REFUSED, number)
+    beam.fail(open_ | ~(along > 0 if _forwards(index) else along < 0), Status.REFUSED, number)
     slope = 2 * slope
     return Normal(slope, 1.0, 1 + slope * slope * (beam.x * beam.x + beam.y * beam.y), along, along * along)
 
@@ -168,14 +169,14 @@ def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: Floa
     """Bend every ray by Snell's law, n'K' = nK + (n'cosI' − n·cosI)·unit normal (Welford 1986, eq. 4.36)."""
     gain = (after - before) * (after + before)
     if normal is None:
-        _root(beam, beam.r * beam.r, gain, number, out=beam.r)
+        _along(_root(beam, beam.r * beam.r, gain, number, out=beam.r), after)
         return
     if normal.square is None:
-        push = _root(beam, normal.along_square, gain, number)
+        push = _along(_root(beam, normal.along_square, gain, number), after)
         push -= normal.along
     else:
         length = np.sqrt(normal.square)
-        push = _root(beam, normal.along_square / normal.square, gain, number)
+        push = _along(_root(beam, normal.along_square / normal.square, gain, number), after)
         push = (push - normal.along / length) / length
     if normal.axial is None:
         beam.r += push
@@ -185,6 +186,15 @@ def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: Floa
         beam.r += push * normal.axial
         push *= normal.slope
         beam.ray[:2] -= push * beam.place[:2]
+
+
+def _along(values: np.ndarray, index: FloatOrArray) -> np.ndarray:
+    """Return ``values``, changed in sign in place where light runs to the left."""
+    return values if _forwards(index) else np.negative(values, out=values)
+
+
+def _forwards(index: FloatOrArray) -> bool:
+    return index > 0 if isinstance(index, float) else bool(np.all(index > 0))
 
 
 def _root(

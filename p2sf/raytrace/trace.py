@@ -32,8 +32,8 @@ class Trace:
     """Rays traced from their origins to the sensor.
 
     ``points``: (surfaces + 2, …, ray, 3) mm from the first vertex: the origin, every surface, the sensor; NaN from
-    where the ray failed. ``cosines``: (…, ray, 3) in image space. ``path``: optical path from the origin to
-    the sensor, mm. ``status``: `Status` per ray; ``failed_surface`` counts from 1, 0 where the ray passed.
+    where the ray failed. ``cosines``: (…, ray, 3) in image space, as the ray travels. ``path``: optical path from the
+    origin to the sensor, mm. ``status``: `Status` per ray; ``failed_surface`` counts from 1, 0 where the ray passed.
     """
 
     points: np.ndarray
@@ -66,7 +66,7 @@ def trace(
     points = [origins]
     rims = lens_rims(lens) if clip else None
     run(lens, beam, index, rims, visit=lambda vertex: points.append(_points(beam, vertex)))
-    cosines = np.stack([beam.p / index[-1], beam.q / index[-1], beam.r / index[-1]], -1)
+    cosines = np.stack([beam.p, beam.q, beam.r], -1) / np.abs(np.asarray(index[-1]))[..., None]
     cosines[np.isnan(beam.path)] = np.nan
     return Trace(np.stack(points), cosines, beam.path, beam.status, beam.failed_surface)
 
@@ -75,12 +75,14 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
     """Return a warning where a ray meets a surface before the one in front of it.
 
     ``z``: (surfaces, …) mm from the first vertex, NaN where the ray failed. A ray beyond the edge of the glass does so,
-    where the surfaces it is traced to have crossed; a thickness below 0 puts two of them in that order on purpose.
+    where the surfaces it is traced to have crossed; a thickness against the light puts them in that order on purpose.
     """
     if not len(z):
         return None
-    behind = np.array([surface.thickness >= 0 for surface in lens.surfaces[: len(z) - 1]], bool)
-    back = (np.diff(z, axis=0) < 0).any(tuple(range(1, z.ndim))) & behind
+    along = lens.directions[1 : len(z)]
+    behind = np.array([s.thickness * sign >= 0 for s, sign in zip(lens.surfaces, along, strict=False)], bool)
+    forwards = np.diff(z, axis=0) * np.reshape(along, (-1, *[1] * (z.ndim - 1)))
+    back = (forwards < 0).any(tuple(range(1, z.ndim))) & behind
     if not back.any():
         return None
     before = int(np.argmax(back)) + 1

@@ -14,6 +14,7 @@ from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
 from tests.benchmarks.interpolants import points_in, space_for
 from tests.support.dispersive_lenses import bent_lens, dispersive_lens
+from tests.support.mirrors import aplanatic, mangin, telescope, two_mirrors
 from tests.support.reference import LENSES
 
 FIELDS = np.tan(np.deg2rad(np.linspace(0, 14, 21)))
@@ -46,6 +47,16 @@ def test_exact_is_direct_evaluation_to_round_off(name):
     scale = database.coefficients(*points)
     for part in ("reduced_slope", "image_height", "image_index"):
         np.testing.assert_allclose(getattr(scale, part), getattr(direct, part), rtol=1e-11, atol=1e-13)
+
+
+@pytest.mark.parametrize("lens", [two_mirrors(aplanatic()), mangin(), telescope()], ids=repr)
+def test_exact_holds_with_mirrors(lens):
+    nodes = depth_nodes(1e4) if lens.aperture.value < 100 else depth_nodes(1e7)
+    database = build_database(lens, Space(nodes, np.linspace(0, 0.03, 11), WAVELENGTHS))
+    points = points_in(database, count=1000)
+    direct = coefficients(lens, *points)
+    lost, top = departures(database.coefficients(*points), direct), largest(direct)
+    assert all(lost[kind] <= 1e-11 * top[kind] + 1e-12 for kind in KINDS), lost
 
 
 @pytest.mark.parametrize("name", shipped_lenses())

@@ -228,7 +228,6 @@ def test_media_are_values(medium):
         ("UNOBTAINIUM", ['"UNOBTAINIUM" is in no catalogue', "write maker and name", "vd ="]),
         ("main/SiO2/Nobody", ["main/SiO2/Nobody", "check shelf/book/page"]),
         ("main/Si/Franta-300K", ["main/Si/Franta-300K", "table of 4001 points", "wavelengths_um = […]"]),
-        ("MIRROR", ["mirror", "refracting"]),
         ("0.1", ["0.1", "between 0.5 and 6"]),
         (float("nan"), ["nan", "between 0.5 and 6"]),
         (True, ["True", "SCHOTT N-BK7"]),

@@ -85,13 +85,17 @@ def test_glass_codes(code, nd, vd):
     assert (medium.nd, medium.vd) == (pytest.approx(nd, abs=1e-12), pytest.approx(vd, abs=1e-12))
 
 
+@pytest.mark.parametrize("change", [("NSF5_SCHOTT", "REFL"), ("NSF5_SCHOTT", "AIR; RMD REFL")])
+def test_a_mirror(change):
+    surfaces = read(DOUBLET, change).lens.surfaces
+    assert [surface.reflects for surface in surfaces[:3]] == [False, True, False]
+
+
 def test_zero_tilts_are_no_tilts():
     assert read(DOUBLET, ("  PIM", "  ADE 0.0; YDE 0.0")).lens == read(DOUBLET).lens
 
 
 REFUSED = {
-    "a mirror": (("NSF5_SCHOTT", "REFL"), "surface 2 is a mirror"),
-    "a named mirror": (('SLB "FRONT"', 'SLB "FRONT"; GLA REFL'), r"surface 1 \(FRONT\) is a mirror"),
     "a tilt": (("  PIM", "  ADE 3.0"), "surface 3 is tilted or decentred"),
     "a decentre": (("  PIM", "  YDE 3.0"), "surface 3 is tilted or decentred"),
     "a diffractive surface": (("  PIM", "  DIF DOE"), "surface 3 diffracts"),

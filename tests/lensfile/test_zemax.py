@@ -167,14 +167,17 @@ def test_dummy_surfaces_and_empty_coordinate_breaks_are_kept():
     assert len(lens.surfaces) == 4 and lens.surfaces[2].radius == inf and lens.surfaces[2].thickness == 1.5
 
 
+def test_a_mirror_keeps_the_medium_that_it_stands_in():
+    lens = read(DOUBLET, ("GLAS N-SF5", "GLAS MIRROR")).lens
+    assert lens.surfaces[1].reflects and lens.media[2] == lens.media[1] and lens.directions == (1, 1, -1, -1)
+
+
 def test_several_configurations_are_said():
     (said,) = read(DOUBLET, ("MNUM 1 1", "MNUM 3 1")).report.of("caution")
     assert "configurations" in said.message.template and said.message.values["count"] == 3
 
 
 REFUSED = {
-    "a mirror": (("GLAS N-SF5", "GLAS MIRROR"), "surface 2 is a mirror"),
-    "a named mirror": (("GLAS N-BK7", "GLAS MIRROR"), r"surface 1 \(FRONT\) is a mirror"),
     "a toroid": (("TYPE EVENASPH", "TYPE TOROIDAL"), "surface 3 has type TOROIDAL"),
     "a grating": (("TYPE EVENASPH", "TYPE DGRATING"), "surface 3 has type DGRATING"),
     "a black box": (("TYPE EVENASPH", "TYPE BLACKBOX"), "surface 3 has type BLACKBOX, a black box"),
