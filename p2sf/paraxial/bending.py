@@ -9,6 +9,8 @@ from dataclasses import replace
 from itertools import pairwise
 from math import inf
 
+import numpy as np
+
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
@@ -20,15 +22,16 @@ FLAT = 1e-12  # of the larger curvature: a smaller difference is rounding
 def elements(lens: Lens) -> tuple[tuple[int, int], ...]:
     """Return the elements that stand free in air as (first, last) surface from 1; cemented ones count as one.
 
-    What has air on one side only, such as the eye, is none.
+    What has air on one side only, such as the eye, is none, and neither is glass with a mirror on it.
     """
     index = indices(lens, lens.reference_wavelength_um)
     spans, first = [], 0
-    for surface, (before, after) in enumerate(pairwise(index), 1):
+    for surface, (before, after) in enumerate(pairwise(np.abs(index)), 1):
         if before < IMMERSED <= after:
             first = surface
         elif first and after < IMMERSED <= before:
-            spans.append((first, surface))
+            if lens.directions[first - 1] == lens.directions[surface]:
+                spans.append((first, surface))
             first = 0
     return tuple(spans)
 

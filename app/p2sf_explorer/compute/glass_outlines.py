@@ -14,6 +14,7 @@ from p2sf_explorer.compute.meridional import path
 
 PROFILE_POINTS = 33
 GLASS_INDEX = 1.0001  # less than this is air
+SAME_PLACE_MM = 1e-6
 FLANGE = 1.1  # how much wider than its neighbour's edge a cemented element is drawn
 
 
@@ -33,13 +34,24 @@ class Outline:
 
 @dataclass(frozen=True)
 class Glass:
-    """Outlines of the elements, the last surface's profile, the index behind it, and the extent."""
+    """Outlines of the elements, mirrors, the last surface's profile, the index behind it, and the extent."""
 
     outlines: tuple[Outline, ...]
+    mirrors: tuple["MirrorProfile", ...]
     last: Profile
     image_index: float
     half_height: float
     left: float
+    right: float
+
+
+@dataclass(frozen=True)
+class MirrorProfile:
+    """The section of a mirror: z and y in mm; ``behind`` is 1 where its back lies to the right, else −1."""
+
+    z: np.ndarray
+    y: np.ndarray
+    behind: int
 
 
 @lru_cache(maxsize=8)
@@ -55,14 +67,31 @@ def still(lens: Lens) -> Lens:
 def glass_of(lens: Lens) -> Glass:
     """Return the outlines of a `still` lens; real sag, to the clear rims."""
     z, rims = vertices(lens), clear_rims(lens)
-    index = indices(lens, lens.reference_wavelength_um)
+    index = np.abs(indices(lens, lens.reference_wavelength_um))
     profiles = [profile(surface, at, rim) for surface, at, rim in zip(lens.surfaces, z, rims, strict=False)]
     outlines = tuple(
         element_outline(profiles[i], profiles[i + 1], float(index[i + 1]), (i + 1, i + 2))
         for i in range(len(profiles) - 1)
-        if index[i + 1] > GLASS_INDEX and rims[i] > 0
+        if index[i + 1] > GLASS_INDEX and rims[i] > 0 and not crossed_before(lens, i, z)
     )
-    return Glass(outlines, profiles[-1], float(index[-1]), float(max(rims)), min(float(p[0].min()) for p in profiles))
+    mirrors = tuple(
+        MirrorProfile(*line, direction)
+        for line, surface, direction in zip(profiles, lens.surfaces, lens.directions, strict=False)
+        if surface.reflects
+    )
+    ends = [end(line[0]) for end in (np.min, np.max) for line in profiles]
+    return Glass(
+        outlines, mirrors, profiles[-1], float(index[-1]), float(max(rims)), float(min(ends)), float(max(ends))
+    )
+
+
+def crossed_before(lens: Lens, at: int, z: list[float]) -> bool:
+    """Return whether light crosses the glass behind surface ``at``, from 0, on its way back through an element."""
+    return any(
+        np.allclose((z[at], z[at + 1]), (z[other + 1], z[other]), rtol=0, atol=SAME_PLACE_MM)
+        and lens.media[other + 1] == lens.media[at + 1]
+        for other in range(at)
+    )
 
 
 def filling(glass: Glass, sensor_z: float) -> tuple[Outline, ...]:
@@ -108,7 +137,7 @@ def clear_rims(lens: Lens) -> tuple[float, ...]:
 def with_edges(lens: Lens, rims: list[float]) -> list[float]:
     """Return the rims, lower where an element would have no edge left; what is cemented to it is lowered with it."""
     index = indices(lens, lens.reference_wavelength_um)[1:-1]
-    elements = [at for at, n in enumerate(index) if n > GLASS_INDEX]
+    elements = [at for at, n in enumerate(index) if abs(n) > GLASS_INDEX]
     kept = list(rims)
     for at in elements:
         edge = sharp_edge(lens.surfaces[at], lens.surfaces[at + 1], max(kept[at : at + 2]))
@@ -127,7 +156,8 @@ def sharp_edge(front: Surface, back: Surface, rim: float) -> float:
     """
     y = np.linspace(0.0, rim, 4 * PROFILE_POINTS)
     reach = [np.minimum(y, _inside_surface(surface, rim)) for surface in (front, back)]
-    gone = np.flatnonzero(front.thickness + sag(back, reach[1]) - sag(front, reach[0]) < 0)
+    along = -1 if front.thickness < 0 else 1  # on the way back from a mirror the back surface lies to the left
+    gone = np.flatnonzero(along * (front.thickness + sag(back, reach[1]) - sag(front, reach[0])) < 0)
     return float(y[gone[0]]) if gone.size else rim
 
 

@@ -28,7 +28,8 @@ REACH = 3.0  # rays from infinity begin this many lens lengths before the lens, 
 class Drawing:
     """The glass, which only another lens changes, and stop and sensor; mm.
 
-    ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in the eye.
+    ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in the eye. ``left`` and
+    ``right``: the ends of glass, mirrors and the way to the sensor.
     """
 
     glass: Glass
@@ -136,8 +137,8 @@ def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
         stop_rim=stop_rim,
         sensor_z=z[-1],
         half_height=max(glass.half_height, stop_rim),
-        left=glass.left,
-        right=max(z[-1], z[-2]),
+        left=min(glass.left, z[-1]),
+        right=max(*z, glass.right),
     )
 
 
@@ -276,7 +277,7 @@ def end_at_rim(places: np.ndarray, lens: Lens, surface: int, rim: float) -> None
     sag = float(sag_and_slope(lens.surfaces[surface - 1], rim * rim)[0])
     (z, y), (end_z, end_y) = places[:, -2], places[:, -1]
     at = vertices(lens)[surface - 1] + sag
-    if isfinite(sag) and z < at and end_z > z:
+    if isfinite(sag) and (at - z) * (end_z - z) > 0:
         places[:, -1] = at, y + (at - z) * (end_y - y) / (end_z - z)
 
 

@@ -111,12 +111,16 @@ def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float) -> M
 
 
 def refracted(slope: float, cz: float, cy: float, before: float, after: float) -> tuple[float, float] | None:
-    """Return the direction behind a surface of slope dz/dy, Snell's law as a vector; None where totally reflected."""
+    """Return the direction behind a surface of slope dz/dy, Snell's law as a vector; None where totally reflected.
+
+    As in `p2sf.raytrace.surface` an index is negative where light runs to the left.
+    """
     length = hypot(1.0, slope)
     nz, ny = 1 / length, -slope / length
-    incident = before * (cz * nz + cy * ny)
+    optical_z, optical_y = abs(before) * cz, abs(before) * cy
+    incident = optical_z * nz + optical_y * ny
     root = incident**2 + after**2 - before**2
     if not root >= 0:  # nor where the ray is NaN, having no way to its place in the stop
         return None
-    push = sqrt(root) - incident
-    return (before * cz + push * nz) / after, (before * cy + push * ny) / after
+    push = copysign(sqrt(root), after) - incident
+    return (optical_z + push * nz) / abs(after), (optical_y + push * ny) / abs(after)

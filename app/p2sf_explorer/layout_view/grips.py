@@ -102,8 +102,9 @@ def dragged(grip: Grip, start: State, z: float, y: float) -> State:
 
 def _sensor(grip: Grip, start: State, z: float, y: float) -> State:
     """Shift the sensor, which stays behind the last vertex."""
-    last = sum(surface.thickness for surface in prescription(start).surfaces[:-1])
-    by = max(z, last + LEAST_MM) - grip.z
+    lens = prescription(start)
+    last, along = sum(surface.thickness for surface in lens.surfaces[:-1]), lens.directions[-1]
+    by = along * max(along * z, along * last + LEAST_MM) - grip.z
     return changed(start, sensor_shift_um=start.optics.sensor_shift_um + UM_PER_MM * by)
 
 
@@ -133,8 +134,9 @@ def _edge(grip: Grip, start: State, z: float, y: float) -> State:
 def _vertex(grip: Grip, start: State, z: float, y: float) -> State:
     """Change the space in front of the surface; what follows moves with it."""
     lens, number = prescription(start), grip.surfaces[0]
-    before = lens.surfaces[number - 2].thickness
-    return edited_state(start, with_surface(lens, number - 1, thickness=max(0.0, before + z - grip.z)))
+    before, along = lens.surfaces[number - 2].thickness, lens.directions[number - 1]
+    thickness = along * max(0.0, along * (before + z - grip.z))
+    return edited_state(start, with_surface(lens, number - 1, thickness=thickness))
 
 
 def _glass(grip: Grip, start: State, z: float, y: float) -> State:
@@ -158,8 +160,8 @@ def with_group_shift(lens: Lens, first: int, last: int, by_mm: float) -> Lens:
     The first group of a lens has nothing before it; then the rest moves the other way.
     """
     behind = lens.surfaces[last - 1].thickness
-    before = lens.surfaces[first - 2].thickness if first > 1 else inf
-    by = min(max(by_mm, -before), behind)
+    before = lens.surfaces[first - 2].thickness if first > 1 else inf * lens.directions[last]
+    by = min(max(by_mm, min(-before, behind)), max(-before, behind))
     moved = with_surface(lens, last, thickness=behind - by)
     return moved if first == 1 else with_surface(moved, first - 1, thickness=before + by)
 

@@ -202,6 +202,8 @@ class LayoutChart(Chart):
             painter.setBrush(glass(outline.index, self.theme))
             painter.setPen(QPen(QColor(self.theme.glass_edge), 1))
             painter.drawPolygon(self._polygon(outline))
+        for mirror in self._drawn[0].glass.mirrors:
+            paint_mirror(painter, polygon(*self.to_pixels(mirror.z, mirror.y)), mirror.behind, self.theme)
 
     def _paint_bars(self, painter: QPainter, d: Drawing, half: float) -> None:
         """Paint stop and sensor."""
@@ -306,6 +308,21 @@ class LayoutChart(Chart):
             self._fit(*self._drawn)
 
 
+def paint_mirror(painter: QPainter, line: QPolygonF, behind: int, theme: Tokens) -> None:
+    """Paint a mirror: a thick line, hatched on its back, which lies to the right where ``behind`` is 1."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(QColor(theme.glass_edge), theme.px(2)))
+    painter.drawPolyline(line)
+    painter.setPen(QPen(QColor(theme.glass_edge), 1))
+    across = np.array([line.at(k).toTuple() for k in range(line.size())])
+    travelled = np.append(0.0, np.cumsum(np.hypot(*np.diff(across, axis=0).T)))
+    places = np.arange(theme.px(HATCH_PX) / 2, travelled[-1], theme.px(HATCH_PX))
+    length = theme.px(HATCH_PX) * 0.7
+    for x, y in zip(*(np.interp(places, travelled, column) for column in across.T), strict=True):
+        painter.drawLine(QPointF(x, y), QPointF(x + behind * length, y + length))
+
+
+HATCH_PX = 8  # from one line of a mirror's hatching to the next, at scale 1
 ROOM = 1.22  # of the lens's length with the sensor, right of the break of the axis
 ASIDE = 0.3  # of the room that is left over, behind the sensor
 

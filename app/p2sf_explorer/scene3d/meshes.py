@@ -6,11 +6,13 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.lens.lens import Lens, Surface, indices
-from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, clear_rims, sag, vertices
+from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, clear_rims, crossed_before, sag, vertices
 
 CUT = (np.pi, 2.5 * np.pi)  # the sweep that remains, from −x over −y and +x to +y: a quarter is cut away
 STEPS = 48  # of the sweep
 RINGS = 12  # of a surface, from axis to rim
+
+SHELL, SHELL_INDEX = 0.04, 2.0  # of its rim: the thickness of a mirror; its look, that of a dense glass
 
 
 @dataclass(frozen=True)
@@ -31,20 +33,29 @@ class Element:
 
 @lru_cache(maxsize=16)
 def elements(lens: Lens) -> tuple[Element, ...]:
-    """Return the glass of a lens of `glass_outlines.still`: real sag to the clear rims, a quarter cut away."""
+    """Return the glass of a lens of `glass_outlines.still`: real sag to the clear rims, a quarter cut away.
+
+    A mirror is a thin shell on its back.
+    """
     z, rims = vertices(lens), clear_rims(lens)
-    index = indices(lens, lens.reference_wavelength_um)
+    index = np.abs(indices(lens, lens.reference_wavelength_um))
     pairs = zip(lens.surfaces[:-1], lens.surfaces[1:], strict=True)
-    return tuple(
+    glass = (
         Element(element((front, z[i], rims[i]), (back, z[i + 1], rims[i + 1])), float(index[i + 1]))
         for i, (front, back) in enumerate(pairs)
-        if index[i + 1] > GLASS_INDEX and rims[i] > 0
+        if index[i + 1] > GLASS_INDEX and rims[i] > 0 and not crossed_before(lens, i, z)
     )
+    shells = (
+        Element(element((s, z[i], rims[i]), (s, z[i] + lens.directions[i] * SHELL * rims[i], rims[i])), SHELL_INDEX)
+        for i, s in enumerate(lens.surfaces)
+        if s.reflects
+    )
+    return (*glass, *shells)
 
 
 def filling(lens: Lens, sensor_z: float) -> tuple[Element, ...]:
     """Return the medium between a lens's last surface and the sensor where it is not air, else nothing."""
-    index = float(indices(lens, lens.reference_wavelength_um)[-1])
+    index = abs(float(indices(lens, lens.reference_wavelength_um)[-1]))
     if index <= GLASS_INDEX:
         return ()
     rim, wide = clear_rims(lens)[-1], max(clear_rims(lens))

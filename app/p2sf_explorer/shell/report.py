@@ -160,6 +160,9 @@ def draw_layout(page: Page, shown: Layout, room: QRectF) -> None:
         page.pen(LIGHT.glass_edge, 0.15)
         z, y = at(outline.z, outline.y)
         page.lines(z, y, closed=True)
+    for mirror in drawn.glass.mirrors:
+        page.pen(LIGHT.glass_edge, 0.5)
+        page.lines(*at(mirror.z, mirror.y))
     for ray in shown.rays:
         page.pen(RAY_COLOURS[ray.kind], 0.25 if ray.kind == "chief" else 0.15)
         page.lines(*at(ray.z, ray.y))

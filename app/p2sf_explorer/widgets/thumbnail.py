@@ -22,6 +22,9 @@ def paint_lens(painter: QPainter, drawn: Drawing, rect: QRectF, theme: Tokens) -
     for outline in drawn.outlines:
         painter.setBrush(glass(outline.index, theme))
         painter.drawPolygon(QPolygonF([at(z, y) for z, y in zip(outline.z, outline.y, strict=True)]))
+    painter.setPen(QPen(QColor(theme.glass_edge), 2))
+    for mirror in drawn.glass.mirrors:
+        painter.drawPolyline(QPolygonF([at(z, y) for z, y in zip(mirror.z, mirror.y, strict=True)]))
     painter.setPen(QPen(QColor(theme.text), 2, c=Qt.PenCapStyle.FlatCap))
     wedge = 0.2 * drawn.half_height
     for side in (-1, 1):

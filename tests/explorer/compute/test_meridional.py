@@ -6,10 +6,12 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.pupils import find_stop
 from p2sf.raytrace.pencil import Status, pupil_rays, trace
+from p2sf_explorer.compute.glass_outlines import glass_of
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.meridional import aimed, path
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, prescription
 from p2sf_explorer.state.state import changed
+from tests.support.mirrors import aplanatic, mangin, telescope, two_mirrors
 
 
 @pytest.mark.parametrize("name", shipped_lenses())
@@ -33,6 +35,28 @@ def test_plain_numbers_meet_every_surface_where_the_arrays_do(name, part, aim):
         if passed:
             # Two orders of operations in float64 over some 20 surfaces of 100 mm.
             assert np.allclose(np.stack([z, y]), exact.points[1:, k, :0:-1].T, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("lens", [two_mirrors(aplanatic()), mangin(-0.3), telescope()], ids=repr)
+def test_plain_numbers_are_reflected_where_the_arrays_are(lens):
+    wavelength, eta = lens.reference_wavelength_um, np.linspace(-1, 1, 5)
+    rays = pupil_rays(lens, Source(np.inf, 0.005, wavelength), np.zeros(5), eta)
+    exact = trace(lens, rays.origins, rays.directions, wavelength)
+    index, size = indices(lens, wavelength).tolist(), lens.aperture.value
+    origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
+    for k in range(5):
+        start, direction = (a[k, :0:-1].tolist() for a in (origins, directions))
+        z, y, passed = path(lens, index, start, direction)
+        assert passed and np.allclose(np.stack([z, y]), exact.points[1:, k, :0:-1].T, rtol=0, atol=1e-11 * size)
+
+
+def test_mirrors_are_drawn_and_glass_that_light_crosses_twice_is_drawn_once():
+    glass = glass_of(two_mirrors(aplanatic()))
+    assert not glass.outlines and [mirror.behind for mirror in glass.mirrors] == [1, -1]
+    assert glass.left < -308.0 + 1e-9 and glass.right >= 0.0
+    glass = glass_of(mangin())
+    assert len(glass.outlines) == 1 and len(glass.mirrors) == 1
+    assert len(glass_of(telescope()).outlines) == 4 and len(glass_of(telescope()).mirrors) == 3
 
 
 def test_a_ray_that_misses_ends_before_the_surface_it_misses():

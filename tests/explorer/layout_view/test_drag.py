@@ -8,6 +8,7 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 
+from p2sf.lensfile.toml import lens_to_toml
 from p2sf.paraxial.bending import shape_factor, thin_power
 from p2sf.paraxial.pupils import f_number
 from p2sf.paraxial.seidel import coefficients
@@ -22,6 +23,7 @@ from p2sf_explorer.shell.no_answer import drawn
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.store.store import Store
 from tests.explorer.conftest import FIRST
+from tests.support.mirrors import mangin
 
 LENSES = ("double_gauss_28", "cooke_triplet", "reverse_telephoto", "eye_navarro", "relay", "plano_convex")
 DRAGS = 200
@@ -276,6 +278,21 @@ def test_an_edge_dragged_to_its_vertex_is_a_plane_and_back_the_old_radius():
     assert prescription(flat).surfaces[0].radius == inf
     back = dragged(grip, flat, grip.z, grip.y)
     assert prescription(back).surfaces[0].radius == pytest.approx(lens.surfaces[0].radius, rel=1e-12)
+
+
+def test_a_dragged_mirror_and_sensor_stay_on_the_side_that_light_runs_to(tmp_path):
+    file = tmp_path / "mangin.toml"
+    file.write_text(lens_to_toml(mangin()), encoding="utf-8")
+    start = changed(with_lens(FIRST, str(file)), keep_focus="off")
+    grip = next(g for g in surface_grips(prescription(start), (1, 2)) if g.kind == "vertex")
+    nearer = prescription(dragged(grip, start, grip.z - 2.0, 0.0))
+    assert vertices(nearer)[1] == pytest.approx(vertices(prescription(start))[1] - 2.0)
+    setup = paraxial_setup(start)
+    sensor = sensor_grip(layout(setup))
+    moved = paraxial_setup(dragged(sensor, start, sensor.z - 3.0, 0.0)).lens
+    assert moved.sensor_mm == pytest.approx(setup.lens.sensor_mm - 3.0)
+    beyond = paraxial_setup(dragged(sensor, start, 50.0, 0.0)).lens
+    assert beyond.sensor_mm < 0
 
 
 def test_the_lens_of_another_file_has_nothing_selected(window, chart):
