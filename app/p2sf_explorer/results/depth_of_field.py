@@ -7,9 +7,8 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import P2SFError
-from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import paraxial_rays
-from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf.raytrace.pencil import Sources, hexapolar, pencil
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.ranges import closest_distance
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription
@@ -129,7 +128,7 @@ def axial_heights(setup: ParaxialSetup, depths: np.ndarray, sensor_mm: float | N
 def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
     """Return twice the RMS radius of the exact rays' spot at the present field, µm, per depth, weighted by light."""
     s = live.setup
-    source = Source(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
+    source = Sources(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
     try:
         xi, eta = hexapolar(rings)
         rays = pencil(s.lens, source, xi, eta, clip=live.state.optics.clip)

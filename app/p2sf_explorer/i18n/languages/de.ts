@@ -696,6 +696,7 @@
 <message><source>a lens lists its "surfaces"</source><translation>ein Objektiv listet seine "surfaces"</translation></message>
 <message><source>a lens needs at least one surface; insert another before deleting this one</source><translation>ein Objektiv braucht mindestens eine Fläche; eine andere einfügen, bevor diese gelöscht wird</translation></message>
 <message><source>a lesson begins with a line "{fence}"; put title, about and lens below it</source><translation>eine Lektion beginnt mit einer Zeile "{fence}"; title, about und lens darunter schreiben</translation></message>
+<message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
@@ -920,7 +921,6 @@
 <message><source>geometric: ray density, no diffraction; {percent:.0f} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts der Pupille im Bild</translation></message>
 <message><source>give the name of a file in it</source><translation>den Namen einer Datei darin angeben</translation></message>
 <message><source>glass "{name}"</source><translation>Glas "{name}"</translation></message>
-<message><source>glass "{name}" is a mirror, which P2SF does not trace; give a refracting lens</source><translation>das Glas "{name}" ist ein Spiegel, den P2SF nicht rechnet; ein brechendes Objektiv angeben</translation></message>
 <message><source>glass "{name}" is a table of {count:d} points, too long to be shipped; write the points you need as {{ wavelengths_um = […], n = […] }}</source><translation>das Glas "{name}" ist eine Tabelle von {count:d} Punkten, zu lang, um beizuliegen; die gebrauchten Punkte als {{ wavelengths_um = […], n = […] }} schreiben</translation></message>
 <message><source>glass "{name}" is in no catalogue; {suggestion}</source><translation>das Glas "{name}" steht in keinem Katalog; {suggestion}</translation></message>
 <message><source>glass "{name}" is listed with its absorption only; give its index or nd and vd</source><translation>das Glas "{name}" ist nur mit seiner Absorption verzeichnet; seinen Index oder nd und vd angeben</translation></message>
@@ -1345,6 +1345,7 @@
 <message><source>the last thickness as the distance to the sensor</source><translation>die letzte Dicke als Abstand zum Sensor</translation></message>
 <message><source>the layout</source><translation>der Aufbau</translation></message>
 <message><source>the lens</source><translation>das Objektiv</translation></message>
+<message><source>the lens has mirrors, which an ISET file cannot say; save as TOML</source><translation>das Objektiv hat Spiegel, die eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the lens has no surfaces; give at least one</source><translation>das Objektiv hat keine Flächen; mindestens eine angeben</translation></message>
 <message><source>the lens has no surfaces; write a [[surface]] for each</source><translation>das Objektiv hat keine Flächen; für jede ein [[surface]] schreiben</translation></message>
 <message><source>the lens has no wavelengths; give at least one</source><translation>das Objektiv hat keine Wellenlängen; mindestens eine angeben</translation></message>
@@ -1704,9 +1705,7 @@
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
 <message><source>{surface} has type {kind}, {description}; only STANDARD and EVENASPH surfaces are read</source><translation>{surface} hat den Typ {kind}, {description}; nur Flächen STANDARD und EVENASPH werden gelesen</translation></message>
 <message><source>{surface} is a coordinate break (tilt or decentre); only centred lenses are read</source><translation>{surface} ist ein Koordinatenbruch (Kippung oder Dezentrierung); nur zentrierte Objektive werden gelesen</translation></message>
-<message><source>{surface} is a mirror (REFL); only refracting lenses are read</source><translation>{surface} ist ein Spiegel (REFL); nur brechende Objektive werden gelesen</translation></message>
-<message><source>{surface} is a mirror; only refracting lenses are read</source><translation>{surface} ist ein Spiegel; nur brechende Objektive werden gelesen</translation></message>
-<message><source>{surface} {reason} ({command}); only centred refracting lenses are read</source><translation>{surface} {reason} ({command}); nur zentrierte brechende Objektive werden gelesen</translation></message>
+<message><source>{surface} {reason} ({command}); only centred systems are read</source><translation>{surface} {reason} ({command}); nur zentrierte Systeme werden gelesen</translation></message>
 <message><source>{surface}: glass "{name}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it</source><translation>{surface}: das Glas "{name}" ist weder ein Name noch ein sechsstelliger Code wie 517642 oder 517.642; berichtigen</translation></message>
 <message><source>{surface}: radius {radius:g} differs from the lens data's; correct one</source><translation>{surface}: der Radius {radius:g} weicht von dem der Linsendaten ab; einen berichtigen</translation></message>
 <message><source>{table} has "{key}", which means nothing here; it takes {keys}</source><translation>{table}: "{key}" bedeutet hier nichts; möglich sind {keys}</translation></message>
