@@ -169,8 +169,9 @@ def reach_of(pupil: FrequencyPupil) -> Reach:
     x, y = np.linspace(0, 1, PROBE), np.cos(np.linspace(0, np.pi, PROBE))
     outside = x > pupil.chords(y)[:, None] + 1 / PROBE
     along, across = (chebvander(points, len(pupil.phase) - 1) for points in (y, x))
-    landing_x = np.where(outside, np.nan, along @ chebder(pupil.phase, axis=1) @ across[:, :-1].T)
-    landing_y = np.where(outside, np.nan, along[:, :-1] @ chebder(pupil.phase, axis=0) @ across.T)
+    by_x, by_y = _derivatives(pupil.phase)
+    landing_x = np.where(outside, np.nan, along @ by_x @ across[:, :-1].T)
+    landing_y = np.where(outside, np.nan, along[:, :-1] @ by_y @ across.T)
     landing_y += pupil.centroid_um * pupil.half_y
     x_range, y_range = (
         np.nanmax(landing_x, 0) - np.nanmin(landing_x, 0),
@@ -187,11 +188,25 @@ def landing_um(pupil: FrequencyPupil, count: int) -> tuple[np.ndarray, np.ndarra
     chord = pupil.chords(y[:, 0])[:, None]
     x = chord * (np.arange(count) + 0.5) / count
     along, across = (chebvander(points, len(pupil.phase) - 1) for points in (y[:, 0], x))
-    landing_x = -np.einsum("jb,ba,jka->jk", along, chebder(pupil.phase, axis=1), across[..., :-1], optimize=True)
-    landing_y = -np.einsum("jb,ba,jka->jk", along[:, :-1], chebder(pupil.phase, axis=0), across, optimize=True)
-    few = len(pupil.density)
-    density = np.einsum("jb,ba,jka->jk", along[:, :few], pupil.density, across[..., :few], optimize=True)
-    return landing_x / pupil.half_x, landing_y / pupil.half_y, density**2 * chord * np.sin(angle)[:, None]
+    by_x, by_y = _derivatives(pupil.phase)
+    landing_x, landing_y, density = (
+        (across[..., : table.shape[1]] @ (along[:, : len(table)] @ table)[..., None])[..., 0]
+        for table in (by_x, by_y, pupil.density)
+    )
+    light: np.ndarray = density**2 * chord * np.sin(angle)[:, None]
+    return -landing_x / pupil.half_x, -landing_y / pupil.half_y, light
+
+
+def _derivatives(table: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the coefficients of ∂/∂x and of ∂/∂y of Σ table[b, a]·T_b(y)·T_a(x)."""
+    derivative = _derivative(len(table) - 1)
+    return table @ derivative.T, derivative @ table
+
+
+@lru_cache(maxsize=16)
+def _derivative(order: int) -> np.ndarray:
+    """Return the matrix (order, order + 1) from coefficients of Chebyshev polynomials to those of the derivative."""
+    return protected(chebder(np.eye(order + 1)))
 
 
 def uniform_disc(half: float = 1.0) -> FrequencyPupil:
@@ -339,8 +354,9 @@ class LeastSquares:
 
     def slopes(self, table: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂/∂x and ∂/∂y of the polynomial at the points."""
-        across = np.einsum("nb,ba,na->n", self._along, chebder(table, axis=1), self._across[:, :-1], optimize=True)
-        along = np.einsum("nb,ba,na->n", self._along[:, :-1], chebder(table, axis=0), self._across, optimize=True)
+        by_x, by_y = _derivatives(table)
+        across = np.einsum("na,na->n", self._along @ by_x, self._across[:, :-1])
+        along = np.einsum("na,na->n", self._along[:, :-1] @ by_y, self._across)
         return across, along
 
     def density(self, xi: np.ndarray, eta: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, bool]:
