@@ -2,7 +2,8 @@
 
 One process per version stays alive and both take turns, so that a machine whose speed drifts is as fast for one as for
 the other; printed are medians of CPU time and the median of the ratios, this version over the other. The jobs: a step
-of each slider until all panels are painted, 12 400 previews of PSFs, and ``p2sf info`` as a whole process.
+of each slider until all panels are painted, also with a matrix of 3 × 3 PSFs on the stage, 12 400 previews of PSFs, and
+``p2sf info`` as a whole process. ``--jobs matrix`` does those jobs alone whose names begin so.
 """
 
 import argparse
@@ -59,7 +60,12 @@ with threadpool_limits(1):
             seidel_psf(six, 32, 1.5, "preview")
             print(process_time() - begun, flush=True)
             continue
-        window.store.replace(fresh(theme="light", method=method))
+        state = fresh(theme="light", method=method or "auto")
+        if job.startswith("matrix"):
+            from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
+            state = with_workspace(state, "inspect", WORKSPACES["inspect"])
+            job = job.removeprefix("matrix-")
+        window.store.replace(state)
         app.processEvents()
         slider, spent = window.controls.rows[job].slider, []
         window.store.begin()
@@ -72,7 +78,8 @@ with threadpool_limits(1):
         print(median(spent[3:]), flush=True)
 """.replace("FRAMES", str(FRAMES))
 SLIDERS = ("field_deg", "depth_mm", "wavelength_nm", "sensor_shift_um", "f_number")
-JOBS = (*(f"{slider} {method}" for slider in SLIDERS for method in ("seidel", "auto")), "stack")
+MATRICES = "matrix-f_number", "matrix-sensor_shift_um"
+JOBS = (*(f"{slider} {method}" for slider in SLIDERS for method in ("seidel", "auto")), *MATRICES, "stack", "p2sf info")
 
 
 class Version:
@@ -110,10 +117,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("other", type=Path, help="folder of the earlier checkout")
     parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--jobs", nargs="*", default=[""], help="beginnings of the names of jobs")
     options = parser.parse_args()
     versions = [Version(HERE), Version(options.other.resolve())]
     print(f"{'job':28} {'this ms':>9} {'other ms':>9} {'ratio':>6}")
-    for job in (*JOBS, "p2sf info"):
+    known = [job for job in JOBS if "0.1" not in {v.layout for v in versions} or not job.startswith("matrix")]
+    for job in (job for job in known if job.startswith(tuple(options.jobs))):
         for version in versions:
             version.seconds(job)  # caches and lazy imports
         turns = [[version.seconds(job) for version in versions] for _ in range(options.rounds)]
