@@ -175,10 +175,11 @@ def arriving(
     ``rims``, one per surface, mm, clip all but the last ray, the chief ray, from which differences are taken.
     """
     if lens.aim == "stop" and rims is None:
-        few = xi.size < MANY
-        found = _aimed_to_sensor(lens, source, stop, xi, eta) if few else None
-        if not few and stop is None and aim_error > AIM_ERROR and isinstance(source, Source):
+        found = None
+        if aim_error > AIM_ERROR and xi.size >= FEW and stop is None and isinstance(source, Source):
             found = _mapped_to_sensor(lens, source, xi, eta, aim_error)
+        if found is None and xi.size < MANY:
+            found = _aimed_to_sensor(lens, source, stop, xi, eta)
         if found is not None:
             return found
     rays = pupil_rays(lens, source, xi, eta, stop, aim_error)

@@ -147,14 +147,16 @@ def fit(
     numbers: int | None = None,
     stop: Stop | None = None,
     residual_waves: float = RESIDUAL_WAVES,
+    first: int = 0,
 ) -> FittedPencil:
     """Fit one source's pencil; the order rises until the residual is small enough, or is fixed by ``numbers``.
 
+    ``first``: the number of the first of `levels` that is tried.
     ``numbers``: those of a level, with or without those of its weight, so that one count serves every `Lens.aim`.
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
     traced, rays, sampling, found = 0, None, None, None
-    for level in levels(lens.aim):
+    for level in levels(lens.aim)[first:]:
         if numbers not in (None, level.numbers, level.unweighted_numbers):
             continue
         if rays is None or sampling != (level.radii, level.directions):

@@ -33,6 +33,7 @@ from p2sf_explorer.compute.preview import (
     best_fit,
     clipped_psf,
     edge_points,
+    first_fit,
     landing_um,
     preview,
     preview_psf,
@@ -112,9 +113,14 @@ class Task:
         return self.known or preview(self.setup)
 
     @cached_property
+    def first_fit(self) -> FittedPencil | None:
+        """Return a fit to the rays traced so far, which tells how steep the phase is; None where one is lost."""
+        return first_fit(self.traced) if self.traced else None
+
+    @cached_property
     def fitted(self) -> FittedPencil | None:
         """Return a coarse fit to exact rays; None where one is lost."""
-        return best_fit(self.traced) if self.traced else None
+        return best_fit(self.traced, self.first_fit) if self.traced else None
 
     @cached_property
     def extent(self) -> "Extent":
@@ -238,7 +244,7 @@ def moving(task: Task, quality: str) -> Rendered:
         return moving_coefficients(task, window, quality)
     traced = preview(task.setup, True) if task.state.optics.clip else task.traced
     pupil = preview_pupil(traced) if traced and quality == "preview" else None
-    if task.coarse or (traced and task.fitted and not quickly(task.setup, task.fitted, window)):
+    if task.coarse or (traced and not quickly(task, window)):
         return replace(blurred(task, window, quality), pupil=pupil)
     why = NO_REASON
     if task.method != "fitted":
@@ -266,7 +272,7 @@ def too_coarse(task: Task, window: Window) -> bool:
         return True
     if not task.exact:
         return float(steepest_slope(task.setup.coefficients)) + corner_waves(task, window) > STEEPEST_IN_ALL
-    return task.fitted is not None and not quickly(task.setup, task.fitted, window)
+    return task.traced is not None and not quickly(task, window)
 
 
 def corner_waves(task: Task, window: Window) -> float:
@@ -274,19 +280,26 @@ def corner_waves(task: Task, window: Window) -> float:
     return AIRY_RADIUS * window[0] * window[1] / 2**0.5 / task.extent.airy_um
 
 
-def quickly(setup: ParaxialSetup, fitted: FittedPencil, window: Window) -> bool:
-    """Return whether the sum of a fit, or of exact rays where it misses much, is done within a frame or two."""
-    nodes = row_nodes(fitted, window, "preview") * max(1.0, window[0] / PIXELS["settled"])
-    if fitted.error_waves > FAR:
-        return nodes < QUICK_NODES / 3 and in_rows(setup.lens, setup.source)
-    return nodes < QUICK_NODES
+def quickly(task: Task, window: Window) -> bool:
+    """Return whether the sum of a fit, or of exact rays where it misses much, is done within a frame or two.
+
+    False where a ray is lost. Only where the first rays are not too steep for that are more of them traced.
+    """
+    if task.first_fit is None:
+        return False
+    larger = max(1.0, window[0] / PIXELS["settled"])
+    if row_nodes(task.first_fit, window, "preview") * larger >= QUICK_NODES or task.fitted is None:
+        return False
+    if task.fitted.error_waves > FAR:
+        few = row_nodes(task.fitted, window, "preview") * larger < QUICK_NODES / 3
+        return few and in_rows(task.setup.lens, task.setup.source)
+    return True
 
 
 def rimmed(task: Task, window: Window, quality: str) -> Rendered:
     """Return the moving picture where rims clip: the fit to all rays, summed over those that pass, else ray density."""
     try:
-        few = task.fitted is not None and quickly(task.setup, task.fitted, window)
-        psf = clipped_psf(task.traced, *window) if task.traced and few else None
+        psf = clipped_psf(task.traced, *window) if task.traced and quickly(task, window) else None
     except GeometryError:  # every ray is clipped, or the fit is no map: the density says which
         psf = None
     return Rendered(psf, NO_REASON, True, task.method) if psf else blurred(task, window, quality)

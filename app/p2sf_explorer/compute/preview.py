@@ -23,6 +23,7 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 
 LEVEL = LEVELS[0]  # 26 numbers
 CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS error in waves up to which 26 numbers do, 64 rays do, a fit does at all
+TRIED = 2  # levels of fits to the first rays
 EDGE = 9  # rays along the rim and along 0.7 of it, which show how far light reaches on the sensor
 
 
@@ -73,20 +74,25 @@ def preview_psf(traced: Preview, pixels: int, pixel_um: float, fitted: FittedPen
     return psf_of_fit(fitted, setup.source.wavelength_um, (pixels, pixel_um), "preview", traced.begun)
 
 
-def best_fit(traced: Preview) -> FittedPencil:
-    """Return the smallest fit of small error; more rays are traced only where the first do not suffice."""
-    data, count = ray_data(traced.rays), level_rays(LEVEL)[0].size
-    own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
-    first, second = levels(traced.setup.lens.aim)[:2]
-    fitted = fit_rays(own, first, count)
-    if fitted.error_waves > CLOSE:
-        fitted = fit_rays(own, second, count, fitted.steepness)
+def best_fit(traced: Preview, first: FittedPencil | None = None) -> FittedPencil:
+    """Return the smallest fit of small error: ``first``, or where `first_fit` does not suffice one to more rays."""
+    fitted = first or first_fit(traced)
     if fitted.error_waves <= NEAR:
         return fitted
     try:
-        return fit(traced.setup.lens, traced.setup.source, residual_waves=NEAR)
+        larger = fit(traced.setup.lens, traced.setup.source, residual_waves=NEAR, first=TRIED)
+        return replace(larger, rays=larger.rays + fitted.rays)
     except GeometryError:  # one of the rays more is lost
         return fitted
+
+
+def first_fit(traced: Preview) -> FittedPencil:
+    """Return the fit to the rays that are traced: of 26 numbers, or where these miss much of 46."""
+    data, count = ray_data(traced.rays), level_rays(LEVEL)[0].size
+    own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
+    first, second = levels(traced.setup.lens.aim)[:TRIED]
+    fitted = fit_rays(own, first, count)
+    return fitted if fitted.error_waves <= CLOSE else fit_rays(own, second, count, fitted.steepness)
 
 
 def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:

@@ -9,10 +9,13 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import UM_PER_MM, protected
 from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.result import Psf
+from p2sf.raytrace.aiming import SUM_AIM_ERROR
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.ranges import focused_distance
 from p2sf_explorer.compute.setup import ParaxialSetup
@@ -35,7 +38,7 @@ def geometric_psf(
     Raises GeometryError where no ray reaches the window.
     """
     begun, (pixels, pixel_um) = perf_counter(), window
-    x, y, weight = exact_landing(setup, quality, clip) if exact else seidel_landing(setup, quality)
+    x, y, weight = exact_landing(setup, quality, clip) if exact else seidel_landing(setup, GRIDS[quality])
     blocks = max(1, pixels // MOST_PIXELS)
     values = density(x, y, weight, pixels // blocks, pixel_um * blocks)
     energy = float(values.sum())
@@ -71,7 +74,10 @@ def main_reach_um(setup: ParaxialSetup, exact: bool, clip: bool = False) -> floa
 
     A fast lens throws a few rays ten times as far as the rest; a window as wide as they reach would show one dot.
     """
-    x, y, weight = exact_landing(setup, "preview", clip) if exact else seidel_landing(setup, "preview")
+    grid = TRACED["preview"]
+    x, y, weight = seidel_landing(setup, grid)
+    if exact:
+        x, y = traced_landing(setup.lens, setup.source, grid, clip)
     out = np.maximum(np.abs(x), np.abs(y)).ravel()
     order = np.argsort(out)
     light = np.cumsum(np.where(np.isfinite(out), weight.ravel(), 0.0)[order])
@@ -80,10 +86,10 @@ def main_reach_um(setup: ParaxialSetup, exact: bool, clip: bool = False) -> floa
     return AROUND * float(out[order][np.searchsorted(light, MOST_LIGHT * light[-1])])
 
 
-def seidel_landing(setup: ParaxialSetup, quality: str = "settled") -> Landing:
+def seidel_landing(setup: ParaxialSetup, grid: tuple[int, int]) -> Landing:
     """Return where the rays of W land, µm from the chief ray, and their weights: −∇W·λ/(n′u′) (Welford 1986, §7.2)."""
     c = setup.coefficients
-    xi, eta, weight = polar(*GRIDS[quality])
+    xi, eta, weight = polar(*grid)
     square, focus = xi * xi + eta * eta, float(c.w20 + c.wd)
     along_xi = 4 * c.w40 * square * xi + 2 * c.w31 * xi * eta + 2 * focus * xi
     along_eta = 4 * c.w40 * square * eta + c.w31 * (square + 2 * eta * eta) + 2 * c.w22 * eta + 2 * focus * eta
@@ -96,12 +102,23 @@ def exact_landing(setup: ParaxialSetup, quality: str = "settled", clip: bool = F
 
     A cell of the pupil with a lost ray at a corner is lost: its place is infinite.
     """
-    xi, eta, _ = polar(*TRACED[quality])
-    rays = pencil(setup.lens, setup.source, xi.ravel(), eta.ravel(), clip=clip)
-    x, y = (finely(UM_PER_MM * values.reshape(xi.shape), GRIDS[quality]) for values in (rays.dx, rays.dy))
+    coarse = traced_landing(setup.lens, setup.source, TRACED[quality], clip)
+    x, y = (finely(values, GRIDS[quality]) for values in coarse)
     return x, y, polar(*GRIDS[quality])[2]
 
 
+@lru_cache(maxsize=4)
+def traced_landing(lens: Lens, source: Source, grid: tuple[int, int], clip: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return where exact rays through the cells of a grid land, µm from the chief ray, (radii, directions).
+
+    Kept for the frame: the window's width asks for them first.
+    """
+    xi, eta, _ = polar(*grid)
+    rays = pencil(lens, source, xi.ravel(), eta.ravel(), clip=clip, aim_error=SUM_AIM_ERROR)
+    return protected(UM_PER_MM * rays.dx.reshape(xi.shape)), protected(UM_PER_MM * rays.dy.reshape(xi.shape))
+
+
+@lru_cache(maxsize=8)
 def polar(radii: int, directions: int) -> Landing:
     """Return ξ, η and weights of cells even in ρ and θ of the half disc ξ > 0, (radii, directions); their sum is ½.
 
@@ -110,7 +127,7 @@ def polar(radii: int, directions: int) -> Landing:
     rho = ((np.arange(radii) + 0.5) / radii)[:, None]
     theta = (np.arange(directions) + 0.5) * np.pi / directions
     weight = np.broadcast_to(rho / (radii * directions), (radii, directions))
-    return rho * np.sin(theta), rho * np.cos(theta), weight
+    return protected(rho * np.sin(theta)), protected(rho * np.cos(theta)), weight
 
 
 def finely(values: np.ndarray, grid: tuple[int, int]) -> np.ndarray:
