@@ -152,15 +152,19 @@ class _Held:
 
     def __init__(self) -> None:
         self.within = 0
+        self.seen: list[Any] | None = None
         self.before: list[tuple[Any, int]] = []
 
     def enter(self, libraries: list[Any]) -> None:
-        """Set the number of each library to 1, if this is the first one within."""
+        """Set the number of each library to 1, unless those within have done it already."""
         self.within += 1
-        if self.within == 1:
-            self.before = [(library, found) for library in libraries if (found := library.get_num_threads()) != 1]
-            for library, _ in self.before:
-                _set(library, 1)
+        if libraries is not self.seen:
+            self.seen = libraries
+            for library in libraries:
+                number = library.get_num_threads()
+                if number != 1:
+                    self.before.append((library, number))
+                    _set(library, 1)
 
     def leave(self) -> None:
         """Restore the numbers of before, if this is the last one within."""
@@ -168,6 +172,7 @@ class _Held:
         if self.within == 0:
             for library, number in self.before:
                 _set(library, number)
+            self.before, self.seen = [], None
 
 
 def _of_this_thread() -> _Held:

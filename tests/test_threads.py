@@ -1,5 +1,6 @@
 """Threads: results in order and the same on any number, errors, no pools in pools, BLAS at one thread and back."""
 
+import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -169,6 +170,21 @@ def test_blas_stays_at_one_thread_until_the_last_one_leaves(two_blas_threads):
         leave.set()
         other.result()
     assert blas_threads() == {2}
+
+
+def test_a_library_that_is_loaded_within_is_held_too():
+    code = """
+from threadpoolctl import threadpool_info
+from p2sf.threads import one_blas_thread
+import numpy
+with one_blas_thread:
+    import scipy.linalg
+    with one_blas_thread:
+        print({x["num_threads"] for x in threadpool_info() if x["user_api"] == "blas"})
+"""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "2", "MKL_NUM_THREADS": "2"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
+    assert done.stdout.split() == ["{1}"]
 
 
 class OpenMpLibrary:

@@ -3,6 +3,7 @@
 import sys
 
 from p2sf.errors import P2SFError
+from p2sf.threads import one_blas_thread
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.files.opening import is_file, opened
 from p2sf_explorer.files.session import last_session
@@ -29,9 +30,7 @@ def main(argv: list[str]) -> int:
     if problem:
         raise P2SFError(problem)
     state, geometry = (starting_state(argv), {}) if argv else last_session()
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(limits=1):  # two BLAS threads double these small products
+    with one_blas_thread:  # for as long as the window is there, so that a drag's many calls need not set it
         return _open(state, geometry)
 
 

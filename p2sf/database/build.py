@@ -13,6 +13,7 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Alternatives
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import coefficients
+from p2sf.threads import one_blas_thread
 
 INTERPOLANTS = ("exact", *RULES)
 # A smooth glass needs some 20 terms over the visible; one that needs more than 192 is not smooth.
@@ -22,6 +23,7 @@ ROUND_OFF = 1e-13
 HELD_OUT = 64
 
 
+@one_blas_thread
 def build_database(
     lens: Lens, space: Space, interpolant: str = "exact", stop: Stop | None = None
 ) -> ExactDatabase | GridDatabase:

@@ -26,7 +26,7 @@ from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.zernike import basis, gradient, terms
 from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays
 from p2sf.raytrace.ray_field import Steepness
-from p2sf.threads import mapped
+from p2sf.threads import mapped, one_blas_thread
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +74,7 @@ class FittedDatabase:
             self.level, phase, fx, fy, self.residual_waves, steep, blur_um2=np.nan, rays=0, weight=weight
         )
 
+    @one_blas_thread
     def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:
         """Return the PSF of one source, from looked-up numbers.
 

@@ -18,6 +18,7 @@ from p2sf.pupil.zernike import terms
 from p2sf.raytrace.fit import FittedPencil, Level, fit, level_rays
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
+from p2sf.threads import one_blas_thread
 
 START = (4, 4, 4)  # nodes along s, h² and wavelength
 MOST_NODES = 24
@@ -25,6 +26,7 @@ TOLERANCE_WAVES = 1e-3  # RMS phase where the rays land; the fit itself is allow
 HELD_OUT = 12
 
 
+@one_blas_thread
 def build_fitted(
     lens: Lens, space: Space, stop: Stop | None = None, tolerance_waves: float = TOLERANCE_WAVES
 ) -> FittedDatabase:

@@ -15,7 +15,7 @@ from p2sf.psf import pixel_integrals
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, check_window, seidel_psf
 from p2sf.psf.seidel_stack import stack_of
-from p2sf.threads import mapped
+from p2sf.threads import mapped, one_blas_thread
 
 Points = Iterable[ArrayLike]
 """Depth (mm), field slope and wavelength (µm), which broadcast."""
@@ -56,6 +56,7 @@ class Sampling:
     quality: str = "settled"
 
 
+@one_blas_thread
 def rendered(
     database: Database,
     points: Points,
@@ -79,6 +80,7 @@ def rendered(
     return stack_of(found, pixels, pixel_um, sampling.quality, dtype, threads).values
 
 
+@one_blas_thread
 def rendered_light(
     database: Database,
     points: Points,
@@ -113,6 +115,7 @@ def samples_per_pixel(database: Database, sampling: Sampling) -> int:
     return pixel_integrals.samples_across(sampling.pixels, sampling.pixel_um or critical, critical)
 
 
+@one_blas_thread
 def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
     """Return the settled PSF of one source, float64, looked up instead of traced; errors as `rendered`."""
     if hasattr(database, "psf"):

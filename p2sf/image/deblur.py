@@ -13,11 +13,13 @@ from p2sf.image.lattice import Lattice
 from p2sf.image.overlap import convolve, overlap_add, support
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
+from p2sf.threads import one_blas_thread
 
 DARKEST = 1e-4  # of white: the floor that keeps Richardson–Lucy's ratio finite
 CORNER = 0.02  # cycles per pixel below which natural pictures' spectra are taken as flat
 
 
+@one_blas_thread
 def wiener(values: np.ndarray, lattice: Lattice, noise: float, watch: Progress | None = None) -> np.ndarray:
     """Return the picture sharpened by Wiener's filter patch by patch, float32, shape kept.
 
@@ -108,6 +110,7 @@ def _by_patches(
     return np.moveaxis(out, 0, -1)
 
 
+@one_blas_thread
 def richardson_lucy(
     values: np.ndarray, lattice: Lattice, rounds: int = 30, watch: Progress | None = None
 ) -> np.ndarray:

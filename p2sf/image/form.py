@@ -18,7 +18,7 @@ from p2sf.image.progress import Progress
 from p2sf.messages import Alternatives
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
 from p2sf.scene.plan import Plan
-from p2sf.threads import mapped
+from p2sf.threads import mapped, one_blas_thread
 
 METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
@@ -60,6 +60,7 @@ class Forming:
 DEFAULT = Forming()
 
 
+@one_blas_thread
 def form_image(
     planned: Plan,
     values: np.ndarray,

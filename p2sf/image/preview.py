@@ -20,6 +20,7 @@ from p2sf.scene.plan import Plan
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduced
+from p2sf.threads import one_blas_thread
 
 LONGEST = 320  # pixels along the preview's longer side
 BY_RAYS = Recipe(RAYS)
@@ -30,6 +31,7 @@ RAY_COUNTS = ((300, (3, 3)), (450, (2, 2)), (LARGEST_WINDOW, (1, 1)))
 UNKNOWN = Cost(0.0, 0.0, 0.0)
 
 
+@one_blas_thread
 def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None = None) -> np.ndarray:
     """Return a coarse picture of the scene's far end or one depth, (rows, columns, channels), at most 320 pixels long.
 

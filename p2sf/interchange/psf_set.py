@@ -17,6 +17,7 @@ from p2sf.pixel_kernels.pixels import PixelWindow, half_width, part_filled_kerne
 from p2sf.pixel_kernels.ray_spread import RaySpread, part_filled_rays, ray_spread
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.psf.prediction import predicted_error
+from p2sf.threads import one_blas_thread
 
 EVERY_FRINGE = 2.0  # samples a λ/2NA, as `part_filled_kernel` needs
 WIDEST_SUM = 2048  # samples a side of a sum of waves; over so wide a blur pixels average what diffraction adds
@@ -107,6 +108,7 @@ class PsfSet:
         return np.array(self.axes.wavelengths_nm, dtype=float)
 
 
+@one_blas_thread
 def psf_set(lens: Lens, axes: SetAxes, grid: PixelGrid, clip: bool = False, watch: Progress | None = None) -> PsfSet:
     """Return the PSFs of every depth, field and wavelength of a lens, focused and opened already.
 

@@ -27,6 +27,7 @@ from p2sf.psf.methods import choose
 from p2sf.psf.polychromatic import chief_shifts_um
 from p2sf.psf.seidel import check_image
 from p2sf.raytrace.fit import fit
+from p2sf.threads import one_blas_thread
 
 METHODS = ("auto", "seidel", "fitted", "traced", "huygens")
 FREQUENCIES = 257
@@ -140,6 +141,7 @@ def pupil_of(lens: Lens, source: Source, method: str = "traced", clip: bool = Fa
     return pupil_of_rays(lens, source, clip), method
 
 
+@one_blas_thread
 def parts_of(
     lens: Lens, source: Source, method: str = "traced", clip: bool = False, spectrum: Spectrum | None = None
 ) -> tuple[list[PupilPart], str]:
@@ -162,6 +164,7 @@ def centroid_of(parts: Parts) -> float:
     return sum(part.share * part.centroid_um for part in parts)
 
 
+@one_blas_thread
 def mtf_of(
     parts: Parts, method: str, frequency_per_mm: ArrayLike | None = None, cancelled: Callable[[], bool] = never
 ) -> Mtf:
@@ -194,6 +197,7 @@ def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -
     return total, bound
 
 
+@one_blas_thread
 def energy_in(parts: Parts, method: str, radius_um: ArrayLike | None = None) -> Energy:
     """Return the energy within radii of the centroid, by default even ones from 0 to beyond the blur."""
     centre = centroid_of(parts)
@@ -237,6 +241,7 @@ def _radius_of(parts: Parts, found: Found, radius: np.ndarray, fraction: np.ndar
     return float(brentq(lambda r: float(_within(parts, found, np.array([r]))[0]) - share, low, high, rtol=1e-6))
 
 
+@one_blas_thread
 def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -> LineSpread:
     """Return the images of a line and of an edge, by default at POINTS even positions about the centroid."""
     slices = [otf_slices(part.pupil) for part in parts]

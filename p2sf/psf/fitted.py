@@ -19,6 +19,7 @@ from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.threads import one_blas_thread
 
 __all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "psf_of_fit", "summed"]
 
@@ -27,6 +28,7 @@ MOST_KEPT = 2**14  # radii × directions: 8 MB at most, of a hundred polynomials
 MOST_NODES = 2**22  # radii × directions, summed one by one: some ten seconds of work
 
 
+@one_blas_thread
 def fitted_psf(
     lens: Lens,
     source: Source,

@@ -14,10 +14,12 @@ from p2sf.psf.plane_waves import Origin, psf_from_intensity, resolved
 from p2sf.psf.result import Psf
 from p2sf.pupil.quadrature import cell_areas
 from p2sf.pupil.transform import matrix_dft
+from p2sf.threads import one_blas_thread
 
 STEEPEST_STEP = 0.5  # waves between neighbouring cells: a steeper phase cannot be told from a flatter one
 
 
+@one_blas_thread
 def psf_of_opd(
     opd_waves: ArrayLike,
     na: float,

@@ -9,11 +9,13 @@ import numpy as np
 from p2sf.messages import Message
 from p2sf.psf.compare import r_squared
 from p2sf.psf.result import Psf
+from p2sf.threads import one_blas_thread
 
 WIDTHS = (0.5, 1.0, 2.0)  # of the starting points, in units of the reference's spread: narrow core, whole, wide skirt
 NARROWEST = 0.3  # in pixels: below it a sampled Gaussian is one sample, whatever its width
 
 
+@one_blas_thread
 def gaussian_psf(reference: Psf) -> Psf:
     """Return the elliptical Gaussian, free along y, that fits one reference PSF best in least squares.
 

@@ -28,7 +28,7 @@ from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, radiometric, whole_nodes
-from p2sf.threads import for_each
+from p2sf.threads import for_each, one_blas_thread
 
 BLOCK = 4096  # rays at a time, by one thread: few enough for a second-level cache and to be cancelled every few ms
 GROWTH = 1.3
@@ -52,6 +52,7 @@ class Field:
     lost: int
 
 
+@one_blas_thread
 def huygens_psf(
     lens: Lens,
     source: Source,

@@ -25,6 +25,7 @@ from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data, steepness
+from p2sf.threads import one_blas_thread
 
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be asked of a choice
 METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
@@ -89,6 +90,7 @@ def residual_for(tolerance: float) -> float:
     return min(RESIDUAL_WAVES, float(np.sqrt(max(1 - tolerance, 0) / SAFETY["fitted"]) / (2 * np.pi)))
 
 
+@one_blas_thread
 def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = False) -> Choice:
     """Return the cheapest method whose predicted R² is at least ``tolerance``, without running the reference.
 
@@ -144,6 +146,7 @@ def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
     return predicted_error(seidel_sigma(c, data, (xi, eta, weight), spread), "seidel")
 
 
+@one_blas_thread
 def render(
     lens: Lens,
     source: Source,

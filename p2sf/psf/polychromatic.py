@@ -20,6 +20,7 @@ from p2sf.psf.methods import render
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, suitable_pixel_um
 from p2sf.raytrace.pencil import pencil
+from p2sf.threads import one_blas_thread
 
 COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm
 MOST = 400
@@ -58,6 +59,7 @@ class ColourPsf:
         return centred_axis(self.xyz.shape[0], self.pixel_um)
 
 
+@one_blas_thread
 def colour_psf(
     lens: Lens,
     source: Source,

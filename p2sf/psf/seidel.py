@@ -16,6 +16,7 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, corner_reach, stack_of
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
 from p2sf.pupil.transform import check_fft, padded_fft, sum_plane_waves
+from p2sf.threads import one_blas_thread
 
 AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π, times λ/NA
 WINDOW_AIRY_RADII = 5
@@ -24,6 +25,7 @@ FFT_RADIUS = {"preview": 64, "settled": 256}  # pupil radius in FFT samples: its
 LARGEST_FFT = 4096
 
 
+@one_blas_thread
 def seidel_psf(
     coefficients: Coefficients,
     pixels: int = 64,

@@ -27,6 +27,7 @@ from p2sf.raytrace.aiming import SUM_AIM_ERROR
 from p2sf.raytrace.fit import FittedPencil, fit, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
+from p2sf.threads import one_blas_thread
 
 # A fifth-order pupil map at least: terms of second order in its error are then below 1e-5 of R² on every stored row.
 FEWEST = 1  # of the levels, 46 numbers of an evenly filled pupil
@@ -34,6 +35,7 @@ RESIDUAL_WAVES = 1e-3  # most that the error of the map times the blur may be: t
 FALLBACK_TOLERANCE = 3e-3  # relative L2 of node by node sums: R² to 1e-5
 
 
+@one_blas_thread
 def traced_psf(
     lens: Lens,
     source: Source,

@@ -14,6 +14,7 @@ from p2sf.lens.source import Source
 from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, whole_nodes
+from p2sf.threads import one_blas_thread
 
 COUNTS = 24, 64  # radii and directions: exact for terms up to degree 20 and a wavefront of degree 40
 USUAL_TERMS = 37
@@ -43,6 +44,7 @@ class ZernikeFit:
     rays: int
 
 
+@one_blas_thread
 def zernike_fit(
     lens: Lens, source: Source, order: ZernikeOrder = "noll", count: int = USUAL_TERMS, clip: bool = False
 ) -> ZernikeFit:

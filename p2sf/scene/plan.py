@@ -23,6 +23,7 @@ from p2sf.scene.scene import Channel, Scene, depth_of
 from p2sf.scene.sharing import few_depths, few_heights, node_heights, share_pupils
 from p2sf.scene.spectrum import reduced
 from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, SAMPLINGS, Study, first_allowed, from_phase
+from p2sf.threads import one_blas_thread
 
 # The share of the tolerance that each kind of decision may use. The errors are independent, so their squares add.
 SHARES = {"method": 0.5, "terms": 0.1, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.1}
@@ -113,6 +114,7 @@ def _sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: fl
     return sensor_map(lens, depth_mm, wavelength_um, height_mm, clip)
 
 
+@one_blas_thread
 def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> Plan:
     """Return the cheapest plan whose measured errors stay within the scene's tolerance.
 

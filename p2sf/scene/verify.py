@@ -10,6 +10,7 @@ from p2sf.scene.nodes import weighted
 from p2sf.scene.plan import Plan
 from p2sf.scene.reference import reference_kernel
 from p2sf.scene.study import distance
+from p2sf.threads import one_blas_thread
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,7 @@ class Verdict:
         return self.worst <= self.tolerance
 
 
+@one_blas_thread
 def verify(planned: Plan, points: int = 5, seed: int = 0) -> Verdict:
     """Return the errors of a plan's kernels at random places, depths and channels against the reference."""
     random = np.random.default_rng(seed)

@@ -21,6 +21,7 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import METHODS, render
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples, suitable_pixel_um
+from p2sf.threads import one_blas_thread
 
 PIXELS = 64
 REPEATS = 9
@@ -46,6 +47,7 @@ class MethodCost:
     tolerance: float | None
 
 
+@one_blas_thread
 def tradeoff(
     lens: Lens,
     fields_deg: Iterable[float] | None = None,
