@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, LensName, Output, Whole, check_output, check_whole
+from p2sf.cli.options import Json, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import write_beside, write_json
@@ -32,10 +32,23 @@ AimName = Annotated[
     Parameter(help="Fill the real stop with exact rays (its former name is real), or the paraxial entrance pupil."),
 ]
 Pixels = Annotated[Whole, Parameter(help="Samples along each side of the compared window.")]
+Named = Annotated[str | None, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
+Complete = Annotated[
+    bool,
+    Parameter(
+        negative="", help="Every representation of all PSFs of the lens, or of each shipped lens if none is named."
+    ),
+]
+Quick = Annotated[bool, Parameter(negative="", help="With --complete: one setting of each, at fewer points.")]
+Keep = Annotated[
+    Path | None,
+    Parameter(negative="", help="With --complete: a folder that keeps each lens's result, from which a run goes on."),
+]
+Sampling = Annotated[bool, Parameter(negative="", help="The error of the paper's FFT over NPUPIL and NPSF instead.")]
 
 
 def tradeoff(
-    lens: LensName,
+    lens: Named = None,
     /,
     *,
     fields_deg: Fields = None,
@@ -44,12 +57,22 @@ def tradeoff(
     stop: StopName = "file",
     aim: AimName = None,
     pixels: Pixels = 64,
+    complete: Complete = False,
+    quick: Quick = False,
+    keep: Keep = None,
+    sampling: Sampling = False,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
     """Measure every method against the exact reference: errors, numbers, rays, time and memory; .json, .csv or .png."""
+    from p2sf.cli import trades
     from p2sf.studies import tradeoff
 
+    trades.check_combination(complete, sampling, quick, keep, lens)
+    if complete:
+        return trades.complete(lens, quick, keep, output, as_json)
+    if sampling or lens is None:
+        return trades.sampling(lens, output, as_json)
     check_output(output, WRITTEN)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     depths = depths_mm or [inf]

@@ -48,7 +48,9 @@ def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
     _check_one_stop(stop)
     points = scattered(space, HELD_OUT)
     direct = coefficients(lens, *points, stop=stop)
-    floor = ROUND_OFF * path_scale(direct)
+    # The polynomials start from the ray of an infinite object, whose path may be far longer than any in the space.
+    base = coefficients(lens, np.inf, 0.0, points[2], stop)
+    floor = ROUND_OFF * max(path_scale(direct), path_scale(base))
     allowed = {kind: TOLERANCE * top + floor for kind, top in largest(direct).items()}
     for terms in TERMS if np.ptp(space.wavelengths_um) else (1,):
         database = ExactDatabase(space, *exact_series(lens, space, stop, terms), lens.sensor_mm, {})

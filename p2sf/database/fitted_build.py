@@ -28,16 +28,21 @@ HELD_OUT = 12
 
 @one_blas_thread
 def build_fitted(
-    lens: Lens, space: Space, stop: Stop | None = None, tolerance_waves: float = TOLERANCE_WAVES
+    lens: Lens,
+    space: Space,
+    stop: Stop | None = None,
+    tolerance_waves: float = TOLERANCE_WAVES,
+    numbers: int | None = None,
 ) -> FittedDatabase:
     """Return the fitted database of a lens; nodes are added until points between them agree to the tolerance.
 
+    ``numbers`` of each fit, those of a level; by default as many as the residuals at the corners ask for.
     Raises DatabaseError where MOST_NODES are not enough, GeometryError where rays do not reach the sensor.
     """
     stop = stop or find_stop(lens)
     seidel = build_exact(lens, space, stop)
     axes = axes_of(space, seidel)
-    level, left = _level_for(lens, axes, stop)
+    level, left = _level_for(lens, axes, stop, numbers)
     held = list(held_out(lens, space, level, stop))
     counts = [count if spread else 1 for count, spread in zip(START, axes.spread, strict=True)]
     while max(counts) <= MOST_NODES:
@@ -57,10 +62,10 @@ def build_fitted(
     )
 
 
-def _level_for(lens: Lens, axes: Axes, stop: Stop) -> tuple[Level, float]:
+def _level_for(lens: Lens, axes: Axes, stop: Stop, numbers: int | None) -> tuple[Level, float]:
     """Return the highest level that a corner of the space needs, and the largest residual at that level."""
     corners = [axes.source(place) for place in product(*([-1.0, 1.0] if spread else [0.0] for spread in axes.spread))]
-    level = max((fit(lens, corner, stop=stop).level for corner in corners), key=lambda level: level.numbers)
+    level = max((fit(lens, corner, numbers, stop=stop).level for corner in corners), key=lambda level: level.numbers)
     return level, max(fit(lens, corner, level.numbers, stop=stop).residual_waves for corner in corners)
 
 

@@ -223,6 +223,15 @@ def test_glass_with_a_kink_is_refused_by_exact_and_taken_by_linear():
     assert build_database(bent_lens("achromat_f6"), space, "linear").errors["wd"] > 0
 
 
+def test_a_lens_for_near_objects_only_has_an_exact_database():
+    """Its polynomials start from a ray of 10 000 waves of defocus, the infinite object's, and round as that does."""
+    lens = find_lens("relay")
+    space = Space(np.array([93.8, 95.0]), np.array([0.0, 0.002]), np.array([0.4861, 0.6563]))
+    database = build_database(lens, space)
+    found, direct = (f(94.3, 0.001, 0.55) for f in (database.coefficients, lambda *at: coefficients(lens, *at)))
+    assert departures(found, direct)["wd"] < 1e-8
+
+
 def test_unknown_interpolants_and_moving_stops_are_refused():
     lens, space = dispersive_lens("tessar"), space_of("tessar")
     with pytest.raises(DatabaseError, match='interpolant "cubic" is unknown; choose exact, table1 or linear'):

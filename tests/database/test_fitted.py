@@ -53,6 +53,12 @@ def test_psfs_looked_up_are_those_fitted(lens, database, source):
     assert looked.numbers == database.level.numbers
 
 
+def test_a_fit_has_the_numbers_asked_for(lens):
+    few = Space(SPACE.depths_mm[:1], SPACE.field_slopes[[0, -1]], SPACE.wavelengths_um[:1])
+    for level in levels(lens.aim)[:2]:
+        assert build_fitted(lens, few, numbers=level.numbers).level == level
+
+
 def test_the_chief_rays_height_is_the_traced_one(lens, database):
     for source in SOURCES:
         height = split(database.level, database.numbers_at(source))[-1]

@@ -1,0 +1,267 @@
+"""The complete trade: every representation of a lens's PSFs, its error against bytes and against time.
+
+Each lens is taken over its `LensSpace`, in one window of 64² pixels, and judged at points at random that no
+representation was made or tuned with, against exact rays (`ExactPsfs`); a few of them are summed by Huygens too.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from time import process_time
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM, degrees_from_slope
+from p2sf.errors import P2SFError
+from p2sf.lens.lens import Lens
+from p2sf.metrics.window import radius_of_energy
+from p2sf.psf.result import Psf
+from p2sf.representations.coefficients import coefficient_representations
+from p2sf.representations.fits import fitted_representations
+from p2sf.representations.networks import network_representations
+from p2sf.representations.pictures import grid_representations, pca_representations
+from p2sf.representations.points import point_representations
+from p2sf.representations.rays import ray_representations
+from p2sf.representations.representation import ExactPsfs, Representation, huygens_picture
+from p2sf.representations.shapes import shape_representations
+from p2sf.representations.space import LensSpace, Points, lens_space
+from p2sf.representations.zernike_grid import zernike_representations
+
+TESTED, TESTED_QUICK, SEED = 40, 12, 2026
+PROBED, PROBE_TOLERANCE = 3, 1e-6  # of them, by a Huygens sum that agrees so well with the one before
+PARTS = {"median": 0.5, "95 %": 0.95, "worst": 1.0}  # of the points whose error is no larger
+MEASURES = ("one_less_r2", "relative_l2", "mtf", "r80")
+SINGLE_FIELDS = 0.0, 0.7, 1.0  # of the largest field: the points taken alone, at the far end and the middle wavelength
+ENOUGH_SECONDS = 0.02  # of work, for a time
+SINGLES = 5  # calls of one point each, at most, for a median
+EIGHTY = 0.8
+DONE = "done"  # told when a lens is
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How an error is spread over the points: what half, and what 95 % of them keep, and the largest."""
+
+    median: float
+    most: float
+    worst: float
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """The points a representation is judged at, their unit-sum pictures (n, pixels, pixels) and R80 in pixels, (n,)."""
+
+    points: Points
+    pictures: np.ndarray
+    radius: np.ndarray
+
+
+@dataclass(frozen=True)
+class Row:
+    """One representation of one space: what it costs, and its errors over ``points`` unseen ones.
+
+    ``batch_us``, ``single_us``: CPU time of a PSF among all and alone. ``one_less_r2``: 1 − R²; ``relative_l2``;
+    ``mtf``: largest difference of contrast along either axis, from the window's own OTF; ``r80``: of the radius that
+    holds 80 % of the window's light about its centroid, relative. ``worst_at``: depth (mm), field (°) and wavelength
+    (nm) of the largest relative L2 error.
+    """
+
+    family: str
+    settings: str
+    numbers: int
+    nbytes: int
+    build_seconds: float
+    batch_us: float
+    single_us: float
+    one_less_r2: Spread
+    relative_l2: Spread
+    mtf: Spread
+    r80: Spread
+    worst_at: tuple[float, float, float]
+    points: int
+
+
+@dataclass(frozen=True)
+class SpaceWords:
+    """A `LensSpace` in a user's units: mm, degrees, nm, µm."""
+
+    f_number: float | None
+    near_mm: float
+    far_mm: float
+    fields_deg: tuple[float, float]
+    wavelengths_nm: tuple[float, float]
+    pixels: int
+    pixel_um: float
+    samples_per_pixel: int
+
+
+@dataclass(frozen=True)
+class LensTrade:
+    """All representations of one lens.
+
+    ``truth_error``: largest 1 − R² between exact rays in rows and the Huygens sum at the probed points. ``singles``: by
+    field in degrees, rows of one PSF taken alone. ``refused``: families that this space refuses, with the reason.
+    """
+
+    lens: str
+    title: str
+    space: SpaceWords
+    truth_error: float
+    rows: tuple[Row, ...]
+    singles: tuple[tuple[float, tuple[Row, ...]], ...]
+    refused: tuple[tuple[str, str], ...]
+    seconds: float
+
+
+Progress = Callable[[str], None]
+
+
+def _silent(words: str) -> None:
+    pass
+
+
+def compared(lens: Lens, quick: bool = False, progress: Progress = _silent) -> LensTrade:
+    """Return the complete trade of one lens, on one thread; ``quick``: one setting of each family, fewer points.
+
+    ``progress`` is told what comes next. Raises GeometryError for a lens that has no space to compare in.
+    """
+    from threadpoolctl import threadpool_limits
+
+    started = process_time()
+    with threadpool_limits(1):
+        space = lens_space(lens)
+        exact = ExactPsfs(space)
+        points = space.random(TESTED_QUICK if quick else TESTED, SEED)
+        progress("exact PSFs")
+        truth = truth_of(points, exact.at(points).astype(float))
+        few = points[:PROBED]
+        probed = truth_of(few, np.stack([huygens_picture(space, source, PROBE_TOLERANCE) for source in few.sources()]))
+        rows, refused = _rows(space, exact, truth, probed, quick, progress)
+        progress("single points")
+        singles = tuple(_singles(space, exact, quick))
+    progress(DONE)
+    truth_error = float(_one_less_r2(truth.pictures[:PROBED], probed.pictures).max())
+    words = lens.name, lens.title or lens.name, _words(space)
+    return LensTrade(*words, truth_error, tuple(rows), singles, tuple(refused), process_time() - started)
+
+
+def _families(space: LensSpace, exact: ExactPsfs, quick: bool) -> dict[str, Callable[[], Iterator[Representation]]]:
+    return {
+        "seidel": partial(coefficient_representations, space, quick),
+        "fitted": partial(fitted_representations, space, quick),
+        "Zernike grid": partial(zernike_representations, space, quick),
+        "PSF grid": partial(grid_representations, space, exact, quick),
+        "PCA": partial(pca_representations, space, exact, quick),
+        "neural": partial(network_representations, space, exact, quick),
+        "shapes": partial(shape_representations, space, exact, quick),
+    }
+
+
+def _rows(
+    space: LensSpace, exact: ExactPsfs, truth: Truth, probed: Truth, quick: bool, progress: Progress
+) -> tuple[list[Row], list[tuple[str, str]]]:
+    """Return the rows of all families, and the families that this space refuses."""
+    rows: list[Row] = []
+    refused: list[tuple[str, str]] = []
+    for name, family in _families(space, exact, quick).items():
+        progress(name)
+        try:
+            rows += [measured(made, truth) for made in family()]
+        except P2SFError as error:
+            refused.append((name, str(error)))
+    progress("rays")
+    # Rays are the truth of all others; theirs is a Huygens sum of more nodes.
+    rows += [measured(made, probed) for made in ray_representations(space)]
+    return rows, refused
+
+
+def _singles(space: LensSpace, exact: ExactPsfs, quick: bool) -> Iterator[tuple[float, tuple[Row, ...]]]:
+    """Yield the field, °, and the rows of points taken alone."""
+    for part in SINGLE_FIELDS[1:2] if quick else SINGLE_FIELDS:
+        place = np.where(space.spread, [1.0, part, 0.5], 0.0)
+        point = space.at(place[None])
+        truth = truth_of(point, exact.at(point).astype(float))
+        made = point_representations(space, exact, point)
+        field = float(degrees_from_slope(point.field_slope[0]))
+        yield field, tuple(measured(one, truth) for one in made if one.family != "huygens")
+
+
+def truth_of(points: Points, pictures: np.ndarray) -> Truth:
+    """Return what representations are judged by at some points, from unit-sum pictures (n, pixels, pixels)."""
+    return Truth(points, pictures, _radius_80(pictures))
+
+
+def measured(made: Representation, truth: Truth) -> Row:
+    """Return what a representation costs, and its errors."""
+    points, wanted = truth.points, truth.pictures
+    found, batch = _timed(lambda: made.psf(points))
+    singles = [points[k : k + 1] for k in range(min(SINGLES, len(points)))]
+    single = float(np.median([_timed(partial(made.psf, one))[1] for one in singles]))
+    l2 = _relative_l2(found, wanted)
+    worst = int(l2.argmax())
+    place = points.depth_mm[worst], degrees_from_slope(points.field_slope[worst]), points.wavelength_um[worst]
+    depth, field, wave = (float(x) for x in place)
+    return Row(
+        family=made.family,
+        settings=made.settings,
+        numbers=made.numbers,
+        nbytes=made.nbytes,
+        build_seconds=made.seconds,
+        batch_us=1e6 * batch / len(points),
+        single_us=1e6 * single,
+        one_less_r2=_spread(_one_less_r2(found, wanted)),
+        relative_l2=_spread(l2),
+        mtf=_spread(_mtf_error(found, wanted)),
+        r80=_spread(np.abs(_radius_80(found) / truth.radius - 1)),
+        worst_at=(depth, field, wave * NM_PER_UM),
+        points=len(points),
+    )
+
+
+def _timed(work: Callable[[], np.ndarray]) -> tuple[np.ndarray, float]:
+    """Return the result and the mean CPU seconds of a call, of so many that a clock can tell; the first one counts."""
+    started, calls = process_time(), 0
+    while True:
+        found = work()
+        calls += 1
+        spent = process_time() - started
+        if spent >= ENOUGH_SECONDS:
+            return found, spent / calls
+
+
+def _spread(errors: np.ndarray) -> Spread:
+    return Spread(*(float(np.quantile(errors, part, method="higher")) for part in PARTS.values()))
+
+
+def _relative_l2(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """Return ‖found − truth‖/‖truth‖ of unit-sum pictures, (n,)."""
+    error: np.ndarray = np.linalg.norm(found - truth, axis=(1, 2)) / np.linalg.norm(truth, axis=(1, 2))
+    return error
+
+
+def _one_less_r2(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """Return Σ(found − truth)²/Σ(truth − mean)² of unit-sum pictures, (n,)."""
+    about_mean = truth - truth.mean((1, 2), keepdims=True)
+    error: np.ndarray = np.square(found - truth).sum((1, 2)) / np.square(about_mean).sum((1, 2))
+    return error
+
+
+def _mtf_error(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """Return the largest difference of the windows' tangential or sagittal contrast up to the pixels' Nyquist, (n,)."""
+    lines = [np.concatenate([x.sum(2), x.sum(1)], axis=1).reshape(len(x), 2, -1) for x in (found, truth)]
+    one, other = (np.abs(np.fft.rfft(line, axis=-1)) for line in lines)
+    error: np.ndarray = np.abs(one - other).max((1, 2))
+    return error
+
+
+def _radius_80(pictures: np.ndarray) -> np.ndarray:
+    """Return the radius that holds 80 % of each window's light about its centroid, pixels, (n,)."""
+    return radius_of_energy(Psf(pictures, 1.0, 1.0, "", None), EIGHTY)
+
+
+def _words(space: LensSpace) -> SpaceWords:
+    low, high = (float(degrees_from_slope(slope)) for slope in space.slopes)
+    blue, red = (wave * NM_PER_UM for wave in space.wavelengths_um)
+    window = space.window
+    depths = space.f_number, space.near_mm, space.far_mm
+    return SpaceWords(*depths, (low, high), (blue, red), window.pixels, window.pixel_um, window.across)

@@ -1,0 +1,120 @@
+"""Complete trades as JSON: a compact file of many lenses, and the one that is shipped."""
+
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, fields
+from functools import lru_cache
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from p2sf.errors import RequestError
+from p2sf.files.writing import write_beside
+from p2sf.lens.lens import Lens
+from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, compared
+
+SHIPPED = Path(__file__).with_name("complete_trade.json")
+DIGITS = 3  # of measured numbers: times and errors are not known better
+ROW = tuple(field.name for field in fields(Row))
+SPREADS = ("one_less_r2", "relative_l2", "mtf", "r80")
+EXACT = ("numbers", "nbytes", "points")  # whole numbers, kept as they are
+
+
+def record(trades: Iterable[LensTrade]) -> dict[str, Any]:
+    """Return trades as one JSON object: rows are lists in the order of ``columns``, errors (median, 95 %, worst)."""
+    return {"columns": ROW, "spreads": ("median", "95 %", "worst"), "lenses": [_lens(trade) for trade in trades]}
+
+
+def _lens(trade: LensTrade) -> dict[str, Any]:
+    plain = asdict(trade)
+    plain["rows"] = [_row(row) for row in trade.rows]
+    plain["singles"] = [[_short(field), [_row(row) for row in rows]] for field, rows in trade.singles]
+    plain["truth_error"], plain["seconds"] = _short(trade.truth_error), _short(trade.seconds)
+    return plain
+
+
+def _row(row: Row) -> list[Any]:
+    return [_cell(name, getattr(row, name)) for name in ROW]
+
+
+def _cell(name: str, value: Any) -> Any:
+    if isinstance(value, Spread):
+        return [_short(x) for x in (value.median, value.most, value.worst)]
+    if name == "worst_at":
+        return [_short(x) for x in value]
+    return _short(value) if isinstance(value, float) and name not in EXACT else value
+
+
+def _short(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
+
+
+def trades_of(found: dict[str, Any]) -> list[LensTrade]:
+    """Return the trades that `record` has put into JSON."""
+    return [_trade(lens, found["columns"]) for lens in found["lenses"]]
+
+
+def _trade(lens: dict[str, Any], columns: list[str]) -> LensTrade:
+    space: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in lens["space"].items()
+    }
+    return LensTrade(
+        **{
+            **lens,
+            "space": SpaceWords(**space),
+            "rows": tuple(_read_row(row, columns) for row in lens["rows"]),
+            "singles": tuple(
+                (field, tuple(_read_row(row, columns) for row in rows)) for field, rows in lens["singles"]
+            ),
+            "refused": tuple((name, why) for name, why in lens["refused"]),
+        }
+    )
+
+
+def _read_row(row: list[Any], columns: list[str]) -> Row:
+    cells = dict(zip(columns, row, strict=True))
+    spreads = {name: Spread(*cells[name]) for name in SPREADS}
+    return Row(**{**cells, **spreads, "worst_at": tuple(cells["worst_at"])})
+
+
+def save_trades(path: str | PathLike[str], trades: Iterable[LensTrade]) -> Path:
+    """Write trades as JSON, a lens's rows one a line, whole or not at all. Raises ExportError."""
+    return write_beside(path, lambda handle: handle.write(text_of(trades).encode()))
+
+
+def text_of(trades: Iterable[LensTrade]) -> str:
+    """Return trades as compact JSON, one row a line, so that two versions can be compared."""
+    text = json.dumps(record(trades), separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    return text.replace('],["', '],\n["').replace('},{"lens"', '},\n{"lens"') + "\n"
+
+
+def load_trades(path: str | PathLike[str]) -> list[LensTrade]:
+    """Return the trades of a file that `save_trades` wrote; RequestError for any other."""
+    try:
+        return trades_of(json.loads(Path(path).read_text(encoding="utf-8")))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RequestError(
+            "{path} holds no complete trade ({reason}); write one with p2sf tradeoff --complete -o",
+            path=str(path),
+            reason=str(error),
+        ) from error
+
+
+@lru_cache(maxsize=1)
+def shipped_trades() -> dict[str, LensTrade]:
+    """Return the trades of the shipped lenses by name, measured once and kept with the program."""
+    return {trade.lens: trade for trade in load_trades(SHIPPED)}
+
+
+def kept_or_compared(
+    lens: Lens, folder: Path | None, quick: bool = False, progress: Callable[[str], None] = lambda words: None
+) -> LensTrade:
+    """Return the trade of a lens from a folder where an earlier run left it, or compare it and leave it there."""
+    if folder is None:
+        return compared(lens, quick, progress)
+    path = folder / f"{lens.name}.json"
+    if path.exists():
+        return load_trades(path)[0]
+    found = compared(lens, quick, progress)
+    save_trades(path, [found])
+    return found
