@@ -29,6 +29,7 @@ COMMANDS = {
     "image": ("scenes:image", "A picture through the lens, blurred as field, depth and colour demand."),
     "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),
     "database": ("databases:app", "Every PSF of a lens as a file: build one, look into one."),
+    "cluster": ("clusters:cluster", "How to render a stack on many machines, and who works there."),
     "export": ("exports:export", "A database or stack for ISETCam, FITS or ImageJ readers, or as a table."),
     "lenses": ("lenses:lenses", "The shipped lenses."),
     "import": (

@@ -16,6 +16,7 @@ from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import Space, depth_nodes
 from p2sf.database.render import Sampling
 from p2sf.database_files import load_database, save_database
+from p2sf.database_files.place import is_stack, place_of, size_bytes
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import check_place
 from p2sf.lens.lens import Lens
@@ -85,13 +86,15 @@ class Kind:
     interpolant
         How values between the nodes are found: exact polynomials, the paper's table 1, or straight lines.
     stack
-        Write the rendered PSFs too, as a Zarr v3 folder; a stack that was stopped continues where it was.
+        Write the rendered PSFs too, as a Zarr v3 folder or to a URL, such as s3://bucket/name.zarr; a stack that was
+        stopped continues where it was.
     pixels
         Samples along each side of a stack's PSFs.
     pixel_um
         Their distance, µm; what the finest PSF needs when not given.
     scheduler
-        Address of a dask.distributed scheduler that renders the stack; this machine's threads when not given.
+        Address of a dask.distributed scheduler that renders the stack (p2sf cluster); this machine's threads when not
+        given.
     """
 
     method: Literal["seidel", "fitted"] = "seidel"
@@ -117,7 +120,9 @@ def build(
     lens: LensName,
     /,
     *,
-    output: Annotated[Path, Parameter(["--output", "-o"], negative="", help="File to write: .npz, a stack .zarr.")],
+    output: Annotated[
+        str, Parameter(["--output", "-o"], negative="", help="File to write: .npz, a stack .zarr, which may be a URL.")
+    ],
     nodes: Annotated[Nodes, Parameter(name="*")] = Nodes(),
     camera: Annotated[CameraOptions, Parameter(name="*")] = CameraOptions(),
     kind: Annotated[Kind, Parameter(name="*")] = Kind(),
@@ -134,9 +139,9 @@ def build(
         _write_stack(database, setup.lens, output, kind)
     else:
         save_database(database, setup.lens, output, setup.stop)
-    size = sum(p.stat().st_size for p in (output.rglob("*") if output.is_dir() else [output]) if p.is_file())
+    size = size_bytes(place_of(output)) if kind.stack else Path(output).stat().st_size
     about = {
-        "file": str(output),
+        "file": output,
         "aim": setup.lens.aim,
         "bytes": size,
         "nodes": database.space.shape,
@@ -145,7 +150,7 @@ def build(
     if as_json:
         return print_json({**about, "errors_waves": database.errors})
     rows: list[Row] = [("nodes, depth × field × wavelength", " × ".join(map(str, database.space.shape)), "")]
-    rows += [("coefficients built in", 1e3 * seconds, "ms"), ("file", str(output), ""), ("size", size / 1e3, "kB")]
+    rows += [("coefficients built in", 1e3 * seconds, "ms"), ("file", output, ""), ("size", size / 1e3, "kB")]
     return print_table(
         f"{found.title or found.name}: PSF database", ("", "value", "unit"), rows + error_rows(database.errors)
     )
@@ -187,13 +192,13 @@ def space_of(nodes: Nodes, lens: Lens) -> Space:
     return Space(depths, slope_from_degrees(fields), colours / NM_PER_UM)
 
 
-def _check_ending(output: Path, ending: str) -> None:
-    if output.suffix.lower() != ending:
+def _check_ending(output: str, ending: str) -> None:
+    if Path(output).suffix.lower() != ending:
         database = Message("a database is a .npz file, a {stack} a .zarr", stack=ParameterName("stack"))
         raise ExportError(
             "{parameter} is {path}; {wanted}, choose a name that ends in {ending}",
             parameter="output",
-            path=str(output),
+            path=output,
             wanted=Message("a stack is a .zarr folder") if ending == ".zarr" else database,
             ending=ending,
         )
@@ -202,13 +207,14 @@ def _check_ending(output: Path, ending: str) -> None:
 
 
 def _write_stack(
-    database: "ExactDatabase | GridDatabase | FittedDatabase", lens: Lens, output: Path, kind: Kind
+    database: "ExactDatabase | GridDatabase | FittedDatabase", lens: Lens, output: str, kind: Kind
 ) -> None:
     """Fill a stack, with a line of progress on a terminal."""
-    from p2sf.database_files.stack_write import StackProgress, write_stack
+    from p2sf.database_files.stack_write import Progress, StackProgress, write_stack
 
-    def tell(done: int, total: int, seconds_left: float) -> None:
-        print(f"\r{done} of {total} chunks, {seconds_left:.0f} s left ", end="", file=sys.stderr, flush=True)
+    def tell(now: Progress) -> None:
+        line = f"{now.done} of {now.total} chunks, {now.psfs_per_second:.0f} PSFs/s, {now.seconds_left:.0f} s left"
+        print(f"\r{line:60}", end="", file=sys.stderr, flush=True)
 
     watch = StackProgress(progress=tell) if sys.stderr.isatty() else StackProgress()
     write_stack(database, lens, output, Sampling(kind.pixels, kind.pixel_um), watch, kind.scheduler)
@@ -217,10 +223,10 @@ def _write_stack(
 
 
 @app.command
-def info(file: Path, /, *, as_json: Json = False) -> None:
+def info(file: str, /, *, as_json: Json = False) -> None:
     """Show what a database or a stack holds, where it comes from, and how exact it is."""
     held: dict[str, Any] = {}
-    if file.is_dir():
+    if is_stack(file):
         from p2sf.database_files.stack import open_stack
 
         stack = open_stack(file)

@@ -9,6 +9,7 @@ from cyclopts import Parameter
 from p2sf.cli.options import Json, Whole, check_output, check_samples
 from p2sf.cli.screen import print_json
 from p2sf.database.render import Sampling
+from p2sf.database_files.place import is_url
 
 # The first ending of a format is the one a file gets when no --output is given.
 ENDINGS = {"iset": (".mat",), "fits": (".fits", ".fit", ".fts"), "tiff": (".tif", ".tiff"), "csv": (".csv",)}
@@ -37,7 +38,7 @@ class RenderedOptions:
 
 
 def export(
-    file: Path,
+    file: str,
     /,
     *,
     to: Literal["iset", "fits", "tiff", "csv"],
@@ -47,7 +48,8 @@ def export(
 ) -> None:
     """Write a database (.npz) or stack (.zarr) as ISETCam optics, FITS, an ImageJ TIFF, or a table."""
     check_output(output, ENDINGS[to])
-    target = output or file.with_suffix(ENDINGS[to][0])
+    beside = Path(file.rpartition("/")[2] if is_url(file) else file)
+    target = output or beside.with_suffix(ENDINGS[to][0])
     _WRITERS[to](file, target, picture)
     if as_json:
         print_json({"file": str(target), "to": to, "bytes": target.stat().st_size})
@@ -55,26 +57,26 @@ def export(
         print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
 
 
-def _iset(file: Path, target: Path, picture: RenderedOptions) -> None:
+def _iset(file: str, target: Path, picture: RenderedOptions) -> None:
     from p2sf.interchange import IsetOptions, open_stored, write_iset
 
     options = IsetOptions(picture.depth_mm, picture.pixels or IsetOptions().pixels, picture.pixel_um)
     write_iset(open_stored(file), target, options)
 
 
-def _fits(file: Path, target: Path, picture: RenderedOptions) -> None:
+def _fits(file: str, target: Path, picture: RenderedOptions) -> None:
     from p2sf.interchange import open_cube, write_fits
 
     write_fits(open_cube(file, _sampling(picture)), target)
 
 
-def _tiff(file: Path, target: Path, picture: RenderedOptions) -> None:
+def _tiff(file: str, target: Path, picture: RenderedOptions) -> None:
     from p2sf.interchange import open_cube, write_tiff
 
     write_tiff(open_cube(file, _sampling(picture)), target)
 
 
-def _csv(file: Path, target: Path, picture: RenderedOptions) -> None:
+def _csv(file: str, target: Path, picture: RenderedOptions) -> None:
     from p2sf.interchange import open_stored, write_csv
 
     write_csv(open_stored(file), target)

@@ -88,15 +88,26 @@ def rendered_light(
     dtype: DTypeLike = np.float32,
     threads: int | None = None,
 ) -> np.ndarray:
-    """Return what `rendered` does, as light per pixel where the pitch exceeds that of `critical_pixel_um`.
+    """Return what `rendered` does, as light per pixel where the pitch exceeds that of `critical_pixel_um`."""
+    return light_of(database, points, sampling, samples_per_pixel(database, sampling), dtype, threads)
+
+
+@one_blas_thread
+def light_of(
+    database: Database,
+    points: Points,
+    sampling: Sampling,
+    across: int,
+    dtype: DTypeLike = np.float32,
+    threads: int | None = None,
+) -> np.ndarray:
+    """Return `rendered_light` where ``across``, from `samples_per_pixel`, is known; that asks every depth and colour.
 
     Each thread takes one PSF after the other: the finer samples may be a hundred times as many.
     """
-    across = samples_per_pixel(database, sampling)
     if across == 1:
         return rendered(database, points, sampling, dtype, threads)
-    pitch = (sampling.pixel_um or critical_pixel_um(database)) / across
-    fine = replace(sampling, pixels=pixel_integrals.fine_side(sampling.pixels, across), pixel_um=pitch)
+    fine = fine_sampling(sampling, sampling.pixel_um or critical_pixel_um(database), across)
     depth, slope, wavelength = np.broadcast_arrays(*points)
     found = np.empty((*depth.shape, sampling.pixels, sampling.pixels), dtype)
 
@@ -107,6 +118,11 @@ def rendered_light(
 
     mapped(fill, np.ndindex(depth.shape), threads)
     return found
+
+
+def fine_sampling(sampling: Sampling, pixel_um: float, across: int) -> Sampling:
+    """Return the samples that are added up over pixels of this pitch, ``across`` of them along each."""
+    return replace(sampling, pixels=pixel_integrals.fine_side(sampling.pixels, across), pixel_um=pixel_um / across)
 
 
 def samples_per_pixel(database: Database, sampling: Sampling) -> int:
@@ -129,5 +145,6 @@ def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um:
 
 def critical_pixel_um(database: Database) -> float:
     """Return the coarsest pitch that samples the finest PSF on the nodes without loss: λ/(4 NA), its band limit."""
-    found = database.coefficients(*database.space.axes)
+    depths, slopes, colours = database.space.axes
+    found = database.coefficients(depths, slopes[:1], colours)  # the numerical aperture does not depend on the field
     return float(np.min(pixel_integrals.critical_pixel_um(database.space.wavelengths_um, found.na)))

@@ -1,12 +1,14 @@
-"""PSF stacks on disk: a Zarr v3 group with its axes and the database it was rendered from."""
+"""PSF stacks, in a folder or at a URL: a Zarr v3 group with its axes and the database it was rendered from."""
 
 import json
 import os
 import shutil
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 from os import PathLike
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
 import numpy as np
@@ -14,12 +16,16 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, centred_axis, degrees_from_slope
 from p2sf.database.render import Sampling, critical_pixel_um, samples_per_pixel
 from p2sf.database_files import Stored, database_from_bytes
+from p2sf.database_files.place import Place, chunk_names, exists, place_of, reached, send
 from p2sf.errors import DatabaseError
 
 SCHEMA = 1
 CHUNK_BYTES = 1 << 20  # a chunk is what is lost when a writer is killed, and the least that a reader loads
 AXES = ("depth_mm", "field_deg", "wavelength_nm", "y_um", "x_um")
 TEMPORARY = ".part"
+
+Chunk = tuple[int, int, int]
+"""The indices of a chunk along depth, field and wavelength."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +36,7 @@ class Stack:
     ``integrated``: whether a sample is the light of a whole pixel and not the intensity at its place.
     """
 
-    path: Path
+    path: Place
     psf: Any  # a zarr.Array
     raw: bytes
     stored: Stored
@@ -38,28 +44,46 @@ class Stack:
     integrated: bool
 
     @property
-    def chunks(self) -> list[tuple[int, int, int]]:
+    def chunks(self) -> list[Chunk]:
         """Return the (depth, field, wavelength) indices of all chunks."""
         depths, fields, wavelengths = (-(-n // c) for n, c in zip(self.psf.shape[:3], self.psf.chunks[:3], strict=True))
         return list(product(range(depths), range(fields), range(wavelengths)))
 
     @property
-    def missing(self) -> list[tuple[int, int, int]]:
+    def missing(self) -> list[Chunk]:
         """Return the chunks not written yet; each is written whole or not at all."""
+        if isinstance(self.path, str):
+            written = chunk_names(self.path)
+            return [chunk for chunk in self.chunks if _name(chunk) not in written]
         folder = self.path / "psf" / "c"
-        return [chunk for chunk in self.chunks if not (folder / "/".join(map(str, (*chunk, 0, 0)))).exists()]
+        return [chunk for chunk in self.chunks if not (folder / _name(chunk)).exists()]
 
     @property
     def complete(self) -> bool:
         """Return whether every PSF is there."""
         return not self.missing
 
-    def region(self, chunk: tuple[int, int, int]) -> tuple[slice, ...]:
+    @property
+    def sampling(self) -> Sampling:
+        """Return the samples of each PSF."""
+        return Sampling(self.psf.shape[-1], self.pixel_um)
+
+    @cached_property
+    def across(self) -> int:
+        """Return how many samples across a pixel its light takes."""
+        return samples_per_pixel(self.stored.database, self.sampling) if self.integrated else 1
+
+    def region(self, chunk: Chunk) -> tuple[slice, ...]:
         """Return the part of the array that a chunk covers."""
         return tuple(
             slice(k * c, min((k + 1) * c, n))
             for k, c, n in zip(chunk, self.psf.chunks[:3], self.psf.shape[:3], strict=True)
         )
+
+
+def _name(chunk: Chunk) -> str:
+    """Return the name of a chunk of the PSFs, whose last two axes are not divided."""
+    return "/".join(map(str, (*chunk, 0, 0)))
 
 
 def needed(name: str) -> Any:
@@ -70,14 +94,17 @@ def needed(name: str) -> Any:
         return import_module(name)
     except ImportError as error:
         raise DatabaseError(
-            "PSF stacks need {library}, which is not installed; pip install 'p2sf[dask]'", library=error.name
+            "PSF stacks need {library}, which is not installed; pip install 'p2sf[dask]'", library=error.name or name
         ) from error
 
 
 def create(path: str | PathLike[str], raw: bytes, sampling: Sampling) -> None:
     """Create an empty stack for the nodes of a database, given as the bytes of its file; OSError leaves nothing."""
-    target = Path(path)
-    stored = database_from_bytes(raw, path)
+    target, stored = place_of(path), database_from_bytes(raw, path)
+    if isinstance(target, str):
+        with TemporaryDirectory() as folder:
+            _create_arrays(Path(folder), stored, raw, sampling)
+            return send(Path(folder), target)
     draft = target.with_name(f".{target.name}{TEMPORARY}")
     shutil.rmtree(draft, ignore_errors=True)
     try:
@@ -132,24 +159,25 @@ def chunk_shape(shape: tuple[int, int, int], pixels: int) -> tuple[int, int, int
 def open_stack(path: str | PathLike[str], mode: Literal["r", "r+"] = "r") -> Stack:
     """Return a stack on disk; DatabaseError for a foreign, damaged or newer one, or one that is not there."""
     zarr = needed("zarr")
-    if not Path(path).is_dir():
+    place = place_of(path)
+    if not exists(place):
         raise DatabaseError(
             "{path} is not there; build it with {command}", path=str(path), command="p2sf database build --stack"
         )
     try:
-        group = zarr.open_group(path, mode=mode, zarr_format=3)
-        schema = group.attrs["p2sf_stack_schema"]
-        if schema > SCHEMA:
+        with reached(place):
+            group = zarr.open_group(place, mode=mode, zarr_format=3)
+            psf, raw, attributes = group["psf"], group["database"][:].tobytes(), dict(group.attrs)
+        if attributes["p2sf_stack_schema"] > SCHEMA:
             raise DatabaseError(
                 "{path} has stack schema {schema}, newer than {newest}; update P2SF",
                 path=str(path),
-                schema=schema,
+                schema=attributes["p2sf_stack_schema"],
                 newest=SCHEMA,
             )
-        psf, raw = group["psf"], group["database"][:].tobytes()
         stored = database_from_bytes(raw, path)
-        integrated = bool(group.attrs.get("integrated", False))
-        stack = Stack(Path(path), psf, raw, stored, float(group.attrs["pixel_um"]), integrated)
+        integrated = bool(attributes.get("integrated", False))
+        stack = Stack(place, psf, raw, stored, float(attributes["pixel_um"]), integrated)
         if psf.shape[:3] != stored.database.space.shape or psf.dtype != np.float32 or psf.shape[3] != psf.shape[4]:
             raise DatabaseError("{path} is damaged, its PSFs do not fit its database; build it again", path=str(path))
     except DatabaseError:
@@ -169,7 +197,10 @@ def read_psfs(stack: Stack, where: Any) -> np.ndarray:
     Raises DatabaseError for a chunk whose checksum is wrong, and for PSFs not written yet.
     """
     try:
-        values: np.ndarray = stack.psf[where]
+        with reached(stack.path):
+            values: np.ndarray = stack.psf[where]
+    except DatabaseError:
+        raise
     except (RuntimeError, ValueError, OSError) as error:
         raise DatabaseError(
             "{path} has a damaged chunk; delete it and build the stack again, it resumes", path=str(stack.path)

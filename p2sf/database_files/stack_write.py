@@ -1,35 +1,46 @@
-"""Filling a PSF stack chunk by chunk, on local threads or on a cluster, scheduled by dask."""
+"""Filling a PSF stack chunk by chunk, by the threads of this machine or by the workers of a cluster."""
 
-import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from p2sf.database.render import Database, Sampling, critical_pixel_um, rendered_light, samples_per_pixel
+from p2sf.database.cost import products
+from p2sf.database.render import Database, Sampling, critical_pixel_um, fine_sampling, light_of, samples_per_pixel
 from p2sf.database_files import database_bytes, same_database
-from p2sf.database_files.stack import TEMPORARY, Stack, create, needed, open_stack
+from p2sf.database_files.place import exists, failures, place_of, reason
+from p2sf.database_files.stack import TEMPORARY, Chunk, Stack, create, open_stack
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
+from p2sf.threads import for_each
 
-Progress = Callable[[int, int, float], None]
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a stack is: chunks that are there and all chunks, the PSFs of this run and its rate, what is left."""
+
+    done: int
+    total: int
+    psfs: int
+    psfs_per_second: float
+    seconds_left: float
 
 
 @dataclass(frozen=True)
 class StackProgress:
-    """``progress(done, total, seconds_left)`` and ``cancelled()``, both called between chunks."""
+    """``progress(now)`` is called after each chunk, ``cancelled()`` before and after: True ends the filling."""
 
-    progress: Progress = lambda done, total, seconds_left: None
+    progress: Callable[[Progress], None] = lambda now: None
     cancelled: Callable[[], bool] = lambda: False
 
 
 UNWATCHED = StackProgress()
 USUAL = Sampling()
+COSTS_AT_ONCE = 1000  # chunks whose costs are found together, which takes some mebibytes
 
 
 def write_stack(
@@ -39,17 +50,20 @@ def write_stack(
     sampling: Sampling = USUAL,
     watch: StackProgress = UNWATCHED,
     scheduler: str | None = None,
+    threads: int | None = None,
 ) -> Stack:
     """Render every node of a database into a Zarr v3 stack and return it; chunks already there are kept.
 
-    ``scheduler``: the address of a dask.distributed scheduler whose workers see the same ``path``; None for
-    the threads of this machine. Cancelled or killed, the stack keeps all finished chunks, and the same call
+    ``path``: a folder, or a URL that fsspec knows, such as ``s3://bucket/name.zarr``. ``scheduler``: the address of a
+    dask.distributed scheduler whose workers reach the same ``path``, and write to it themselves; None for ``threads``
+    of this machine (`threads_or_default`). Cancelled or killed, the stack keeps all finished chunks, and the same call
     resumes from there. Raises DatabaseError, also when ``path`` holds another stack.
     """
     raw = database_bytes(database, lens)
     pitch = sampling.pixel_um or critical_pixel_um(database)
-    if not Path(path).exists():
-        with _disk_errors(path):
+    place = place_of(path)
+    with _write_errors(path):
+        if not exists(place):
             create(path, raw, sampling)
     stack = open_stack(path, "r+")
     asked = sampling.pixels, pitch, samples_per_pixel(database, sampling) > 1
@@ -58,94 +72,107 @@ def write_stack(
             "{path} holds a stack of another lens, aim, nodes or samples; choose another name or delete it",
             path=str(path),
         )
-    with _disk_errors(path):
-        for torn in Path(path).rglob(f"*{TEMPORARY}*"):
-            torn.unlink()  # left by a writer that was killed
-        _fill(stack, watch, scheduler)
+    with _write_errors(path):
+        if isinstance(place, Path):
+            for torn in place.rglob(f"*{TEMPORARY}*"):
+                torn.unlink()  # left by a writer that was killed
+        work = Work(stack, stack.missing, watch)
+        if scheduler:
+            from p2sf.database_files.stack_cluster import fill
+
+            fill(work, scheduler)
+        else:
+            _fill_here(work, threads)
     return stack
 
 
 @contextmanager
-def _disk_errors(path: str | PathLike[str]) -> Iterator[None]:
-    """Turn an OSError into a DatabaseError; finished chunks stay."""
+def _write_errors(path: str | PathLike[str]) -> Iterator[None]:
+    """Turn errors of a disk or a store into a DatabaseError; finished chunks stay."""
     try:
         yield
-    except OSError as error:
+    except failures() as error:
         raise DatabaseError(
             "{path} cannot be written, {reason}; make room and give the same command again, which keeps what is done",
             path=str(path),
-            reason=(error.strerror or str(error)).lower(),
+            reason=reason(error),
         ) from error
 
 
-def _fill(stack: Stack, watch: StackProgress, scheduler: str | None) -> None:
-    dask = needed("dask")
-    whole, missing = lazy_stack(stack), stack.missing
-    total, start = len(stack.chunks), time.monotonic()
-    before = total - len(missing)
-    with _workers(scheduler) as count:
-        for first in range(0, len(missing), 2 * count):
-            if watch.cancelled():
-                return
-            dask.compute(*_stores(stack, whole, missing[first : first + 2 * count]))
-            done = min(first + 2 * count, len(missing))
-            left = (time.monotonic() - start) / done * (len(missing) - done)
-            watch.progress(before + done, total, left)
+class Work:
+    """The chunks that a stack lacks, the costliest first, so that at the end no worker waits for a long one."""
+
+    def __init__(self, stack: Stack, missing: Sequence[Chunk], watch: StackProgress) -> None:
+        self.stack, self.watch = stack, watch
+        costs = chunk_costs(stack, missing)
+        order = np.argsort(-costs, kind="stable").tolist()
+        self.chunks = [missing[k] for k in order]
+        self._costs = {missing[k]: float(costs[k]) for k in order}
+        self._left = float(costs.sum())
+        self._before = len(stack.chunks) - len(missing)
+        self._start, self._cost, self._psfs, self._done = time.monotonic(), 0.0, 0, 0
+
+    def finished(self, chunk: Chunk) -> None:
+        """Count a chunk that is written, and tell the watch."""
+        cost = self._costs.pop(chunk)
+        self._cost, self._left = self._cost + cost, self._left - cost
+        self._psfs, self._done = self._psfs + psf_count(self.stack, chunk), self._done + 1
+        seconds = max(time.monotonic() - self._start, 1e-9)
+        left = seconds / self._cost * self._left if self._costs else 0.0
+        done, total = self._before + self._done, self._before + self._done + len(self._costs)
+        self.watch.progress(Progress(done, total, self._psfs, self._psfs / seconds, left))
 
 
-def _stores(stack: Stack, whole: Any, chunks: Sequence[tuple[int, int, int]]) -> list[Any]:
-    """Return one lazy write per chunk."""
-    array = needed("dask.array")
-    blocks = [whole.blocks[(*chunk, 0, 0)] for chunk in chunks]
-    regions = [(*stack.region(chunk), slice(None), slice(None)) for chunk in chunks]
-    return [
-        array.store([block], [stack.psf], regions=[region], lock=False, compute=False)
-        for block, region in zip(blocks, regions, strict=True)
-    ]
+def psf_count(stack: Stack, chunk: Chunk) -> int:
+    """Return how many PSFs a chunk holds."""
+    return int(np.prod([part.stop - part.start for part in stack.region(chunk)]))
 
 
-def lazy_stack(stack: Stack) -> Any:
-    """Return all PSFs of a stack as a dask.array.Array, rendered when and where they are computed."""
-    array = needed("dask.array")
-    shape, chunks = stack.psf.shape, stack.psf.chunks
-    space = stack.stored.database.space
-    axes = [
-        array.from_array(np.expand_dims(nodes, [k for k in range(5) if k != axis]), chunks=(chunks[axis],) * 5)
-        for axis, nodes in enumerate((space.depths_mm, space.field_slopes, space.wavelengths_um))
-    ]
-    sides = ((shape[3],), (shape[4],))
-    return array.map_blocks(
-        _render_block,
-        *axes,
-        database=stack.stored.database,
-        pixels=shape[-1],
-        pixel_um=stack.pixel_um,
-        chunks=(*array.core.normalize_chunks(chunks[:3], shape[:3]), *sides),
-        dtype=np.float32,
-        meta=np.empty((0,) * 5, np.float32),
+def chunk_costs(stack: Stack, chunks: Sequence[Chunk]) -> np.ndarray:
+    """Return about how many products each chunk takes, from the first and last field at its middle depth and colour."""
+    database, space = stack.stored.database, stack.stored.database.space
+    regions = [stack.region(chunk) for chunk in chunks]
+    middle = [[(part.start + part.stop) // 2 for part in region] for region in regions]
+    ends = np.array([[region[1].start, region[1].stop - 1] for region in regions]).reshape(-1, 2)
+    depth, _, colour = np.array(middle, dtype=int).reshape(-1, 3).T
+    sampling = stack.sampling
+    if stack.across > 1:
+        sampling = fine_sampling(sampling, stack.pixel_um, stack.across)
+    found = np.zeros(len(chunks))
+    for some in np.array_split(np.arange(len(chunks)), len(chunks) // COSTS_AT_ONCE + 1):
+        points = space.depths_mm[depth[some], None], space.field_slopes[ends[some]]
+        coefficients = database.coefficients(*points, space.wavelengths_um[colour[some], None])
+        found[some] = products(coefficients, sampling.pixels, stack.pixel_um / stack.across).mean(-1)
+    return found * [psf_count(stack, chunk) for chunk in chunks]
+
+
+class _Stopped(Exception):
+    """Whoever watches has cancelled."""
+
+
+def _fill_here(work: Work, threads: int | None) -> None:
+    """Fill a stack by threads of this process."""
+
+    def written(chunk: Chunk) -> Chunk:
+        write_chunk(work.stack, chunk)
+        return chunk
+
+    def count(chunk: Chunk) -> None:
+        work.finished(chunk)
+        if work.watch.cancelled():
+            raise _Stopped
+
+    if not work.watch.cancelled():
+        with suppress(_Stopped):
+            for_each(written, work.chunks, count, threads)
+
+
+def write_chunk(stack: Stack, chunk: Chunk) -> None:
+    """Render the PSFs of a chunk in this thread and write them, whole or not at all."""
+    space, region = stack.stored.database.space, stack.region(chunk)
+    depths, slopes, colours = (
+        nodes[part]
+        for nodes, part in zip((space.depths_mm, space.field_slopes, space.wavelengths_um), region, strict=True)
     )
-
-
-def _render_block(
-    depth: np.ndarray,
-    slope: np.ndarray,
-    wavelength: np.ndarray,
-    database: Database,
-    pixels: int,
-    pixel_um: float,
-) -> np.ndarray:
-    points = (x[..., 0, 0] for x in (depth, slope, wavelength))
-    return rendered_light(database, points, Sampling(pixels, pixel_um))
-
-
-@contextmanager
-def _workers(address: str | None) -> Iterator[int]:
-    """Run dask on the scheduler at an address, or on local threads of one BLAS thread each; yield how many."""
-    if address:
-        with needed("distributed").Client(address) as client:
-            yield max(1, sum(client.nthreads().values()))
-        return
-    from threadpoolctl import threadpool_limits
-
-    with needed("dask").config.set(scheduler="threads"), threadpool_limits(1):
-        yield os.cpu_count() or 1
+    points = depths[:, None, None], slopes[:, None], colours
+    stack.psf[region] = light_of(stack.stored.database, points, stack.sampling, stack.across, threads=1)

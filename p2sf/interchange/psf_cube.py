@@ -2,7 +2,6 @@
 
 import os
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -11,6 +10,7 @@ from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.render import Sampling, critical_pixel_um, rendered_light, samples_per_pixel
 from p2sf.database.space import Space
 from p2sf.database_files import Stored, load_database
+from p2sf.database_files.place import is_stack
 from p2sf.database_files.stack import open_stack, read_psfs
 from p2sf.errors import DatabaseError
 
@@ -77,12 +77,12 @@ class Cube:
 
 def open_stored(path: str | os.PathLike[str]) -> Stored:
     """Return the database of a .npz or of a stack; DatabaseError for any other file."""
-    return open_stack(path).stored if Path(path).is_dir() else load_database(path)
+    return open_stack(path).stored if is_stack(path) else load_database(path)
 
 
 def open_cube(path: str | os.PathLike[str], sampling: Sampling = DEFAULT) -> Cube:
     """Return all PSFs of a file; a .npz is rendered with ``sampling``, a stack read unchanged. Raises DatabaseError."""
-    if Path(path).is_dir():
+    if is_stack(path):
         stack = open_stack(path)
         _check_size(path, stack.psf.shape)
         return Cube(read_psfs(stack, ...), stack.pixel_um, stack.stored, stack.integrated)

@@ -94,6 +94,14 @@ def test_a_stack_is_built_told_about_and_exported(said, tmp_path):
     assert json.loads(said("export", path, "--to", "tiff", "-o", tmp_path / "a.tif", "--json"))["bytes"] > 18 * 1024
 
 
+def test_how_to_start_a_cluster_is_two_lines(said):
+    lines = json.loads(said("cluster", "--json"))
+    assert lines["scheduler"].split() == ["dask", "scheduler"]
+    assert lines["worker"].split()[:2] == ["dask", "worker"]
+    told = said("cluster")
+    assert all(line in told for line in lines.values()) and "p2sf database build" in told
+
+
 @pytest.mark.parametrize("to", ["iset", "fits", "tiff", "csv"])
 def test_every_export_is_written_beside_the_database(said, file, to):
     answer = json.loads(said("export", file, "--to", to, "--pixels", 16, "--pixel-um", 20, "--json"))

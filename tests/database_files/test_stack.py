@@ -16,7 +16,7 @@ from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
 from p2sf.database.render import Sampling, rendered_light
 from p2sf.database_files.stack import chunk_shape, open_stack, read_psfs
-from p2sf.database_files.stack_write import StackProgress, write_stack
+from p2sf.database_files.stack_write import StackProgress, psf_count, write_stack
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import with_aim
 from p2sf.lensfile.library import find_lens
@@ -75,15 +75,17 @@ def test_chunks_are_about_a_mebibyte_along_the_field_first():
 def test_progress_and_cancel_between_chunks_and_going_on_gives_the_same_bytes(stack, tmp_path):
     told = []
     database, lens = small()
-    watch = StackProgress(lambda *now: told.append(now), lambda: len(told) >= 1)
+    watch = StackProgress(told.append, lambda: len(told) >= 1)
     half = write_stack(database, lens, tmp_path / "half.zarr", SAMPLING, watch)
     assert not half.complete
-    assert 0 < told[0][0] < told[0][1] == len(half.chunks)
-    assert told[0][2] > 0
+    assert 0 < told[0].done < told[0].total == len(half.chunks)
+    assert told[0].seconds_left > 0
     with pytest.raises(DatabaseError, match="is not complete; build it again with the same command, it resumes"):
         read_psfs(half, ...)
-    again = write_stack(database, lens, tmp_path / "half.zarr", SAMPLING, StackProgress(lambda *now: told.append(now)))
-    assert told[-1] == (len(half.chunks), len(half.chunks), 0)
+    lacking = sum(psf_count(half, chunk) for chunk in half.missing)
+    again = write_stack(database, lens, tmp_path / "half.zarr", SAMPLING, StackProgress(told.append))
+    assert (told[-1].done, told[-1].total, told[-1].seconds_left) == (len(half.chunks), len(half.chunks), 0)
+    assert told[-1].psfs == lacking and told[-1].psfs_per_second > 0
     assert again.complete
     assert contents(again.path) == contents(stack.path)
 
@@ -92,11 +94,11 @@ SLOW_BUILD = """
 import sys, time
 import p2sf.database_files.stack_write as write
 from tests.database_files.test_stack import SAMPLING, small
-plain = write.rendered_light
-def slow(*arguments):
+plain = write.light_of
+def slow(*arguments, **options):
     time.sleep(0.15)
-    return plain(*arguments)
-write.rendered_light = slow
+    return plain(*arguments, **options)
+write.light_of = slow
 write.write_stack(*small(), sys.argv[1], SAMPLING)
 """
 
@@ -221,12 +223,3 @@ def test_foreign_places_are_sentences(tmp_path, kind):
     if kind != "nothing":
         with pytest.raises(DatabaseError):
             write_stack(*small(), path, SAMPLING)
-
-
-def test_two_processes_of_a_cluster_write_the_same_bytes(stack, tmp_path):
-    from distributed import LocalCluster
-
-    with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
-        built = write_stack(*small(), tmp_path / "two.zarr", SAMPLING, scheduler=cluster.scheduler_address)
-    assert built.complete
-    assert contents(built.path) == contents(stack.path)
