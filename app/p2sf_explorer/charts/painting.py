@@ -82,6 +82,13 @@ def letter_width(letter: str, size: int) -> float:
     return metrics(size).horizontalAdvance(letter)
 
 
+def elided(words: str, room: float, size: int = 11) -> str:
+    """Return a text whole if it fits, else cut at its end."""
+    if width_of(words, size) <= room:
+        return words
+    return metrics(size).elidedText(words, Qt.TextElideMode.ElideRight, room)
+
+
 def fitting(words: str, room: float, size: int = 11) -> str:
     """Return a text as far as it fits: whole, without its part in brackets, its first word and unit, or elided."""
     bare = words.partition(" (")[0]

@@ -206,8 +206,14 @@ def _frames(t: Tokens) -> str:
     QCheckBox::indicator:checked {{ background: {t.accent}; border: 1px solid {t.accent}; }}
     QCheckBox:focus {{ border: 1px solid {t.accent}; }}
     QScrollBar:vertical {{ background: transparent; width: 10px; }}
-    QScrollBar::handle:vertical {{ background: {t.line}; border-radius: 4px; min-height: 24px; }}
-    QScrollBar::add-line, QScrollBar::sub-line {{ height: 0; }}
+    QScrollBar:horizontal {{ background: transparent; height: 10px; }}
+    QScrollBar::handle {{ background: {t.line}; border-radius: 4px; }}
+    QScrollBar::handle:vertical {{ min-height: 24px; }}
+    QScrollBar::handle:horizontal {{ min-width: 24px; }}
+    QScrollBar::add-line, QScrollBar::sub-line {{ width: 0; height: 0; }}
+    QScrollBar::add-page, QScrollBar::sub-page {{ background: transparent; }}
+    SetDialog {{ min-width: 560px; max-width: 560px; }}
+    QLabel#reasons {{ font-size: 12px; padding: 10px; min-width: 460px; max-width: 460px; }}
     """
 
 
@@ -220,11 +226,14 @@ def _inputs(t: Tokens) -> str:
     QLineEdit#cell {{ padding: 1px 6px; min-height: 18px; }}
     QLineEdit#value {{ padding: 1px 6px; min-height: 18px; min-width: 82px; max-width: 82px; }}
     QLineEdit#value[short="true"] {{ min-width: 66px; max-width: 66px; }}
+    QLineEdit#value[wide="true"] {{ min-width: 120px; max-width: 120px; }}
+    QLineEdit#value[list="true"] {{ min-width: 60px; max-width: 1000px; }}
     QLineEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus {{ border: 1px solid {t.accent}; }}
     QPushButton:hover, QToolButton:hover, QComboBox:hover {{ border: 1px solid {t.muted}; }}
     QPushButton:disabled, QToolButton:disabled {{ color: {t.muted}; background: {t.card}; }}
     QPushButton#small, QToolButton#small {{ padding: 1px 7px; font-size: 12px; min-height: 18px; }}
     QToolButton#small[tight="true"] {{ padding: 1px 2px; }}
+    QToolButton#small[turns="true"] {{ min-width: 28px; max-width: 28px; }}
     QPushButton#lens {{ text-align: left; padding-right: 22px; }}
     QPushButton#segment {{ padding: 3px 9px; color: {t.muted}; background: transparent;
         border: 1px solid transparent; }}
@@ -267,6 +276,7 @@ def _lists(t: Tokens) -> str:
     QTabWidget::tab-bar {{ left: 4px; }}
     QTabBar {{ background: transparent; qproperty-drawBase: 0; }}
     QTabBar QToolButton {{ padding: 0; min-height: 0; border-radius: 3px; }}
+    QTabBar::scroller {{ width: 18px; }}
     QTabBar::tear {{ width: 0; }}
     QTabBar::tab {{ padding: 4px 11px; color: {t.muted}; border: none; border-bottom: 2px solid transparent; }}
     QTabBar::tab:selected {{ color: {t.text}; border-bottom: 2px solid {t.accent}; }}

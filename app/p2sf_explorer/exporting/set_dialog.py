@@ -27,7 +27,6 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.value_edit import ShortField
 from p2sf_explorer.workers.worker import LatestWins
 
-WIDTH = 560
 FILES = (
     "NumPy (*.npz);;TIFF stack for ImageJ (*.tif);;FITS (*.fits);;MATLAB and Octave (*.mat);;Table of figures (*.csv)"
 )
@@ -97,7 +96,6 @@ class SetDialog(QDialog):
         column.addWidget(self.note)
         column.addWidget(self.bar)
         column.addLayout(foot)
-        self.setFixedWidth(WIDTH)
 
     def open_for(self) -> None:
         """Show the dialog; the fields keep what was typed for the same lens."""

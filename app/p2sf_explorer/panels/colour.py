@@ -23,7 +23,8 @@ from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "Colour PSF: a PSF for each wavelength where its own chief ray lands, weighted by the spectrum and the CIE 1931 "
-    "observer, as linear sRGB. Right: the luminance of the spectrum, and where each colour's chief ray lands."
+    "observer, as linear sRGB. Beside or below: the luminance of the spectrum, and where each colour's chief "
+    "ray lands."
 )
 SPECTRUM_TIP = "The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)"
 
@@ -89,7 +90,7 @@ class ColourPanel:
         self.widget = ChartsCard("Colour PSF", TIP, (self.picture, self.spectrum), (3, 4))
         self.choice = chooser((*CHOICES, ("", "typed")), SPECTRUM_TIP, self.widget)
         self.typed = ValueEdit(self.widget)
-        self.typed.setFixedWidth(170)
+        self.typed.setProperty("wide", True)
         self.typed.setToolTip(tr(SPECTRUM_TIP))
         self.typed.setAccessibleName(tr("Spectrum"))
         self.widget.add_tool(self.choice)

@@ -17,6 +17,7 @@ from p2sf_explorer.results.database import LOSSY, NODES, Atlas, DatabaseRequest,
 from p2sf_explorer.state.terms import WORDS
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
+from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.depth_field_chart import PER_METRE, AtlasView, DepthFieldMap, Ends
 from p2sf_explorer.workers.worker import LatestWins
 
@@ -59,14 +60,11 @@ class DatabasePanel:
         self.widget.add_tool(self.term)
         self.widget.add_tool(self.rule)
         self.note.setObjectName("muted")
+        self.note.setWordWrap(True)
         self.heads = [QLabel() for _ in range(3)]
-        body = QWidget()
-        row = QHBoxLayout(body)
-        row.setContentsMargins(0, 0, 0, 0)
         parts = ((self.map, self.bars[0]), (self.error, self.bars[1]), (self.atlas,))
-        for head, part, share in zip(self.heads, parts, (5, 5, 6), strict=True):
-            row.addWidget(headed(head, part), share)
-        self.widget.set_body(body)
+        headings = tuple(headed(head, part) for head, part in zip(self.heads, parts, strict=True))
+        self.widget.set_body(TurningRow(headings, (5, 5, 6), self.widget))
         self.widget.add_footer(self.note)
 
     def show(self, live: Live) -> None:
@@ -139,6 +137,7 @@ class DatabasePanel:
 def headed(head: QLabel, parts: tuple[QWidget, ...]) -> QWidget:
     """Return widgets beside one another under a heading."""
     head.setObjectName("muted")
+    head.setWordWrap(True)
     body, row = QWidget(), QHBoxLayout()
     column = QVBoxLayout(body)
     for layout in (row, column):

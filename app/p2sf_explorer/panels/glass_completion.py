@@ -14,7 +14,7 @@ from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.widgets.surface_table import LocalNumbers
 
 MOST = 12  # names in the list at once
-WIDE = 330  # pixels of the list
+WIDE = 46  # letters of the list
 
 
 @cache
@@ -74,7 +74,8 @@ def completer(editor: QLineEdit) -> QCompleter:
     view.setRootIsDecorated(False)
     view.setUniformRowHeights(True)
     made.setPopup(view)
-    view.setMinimumWidth(WIDE)
-    view.setColumnWidth(0, WIDE // 2)
-    view.setColumnWidth(1, WIDE // 4)
+    wide = WIDE * editor.fontMetrics().averageCharWidth()
+    view.setMinimumWidth(wide)
+    view.setColumnWidth(0, wide // 2)
+    view.setColumnWidth(1, wide // 4)
     return made

@@ -38,7 +38,6 @@ class LensSlider(QWidget):
         self._scale, self._value, self._grasped = Linear(0.0, 1.0), 0.0, 0.0
         self._start = store.state
         self.slider, self.number = Slider(self), ValueEdit(self)
-        self.number.setFixedWidth(90 if unit else 66)
         for part in (self.slider, self.number):
             part.setAccessibleName(tr(title))
         self.setToolTip(tr(tip))

@@ -209,7 +209,7 @@ class MatrixPanel:
         if request.across == SIDE and len(request.columns) == 1:
             words.append(tr("nothing is pinned as B (Ctrl+B)"))
         text = " · ".join(filter(None, words))
-        self.badge.set_text(text, "text")
+        self.badge.set_text(text, "text", short=(" · ".join(words[1:]), words[-1]))
         self.badge.setToolTip(text)
 
     def _go(self, row: int, column: int) -> None:

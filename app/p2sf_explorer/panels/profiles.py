@@ -1,24 +1,24 @@
 """Sections of the PSF along x and y through the chief ray, and its encircled energy."""
 
 import numpy as np
-from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.theme import SPACE, Tokens
+from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.profiles import ProfileCurves, answer
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.curves import CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
-    "Left: sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Right: "
-    "encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is "
-    "that of the rays: the light behind a hard edge has none."
+    "Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or "
+    "below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS "
+    "radius is that of the rays: the light behind a hard edge has none."
 )
 LOOKS = {"Airy": ("muted", 1), "along x": ("marginal", 2), "along y": ("chief", 2)}
 
@@ -31,13 +31,7 @@ class ProfilesPanel(CurvesPanel):
         self.energy = Chart("radius, µm", "energy within")
         self.perfect, self.within = self.energy.add_curve("muted"), self.energy.add_curve("third", 2)
         self.perfect.name, self.within.name = tr("perfect lens"), tr("this lens")
-        both = QWidget(self.widget)
-        row = QHBoxLayout(both)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(2 * SPACE)
-        row.addWidget(self.chart, 5)
-        row.addWidget(self.energy, 3)
-        self.widget.set_body(both)
+        self.widget.set_body(TurningRow((self.chart, self.energy), (5, 3), self.widget))
         self.asking = Asking(self.widget, answer, self._paint, self._say)
         self._live: Live | None = None
         self._legend = ""

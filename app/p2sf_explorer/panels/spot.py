@@ -3,7 +3,7 @@
 import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from p2sf.raytrace.pencil import Spot
 from p2sf_explorer.charts.chart import Chart
@@ -16,6 +16,7 @@ from p2sf_explorer.results.rays import figures, landed
 from p2sf_explorer.state.terms import FILLED
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.readout import FactTable
 
 TIP = "Spot diagram: where exact rays, evenly spread over the pupil, meet the sensor; no diffraction."
@@ -67,17 +68,12 @@ class SpotPanel:
     def __init__(self, store: Store):
         self.widget = Card("Spot diagram", TIP)
         self.chart, self.facts = SpotChart(), FactTable()
-        self.facts.setMaximumWidth(300)
-        body = QWidget(self.widget)
-        row, column = QHBoxLayout(body), QVBoxLayout()
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(3 * SPACE)
+        figures, column = QWidget(self.widget), QVBoxLayout()
+        figures.setLayout(column)
+        column.setContentsMargins(SPACE, 0, SPACE, 0)
         column.addWidget(self.facts)
         column.addStretch(1)
-        row.addWidget(self.chart, 3)
-        row.addLayout(column, 2)
-        row.addStretch(1)
-        self.widget.set_body(body)
+        self.widget.set_body(TurningRow((self.chart, figures), (5, 2), self.widget))
 
     def show(self, live: Live) -> None:
         """Paint the points."""

@@ -29,7 +29,6 @@ WIDTH = 0.7  # of a bar, of the distance to the next
 BLURRING = 4  # the first term behind piston and tilt, in both orders
 ROUND_OFF = 1e-12  # of the largest term
 SMALLEST = 1e-3  # waves at the end of the axis
-TABLE_PX = 390
 
 
 class ZernikePanel:
@@ -38,7 +37,6 @@ class ZernikePanel:
     def __init__(self, store: Store):
         self.chart, self.table = TermsChart(), TermTable()
         area = scrolled(self.table, at_foot=False)
-        area.setMaximumWidth(TABLE_PX)
         self.widget = ChartsCard("Zernike", TIP, (self.chart, area), (3, 2))
         self.order = chooser(CHOICES, "Which order of the terms", self.widget)
         self.order.activated.connect(self._again)

@@ -37,7 +37,6 @@ SUBJECTS = (
     ("coefficients", "the coefficients"),
     ("tabs", "the open tab"),
 )
-TURN_WIDTH = 44  # holds ❚❚ and the padding of the button
 
 
 class PlayBar(QFrame):
@@ -79,7 +78,7 @@ class PlayBar(QFrame):
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 4, 10, 4)
         row.setSpacing(6)
-        self.turn.setFixedWidth(TURN_WIDTH)
+        self.turn.setProperty("turns", True)
         self.progress.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (self.turn, self.key, self.first, QLabel("→"), self.last, QLabel(tr("in")), self.seconds):
             row.addWidget(part)

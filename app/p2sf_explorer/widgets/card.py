@@ -1,6 +1,17 @@
 """The frame of every panel: a title, tools, a readout, and the picture."""
 
-from PySide6.QtCore import QMimeData, QModelIndex, QPersistentModelIndex, QPoint, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import (
+    QEvent,
+    QMimeData,
+    QModelIndex,
+    QPersistentModelIndex,
+    QPoint,
+    QPointF,
+    QRectF,
+    QSize,
+    Qt,
+    Signal,
+)
 from PySide6.QtGui import (
     QContextMenuEvent,
     QDrag,
@@ -355,6 +366,7 @@ def select(box: QComboBox, value: str) -> None:
 
 
 SIDE_PX = 196
+LINE_SPACE = 4  # pixels between the controls of a line
 
 
 class SideCard(Card):
@@ -380,7 +392,11 @@ class SideCard(Card):
         """Take a scale of type, which widens the column too."""
         super().rescale(scale)
         if self._strut:
-            self._strut.setFixedSize(round(SIDE_PX * scale), 0)
+            self._strut.setFixedSize(self.side_px(), 0)
+
+    def side_px(self) -> int:
+        """Return the width of the column."""
+        return round(SIDE_PX * self._scale)
 
     def _title_room(self) -> int:
         return self._strut.width() if self._strut else 0
@@ -424,19 +440,38 @@ class TurningCard(SideCard):
         group = QWidget(self)
         line = QHBoxLayout(group)
         line.setContentsMargins(0, 0, 0, 0)
-        line.setSpacing(4)
+        line.setSpacing(LINE_SPACE)
         for widget in widgets:
             widget.setSizePolicy(_IGNORED if isinstance(widget, QComboBox) else _EXPANDING, QSizePolicy.Policy.Fixed)
-            line.addWidget(widget, 1)
+            line.addWidget(widget, max(1, widget.sizeHint().width()))
         self.grid.addWidget(group, len(self._groups), 0)
         self._groups.append(group)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Turn the controls to where the picture has more room."""
-        rows, column = self._rows_px(), self._strut.width() if self._strut else 0
-        wide, tall = event.size().width(), event.size().height()
-        self._turn(min(wide, tall - rows) > min(wide - column, tall))
+        self._fit()
         super().resizeEvent(event)
+
+    def event(self, event: QEvent) -> bool:
+        """Divide the width again where a control needs more or less of it."""
+        if event.type() == QEvent.Type.LayoutRequest:
+            self._fit()
+        return super().event(event)
+
+    def side_px(self) -> int:
+        """Return the width of the column, in which every control can be read."""
+        return max(super().side_px(), *(needed_px(group) for group in self._groups), 0)
+
+    def _fit(self) -> None:
+        """Turn the controls, and give each as much of the width as it needs."""
+        column = self.side_px()
+        if self._strut and self._strut.width() != column:
+            self._strut.setFixedSize(column, 0)
+        self._turn(min(self.width(), self.height() - self._rows_px()) > min(self.width() - column, self.height()))
+        for number in range(3):
+            groups = self._groups[2 * number : 2 * number + 2]
+            needed = max((needed_px(group) for group in groups if group.isVisibleTo(self)), default=0)
+            self.grid.setColumnStretch(number, needed if self._above else 0)
 
     def _rows_px(self) -> int:
         """Return the height of title and two rows of controls."""
@@ -454,8 +489,13 @@ class TurningCard(SideCard):
         for number, group in enumerate(self._groups):
             self.grid.removeWidget(group)
             self.grid.addWidget(group, *((number % 2, number // 2) if above else (number, 0)))
-        for column in range(3):
-            self.grid.setColumnStretch(column, int(above))
 
 
+def needed_px(group: QWidget) -> int:
+    """Return the width in which the controls of a line can be read."""
+    parts = [part for part in group.findChildren(QWidget, options=DIRECT) if part.isVisibleTo(group)]
+    return sum(part.sizeHint().width() + LINE_SPACE for part in parts)
+
+
+DIRECT = Qt.FindChildOption.FindDirectChildrenOnly
 _IGNORED, _EXPANDING = QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding

@@ -1,12 +1,12 @@
-"""A card of several charts side by side, charts with notes, and legends."""
+"""A card of several charts, charts with notes, and legends."""
 
 from collections.abc import Iterable
 from math import isfinite
 
 import numpy as np
 from PySide6.QtCore import QRectF
-from PySide6.QtGui import QColor, QPainter
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtGui import QColor, QPainter, QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QWidget
 
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import write
@@ -15,18 +15,30 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.card import Card
 
 
+class TurningRow(QWidget):
+    """Charts in a row, or one above the other where there is more height than width; ``shares`` divide the length."""
+
+    def __init__(self, charts: tuple[QWidget, ...], shares: tuple[int, ...], parent: QWidget | None = None):
+        super().__init__(parent)
+        self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
+        self._row.setContentsMargins(0, 0, 0, 0)
+        self._row.setSpacing(2 * SPACE)
+        for chart, share in zip(charts, shares, strict=True):
+            self._row.addWidget(chart, share)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Turn the charts to where they are nearer to squares."""
+        super().resizeEvent(event)
+        tall = self.height() > self.width()
+        self._row.setDirection(QBoxLayout.Direction.TopToBottom if tall else QBoxLayout.Direction.LeftToRight)
+
+
 class ChartsCard(Card):
-    """A card with charts in a row that share its width in the ratio of ``shares``."""
+    """A card with charts in a `TurningRow`."""
 
     def __init__(self, title: str, tip: str, charts: tuple[QWidget, ...], shares: tuple[int, ...]):
         super().__init__(title, tip)
-        body = QWidget(self)
-        row = QHBoxLayout(body)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(2 * SPACE)
-        for chart, share in zip(charts, shares, strict=True):
-            row.addWidget(chart, share)
-        self.set_body(body)
+        self.set_body(TurningRow(charts, shares, self))
 
 
 def legend(looks: dict[str, str], theme: Tokens) -> str:

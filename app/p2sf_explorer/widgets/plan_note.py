@@ -10,7 +10,6 @@ from p2sf.messages import Message
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr, unbroken
 
-WORDS_PX = 480
 TURNS = (
     ("Cancel", "Make no plan; the coarse picture stays"),
     ("Plan it after all", "Make the plan that was cancelled, and the picture by it"),
@@ -61,12 +60,10 @@ class Why(QLabel):
         self.button = small_button(
             "Why…", "Why the picture is computed in this way: the plan's decisions, each with its error"
         )
-        self.setObjectName("fact")
+        self.setObjectName("reasons")
         self.setTextFormat(Qt.TextFormat.RichText)
         self.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.setWordWrap(True)
-        self.setFixedWidth(WORDS_PX)
-        self.setMargin(10)
         menu, action = QMenu(self.button), QWidgetAction(self.button)
         action.setDefaultWidget(self)
         menu.addAction(action)

@@ -1,18 +1,21 @@
 """Numbers that change with every frame, painted directly: a QLabel would lay out the window again for each."""
 
+from math import ceil
+
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
+from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
 
 from p2sf.messages import Message
-from p2sf_explorer.charts.painting import metrics, width_of, write
-from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.charts.painting import elided, metrics, width_of, write
+from p2sf_explorer.charts.theme import LIGHT, SPACE, Tokens
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import local, tr
 
 PAD = 7.0
 SIZE = 12
 BAR_AIR = 6  # pixels between a table and its scroll bar
+NAME_AIR = 14.0  # pixels at scale 1 between the longest name of a table and its value
 
 
 class Readout(QWidget):
@@ -108,7 +111,7 @@ class FactTable(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self._rows: tuple[FactRow, ...] = ()
         self._values: list[str] = []
-        self._theme = LIGHT
+        self._theme, self._widest = LIGHT, 0
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     @property
@@ -126,6 +129,23 @@ class FactTable(QWidget):
         """Return the rows' values in words."""
         return tuple(self._values)
 
+    def sizeHint(self) -> QSize:
+        """Return the size in which no name has been cut so far: it does not shrink while values change."""
+        return QSize(self._widest, round(self.row * len(self._rows)))
+
+    def _widen(self) -> None:
+        """Ask for more width where a name and its value need it."""
+        size = self._theme.px(SIZE)
+        rows = zip(self._rows, self._values, strict=True)
+        needed = max((width_of(tr(row[0]), size) + width_of(value, size) for row, value in rows), default=0.0)
+        if needed + self._air > self._widest:
+            self._widest = ceil(needed + self._air)
+            self.updateGeometry()
+
+    @property
+    def _air(self) -> float:
+        return NAME_AIR * self._theme.scale
+
     def show_rows(self, rows: tuple[FactRow, ...]) -> None:
         """Show (name, value, definition) rows."""
         if len(rows) != len(self._rows):
@@ -138,14 +158,16 @@ class FactTable(QWidget):
                     self._values[k] = row[1].text(WINDOW)
                     self.update(self._room(k).toAlignedRect())
         self._rows = rows
+        self._widen()
 
     def _room(self, number: int) -> QRectF:
         return QRectF(0, number * self.row, self.width(), self.row)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        self._theme = theme
+        self._theme, self._widest = theme, 0
         self.setFixedHeight(round(self.row * len(self._rows)))
+        self._widen()
         self.update()
 
     def event(self, event: QEvent) -> bool:
@@ -153,22 +175,73 @@ class FactTable(QWidget):
         if isinstance(event, QHelpEvent):
             row = int(event.pos().y() // self.row)
             if row < len(self._rows):
-                QToolTip.showText(event.globalPos(), tr(self._rows[row][2]), self)
+                QToolTip.showText(event.globalPos(), self._tip(row), self)
             return True
         return super().event(event)
+
+    def _name(self, row: int) -> tuple[str, str]:
+        """Return the name of a row, whole and as far as it fits beside its value."""
+        name, size = tr(self._rows[row][0]), self._theme.px(SIZE)
+        room = self.width() - width_of(self._values[row], size) - self._air
+        return name, elided(name, room, size)
+
+    def _tip(self, row: int) -> str:
+        """Return the definition of a row, behind its name where that is cut."""
+        name, shown = self._name(row)
+        definition = tr(self._rows[row][2])
+        return definition if shown == name else f"{name}: {definition}"
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the rows that have changed."""
         painter, changed = QPainter(self), event.region()
         painter.fillRect(event.rect(), QColor(self._theme.card))
-        for k, ((name, _, _), value) in enumerate(zip(self._rows, self._values, strict=True)):
+        size = self._theme.px(SIZE)
+        for k, value in enumerate(self._values):
             line = self._room(k)
             if not changed.intersects(line.toRect()):
                 continue
             painter.setPen(QColor(self._theme.muted))
-            write(painter, line, tr(name), -1, self._theme.px(SIZE))
+            write(painter, line, self._name(k)[1], -1, size)
             painter.setPen(QColor(self._theme.text))
-            write(painter, line, value, 1, self._theme.px(SIZE))
+            write(painter, line, value, 1, size)
+
+
+class Columns(QWidget):
+    """Tables side by side, or one above the other where that would cut their names."""
+
+    GAP = 28
+
+    def __init__(self, tables: tuple[FactTable, ...], parent: QWidget | None = None):
+        super().__init__(parent)
+        self._tables, self._theme = tables, LIGHT
+        self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
+        for table in tables:
+            self._row.addWidget(table, 1, Qt.AlignmentFlag.AlignTop)
+        self._row.addStretch()
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours and the scale of a theme."""
+        self._theme = theme
+        self._row.setContentsMargins(0, 0, theme.px(SPACE), 0)
+        for table in self._tables:
+            table.restyle(theme)
+        self.fit()
+
+    def fit(self) -> None:
+        """Turn the tables to how they fit; call this when their rows have changed."""
+        gap, count = self._theme.px(self.GAP), len(self._tables)
+        needed = count * max(table.sizeHint().width() for table in self._tables) + (count - 1) * gap
+        beside = needed <= self.width() - self._row.contentsMargins().right()
+        self._row.setDirection(QBoxLayout.Direction.LeftToRight if beside else QBoxLayout.Direction.TopToBottom)
+        self._row.setSpacing(gap if beside else gap // 2)
+        for number in range(count):
+            self._row.setStretch(number, int(beside))
+        self._row.setStretch(count, int(not beside))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Turn the tables to how they fit."""
+        super().resizeEvent(event)
+        self.fit()
 
 
 class Scrolling(QScrollArea):

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QKeySequence, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
 
@@ -169,6 +169,7 @@ class MicronEdit(QWidget):
         self.edit.setProperty("short", True)
         self.edit.setAccessibleName(tr(label))
         self.setToolTip(tr(tip))
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)  # label and number stay together
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(QLabel(tr(label), self))
@@ -198,7 +199,7 @@ class MicronEdit(QWidget):
 
 
 BETWEEN = re.compile(r"\s*;\s*|,\s+")  # a comma without a space is a decimal comma
-EDIT_PX = 132
+SPACE_PX = 4  # pixels between the parts of a list
 COUNT_TIP = "How many, evenly spread; this forgets values that were typed"
 LIST_TIP = "Values with semicolons between; empty: evenly spread by themselves"
 
@@ -228,14 +229,13 @@ class ValueList(QWidget):
         for number in counts:
             self.count.addItem(str(number), number)
         self.count.setVisible(bool(counts))
-        self.edit.setMinimumWidth(EDIT_PX)
-        self.edit.setMaximumWidth(16_777_215)
+        self.edit.setProperty("list", True)
         self.edit.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.edit.setAlignment(Qt.AlignmentFlag.AlignLeft)
         self.edit.setToolTip(tr(LIST_TIP))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
+        row.setSpacing(SPACE_PX)
         for part in (self.label, self.count, self.edit):
             row.addWidget(part, int(part is self.edit))
         self.count.activated.connect(lambda: self.counted.emit(self.count.currentData()))
@@ -250,9 +250,18 @@ class ValueList(QWidget):
             self.edit.setAccessibleName(words)
             self.count.setAccessibleName(f"{words}: {tr(COUNT_TIP)}")
 
+    def sizeHint(self) -> QSize:
+        """Return the size in which all values can be read."""
+        parts = (self.label, self.count) if self.count.isVisibleTo(self) else (self.label,)
+        words = self.edit.fontMetrics().horizontalAdvance(self.edit.text() + "MM")  # and the paddings
+        return QSize(words + sum(part.sizeHint().width() + SPACE_PX for part in parts), super().sizeHint().height())
+
     def show_values(self, texts: Sequence[str]) -> None:
         """Show values as they are written."""
+        before = self.edit.text()
         self.edit.set_text("; ".join(texts))
+        if self.edit.text() != before:
+            self.updateGeometry()
         self.edit.setCursorPosition(0) if not self.edit.hasFocus() else None
         place = self.count.findData(len(texts))
         if place != self.count.currentIndex():

@@ -108,7 +108,7 @@
 <message><source>Coefficients</source><translation>Koeffizienten</translation></message>
 <message><source>Colour</source><translation>Farbe</translation></message>
 <message><source>Colour PSF</source><translation>Farbige PSF</translation></message>
-<message><source>Colour PSF: a PSF for each wavelength where its own chief ray lands, weighted by the spectrum and the CIE 1931 observer, as linear sRGB. Right: the luminance of the spectrum, and where each colour's chief ray lands.</source><translation>Farbige PSF: eine PSF je Wellenlänge dort, wo ihr eigener Hauptstrahl landet, gewichtet mit Spektrum und CIE-Beobachter 1931, als lineares sRGB. Rechts: die Leuchtdichte des Spektrums und wo der Hauptstrahl jeder Farbe landet.</translation></message>
+<message><source>Colour PSF: a PSF for each wavelength where its own chief ray lands, weighted by the spectrum and the CIE 1931 observer, as linear sRGB. Beside or below: the luminance of the spectrum, and where each colour's chief ray lands.</source><translation>Farbige PSF: eine PSF je Wellenlänge dort, wo ihr eigener Hauptstrahl landet, gewichtet mit Spektrum und CIE-Beobachter 1931, als lineares sRGB. Daneben oder darunter: die Leuchtdichte des Spektrums und wo der Hauptstrahl jeder Farbe landet.</translation></message>
 <message><source>Colour {channel}</source><translation>Farbe {channel}</translation></message>
 <message><source>Colours</source><translation>Farben</translation></message>
 <message><source>Coma, 3 λ</source><translation>Koma, 3 λ</translation></message>
@@ -243,7 +243,6 @@
 <message><source>Larger type</source><translation>Größere Schrift</translation></message>
 <message><source>Largest blur diameter on the sensor that is still called sharp.</source><translation>Größter Unschärfedurchmesser auf dem Sensor, der noch scharf heißt.</translation></message>
 <message><source>Layout</source><translation>Aufbau</translation></message>
-<message><source>Left: sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Right: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Links: Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Rechts: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
 <message><source>Length of the lens with its air: from the first vertex to the sensor.</source><translation>Länge des Objektivs mit seiner Luft: vom ersten Scheitel bis zum Sensor.</translation></message>
 <message><source>Lens</source><translation>Objektiv</translation></message>
 <message><source>Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back.</source><translation>Objektiv: eine Zeile je Fläche in der Reihenfolge des Lichts; in eine Zelle tippen, Strg+Z nimmt es zurück.</translation></message>
@@ -395,7 +394,7 @@
 <message><source>Put the sweep away</source><translation>Durchlauf wegräumen</translation></message>
 <message><source>Put this panel on the stage (double-click its title, or drag it there)</source><translation>Diese Ansicht auf die Bühne stellen (Doppelklick auf den Titel, oder dorthin ziehen)</translation></message>
 <message><source>Qt needs the library libxcb-cursor to open a window on X11; run apt-get install libxcb-cursor0</source><translation>Qt braucht die Bibliothek libxcb-cursor, um auf X11 ein Fenster zu öffnen; apt-get install libxcb-cursor0 ausführen</translation></message>
-<message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts um seinen Schwerpunkt; RMS der Strahlen {rms} µm; {method}</translation></message>
+<message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts; RMS der Strahlen {rms} µm; {method}</translation></message>
 <message><source>R80 {radius} µm</source><translation>R80 {radius} µm</translation></message>
 <message><source>R80 {radius} µm (of {percent:.0f} %)</source><translation>R80 {radius} µm (von {percent:.0f} %)</translation></message>
 <message><source>R80: error ≤ {percent} % of R80, by a bound</source><translation>R80: Fehler ≤ {percent} % von R80, nach einer Schranke</translation></message>
@@ -460,6 +459,7 @@
 <message><source>Saved {name}</source><translation>{name} gespeichert</translation></message>
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
 <message><source>Save…</source><translation>Speichern …</translation></message>
+<message><source>Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
 <message><source>Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
 <message><source>Semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
