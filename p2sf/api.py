@@ -21,6 +21,7 @@ from p2sf.notebook import html_table
 from p2sf.parameters import check_angle
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.request import AimChoice, Request, StopChoice, aimed, check_aim, check_lens, set_up, set_up_source
+from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
     from p2sf.database.render import Database
@@ -86,6 +87,7 @@ def render(
     f_number: float | None = None,
     stop: StopChoice = "file",
     aim: AimChoice | None = None,
+    threads: int | None = None,
 ) -> "Psf":
     """Compute the point spread function of one source.
 
@@ -118,6 +120,9 @@ def render(
     aim : {"stop", "paraxial"}, optional
         Fill the real stop with exact rays, or the paraxial entrance pupil; as the lens says (``Lens.aim``) when not
         given. "real" is the former name of "stop".
+    threads : int, optional
+        How many threads share a sum of many rays; the result is the same on any number. As the environment variable
+        P2SF_THREADS says, or as many as there are cores, when not given.
 
     Returns
     -------
@@ -147,7 +152,8 @@ def render(
     setup = set_up_source(
         lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim
     )
-    psf = methods.render(setup.lens, setup.source, method, pixels, pixel_um, quality, tolerance, clip)
+    with using_threads(threads):
+        psf = methods.render(setup.lens, setup.source, method, pixels, pixel_um, quality, tolerance, clip)
     return replace(psf, azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf
 
 
@@ -739,6 +745,7 @@ def form_image(
     *,
     method: Literal["patches", "lowrank"] = "patches",
     surround: Literal["edge", "black"] = "edge",
+    threads: int | None = None,
 ) -> np.ndarray:
     """Form the picture that the sensor receives through the lens: distortion, illumination, blur, pixels.
 
@@ -754,6 +761,8 @@ def form_image(
         By patches that overlap, or by few kernels for the whole picture.
     surround : {"edge", "black"}
         What is beyond the picture: its last pixels, or nothing.
+    threads : int, optional
+        As for `render`.
 
     Returns
     -------
@@ -777,4 +786,5 @@ def form_image(
     from p2sf.image import form_image as form
 
     depths = None if depth_mm is None else np.asarray(depth_mm, dtype=float)
-    return form(planned, np.asarray(values), depths, Forming(method, surround))
+    with using_threads(threads):
+        return form(planned, np.asarray(values), depths, Forming(method, surround))

@@ -12,10 +12,10 @@ Hence all work of this library runs within `one_blas_thread`, and threads work o
 import os
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import ContextDecorator
-from contextvars import copy_context
+from contextlib import ContextDecorator, contextmanager
+from contextvars import ContextVar, copy_context
 from functools import lru_cache
 from itertools import chain, islice
 from math import inf
@@ -30,13 +30,15 @@ AHEAD = 2  # parts per thread, so that none idles while the caller takes one, an
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 _here = local()  # ``worker`` is set in threads of a pool
+_asked: ContextVar[int | None] = ContextVar("threads", default=None)
 
 
 def threads_or_default(threads: int | None = None) -> int:
-    """Return how many threads to use: as asked, else as the environment says, else the cores this process may use.
+    """Return how many threads to use: as asked, by the caller or `using_threads` around it, else as P2SF_THREADS says.
 
-    Raises RequestError for a number, asked or in P2SF_THREADS, that is none from 1 on.
+    Without any of these it is the cores that this process may use. Raises RequestError for what is no number from 1 on.
     """
+    threads = _asked.get() if threads is None else threads
     if threads is not None:
         if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
             raise RequestError(
@@ -51,6 +53,19 @@ def threads_or_default(threads: int | None = None) -> int:
             "the environment variable {name} is {value}; give a whole number from 1 on", name=VARIABLE, value=asked
         )
     return int(asked)
+
+
+@contextmanager
+def using_threads(threads: int | None) -> Iterator[None]:
+    """Use so many threads within wherever no number is given; None changes nothing. RequestError as above."""
+    if threads is None:
+        yield
+        return
+    before = _asked.set(threads_or_default(threads))
+    try:
+        yield
+    finally:
+        _asked.reset(before)
 
 
 def _usable_cores() -> int:

@@ -12,7 +12,7 @@ from threadpoolctl import ThreadpoolController, threadpool_info, threadpool_limi
 
 from p2sf import threads
 from p2sf.errors import Cancelled, RequestError
-from p2sf.threads import AHEAD, for_each, mapped, one_blas_thread, threads_or_default
+from p2sf.threads import AHEAD, for_each, mapped, one_blas_thread, threads_or_default, using_threads
 
 PATIENCE = 30  # seconds until a test that hangs fails
 
@@ -66,6 +66,18 @@ def test_an_environment_that_says_no_number_is_refused(monkeypatch, text):
     monkeypatch.setenv(threads.VARIABLE, text)
     with pytest.raises(RequestError, match=f"P2SF_THREADS is {text}; give a whole number from 1 on"):
         threads_or_default()
+
+
+def test_a_number_holds_within_for_all_that_is_given_none(monkeypatch):
+    monkeypatch.setenv(threads.VARIABLE, "7")
+    with using_threads(3):
+        assert (threads_or_default(), threads_or_default(5)) == (3, 5)
+        with using_threads(None):
+            assert mapped(lambda _: threads_or_default(), range(2), 2) == [3, 3]
+        with pytest.raises(RequestError, match="threads is 0"), using_threads(0):
+            pass
+        assert threads_or_default() == 3
+    assert threads_or_default() == 7
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])

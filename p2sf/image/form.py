@@ -32,15 +32,13 @@ class Forming:
 
     ``method``: "patches" (overlap-add) or "lowrank". ``surround``: what lies beyond the picture, nothing ("black") or
     its outermost pixels ("edge"). ``geometry``: with distortion and illumination, or blur alone; ``spline``: order of
-    the distortion's interpolation. ``threads`` as in `p2sf.threads`: the picture is the same on any number. Raises
-    RequestError for another method or surround.
+    the distortion's interpolation. Raises RequestError for another method or surround.
     """
 
     method: str = "patches"
     surround: str = "edge"
     geometry: bool = True
     spline: int = 3
-    threads: int | None = None
 
     def __post_init__(self) -> None:
         if self.method not in METHODS:
@@ -81,13 +79,13 @@ def form_image(
         return _cropped_blur(planned, placed, lattice, how, watch)
     weights = layer_weights(np.asarray(depth_mm), np.array(planned.vergences), values.shape[:2])
     if how.geometry:
-        weights = distorted(weights, planned.sensor_map(planned.vergences[0]), planned.scene.sensor, 1, how.threads)
+        weights = distorted(weights, planned.sensor_map(planned.vergences[0]), planned.scene.sensor, order=1)
     lit = _placed(planned, values, planned.vergences[0], how)
     used = [k for k in range(weights.shape[-1]) if weights[..., k].any()]
     layers = []
     for k in used:
         both = np.concatenate([lit * weights[..., k : k + 1], weights[..., k : k + 1]], axis=-1)
-        lattice = _doubled(plan_lattice(planned, planned.vergences[k], watch, threads=how.threads))
+        lattice = _doubled(plan_lattice(planned, planned.vergences[k], watch))
         layers.append(_cropped_blur(planned, both, lattice, how, watch))
     return merged(layers, used)
 
@@ -100,14 +98,10 @@ def _placed_and_lattice(
     if lattice is not None:
         return _placed(planned, values, vergence, how), lattice
     placed = []
-    lattice = plan_lattice(
-        planned,
-        vergence,
-        watch,
-        threads=how.threads,
-        beside=lambda: placed.append(_placed(planned, values, vergence, how)),
+    found = plan_lattice(
+        planned, vergence, watch, beside=lambda: placed.append(_placed(planned, values, vergence, how))
     )
-    return placed[0], lattice
+    return placed[0], found
 
 
 def checked(planned: Plan, values: np.ndarray) -> np.ndarray:
@@ -134,7 +128,7 @@ def _placed(planned: Plan, values: np.ndarray, vergence: float, how: Forming) ->
         return values
     sensor, seen = planned.scene.sensor, planned.sensor_map(vergence)
     shade = illumination(seen, sensor, LIGHT_HEIGHTS[how.spline > 1])
-    lit: np.ndarray = distorted(values, seen, sensor, how.spline, how.threads) * shade[..., None]
+    lit: np.ndarray = distorted(values, seen, sensor, how.spline) * shade[..., None]
     return lit
 
 
@@ -143,13 +137,12 @@ def plan_lattice(
     vergence: float,
     watch: Progress | None = None,
     most_half: int = LARGEST_WINDOW,
-    threads: int | None = None,
     beside: Callable[[], object] | None = None,
 ) -> Lattice:
     """Return the kernels of every channel on the plan's nodes at one depth.
 
     None reaches farther than ``most_half`` pixels: what lands beyond is left out, and the rest has unit sum.
-    ``threads`` and ``beside`` as in `build_lattice`.
+    ``beside`` as in `build_lattice`.
     """
     sensor = planned.scene.sensor
     channels = [planned.kernels(number, vergence) for number in range(len(planned.colours))]
@@ -160,7 +153,7 @@ def plan_lattice(
         return np.stack([kernels.at(x, y, min(half, most_half)) for kernels in channels])
 
     shape = sensor.rows, sensor.columns
-    return build_lattice(kernel_at, shape, planned.counts, sensor.centred, watch, threads, beside)
+    return build_lattice(kernel_at, shape, planned.counts, sensor.centred, watch, beside)
 
 
 def _doubled(lattice: Lattice) -> Lattice:
@@ -175,23 +168,16 @@ def _cropped_blur(planned: Plan, values: np.ndarray, lattice: Lattice, how: Form
     border = lattice.half if how.surround == "edge" else 0
     if border:
         values = np.pad(values, ((border, border), (border, border), (0, 0)), mode="edge")
-    tolerance = RANK_TOLERANCE * planned.scene.relative_tolerance
-    whole = blur(values, lattice, how.method, tolerance, watch, border, how.threads)
+    whole = blur(values, lattice, how.method, RANK_TOLERANCE * planned.scene.relative_tolerance, watch, border)
     cut = lattice.half + border
     return whole[cut : whole.shape[0] - cut, cut : whole.shape[1] - cut]
 
 
 def blur(
-    values: np.ndarray,
-    lattice: Lattice,
-    method: str,
-    tolerance: float,
-    watch: Progress | None = None,
-    border: int = 0,
-    threads: int | None = None,
+    values: np.ndarray, lattice: Lattice, method: str, tolerance: float, watch: Progress | None = None, border: int = 0
 ) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, by patches or by low rank."""
     if method == "patches":
-        return overlap_add(values, lattice, watch, border, threads)
-    parts = mapped(lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels), threads)
-    return low_rank_blur(values, parts, watch, border, threads)
+        return overlap_add(values, lattice, watch, border)
+    parts = mapped(lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels))
+    return low_rank_blur(values, parts, watch, border)

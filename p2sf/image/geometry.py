@@ -17,13 +17,11 @@ def distortion_px(seen: SensorMap, sensor: Sensor) -> float:
     return float(np.abs(seen.ideal_height(heights) - heights).max() / sensor.pixel_mm)
 
 
-def distorted(
-    values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3, threads: int | None = None
-) -> np.ndarray:
+def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3) -> np.ndarray:
     """Return the picture as real chief rays place it, (rows, columns, channels) float32.
 
     ``values`` is the undistorted (paraxial) image on the same pixels; each pixel takes what lands on it, by a spline of
-    this ``order``. Beyond the picture its outermost pixels are repeated. ``threads`` (`p2sf.threads`) share channels.
+    this ``order``. Beyond the picture its outermost pixels are repeated.
     """
     from scipy.ndimage import map_coordinates
 
@@ -41,7 +39,7 @@ def distorted(
         found: np.ndarray = map_coordinates(plane, places, order=order, mode="nearest")
         return found
 
-    return np.stack(mapped(moved, np.moveaxis(values, -1, 0), threads), axis=-1).astype(np.float32)
+    return np.stack(mapped(moved, np.moveaxis(values, -1, 0)), axis=-1).astype(np.float32)
 
 
 def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:

@@ -38,14 +38,13 @@ def build_lattice(
     counts: tuple[int, int],
     mirrored: bool = False,
     watch: Progress | None = None,
-    threads: int | None = None,
     beside: Callable[[], object] | None = None,
 ) -> Lattice:
     """Return the lattice of ``kernel_at(row, column)`` over a picture of this shape.
 
     ``mirrored``: the picture is centred on the axis of a lens, so that one quarter of the kernels gives the others.
-    ``threads`` (`p2sf.threads`) share the kernels; the first to start calls ``beside``. NumPy's calls on small kernels
-    are so short that two threads mostly wait for the interpreter's lock: large arrays of other work keep both busy.
+    Threads (`p2sf.threads`) share the kernels; the first to start calls ``beside``. NumPy's calls on small kernels are
+    so short that two threads mostly wait for the interpreter's lock: large arrays of other work keep both busy.
     """
     rows, columns = (nodes_along(n, c) for n, c in zip(shape, counts, strict=True))
     down, right = ((len(n) + 1) // 2 if mirrored else len(n) for n in (rows, columns))
@@ -66,7 +65,7 @@ def build_lattice(
             computed[found[0]] = found[1]
             watch.advance()
 
-    for_each(one, [None, *wanted], take, threads, ahead=None)
+    for_each(one, [None, *wanted], take, ahead=None)
     lines = [
         [_mirrored(computed, a, b, len(rows), len(columns)) for b in range(len(columns))] for a in range(len(rows))
     ]

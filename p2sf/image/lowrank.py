@@ -56,16 +56,12 @@ def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, rank: int
 
 
 def low_rank_blur(
-    values: np.ndarray,
-    parts: list[LowRank],
-    watch: Progress | None = None,
-    border: int = 0,
-    threads: int | None = None,
+    values: np.ndarray, parts: list[LowRank], watch: Progress | None = None, border: int = 0
 ) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
 
-    Strengths are cubic splines between the nodes. ``border`` and ``threads`` as in `overlap.overlap_add`. Tiles bound
-    the memory.
+    Strengths are cubic splines between the nodes. ``border`` and threads as in `overlap.overlap_add`. Tiles bound the
+    memory.
     """
     values, size = np.asarray(values, np.float32), parts[0].mean.shape[0]
     rows, columns, channels = values.shape
@@ -77,7 +73,6 @@ def low_rank_blur(
             _tiles_blur(values[..., channel], part, border),
             product(range(0, rows, TILE), range(0, columns, TILE)),
             _adding(out[..., channel], watch),
-            threads,
         )
     return out
 

@@ -12,17 +12,11 @@ from p2sf.pixel_kernels.nodes import hats
 from p2sf.threads import for_each
 
 
-def overlap_add(
-    values: np.ndarray,
-    lattice: Lattice,
-    watch: Progress | None = None,
-    border: int = 0,
-    threads: int | None = None,
-) -> np.ndarray:
+def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = None, border: int = 0) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
 
     ``values``: (rows, columns, channels) float32, whose outer ``border`` pixels lie outside the lattice's picture and
-    take the kernels of its edge. Patches are convolved by ``threads`` (`p2sf.threads`) and added in order, so that the
+    take the kernels of its edge. Threads (`p2sf.threads`) share the patches, which are added in order, so that the
     result is the same on any number. Memory beyond it is a few patches for each thread.
     """
     values, half = np.asarray(values, np.float32), lattice.half
@@ -48,7 +42,7 @@ def overlap_add(
         _add(out, *patch)
         watch.advance()
 
-    for_each(convolved, jobs, take, threads)
+    for_each(convolved, jobs, take)
     return np.moveaxis(out, 0, -1)
 
 

@@ -6,7 +6,7 @@ count rises until two successive PSFs agree. Clear apertures (`vignetting`) end 
 See handbook 5.5.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from time import perf_counter
@@ -30,7 +30,8 @@ from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, radiometric, whole_nodes
 from p2sf.threads import for_each, one_blas_thread
 
-BLOCK = 4096  # rays at a time, by one thread: few enough for a second-level cache and to be cancelled every few ms
+BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
+TOGETHER = BLOCK // 2  # plane waves that one thread sums at a time
 GROWTH = 1.3
 MOST_NODES = 2**22
 PROBE = 12, 36
@@ -41,6 +42,8 @@ Window = tuple[int, float]
 """Pixels on a side, µm per pixel."""
 Counts = tuple[int, int]
 """Radial and angular node counts of the whole disc."""
+PlaneWaves = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Complex amplitudes, and frequencies in x and y, cycles per µm."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,6 @@ def huygens_psf(
     cancelled: Callable[[], bool] | None = None,
     clip: bool = False,
     amplitude: Amplitude = "area",
-    threads: int | None = None,
 ) -> Psf:
     """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
 
@@ -72,7 +74,7 @@ def huygens_psf(
     128² grid has or as the blur needs, for a preview of no guaranteed accuracy. ``progress`` is called with the
     fraction done; ``cancelled`` is called between blocks, and True ends the work with `Cancelled`. ``amplitude``
     "area" gives each ray the field of its cell's area in the entrance pupil, as other programs do; "radiometric" the
-    root of that times the cell's area over direction cosines, which conserves the energy of each cell. ``threads``
+    root of that times the cell's area over direction cosines, which conserves the energy of each cell. Threads
     (`p2sf.threads`) share the rays, and the sum does not depend on their number. Raises
     GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there, and the
     radiometric amplitude is refused.
@@ -81,12 +83,12 @@ def huygens_psf(
     window = pixels, pixel_um
     pupil = fit(lens, source) if amplitude == "radiometric" else None
     if tolerance is None:
-        found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, True, threads), pupil)
+        found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, live=True), pupil)
         sampling = _sampling(lens, counts, found, clip, Message("one pass in float32"))
         error = EDGE_ERROR if clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
         made = Origin("huygens", 0, _nodes(counts), sampling, started, None, error)
     else:
-        watch = _Watch(progress, cancelled, threads=threads)
+        watch = _Watch(progress, cancelled)
         found, counts, reached, rays = _settle(lens, source, window, clip, tolerance, watch, pupil)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
         sampling = _sampling(lens, counts, found, clip, None if reached <= tolerance else short)
@@ -189,51 +191,34 @@ def huygens_field(
     nodes = _nodes_of(lens, source, counts, clip)
     blur = None if watch.live else pencil_blur(lens, source, nodes, pupil)
     axis, dtype = centred_axis(*window), np.float32 if watch.live else np.float64
-    total = _Share(np.zeros((), np.result_type(dtype, np.complex64)), 0.0, 0.0, 0, 0, 0.0)
+    total: np.ndarray | float = 0.0
+    lost, spread, area, light = 0, 0.0, 0.0, 0.0
 
-    def share(first: int) -> _Share:
-        part = slice(first, first + BLOCK)
-        data, area = _block(lens, source, nodes, part)
-        weight = area * data.weight
-        if pupil is not None:
-            weight = area * radiometric(data.weight, pupil.jacobian(nodes.xi[part], nodes.eta[part]))
-        amplitude = pupil_amplitude(weight, data.phase, dtype)
-        field = sum_plane_waves(amplitude, data.fx.astype(dtype), data.fy.astype(dtype), axis, axis)
-        spread = float(np.hypot(data.fx, data.fy).max(initial=0))
-        return _Share(field, area.sum(), weight.sum(), area.size, int((area == 0).sum()), spread)
+    def waves() -> Iterator[PlaneWaves]:
+        nonlocal lost, spread, area, light
+        for first in range(0, nodes.xi.size, BLOCK):
+            part = slice(first, first + BLOCK)
+            data, share = _block(lens, source, nodes, part)
+            weight = share * data.weight
+            if pupil is not None:
+                weight = share * radiometric(data.weight, pupil.jacobian(nodes.xi[part], nodes.eta[part]))
+            area, light = area + share.sum(), light + weight.sum()
+            lost += int((share == 0).sum())
+            spread = max(spread, float(np.hypot(data.fx, data.fy).max(initial=0)))
+            columns = pupil_amplitude(weight, data.phase, dtype), data.fx.astype(dtype), data.fy.astype(dtype)
+            for start in range(0, weight.size, TOGETHER):
+                amplitude, fx, fy = (column[start : start + TOGETHER] for column in columns)
+                yield amplitude, fx, fy
 
-    def take(found: _Share) -> None:
+    def take(summed: tuple[np.ndarray, int]) -> None:
         nonlocal total
-        total = total.plus(found)
-        watch.advance(found.nodes)
+        total = total + summed[0]
+        watch.advance(summed[1])
 
-    for_each(share, range(0, nodes.xi.size, BLOCK), take, watch.threads)
+    # Rays are traced here, in turn; the products, nearly all of the work, by threads.
+    for_each(lambda some: (sum_plane_waves(*some, axis, axis), some[0].size), waves(), take)
     # Light over area is the mean weight, exactly 1 for an evenly filled pupil.
-    values = total.field / (total.light / total.area)
-    return Field(values, blur if resolved(total.spread, window[1]) else None, total.lost)
-
-
-@dataclass(frozen=True)
-class _Share:
-    """What some rays add up to: field, pupil area, light; how many they are, how many are lost, the farthest cycle."""
-
-    field: np.ndarray
-    area: float
-    light: float
-    nodes: int
-    lost: int
-    spread: float
-
-    def plus(self, other: "_Share") -> "_Share":
-        """Return what both add up to."""
-        return _Share(
-            self.field + other.field,
-            self.area + other.area,
-            self.light + other.light,
-            self.nodes + other.nodes,
-            self.lost + other.lost,
-            max(self.spread, other.spread),
-        )
+    return Field(np.asarray(total) / (light / area), blur if resolved(spread, window[1]) else None, lost)
 
 
 def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNodes:
@@ -273,16 +258,15 @@ def _sampling(lens: Lens, counts: Counts, found: Field, clip: bool, convergence:
 
 
 class _Watch:
-    """How the work is done: its progress reported, ended where the caller cancels it, live or settled, by threads."""
+    """Reports progress, and ends the work where the caller cancels it."""
 
     def __init__(
         self,
         progress: Callable[[float], None] | None = None,
         cancelled: Callable[[], bool] | None = None,
         live: bool = False,
-        threads: int | None = None,
     ) -> None:
-        self.progress, self.cancelled, self.live, self.threads = progress, cancelled, live, threads
+        self.progress, self.cancelled, self.live = progress, cancelled, live
         self.finished, self.expected = 0, 0
 
     def expect(self, nodes: int) -> None:

@@ -1,7 +1,7 @@
 """A plan checked at random points against exact rays summed without its approximations."""
 
 from dataclasses import dataclass
-from time import process_time
+from time import thread_time
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from p2sf.scene.nodes import weighted
 from p2sf.scene.plan import Plan
 from p2sf.scene.reference import reference_kernel
 from p2sf.scene.study import distance
-from p2sf.threads import one_blas_thread
+from p2sf.threads import mapped, one_blas_thread
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ def verify(planned: Plan, points: int = 5, seed: int = 0) -> Verdict:
     """Return the errors of a plan's kernels at random places, depths and channels against the reference."""
     random = np.random.default_rng(seed)
     places = tuple(_place(planned, random) for _ in range(points))
-    found = [error_at(planned, *place) for place in places]
+    found = mapped(lambda place: error_at(planned, *place), places)
     waves = sum(len(planned.scene.channels[channel].wavelengths_nm) for *_, channel in places)
     seconds = sum(spent for _, spent in found) / max(waves, 1)
     return Verdict(np.array([error for error, _ in found]), places, planned.scene.relative_tolerance, seconds)
@@ -61,9 +61,9 @@ def error_at(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: 
     own = planned.kernels(channel, vergence).half_width(float(np.hypot(x_mm, y_mm)))
     half = max(own, kernel.shape[-1] // 2)
     sensor, channels = planned.scene.sensor, planned.scene.channels
-    started = process_time()
+    started = thread_time()
     reference = reference_kernel(planned.sensor_map(vergence), channels[channel], x_mm, y_mm, half, sensor.pixel_um)
-    return distance(kernel, reference), process_time() - started
+    return distance(kernel, reference), thread_time() - started
 
 
 def planned_kernel(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: int) -> np.ndarray:

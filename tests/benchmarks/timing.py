@@ -1,4 +1,4 @@
-"""One way to time for all benchmarks: medians of CPU and wall time after a warm-up, on one BLAS thread."""
+"""One way to time for all benchmarks: medians of CPU and wall time after a warm-up, on one thread."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,6 +6,8 @@ from statistics import median
 from time import perf_counter, process_time
 
 import numpy as np
+
+from p2sf.threads import using_threads
 
 ROUNDS = 200
 
@@ -18,6 +20,7 @@ class Timed:
     wall_ms: float
 
 
+@using_threads(1)
 def timed(work: Callable[[], object], rounds: int = ROUNDS) -> Timed:
     """Return the medians of ``rounds`` calls after three that do not count."""
     # Once a process has freed megabytes it keeps them, as an app's does; before, every array costs page faults.

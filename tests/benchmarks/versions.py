@@ -88,7 +88,7 @@ class Version:
     def __init__(self, folder: Path):
         self.layout = "now" if (folder / "app" / "p2sf_explorer").is_dir() else "0.1"
         paths = os.pathsep.join(map(str, (folder, folder / "app")))
-        threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+        threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "P2SF_THREADS": "1"}
         self.environment = os.environ | threads | {"PYTHONPATH": paths, "QT_QPA_PLATFORM": "offscreen"}
         self.process = subprocess.Popen(
             [sys.executable, "-c", WORKER, self.layout],

@@ -53,7 +53,7 @@ def test_the_matrix_products_equal_the_double_loop():
     axis = centred_axis(16, pixel)
 
     class Watch:
-        live, threads = False, 1
+        live = False
 
         def advance(self, nodes):
             self.seen = nodes
