@@ -147,13 +147,15 @@ def plan_lattice(
     sensor = planned.scene.sensor
     channels = [planned.kernels(number, vergence) for number in range(len(planned.colours))]
 
-    def kernel_at(row: float, column: float) -> np.ndarray:
-        x, y = float(sensor.x_mm(column)), float(sensor.y_mm(row))
-        half = max(kernels.half_width(float(np.hypot(x, y))) for kernels in channels)
-        return np.stack([kernels.at(x, y, min(half, most_half)) for kernels in channels])
+    def kernels_at(rows: np.ndarray, columns: np.ndarray) -> list[np.ndarray]:
+        x, y = sensor.x_mm(columns), sensor.y_mm(rows)
+        lights = [kernels.points(x, y) for kernels in channels]
+        halves = np.minimum(np.max([light.half_widths() for light in lights], axis=0), most_half)
+        of_channels = (light.kernels(halves) for light in lights)
+        return [np.stack(several) for several in zip(*of_channels, strict=True)]
 
     shape = sensor.rows, sensor.columns
-    return build_lattice(kernel_at, shape, planned.counts, sensor.centred, watch, beside)
+    return build_lattice(kernels_at, shape, planned.counts, sensor.centred, watch, beside)
 
 
 def _doubled(lattice: Lattice) -> Lattice:

@@ -9,6 +9,9 @@ from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.threads import for_each
 
+# Kernels of how many nodes are asked for at once: first, to see how large they are; then so many pixels, or nodes.
+FIRST, TOGETHER, MOST_NODES = 4, 2**16, 256
+
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
@@ -32,15 +35,19 @@ class Lattice:
         return int(self.kernels[0][0].shape[0])
 
 
+KernelsAt = Callable[[np.ndarray, np.ndarray], list[np.ndarray]]
+"""From rows and columns of some nodes, (nodes,) each, to their kernels, (channels, size, size) each."""
+
+
 def build_lattice(
-    kernel_at: Callable[[float, float], np.ndarray],
+    kernels_at: KernelsAt,
     shape: tuple[int, int],
     counts: tuple[int, int],
     mirrored: bool = False,
     watch: Progress | None = None,
     beside: Callable[[], object] | None = None,
 ) -> Lattice:
-    """Return the lattice of ``kernel_at(row, column)`` over a picture of this shape.
+    """Return the lattice of ``kernels_at(rows, columns)`` over a picture of this shape.
 
     ``mirrored``: the picture is centred on the axis of a lens, so that one quarter of the kernels gives the others.
     Threads (`p2sf.threads`) share the kernels; the first to start calls ``beside``. NumPy's calls on small kernels are
@@ -53,19 +60,22 @@ def build_lattice(
     watch.expect(len(wanted))
     computed: dict[tuple[int, int], np.ndarray] = {}
 
-    def one(node: tuple[int, int] | None) -> tuple[tuple[int, int], np.ndarray] | None:
-        if node is not None:
-            return node, kernel_at(float(rows[node[0]]), float(columns[node[1]]))
+    def some(nodes: list[tuple[int, int]]) -> list[tuple[tuple[int, int], np.ndarray]]:
+        if nodes:
+            a, b = np.array(nodes).T
+            return list(zip(nodes, kernels_at(rows[a], columns[b]), strict=True))
         if beside is not None:
             beside()
-        return None
+        return []
 
-    def take(found: tuple[tuple[int, int], np.ndarray] | None) -> None:
-        if found is not None:
-            computed[found[0]] = found[1]
-            watch.advance()
+    def take(found: list[tuple[tuple[int, int], np.ndarray]]) -> None:
+        computed.update(found)
+        watch.advance(len(found))
 
-    for_each(one, [None, *wanted], take, ahead=None)
+    take(some(wanted[:FIRST]))
+    step = max(1, min(TOGETHER // computed[wanted[0]].size, MOST_NODES))
+    parts = [wanted[start : start + step] for start in range(FIRST, len(wanted), step)]
+    for_each(some, [[], *parts], take, ahead=None)
     lines = [
         [_mirrored(computed, a, b, len(rows), len(columns)) for b in range(len(columns))] for a in range(len(rows))
     ]

@@ -11,8 +11,8 @@ from p2sf.image.lattice import Lattice
 from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
 from p2sf.pixel_kernels import RAYS, Kernels, Recipe
-from p2sf.pixel_kernels.frequency_grid import FrequencyPupil
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
+from p2sf.pixel_kernels.pupil_stack import FrequencyPupil
 from p2sf.raytrace.fit import levels
 from p2sf.scene.bounds import check_colours
 from p2sf.scene.cost import Cost

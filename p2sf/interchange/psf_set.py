@@ -11,9 +11,10 @@ from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.image import Progress
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, pupil_map
+from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, part_filled_kernel, samples_across
+from p2sf.pixel_kernels.pupil_stack import FrequencyPupil
 from p2sf.pixel_kernels.ray_spread import RaySpread, part_filled_rays, ray_spread
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.psf.prediction import predicted_error

@@ -1,17 +1,18 @@
 """The kernel of one spectral channel anywhere on the sensor: fits along a radius, rotated, summed over wavelength."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from math import atan2, hypot
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM, vergence
 from p2sf.errors import P2SFError
-from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, pupil_map, without
-from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
+from p2sf.pixel_kernels.frequency_grid import pupil_map
+from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, samples_each
+from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import SensorMap
@@ -29,14 +30,13 @@ class Recipe:
 
     ``method``: "seidel" or "fitted", whose waves are summed, or "rays", to which the other numbers mean nothing.
     ``margin`` is a fraction of the window's half width, added on either side before the transform and cut off after
-    it; ``drop_waves`` is the RMS phase that the omitted terms may have together.
+    it.
     """
 
     method: str = "fitted"
     numbers: int | None = None
     fineness: float = 1.0
     margin: float = 0.0
-    drop_waves: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -47,12 +47,93 @@ class Colour:
     weights: tuple[float, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class PointLights:
+    """The light of several points in several wavelengths, (waves · points,), the points of one wavelength together.
+
+    ``lights``: pupils, or rays of each; ``shifts_um``, (waves · points,), outwards.
+    """
+
+    lights: PupilStack | list[RaySpread]
+    shifts_um: np.ndarray
+
+    def half_widths(self, pixel_um: float) -> np.ndarray:
+        """Return how many pixels on either side of the centre hold each kernel, (waves · points,)."""
+        if isinstance(self.lights, PupilStack):
+            return half_widths(self.lights, pixel_um, self.shifts_um)
+        pairs = zip(self.lights, self.shifts_um, strict=True)
+        return np.array([half_widths(light, pixel_um, shift) for light, shift in pairs], int)
+
+    def kernels(self, angles: np.ndarray, halves: np.ndarray, pixel_um: float, recipe: Recipe) -> list[np.ndarray]:
+        """Return each kernel, (2·half + 1,)² float32; fields along ``angles`` from +y towards +x."""
+        shifts = self.shifts_um[:, None] * np.stack([np.sin(angles), np.cos(angles)], axis=1)
+        if isinstance(self.lights, PupilStack):
+            return wave_kernels(self.lights, angles, halves, pixel_um, recipe, shifts)
+        places = zip(self.lights, angles.tolist(), halves.tolist(), shifts.tolist(), strict=True)
+        return [ray_kernel(light, angle, half, pixel_um, (x, y)) for light, angle, half, (x, y) in places]
+
+
+def wave_kernels(
+    pupils: PupilStack, angles: np.ndarray, halves: np.ndarray, pixel_um: float, recipe: Recipe, shifts_um: np.ndarray
+) -> list[np.ndarray]:
+    """Return the kernels of pupils, each (2·half + 1,)² float32; those of equal windows are computed together.
+
+    ``angles`` and ``halves`` (pupils,), ``shifts_um`` (pupils, 2).
+    """
+    samples = samples_each(pupils, pixel_um, recipe.fineness)
+    # The transform is periodic: a pencil wider than the window would wrap around to its other side.
+    need = half_widths(pupils, pixel_um, np.hypot(*shifts_um.T))
+    wide = np.maximum(halves, need) + np.ceil(recipe.margin * halves).astype(int)
+    kernels: list[np.ndarray] = [np.empty(0)] * len(pupils)
+    for window in np.unique(np.stack([wide, samples, halves]), axis=1).T.tolist():
+        chosen = np.flatnonzero((wide == window[0]) & (samples == window[1]) & (halves == window[2]))
+        where = PixelWindow(window[0], pixel_um, window[1])
+        cut = slice(window[0] - window[2], window[0] + window[2] + 1)
+        made = pixel_kernels(pupils.some(chosen), angles[chosen], where, shifts_um[chosen])[:, cut, cut]
+        for k, kernel in zip(chosen.tolist(), made, strict=True):
+            kernels[k] = kernel
+    return kernels
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """The light of points in all wavelengths of a channel, by recipe: (recipe, indices of its points, their lights).
+
+    ``weights`` of the wavelengths; ``angles``, (points,), of their fields from +y towards +x.
+    """
+
+    pixel_um: float
+    weights: tuple[float, ...]
+    angles: np.ndarray
+    parts: list[tuple[Recipe, np.ndarray, PointLights]]
+
+    def half_widths(self) -> np.ndarray:
+        """Return how many pixels on either side of the centre hold each point's kernel, (points,)."""
+        halves = np.empty(len(self.angles), int)
+        for _, chosen, lights in self.parts:
+            halves[chosen] = lights.half_widths(self.pixel_um).reshape(len(self.weights), -1).max(0)
+        return halves
+
+    def kernels(self, halves: np.ndarray) -> list[np.ndarray]:
+        """Return each point's kernel of this half width, (2·half + 1,)² float32 of unit sum, row 0 the top."""
+        totals = [np.zeros((size, size), np.float32) for size in (2 * halves + 1).tolist()]
+        for recipe, chosen, lights in self.parts:
+            every = np.tile(chosen, len(self.weights))
+            made = lights.kernels(self.angles[every], halves[every], self.pixel_um, recipe)
+            shares = np.repeat(np.array(self.weights, np.float32), len(chosen))
+            for k, share, kernel in zip(every.tolist(), shares, made, strict=True):
+                totals[k] += share * kernel
+        for total in totals:
+            total /= total.sum(dtype=float).astype(np.float32)
+        return totals
+
+
 @dataclass(eq=False)
 class Kernels:
     """Kernels of one view, channel and pixel pitch; pupils are cached per height, since points on a circle share them.
 
-    ``recipe_at(height_mm)`` may choose a cheaper method where it is accurate enough; ``tables`` by wavelength, if
-    any, replace a fit for every height.
+    ``recipe_at(height_mm)`` may choose a cheaper method where it is accurate enough; a ``table``, if any, replaces a
+    fit for every height that it covers.
     """
 
     seen: SensorMap
@@ -60,33 +141,39 @@ class Kernels:
     pixel_um: float
     recipe_at: Callable[[float], Recipe]
     half: int | None = None
-    tables: Mapping[float, PupilTable] = field(default_factory=dict)
+    table: PupilTable | None = None
     kept: dict[float, list[tuple[Light, float]]] = field(default_factory=dict)
 
     def at(self, x_mm: float, y_mm: float, half: int | None = None) -> np.ndarray:
         """Return the kernel of the point that lands at (x, y up), (size, size) float32 of unit sum, row 0 the top."""
-        height, angle = hypot(x_mm, y_mm), atan2(x_mm, y_mm)
-        lights = self.lights(height)
-        half = half or self.half or self.half_width(height)
-        size = 2 * half + 1
-        total = np.zeros((size, size), np.float32)
-        for weight, (pupil, shift_mm) in zip(self.colour.weights, lights, strict=True):
-            shift = shift_mm * UM_PER_MM * np.sin(angle), shift_mm * UM_PER_MM * np.cos(angle)
-            total += np.float32(weight) * self._one(pupil, angle, half, shift, self.recipe_at(height))
-        total /= total.sum(dtype=float).astype(np.float32)
-        return total
+        half, point = half or self.half, self.points([x_mm], [y_mm])
+        return point.kernels(np.array([half]) if half else point.half_widths())[0]
 
-    def _one(self, pupil: Light, angle: float, half: int, shift: tuple[float, float], recipe: Recipe) -> np.ndarray:
-        """Return the kernel of one wavelength, (2·half + 1,)²."""
-        if isinstance(pupil, RaySpread):
-            return ray_kernel(pupil, angle, half, self.pixel_um, shift)
-        samples = samples_across(pupil, self.pixel_um, recipe.fineness)
-        # The transform is periodic: a pencil wider than the window would wrap around to its other side.
-        need = half_width(pupil, self.pixel_um, hypot(*shift))
-        wide = max(half, need) + int(np.ceil(recipe.margin * half))
-        kernel = pixel_kernel(pupil, angle, PixelWindow(wide, self.pixel_um, samples), shift)
-        cut = wide - half
-        return kernel[cut : kernel.shape[0] - cut, cut : kernel.shape[1] - cut] if cut else kernel
+    def points(self, x_mm: ArrayLike, y_mm: ArrayLike) -> "Points":
+        """Return the light of points that land at (x, y up), (points,) each."""
+        x, y = np.asarray(x_mm, float), np.asarray(y_mm, float)
+        heights = np.hypot(x, y)
+        recipes = [self.recipe_at(height) for height in heights.tolist()]
+        parts = []
+        for recipe in dict.fromkeys(recipes):
+            chosen = np.flatnonzero([other == recipe for other in recipes])
+            parts.append((recipe, chosen, self._lights_at(heights[chosen], recipe)))
+        return Points(self.pixel_um, self.colour.weights, np.arctan2(x, y), parts)
+
+    def _lights_at(self, heights_mm: np.ndarray, recipe: Recipe) -> PointLights:
+        """Return the light of points at some heights in every wavelength."""
+        waves = self.colour.wavelengths_um
+        depth = float(vergence(self.seen.depth_mm))
+        table = self.table
+        if table is not None and recipe.method != RAYS and all(table.covers(height, depth) for height in heights_mm):
+            every = np.repeat(waves, len(heights_mm))
+            pupils, shifts_mm = table.at(np.tile(heights_mm, len(waves)), depth, every)
+            return PointLights(pupils, shifts_mm * UM_PER_MM)
+        by_height = [self.lights(height) for height in heights_mm.tolist()]
+        lights, shifts = zip(*(pairs[k] for k in range(len(waves)) for pairs in by_height), strict=True)
+        rays = [light for light in lights if isinstance(light, RaySpread)]
+        of_waves = [light for light in lights if isinstance(light, FrequencyPupil)]
+        return PointLights(rays or stacked(of_waves), np.array(shifts) * UM_PER_MM)
 
     def pupils(self, height_mm: float) -> list[tuple[FrequencyPupil, float]]:
         """Return (pupil, lateral colour in mm) of every wavelength at one height; none of a recipe of rays."""
@@ -103,14 +190,15 @@ class Kernels:
     def _light(self, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[Light, float]:
         if recipe.method == RAYS:
             return _own_rays(self.seen, height_mm, wavelength_um)
-        table = self.tables.get(wavelength_um)
-        found = table.at(height_mm, float(vergence(self.seen.depth_mm))) if table else None
-        pupil, shift = found or own_pupil(self.seen, height_mm, wavelength_um, recipe)
-        return (without(pupil, recipe.drop_waves) if recipe.drop_waves else pupil), shift
+        depth = float(vergence(self.seen.depth_mm))
+        if self.table is not None and self.table.covers(height_mm, depth):
+            pupils, shifts_mm = self.table.at(height_mm, depth, wavelength_um)
+            return pupils.one(0), float(shifts_mm[0])
+        return own_pupil(self.seen, height_mm, wavelength_um, recipe)
 
     def half_width(self, height_mm: float) -> int:
         """Return how many pixels on either side of the centre hold the whole kernel at this height."""
-        return max(half_width(p, self.pixel_um, abs(s) * UM_PER_MM) for p, s in self.lights(height_mm))
+        return int(self.points([0.0], [height_mm]).half_widths()[0])
 
 
 def own_pupil(seen: SensorMap, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[FrequencyPupil, float]:

@@ -2,14 +2,11 @@
 
 Phase and entrance-pupil point are polynomials over f = n'K/λ; the image of the unit circle is the edge and
 |∂(ξ, η)/∂f| the amplitude (equal areas of the entrance pupil have equal weight, as in the reference). The
-polynomials are Zernike's, so that a field in another direction is the same pupil with rotated coefficients:
-rotation needs no interpolation.
+polynomials are Zernike's, so that a field in another direction is the same pupil with rotated coefficients.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
-from math import nan
 
 import numpy as np
 
@@ -18,48 +15,24 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, with_reach
 from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike import basis, basis_by_powers, gradient, powers, terms
-from p2sf.raytrace.aiming import pupil_rays, start
-from p2sf.raytrace.fit import FittedPencil, Gradient, fit
+from p2sf.pupil.zernike import basis, basis_by_powers, gradient
+from p2sf.raytrace.aiming import Sources, pupil_rays, start
+from p2sf.raytrace.fit import Gradient, Level, PencilForms, determinant, fit, level_rays, pencil_forms
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.ray_field import ray_data
 from p2sf.raytrace.trace import lens_rims, run
 from p2sf.raytrace.vignetting import CLIPPED
 
 ORDERS = 6, 18  # the least and the greatest
 FAR_OFF = 30.0  # times the allowed residual: then the next order but one is tried, since the next seldom suffices
 NODES = 16, 44
-REACH_NODES = 24, 48
-FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % where the polynomials hold
-STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
+FEWER_NODES, SPARSE = (10, 28), 8  # enough for terms up to this order where no rim clips
 PHASE_RESIDUAL = 2e-4  # waves RMS: 2e-3 of relative L2 in the finest detail, less in a pixel
 POINT_RESIDUAL = 5e-4  # of the pupil radius
 NEARLY_CLEAR = -0.15  # of 1 − (height/rim)²: nodes up to here count as clear, since the rim lies between them
-SURELY_CLEAR = 0.05  # of the same: a rim that stays above at nodes clips nothing between them
 CLIPPED_SHARE, BESIDE = 0.03, 1.7  # the part that clipped nodes have in a fit, and up to which square of u
-
-
-@dataclass(frozen=True, eq=False)
-class FrequencyPupil:
-    """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
-
-    ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``residual_waves`` RMS phase error left.
-    ``weight``: of the light by entrance pupil area, even; none for the even light of a paraxial pupil. ``rims``,
-    (surfaces, even terms): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
-    ``energy``: ∫(weight·|∂(ξ, η)/∂f|)² df over the part that no rim clips, which the polynomials must give too.
-    """
-
-    order: int
-    radius: float
-    phase: np.ndarray
-    eta: np.ndarray
-    xi: np.ndarray
-    weight: np.ndarray
-    rims: np.ndarray
-    energy: float
-    reach_um: float
-    residual_waves: float
-    method: str
-    numbers: int
 
 
 def pupil_map(
@@ -69,215 +42,151 @@ def pupil_map(
 
     Raises GeometryError where rays do not reach the sensor, rims clip all of them, or the image lies at infinity.
     """
-    rims = _rims(lens, source) if clip else np.empty((0, disc_nodes(*NODES).xi.size))
-    if not (rims > 0).all(0).any():
-        raise GeometryError(CLIPPED, parameter="clip")
-    made = _from_seidel(lens, source, rims) if method == "seidel" else _from_fit(fit(lens, source, numbers), rims)
-    return replace(made, reach_um=reach_of(made))
+    several = Sources(*(np.array([v]) for v in (source.depth_mm, source.field_slope, source.wavelength_um)))
+    if method == "seidel":
+        return seidel_pupils(lens, several, clip).one(0)
+    found = fit(lens, source, numbers)
+    columns = (found.phase, found.fx, found.fy, found.weight, found.residual_waves)
+    forms = PencilForms(*(np.array([v]) for v in (*columns, found.map_residual, found.weight_residual)))
+    return pupils_of(lens, several, forms, found.level, clip).one(0)
 
 
-def _rims(lens: Lens, source: Source) -> np.ndarray:
-    """Return 1 − (height/rim)² where rays of the pupil's nodes meet each surface that has a rim, (surfaces, nodes)."""
+def fitted_forms(lens: Lens, sources: Sources, level: Level) -> tuple[PencilForms, np.ndarray]:
+    """Return the fits of one level to several sources, (n,), and where their chief rays land, (n,) mm.
+
+    Raises GeometryError where rays do not reach the sensor.
+    """
+    xi, eta, _ = level_rays(level)
+    rays = pencil(lens, sources, xi, eta)
+    if not rays.passed.all():
+        raise GeometryError(
+            "{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field",
+            lost=int((~rays.passed).sum()),
+            total=rays.passed.size,
+        )
+    return pencil_forms(ray_data(rays), level), rays.chief_y[:, 0]
+
+
+def pupils_of(
+    lens: Lens, sources: Sources, fits: PencilForms, level: Level, clip: bool = False, order: int = ORDERS[0]
+) -> PupilStack:
+    """Return the pupils of fits, (n, terms), all of the least order from ``order`` on that describes each of them.
+
+    Raises GeometryError where rims clip all rays of a source.
+    """
+    rims = _rims(lens, sources, clip)
+    while True:
+        found, excess = _of_order(order, fits, level, rims)
+        if excess < 1 or order == ORDERS[-1]:
+            return with_reach(found)
+        order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
+
+
+def _rims(lens: Lens, sources: Sources, clip: bool) -> np.ndarray:
+    """Return 1 − (height/rim)² where rays of the pupil's nodes meet each surface that has a rim.
+
+    (Sources, surfaces, nodes); no surfaces unless ``clip``. Raises GeometryError where rims clip all rays of a source.
+    """
     nodes, limits = disc_nodes(*NODES), lens_rims(lens, keep_stop=False)
-    rays, heights = pupil_rays(lens, source, nodes.xi, nodes.eta), []
+    if not clip:
+        return np.empty((len(np.asarray(sources.depth_mm)), 0, nodes.xi.size))
+    rays, heights = pupil_rays(lens, sources, nodes.xi, nodes.eta), []
     beam = start(rays)
     run(lens, beam, rays.index, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
-    return np.array([1 - (height / rim) ** 2 for height, rim in zip(heights, limits, strict=False) if np.isfinite(rim)])
+    met = zip(heights, limits, strict=False)
+    rims = np.stack([1 - (height / rim) ** 2 for height, rim in met if np.isfinite(rim)], axis=1)
+    if np.any(np.max(np.min(rims, axis=1), axis=1) <= 0):
+        raise GeometryError(CLIPPED, parameter="clip")
+    return rims
 
 
-def _from_seidel(lens: Lens, source: Source, rims: np.ndarray) -> FrequencyPupil:
-    six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    scale = -float(six.reduced_slope) / source.wavelength_um
-    if scale == 0:
-        raise GeometryError("the image lies at infinity, so the sensor sees no blur of finite size; move the object")
-    nodes, sign = disc_nodes(*NODES), np.sign(scale)
-    order = ORDERS[0] if len(rims) else 4
-    even, odd = basis_by_powers(order, sign * nodes.xi, sign * nodes.eta)
-    phase = wavefront(six, nodes.xi, nodes.eta)
-    (phase, eta, *forms), (xi,) = _solve(even, [phase, nodes.eta, *rims]), _solve(odd, [nodes.xi])
-    edges = np.reshape(forms, (-1, phase.size))
-    energy = np.pi * float(nodes.weight[(rims > 0).all(0)].sum()) / scale**2
-    made = order, abs(scale), phase, eta, xi, np.empty(0), edges, energy
-    return FrequencyPupil(*made, nan, 0.0, "seidel", 6)
+def seidel_pupils(lens: Lens, sources: Sources, clip: bool = False) -> PupilStack:
+    """Return the pupils of several sources, (n,), by their Seidel coefficients.
 
-
-def _from_fit(found: FittedPencil, rims: np.ndarray) -> FrequencyPupil:
-    """Return the pupil of a fit; what rims clip is described only as far as the clear part allows."""
-    nodes, clear = disc_nodes(*NODES), (rims > NEARLY_CLEAR).all(0)
-    even, odd = _at_nodes(found.level.wave_order, found.level.map_order)
-    phase, fx, fy = found.on(even, odd)
-    light = [found.weight_at(nodes.xi, nodes.eta)] if found.level.weighted else []
-    centre = (fy[clear].max() + fy[clear].min()) / 2
-    radius = float(np.hypot(fx, fy - centre)[clear].max()) * 1.02
-    u, v = fx / radius, (fy - centre) / radius
-    share = np.where(clear, 1.0, np.where(u * u + v * v <= BESIDE, CLIPPED_SHARE, 0.0))
-    columns = share * np.stack([phase, nodes.eta, *light, *rims])
-    order = ORDERS[0]
-    while True:
-        even_here, odd_here = basis_by_powers(order, u, v)
-        waves_of, eta_of, *others = _solve(even_here * share, columns)
-        waves, miss = (waves_of @ even_here - phase)[clear], (eta_of @ even_here - nodes.eta)[clear]
-        residual = float(np.sqrt(nodes.weight[clear] @ waves**2 / nodes.weight[clear].sum()))
-        excess = max(residual / PHASE_RESIDUAL, float(np.abs(miss).max()) / POINT_RESIDUAL)
-        if excess < 1 or order == ORDERS[-1]:
-            break
-        order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
-    (xi_of,), left = _solve(odd_here * share, [share * nodes.xi]), float(np.hypot(residual, found.residual_waves))
-    weight_of, rims_of = (np.array(others[part]) for part in (slice(len(light)), slice(len(light), None)))
-    forms = waves_of, eta_of, xi_of, weight_of.ravel(), rims_of.reshape(-1, waves_of.size)
-    energy = _energy(found, np.asarray((rims > 0).all(0)))
-    return FrequencyPupil(order, radius, *forms, energy, nan, left, "fitted", found.numbers)
-
-
-def _energy(found: FittedPencil, clear: np.ndarray) -> float:
-    """Return ∫weight²/|∂f/∂(ξ, η)| dξ dη over the clear nodes: by Parseval ∫|field|²dx."""
-    nodes = disc_nodes(*NODES)
-    light = found.weight_at(nodes.xi, nodes.eta) ** 2 / np.abs(found.jacobian(nodes.xi, nodes.eta))
-    return float(np.pi * (nodes.weight * light)[clear].sum())
-
-
-@lru_cache(maxsize=8)
-def _at_nodes(wave_order: int, map_order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return even and odd terms at the fixed nodes."""
-    nodes = disc_nodes(*NODES)
-    return basis(max(wave_order, map_order), nodes.xi, nodes.eta), basis(map_order, nodes.xi, nodes.eta, odd=True)
-
-
-def _solve(rows: np.ndarray, values: Sequence[np.ndarray]) -> np.ndarray:
-    """Return least-squares coefficients, (values, terms), by the normal equations of nearly orthogonal terms."""
-    normal = rows @ rows.T
-    normal[np.diag_indices_from(normal)] *= 1 + 1e-12
-    found: np.ndarray = np.linalg.solve(normal, rows @ np.stack(values, axis=1)).T
-    return found
-
-
-def reach_of(pupil: FrequencyPupil) -> float:
-    """Return the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton).
-
-    Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
-    they come back there, and would let light through that does not exist.
+    Raises GeometryError where an image lies at infinity, or rims clip all rays.
     """
-    at = _terms_at(pupil.order)
-    (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
-        (form @ across, form @ along)
-        for form, (across, along) in zip((pupil.phase, pupil.eta, pupil.xi), at.slopes, strict=True)
-    )
-    area = np.abs(xi_u * eta_v - xi_v * eta_u)
-    inside = (pupil.eta @ at.even) ** 2 + (pupil.xi @ at.odd) ** 2 <= 1
-    light = np.where(inside & (pupil.rims @ at.even > 0).all(0), at.weight * area**2, 0.0)
-    if pupil.weight.size:
-        light *= (pupil.weight @ at.even) ** 2
-    share = float(np.pi * light.sum() / pupil.radius**2 / pupil.energy)
-    if abs(share - 1) > FOLDED:
-        raise GeometryError(
-            "the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its "
-            "light; stop the lens down or reduce the field",
-            share=share,
-        )
-    distance = np.hypot(phase_u, phase_v) / pupil.radius
-    order_of = np.argsort(distance)
-    within = np.cumsum(light[order_of]) <= (1 - STRAY) * light.sum()
-    return float(distance[order_of][within].max(initial=0.0))
+    rims = _rims(lens, sources, clip)
+    six = coefficients(lens, sources.depth_mm, sources.field_slope, sources.wavelength_um)
+    scale = -np.asarray(six.reduced_slope) / sources.wavelength_um
+    if not scale.all():
+        raise GeometryError("the image lies at infinity, so the sensor sees no blur of finite size; move the object")
+    nodes, sign = disc_nodes(*NODES), np.sign(scale)[:, None]
+    order = ORDERS[0] if rims.shape[1] else 4
+    even, odd = _terms_over(order, sign * nodes.xi, sign * nodes.eta)
+    phase = wavefront(six, nodes.xi, nodes.eta)
+    eta, across = (np.broadcast_to(v, phase.shape) for v in (nodes.eta, nodes.xi))
+    found = _solve(even, np.concatenate([np.stack([phase, eta], axis=1), rims], axis=1))
+    xi = _solve(odd, across[:, None])[:, 0]
+    energy = np.pi * np.where((rims > 0).all(1), nodes.weight, 0.0).sum(1) / scale**2
+    none, unknown = np.empty((len(scale), 0)), np.full(len(scale), np.nan)
+    forms = found[:, 0], found[:, 1], xi, none, found[:, 2:]
+    return with_reach(PupilStack(order, np.abs(scale), *forms, energy, unknown, 0 * scale, "seidel", 6))
 
 
-def cutting_rims(pupil: FrequencyPupil) -> np.ndarray:
-    """Return those rims that clip any part of the pupil, (surfaces, even terms)."""
-    at = _terms_at(pupil.order)
-    inside = (pupil.eta @ at.even) ** 2 + (pupil.xi @ at.odd) ** 2 <= 1
-    nearest = (pupil.rims @ at.even)[:, inside].min(1, initial=np.inf)
-    cutting: np.ndarray = pupil.rims[nearest < SURELY_CLEAR]
-    return cutting
+def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> tuple[PupilStack, float]:
+    """Return the pupils of fits by terms up to an order, and the worst of their misses over what is allowed.
+
+    What rims clip is described only as far as the clear part allows.
+    """
+    where = FEWER_NODES if order <= SPARSE and not rims.shape[1] else NODES
+    nodes, at = disc_nodes(*where), _at_nodes(where, level.wave_order, level.map_order)
+    phase, fy, weight = (form @ at.even[: form.shape[-1]] for form in (fits.phase, fits.fy, fits.weight))
+    fx, eta = fits.fx @ at.odd, np.broadcast_to(nodes.eta, phase.shape)
+    clear = (rims > NEARLY_CLEAR).all(1) if rims.shape[1] else np.ones(phase.shape, bool)
+    centre = (np.where(clear, fy, -np.inf).max(1) + np.where(clear, fy, np.inf).min(1))[:, None] / 2
+    radius = 1.02 * np.where(clear, np.hypot(fx, fy - centre), 0.0).max(1)
+    u, v = fx / radius[:, None], (fy - centre) / radius[:, None]
+    share = np.where(clear, 1.0, np.where(u * u + v * v <= BESIDE, CLIPPED_SHARE, 0.0))[:, None]
+    columns = np.stack([phase, eta, *([weight] if level.weighted else [])], axis=1)
+    if rims.shape[1]:
+        columns = np.concatenate([columns, rims], axis=1)
+    even, odd = _terms_over(order, u, v)
+    found = _solve(even * share, columns * share)
+    xi = _solve(odd * share, share * nodes.xi)[:, 0]
+    waves, miss = ((found[:, k, None] @ even)[:, 0] - true for k, true in enumerate((phase, eta)))
+    area = np.where(clear, nodes.weight, 0.0)
+    residual = np.sqrt((area * waves**2).sum(1) / area.sum(1))
+    excess = max(float(residual.max()) / PHASE_RESIDUAL, float(np.abs(miss * clear).max()) / POINT_RESIDUAL)
+    first = 2 + level.weighted  # of the rims
+    weight_of = found[:, 2] if level.weighted else np.empty((len(found), 0))
+    # By Parseval ∫|field|²dx = ∫weight²/|∂f/∂(ξ, η)| dξ dη.
+    light = weight**2 / np.abs(determinant(fits.fx, fits.fy, at.odd_slopes, at.even_slopes))
+    energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ nodes.weight
+    forms = found[:, 0], found[:, 1], xi, weight_of, found[:, first:]
+    unknown, left = np.full(len(found), np.nan), np.hypot(residual, fits.residual_waves)
+    return PupilStack(order, radius, *forms, energy, unknown, left, "fitted", level.numbers), excess
+
+
+def _terms_over(order: int, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return even and odd terms at points (n, points), each (n, terms, points)."""
+    even, odd = (rows.reshape(-1, *u.shape).swapaxes(0, 1) for rows in basis_by_powers(order, u.ravel(), v.ravel()))
+    return even, odd
 
 
 @dataclass(frozen=True, eq=False)
-class _TermsAt:
-    """Even and odd terms at REACH_NODES over u, the nodes' weights, and gradients as phase, η and ξ take them."""
+class _FitTerms:
+    """Even and odd terms of a fit at fixed nodes, and the gradients of those of its maps."""
 
     even: np.ndarray
     odd: np.ndarray
-    weight: np.ndarray
-    slopes: tuple[Gradient, Gradient, Gradient]
+    even_slopes: Gradient
+    odd_slopes: Gradient
 
 
 @lru_cache(maxsize=16)
-def _terms_at(order: int) -> _TermsAt:
-    nodes = disc_nodes(*REACH_NODES)
-    even, odd = (basis(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
-    slopes, slopes_odd = (gradient(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
-    return _TermsAt(even, odd, nodes.weight, (slopes, slopes, slopes_odd))
-
-
-def dropped_terms(pupil: FrequencyPupil, waves: float) -> list[tuple[int, int, float]]:
-    """Return (n, m, RMS waves) of the weakest phase terms that together stay below ``waves`` RMS, weakest first.
-
-    The terms are orthonormal over the disc, so their squares add. Tilt, which moves the image, is never dropped.
-    """
-    named = [(abs(c), n, m) for c, (n, m) in zip(pupil.phase, terms(pupil.order), strict=True) if n > 1]
-    out, total = [], 0.0
-    for size, n, m in sorted(named):
-        total += size * size
-        if total > waves * waves:
-            break
-        out.append((n, m, float(size)))
-    return out
-
-
-def without(pupil: FrequencyPupil, waves: float) -> FrequencyPupil:
-    """Return the pupil without the terms of `dropped_terms`."""
-    gone = {(n, m) for n, m, _ in dropped_terms(pupil, waves)}
-    if not gone:
-        return pupil
-    keep = np.array([name not in gone for name in terms(pupil.order)])
-    return replace(pupil, phase=np.where(keep, pupil.phase, 0.0))
-
-
-@dataclass(frozen=True, eq=False)
-class Turned:
-    """A frequency pupil as plain powers Σ c[i, j]·uⁱ·vʲ, rotated to the direction of its field.
-
-    ``weight`` None: 1 everywhere. ``rims``: only those that clip.
-    """
-
-    radius: float
-    phase: np.ndarray
-    eta: np.ndarray
-    xi: np.ndarray
-    weight: np.ndarray | None
-    rims: np.ndarray
-
-
-def turned(pupil: FrequencyPupil, angle: float) -> Turned:
-    """Return the pupil of a field ``angle`` radians from +y towards +x: θ becomes θ − angle in every term."""
-    even, odd = (np.array([m for _, m in terms(pupil.order, flag)]) for flag in (False, True))
-    keep = even > 0  # the odd terms are the even ones without m = 0, in the same order
-    cosine, sine = np.cos(even * angle), np.sin(even * angle)[keep]
-    cosine_odd, sine_odd = np.cos(odd * angle), np.sin(odd * angle)
-    from_xi = np.zeros(even.size)
-    from_xi[keep] = -pupil.xi * sine_odd
-    phase = _plain(pupil.order, pupil.phase * cosine, pupil.phase[keep] * sine)
-    eta = _plain(pupil.order, pupil.eta * cosine, pupil.eta[keep] * sine)
-    xi = _plain(pupil.order, from_xi, pupil.xi * cosine_odd)
-    weight, *rims = (
-        _plain(pupil.order, form * cosine, form[keep] * sine) if form.size else None
-        for form in (pupil.weight, *cutting_rims(pupil))
+def _at_nodes(where: tuple[int, int], wave_order: int, map_order: int) -> _FitTerms:
+    nodes = disc_nodes(*where)
+    even, odd = (
+        basis(order, nodes.xi, nodes.eta, flag)
+        for order, flag in ((max(wave_order, map_order), False), (map_order, True))
     )
-    return Turned(pupil.radius, phase, eta, xi, weight, np.array(rims))
+    return _FitTerms(even, odd, *(gradient(map_order, nodes.xi, nodes.eta, flag) for flag in (False, True)))
 
 
-def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:
-    """Return coefficients c[i, j] of uⁱvʲ, (order + 1, order + 1)."""
-    forms = _all_powers(order)
-    plain: np.ndarray = (even @ forms[0] + odd @ forms[1]).reshape(order + 1, order + 1)
-    return plain
-
-
-@lru_cache(maxsize=16)
-def _all_powers(order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return every even and every odd term as flat rows of c[i, j]."""
-    out = []
-    for odd in (False, True):
-        form = powers(order, odd)
-        full = np.zeros((len(form), order + 1, order + 1))
-        full[:, (1 if odd else 0) :: 2] = form[:, : len(range(1 if odd else 0, order + 1, 2))]
-        out.append(full.reshape(len(form), -1))
-    return out[0], out[1]
+def _solve(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return least-squares coefficients, (n, values, terms), by the normal equations of nearly orthogonal terms."""
+    normal = rows @ rows.swapaxes(1, 2)
+    diagonal = np.arange(normal.shape[-1])
+    normal[:, diagonal, diagonal] *= 1 + 1e-12
+    found: np.ndarray = np.linalg.solve(normal, rows @ values.swapaxes(1, 2)).swapaxes(1, 2)
+    return found

@@ -1,19 +1,22 @@
-"""From a pupil to the light that each pixel of a small window receives from one point."""
+"""From pupils to the light that each pixel of a small window receives from one point."""
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import ceil
 
 import numpy as np
 
+from p2sf.conventions import FloatOrArray
 from p2sf.errors import SamplingError
-from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, Turned, turned
+from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, Turned, stacked, turned
 from p2sf.pixel_kernels.ray_spread import RaySpread
 from p2sf.pupil.binning import binned
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land
 LARGEST_WINDOW = 4096
-BLOCK = 32768  # samples of the pupil in one block
+BLOCK = 32768  # samples of pupils in one block
+TOGETHER = 65536  # samples of the light that are transformed together
+
+Light = FrequencyPupil | PupilStack | RaySpread
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,13 @@ class PixelWindow:
 
 def half_width(pupil: FrequencyPupil | RaySpread, pixel_um: float, shift_um: float = 0.0) -> int:
     """Return how many pixels on either side of the centre hold the rays and the nearest rings around them."""
-    return max(1, ceil((pupil.reach_um + abs(shift_um) + TAIL / pupil.radius) / pixel_um - 0.5))
+    return int(half_widths(pupil, pixel_um, shift_um))
+
+
+def half_widths(pupils: Light, pixel_um: float, shifts_um: FloatOrArray = 0.0) -> np.ndarray:
+    """Return `half_width` of pupils whose light is shifted by µm, (pupils,)."""
+    reach = pupils.reach_um + np.abs(shifts_um) + TAIL / pupils.radius
+    return np.maximum(1, np.ceil(reach / pixel_um - 0.5)).astype(int)
 
 
 def samples_across(pupil: FrequencyPupil | RaySpread, pixel_um: float, finest: float = 1.0) -> int:
@@ -40,7 +49,12 @@ def samples_across(pupil: FrequencyPupil | RaySpread, pixel_um: float, finest: f
 
     At least three, so that pixel edges are resolved well enough.
     """
-    return max(3, ceil(2 * pupil.radius * pixel_um * finest))
+    return int(samples_each(pupil, pixel_um, finest))
+
+
+def samples_each(pupils: Light, pixel_um: float, finest: float = 1.0) -> np.ndarray:
+    """Return `samples_across` of pupils, (pupils,)."""
+    return np.maximum(3, np.ceil(2 * pupils.radius * (pixel_um * finest))).astype(int)
 
 
 def pixel_kernel(
@@ -51,9 +65,21 @@ def pixel_kernel(
     The field lies ``angle`` radians from +y towards +x. ``shift_um``: where the point's chief ray
     lands, x and y (up) from the centre of the middle pixel. Raises SamplingError for a window too large.
     """
-    pixels = binned(sampled_light(pupil, angle, window, shift_um), window.size, window.samples)
-    kernel: np.ndarray = np.ascontiguousarray(pixels[::-1]) / pixels.sum(dtype=float).astype(np.float32)
+    kernel: np.ndarray = pixel_kernels(stacked([pupil]), np.array([angle]), window, np.array([shift_um]))[0]
     return kernel
+
+
+def pixel_kernels(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, shifts_um: np.ndarray) -> np.ndarray:
+    """Return `pixel_kernel` of several pupils, (pupils, size, size), with ``angles`` and ``shifts_um`` (pupils, 2)."""
+    kernels = np.empty((len(pupils), window.size, window.size), np.float32)
+    together = max(1, TOGETHER // (window.size * window.samples) ** 2)
+    for start in range(0, len(pupils), together):
+        part = slice(start, start + together)
+        light = sampled_light(pupils.some(part), angles[part], window, shifts_um[part])
+        pixels = binned(light, window.size, window.samples)
+        total = pixels.sum((1, 2), dtype=float, keepdims=True).astype(np.float32)
+        np.divide(pixels[:, ::-1], total, out=kernels[part])
+    return kernels
 
 
 def part_filled_kernel(pupil: FrequencyPupil, window: PixelWindow, fill_factor: float) -> np.ndarray:
@@ -66,7 +92,7 @@ def part_filled_kernel(pupil: FrequencyPupil, window: PixelWindow, fill_factor: 
     """
     import scipy.fft
 
-    light = sampled_light(pupil, 0.0, window)
+    light = sampled_light(stacked([pupil]), np.zeros(1), window, np.zeros((1, 2)))[0]
     wide = window.samples * fill_factor**0.5  # of the square, in samples
     count = len(light)
     down, across = (np.sinc(wide * f).astype(np.float32) for f in (np.fft.fftfreq(count), np.fft.rfftfreq(count)))
@@ -78,12 +104,10 @@ def part_filled_kernel(pupil: FrequencyPupil, window: PixelWindow, fill_factor: 
     return kernel
 
 
-def sampled_light(
-    pupil: FrequencyPupil, angle: float, window: PixelWindow, shift_um: tuple[float, float] = (0.0, 0.0)
-) -> np.ndarray:
-    """Return the light at ``window.samples``² points of every pixel, (size·samples,)² float32, row 0 at the bottom.
+def sampled_light(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, shifts_um: np.ndarray) -> np.ndarray:
+    """Return the light at ``window.samples``² points of every pixel, (pupils, n, n) float32, row 0 at the bottom.
 
-    As in `pixel_kernel`. Raises SamplingError for a window too large.
+    n = size·samples; the rest as in `pixel_kernels`. Raises SamplingError for a window too large.
     """
     import scipy.fft
 
@@ -98,54 +122,63 @@ def sampled_light(
             side=side,
         )
     # Sample 0 of the transform is the window's lower left one; the samples of a pixel lie symmetrically in it.
-    corner = -(count - 1) / 2 * pitch
-    origin = corner - shift_um[0], corner - shift_um[1]
-    field = _field(turned(pupil, angle), side, 1 / (side * pitch), origin)
-    plane = scipy.fft.ifft2(field, overwrite_x=True)[:count, :count]
-    light: np.ndarray = plane.real**2 + plane.imag**2
+    origin = -(count - 1) / 2 * pitch - shifts_um
+    field = _field(turned(pupils, angles), side, 1 / (side * pitch), origin)
+    plane = scipy.fft.ifft2(field, overwrite_x=True)[:, :count, :count]
+    light: np.ndarray = plane.real**2
+    light += plane.imag**2
     return light
 
 
-def _field(pupil: Turned, side: int, step: float, origin: tuple[float, float]) -> np.ndarray:
-    """Return the pupil's complex amplitude on ``side``² frequencies, complex64, in the order of an inverse FFT.
+def _field(pupils: Turned, side: int, step: float, origin: np.ndarray) -> np.ndarray:
+    """Return complex amplitudes on ``side``² frequencies, (pupils, side, side) complex64, in an inverse FFT's order.
 
     Computed a few rows at a time, so that the intermediate results stay in the processor's cache.
     """
-    half = int(pupil.radius / step) + 1
-    phase = pupil.phase.copy()
-    phase[1, 0] += pupil.radius * origin[0]
-    phase[0, 1] += pupil.radius * origin[1]
-    cell = step / pupil.radius
+    half = int(pupils.radius.max() / step) + 1
+    phase, radius = pupils.phase.copy(), pupils.radius[:, None]
+    phase[:, 1, 0] += pupils.radius * origin[:, 0]
+    phase[:, 0, 1] += pupils.radius * origin[:, 1]
+    cell = step / radius
     axis = np.arange(-half, half + 1) * cell
-    table = np.vander(axis, len(phase), increasing=True)
+    table = _powers(axis, phase.shape[-1])
     slopes = np.zeros_like(table)
-    slopes[:, 1:] = table[:, :-1] * np.arange(1, len(phase))
-    across, maps = phase.T @ table.T, _maps_across(pupil, table, slopes)
-    single, steep = table.astype(np.float32), slopes.astype(np.float32)
-    field = np.empty((axis.size, axis.size), np.complex64)
-    rows_at_once = max(8, BLOCK // axis.size)
-    for start in range(0, axis.size, rows_at_once):
+    slopes[..., 1:] = table[..., :-1] * np.arange(1, phase.shape[-1])
+    across, maps = phase.swapaxes(1, 2) @ table.swapaxes(1, 2), _maps_across(pupils, table, slopes)
+    single, steep, narrow = table.astype(np.float32), slopes.astype(np.float32), cell.astype(np.float32)[..., None]
+    field = np.empty((len(axis), 2 * half + 1, 2 * half + 1), np.complex64)
+    rows_at_once = max(8, BLOCK // (axis.size or 1))
+    for start in range(0, 2 * half + 1, rows_at_once):
         rows = slice(start, start + rows_at_once)
-        turns = table[rows] @ across
+        turns = table[:, rows] @ across
         turns -= np.rint(turns)
         turns = (2 * np.pi * turns).astype(np.float32)
-        (xi, xi_u), (eta, eta_u), *others = single[rows] @ maps
-        xi_v, eta_v, *others_v = steep[rows] @ maps[:, 0]
+        (xi, xi_u), (eta, eta_u), *others = single[:, rows] @ maps
+        xi_v, eta_v, *others_v = steep[:, rows] @ maps[:, 0]
         amplitude = _amplitude((xi, eta), np.abs(xi_u * eta_v - xi_v * eta_u), axis, rows)
-        if pupil.weight is not None:
+        if pupils.weight is not None:
             amplitude *= others.pop()[0]
         for (rim, rim_u), rim_v in zip(others, others_v, strict=False):
-            amplitude *= _share_inside(rim, np.hypot(rim_u, rim_v) * np.float32(cell))
-        np.multiply(amplitude, np.cos(turns), out=field[rows].real)
-        np.multiply(amplitude, np.sin(turns), out=field[rows].imag)
+            amplitude *= _share_inside(rim, np.hypot(rim_u, rim_v) * narrow)
+        np.multiply(amplitude, np.cos(turns), out=field[:, rows].real)
+        np.multiply(amplitude, np.sin(turns), out=field[:, rows].imag)
     return _wrapped(field, half, side)
 
 
-def _maps_across(pupil: Turned, table: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Return (ξ, η, rims, weight) × (value, slope by u) summed over powers of u, (2, powers of v, columns) float32."""
-    last = () if pupil.weight is None else (pupil.weight,)
-    forms = np.stack([form.T for form in (pupil.xi, pupil.eta, *pupil.rims, *last)])[:, None]
-    maps: np.ndarray = (forms @ np.stack([table.T, slopes.T])).astype(np.float32)
+def _powers(axis: np.ndarray, count: int) -> np.ndarray:
+    """Return axisᵏ, k = 0 … count − 1, with k last."""
+    table = np.empty((*axis.shape, count))
+    table[..., 0] = 1.0
+    table[..., 1:] = axis[..., None]
+    np.multiply.accumulate(table, axis=-1, out=table)
+    return table
+
+
+def _maps_across(pupils: Turned, table: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Return (ξ, η, rims, weight) × (value, slope by u) × pupils summed over powers of u, (…, powers of v, columns)."""
+    last = () if pupils.weight is None else (pupils.weight,)
+    forms = np.stack([form.swapaxes(1, 2) for form in (pupils.xi, pupils.eta, *pupils.rims, *last)])[:, None]
+    maps: np.ndarray = (forms @ np.stack([table.swapaxes(1, 2), slopes.swapaxes(1, 2)])).astype(np.float32)
     return maps
 
 
@@ -154,9 +187,10 @@ def _amplitude(point: tuple[np.ndarray, np.ndarray], area: np.ndarray, axis: np.
 
     A cell's width in the pupil is the root of its area there.
     """
-    (xi, eta), cell = point, axis[1] - axis[0]
-    inside = _share_inside(1 - np.sqrt(xi * xi + eta * eta), np.sqrt(area) * np.float32(cell))
-    inside *= axis[rows, None] ** 2 + axis**2 <= (1 + cell) ** 2  # beyond, the polynomials are not valid
+    (xi, eta), cell = point, (axis[:, 1] - axis[:, 0])[:, None, None]
+    inside = _share_inside(1 - np.sqrt(xi * xi + eta * eta), np.sqrt(area) * cell.astype(np.float32))
+    square = axis * axis
+    inside *= square[:, rows, None] + square[:, None] <= (1 + cell) ** 2  # beyond, the polynomials are not valid
     np.multiply(area, inside, out=area)
     return area
 
@@ -168,13 +202,13 @@ def _share_inside(within: np.ndarray, cell: np.ndarray) -> np.ndarray:
 
 
 def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:
-    """Return the centred grid with frequency 0 at index 0, folded onto itself where it is wider than ``side``."""
-    plane = np.zeros((side, side), field.dtype)
+    """Return the centred grids with frequency 0 at index 0, folded onto themselves where wider than ``side``."""
+    planes = np.zeros((len(field), side, side), field.dtype)
     pieces = _pieces(half, side)
     for to_row, from_row in pieces:
         for to_column, from_column in pieces:
-            plane[to_row, to_column] += field[from_row, from_column]
-    return plane
+            planes[:, to_row, to_column] += field[:, from_row, from_column]
+    return planes
 
 
 @lru_cache(maxsize=64)

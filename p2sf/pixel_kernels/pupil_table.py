@@ -1,72 +1,92 @@
-"""Pupils over field and depth from a few fits: Zernike coefficients interpolated over height and vergence.
+"""Pupils over field, depth and colour from a few fits: Zernike coefficients interpolated between them.
 
-All points at one distance from the axis share one pupil, rotated (`frequency_grid.turned`). Its coefficients are
-smooth functions of that distance and of 1/depth, so that a polynomial through a few Chebyshev nodes gives them all.
+All points at one distance from the axis share one pupil, rotated (`pupil_stack.turned`). Its coefficients are
+smooth functions of that distance, of 1/depth and of the wavelength, so that polynomials through a few Chebyshev nodes
+give them all.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import prod
-from typing import TypeAlias
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, reach_of
+from p2sf.errors import GeometryError
+from p2sf.pixel_kernels.pupil_stack import FORMS, PupilStack, with_reach
 
-FORMS = "phase", "eta", "xi", "weight", "rims"
 SAME = 1e-9  # of the farthest node: positions closer than this are the same
-PupilShift: TypeAlias = tuple[FrequencyPupil, float]  # a pupil, and its lateral colour in mm
 
 
 @dataclass(frozen=True, eq=False)
 class PupilTable:
-    """Pupils of one wavelength between those fitted at heights × vergences, and their lateral colour.
+    """Pupils between those fitted at heights × vergences × wavelengths, in this order, and their lateral colour, mm.
 
-    ``rows``, (heights · vergences, numbers): of each pupil all FORMS, radius, energy and lateral colour in mm.
-    ``like`` is a pupil of the highest order, with the largest residual of all.
+    ``rows``, (fits, numbers): of each pupil all FORMS, radius, energy and lateral colour. ``like``: the fitted ones.
     """
 
     heights_mm: tuple[float, ...]
     vergences: tuple[float, ...]
+    waves_um: tuple[float, ...]
     rows: np.ndarray
-    like: FrequencyPupil
+    like: PupilStack
 
-    def at(self, height_mm: float, vergence: float) -> PupilShift | None:
-        """Return pupil and lateral colour in mm anywhere between the nodes, None outside them."""
-        if not (_within(height_mm, self.heights_mm) and _within(vergence, self.vergences)):
-            return None
-        weights = np.outer(lagrange(self.heights_mm, height_mm), lagrange(self.vergences, vergence)).ravel()
-        row, like = weights @ self.rows, self.like
-        sizes = [getattr(like, name).size for name in FORMS]
-        phase, eta, xi, weight, rims, (radius, energy, shift) = np.split(row, np.cumsum(sizes))
-        rims, radius, energy = rims.reshape(like.rims.shape), float(radius), float(energy)
-        made = replace(like, phase=phase, eta=eta, xi=xi, weight=weight, rims=rims, radius=radius, energy=energy)
-        return replace(made, reach_um=reach_of(made)), float(shift)
+    @property
+    def fits(self) -> int:
+        """Return how many pupils were fitted."""
+        return len(self.rows)
+
+    @property
+    def shifts_mm(self) -> np.ndarray:
+        """Return the lateral colour of the fitted pupils, mm, (fits,)."""
+        shifts: np.ndarray = self.rows[:, -1]
+        return shifts
+
+    def covers(self, height_mm: float, vergence: float) -> bool:
+        """Return whether a height and a depth lie between the nodes."""
+        return _within(height_mm, self.heights_mm) and _within(vergence, self.vergences)
+
+    def at(self, heights_mm: ArrayLike, vergences: ArrayLike, waves_um: ArrayLike) -> tuple[PupilStack, np.ndarray]:
+        """Return pupils and lateral colour in mm, (pupils,), between the nodes, from numbers or arrays of each axis.
+
+        Raises GeometryError outside the nodes.
+        """
+        places = np.broadcast_arrays(*map(np.atleast_1d, (heights_mm, vergences, waves_um)))
+        axes = zip((self.heights_mm, self.vergences, self.waves_um), places, strict=True)
+        weights = [np.stack([_weights(nodes, place) for place in column.tolist()]) for nodes, column in axes]
+        rows = np.einsum("kh,kv,kw->khvw", *weights).reshape(len(weights[0]), -1) @ self.rows
+        forms: dict[str, Any] = {}
+        like = self.like
+        for name in FORMS:
+            size = getattr(like, name)[0].size
+            forms[name], rows = rows[:, :size].reshape(len(rows), *getattr(like, name).shape[1:]), rows[:, size:]
+        radius, energy, shifts = rows.T
+        residual = np.full(len(radius), like.residual_waves.max())
+        made = replace(like, **forms, radius=radius, energy=energy, residual_waves=residual)
+        return with_reach(made), shifts
 
 
 def pupil_table(
-    make: Callable[[float, float], PupilShift], heights_mm: Iterable[float], vergences: Iterable[float]
+    nodes: tuple[Sequence[float], Sequence[float], Sequence[float]], pupils: PupilStack, shifts_mm: np.ndarray
 ) -> PupilTable:
-    """Return the table of ``make(height_mm, vergence)`` at these nodes."""
-    heights_mm, vergences = tuple(map(float, heights_mm)), tuple(map(float, vergences))
-    made = [make(h, v) for h in heights_mm for v in vergences]
-    pupils = [pupil for pupil, _ in made]
-    like = replace(max(pupils, key=lambda p: p.order), residual_waves=max(p.residual_waves for p in pupils))
-    rows = np.array([_row(pupil, shift, like) for pupil, shift in made])
-    return PupilTable(heights_mm, vergences, rows, like)
+    """Return the table of pupils and lateral colours at heights (mm) × vergences × wavelengths (µm), these fastest."""
+    heights, vergences, waves = (tuple(map(float, axis)) for axis in nodes)
+    forms = (getattr(pupils, name).reshape(len(pupils), -1) for name in FORMS)
+    rows = np.concatenate([*forms, *(column[:, None] for column in (pupils.radius, pupils.energy, shifts_mm))], axis=1)
+    return PupilTable(heights, vergences, waves, rows, pupils)
 
 
-def _row(pupil: FrequencyPupil, shift_mm: float, like: FrequencyPupil) -> np.ndarray:
-    """Return all numbers of a pupil; zeros stand for terms of higher degree, the last of each form, that it lacks."""
-    forms = (_widened(getattr(pupil, name), getattr(like, name).shape[-1]) for name in FORMS)
-    return np.concatenate([*forms, (pupil.radius, pupil.energy, shift_mm)])
-
-
-def _widened(form: np.ndarray, terms: int) -> np.ndarray:
-    """Return coefficients with zeros behind them, flat."""
-    lacking = [(0, 0)] * (form.ndim - 1) + [(0, terms - form.shape[-1])]
-    return np.pad(form, lacking).ravel()
+def _weights(nodes: tuple[float, ...], place: float) -> np.ndarray:
+    if not _within(place, nodes):
+        raise GeometryError(
+            "{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene anew",
+            place=place,
+            low=nodes[0],
+            high=nodes[-1],
+        )
+    return lagrange(nodes, place)
 
 
 @lru_cache(maxsize=1024)
@@ -86,11 +106,6 @@ def chebyshev(least: float, most: float, count: int) -> np.ndarray:
     """Return ``count`` Chebyshev nodes of the second kind, both ends included, increasing; for one node the middle."""
     middle, half = (least + most) / 2, (most - least) / 2
     return np.array([middle]) if count == 1 else middle - half * np.cos(np.pi * np.arange(count) / (count - 1))
-
-
-def few_nodes(values: Sequence[float], count: int) -> np.ndarray:
-    """Return the values themselves if there are at most ``count``, else ``count`` Chebyshev nodes over their range."""
-    return np.asarray(values) if len(values) <= count else chebyshev(values[0], values[-1], count)
 
 
 def _within(value: float, nodes: tuple[float, ...]) -> bool:

@@ -1,6 +1,8 @@
 """Where the points of one object plane land: from sensor height to field, distortion, lateral colour."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -46,8 +48,11 @@ class SensorMap:
 
     def source(self, height_mm: float, wavelength_um: float) -> Source:
         """Return the object point that lands at a height in the reference wavelength, for another wavelength."""
-        slope = float(self.slope(height_mm)) * self._slope_ratio(wavelength_um)
-        return Source(self.depth_mm, slope, float(wavelength_um))
+        return Source(self.depth_mm, float(self.slopes_at(height_mm, wavelength_um)), float(wavelength_um))
+
+    def slopes_at(self, heights_mm: FloatOrArray, wavelength_um: float) -> FloatOrArray:
+        """Return, for another wavelength, the slopes of the object points that land at heights in the reference one."""
+        return self.slope(heights_mm) * self._slope_ratio(wavelength_um)
 
     def shift_mm(self, height_mm: float, wavelength_um: float) -> float:
         """Return lateral colour: how much farther out another wavelength lands, mm."""
@@ -66,22 +71,37 @@ class SensorMap:
 
 def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float, clip: bool = False) -> SensorMap:
     """Return the map out to radial ``height_mm`` on the sensor; GeometryError where no chief ray lands that far."""
-    six = coefficients(lens, depth_mm, 1.0, wavelength_um)
-    scale = float(six.image_height)
-    if scale == 0 or not np.isfinite(scale):
+    return sensor_maps(lens, [depth_mm], wavelength_um, height_mm, clip)[0]
+
+
+def sensor_maps(
+    lens: Lens,
+    depths_mm: Sequence[float],
+    wavelength_um: float,
+    height_mm: float,
+    clip: bool = False,
+    rays: int = CHIEF_RAYS,
+) -> list[SensorMap]:
+    """Return `sensor_map` of several depths, whose chief rays are traced together where that is possible."""
+    depths = np.array(depths_mm, float)
+    scale = np.broadcast_to(coefficients(lens, depths, 1.0, wavelength_um).image_height, depths.shape)
+    if not (np.isfinite(scale) & (scale != 0)).all():
         raise GeometryError("every chief ray meets the sensor on the axis, so it holds no picture; move the stop")
     for reach in REACHES:
-        slopes = np.linspace(0, reach * height_mm / scale, CHIEF_RAYS)
+        slopes = np.linspace(0, reach * height_mm / scale, rays, axis=-1)
         try:
-            heights = chief_heights(lens, Sources(depth_mm, slopes, wavelength_um))
+            heights = chief_heights(lens, Sources(depths[:, None], slopes, wavelength_um))
         except GeometryError:
             continue
-        if heights[-1] >= height_mm and (np.diff(heights) > 0).all():
-            return SensorMap(lens, float(depth_mm), float(wavelength_um), slopes, heights, scale, clip)
+        if (heights[:, -1] >= height_mm).all() and (np.diff(heights) > 0).all():
+            maps = zip(depths.tolist(), slopes, heights, scale.tolist(), strict=True)
+            return [SensorMap(lens, d, float(wavelength_um), s, h, size, clip) for d, s, h, size in maps]
+    if len(depths) > 1:  # some may need another reach than others
+        return [sensor_maps(lens, [d], wavelength_um, height_mm, clip, rays)[0] for d in depths.tolist()]
     raise GeometryError(
         "no chief ray of an object at {depth} lands {height:.4g} mm from the axis, where the sensor's "
         "corner is; take a smaller sensor",
-        depth="∞" if np.isinf(depth_mm) else Message("{depth:g} mm", depth=depth_mm),
+        depth="∞" if np.isinf(depths[0]) else Message("{depth:g} mm", depth=float(depths[0])),
         height=height_mm,
     )
 
@@ -98,5 +118,6 @@ def distortion_at(seen: SensorMap, height_mm: FloatOrArray) -> np.ndarray:
     return np.where(ideal > 0, np.asarray(height_mm) / np.where(ideal > 0, ideal, 1) - 1, 0.0)
 
 
+@lru_cache(maxsize=256)
 def _entrance(lens: Lens, wavelength_um: float) -> float:
     return float(pupils(lens, wavelength_um, find_stop(lens)).entrance_from_first)

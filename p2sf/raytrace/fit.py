@@ -138,7 +138,7 @@ class FittedPencil:
     def jacobian(self, xi: ArrayLike, eta: ArrayLike) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (cycles/µm)²."""
         order = self.level.map_order
-        return _determinant(self.fx, self.fy, gradient(order, xi, eta, odd=True), gradient(order, xi, eta))
+        return determinant(self.fx, self.fy, gradient(order, xi, eta, odd=True), gradient(order, xi, eta))
 
 
 def fit(
@@ -215,40 +215,63 @@ def _projection(level: Level) -> Projection:
     return Projection(even, odd, phase, fy, fx)
 
 
+@dataclass(frozen=True)
+class PencilForms:
+    """The coefficients of one pencil or several, (…, terms), as `FittedPencil` has them, and their residuals, (…)."""
+
+    phase: np.ndarray
+    fx: np.ndarray
+    fy: np.ndarray
+    weight: np.ndarray
+    residual_waves: np.ndarray
+    map_residual: np.ndarray
+    weight_residual: np.ndarray
+
+
+def pencil_forms(rays: RayData, level: Level) -> PencilForms:
+    """Return the least-squares coefficients of a level's rays, (…, ray), of one pencil or several."""
+    _, _, area = level_rays(level)
+    project, used = _projection(level), area.size
+    phase, fy, fx = (
+        column[..., :used] @ inverse.T
+        for inverse, column in ((project.phase, rays.phase), (project.fy, rays.fy), (project.fx, rays.fx))
+    )
+    light, light_residual = UNIFORM, np.zeros(phase.shape[:-1])
+    if level.weighted:
+        light = rays.weight[..., :used] @ project.fy.T
+        miss = light @ project.even[: light.shape[-1]] - rays.weight
+        light_residual = _residual(miss, area, light.shape[-1]) / (rays.weight[..., :used] @ area)
+    miss_x, miss_y = fx @ project.odd - rays.fx, fy @ project.even[: fy.shape[-1]] - rays.fy
+    # At a ray's landing point x the integrand's phase is w + f·x, so this is the error that matters there.
+    error = phase @ project.even[: phase.shape[-1]] - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
+    residual = _residual(error, area, phase.shape[-1])
+    map_residual = np.hypot(_residual(miss_x, area, fx.shape[-1]), _residual(miss_y, area, fy.shape[-1]))
+    return PencilForms(phase, fx, fy, light, residual, map_residual, light_residual)
+
+
 def fit_rays(rays: RayData, level: Level, traced: int, steep: Steepness | None = None) -> FittedPencil:
     """Return the fit of one level to its rays; their `steepness` is computed unless ``steep`` gives it."""
     xi, eta, weight = level_rays(level)
-    project, used = _projection(level), weight.size
-    phase, fy, fx = (
-        inverse @ column[:used]
-        for inverse, column in ((project.phase, rays.phase), (project.fy, rays.fy), (project.fx, rays.fx))
-    )
-    light, light_residual, share = UNIFORM, 0.0, np.ones(1)
+    found, share = pencil_forms(rays, level), np.ones(1)
     if level.weighted:
-        light = project.fy @ rays.weight[:used]
-        mean = float(weight @ rays.weight[:used])
-        light_residual = _residual((light @ project.even[: light.size] - rays.weight) / mean, weight, light.size)
-        share = rays.weight[:used] / mean
-    miss_x, miss_y = fx @ project.odd - rays.fx, fy @ project.even[: fy.size] - rays.fy
-    # At a ray's landing point x the integrand's phase is w + f·x, so this is the error that matters there.
-    error = phase @ project.even[: phase.size] - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
-    residual = _residual(error, weight, phase.size)
-    map_residual = np.sqrt(_residual(miss_x, weight, fx.size) ** 2 + _residual(miss_y, weight, fy.size) ** 2)
+        share = rays.weight[: weight.size] / float(weight @ rays.weight[: weight.size])
     # Parseval: ∫|field|²dx is the area mean of (relative weight)²/|∂(fx, fy)/∂(ξ, η)| over π.
-    blur = float(weight @ (share * share / np.abs(_determinant(fx, fy, *_slope_basis(level)))) / np.pi)
+    blur = float(weight @ (share * share / np.abs(determinant(found.fx, found.fy, *_slope_basis(level)))) / np.pi)
     steep = steep or steepness(rays, xi, eta)
-    made = level, phase, fx, fy, residual, steep, blur, traced, float(map_residual)
-    return FittedPencil(*made, light, light_residual)
+    made = level, found.phase, found.fx, found.fy, float(found.residual_waves), steep, blur, traced
+    return FittedPencil(*made, float(found.map_residual), found.weight, float(found.weight_residual))
 
 
-def _residual(error: np.ndarray, weight: np.ndarray, unknowns: int) -> float:
+def _residual(error: np.ndarray, weight: np.ndarray, unknowns: int) -> np.ndarray:
     """Return the larger RMS error: of the fit's own rays, corrected for its degrees of freedom, or of those held out.
 
     At the rim the error of a polynomial fit is four times its RMS; the held-out rays lie there and count half.
     """
-    own, held = error[: weight.size], error[weight.size :]
+    own, held = error[..., : weight.size], error[..., weight.size :]
     freedom = 1 - unknowns / weight.size
-    return float(np.sqrt(max(weight @ (own * own) / freedom, held @ held / (4 * held.size))))
+    of_held = np.square(held).mean(-1) / 4
+    larger: np.ndarray = np.sqrt(np.maximum(np.square(own) @ weight / freedom, of_held))
+    return larger
 
 
 @lru_cache(maxsize=16)
@@ -259,7 +282,7 @@ def _slope_basis(level: Level) -> tuple[Gradient, Gradient]:
     return gradient(level.map_order, *inner, odd=True), gradient(level.map_order, *inner)
 
 
-def _determinant(fx: np.ndarray, fy: np.ndarray, odd: Gradient, even: Gradient) -> np.ndarray:
+def determinant(fx: np.ndarray, fy: np.ndarray, odd: Gradient, even: Gradient) -> np.ndarray:
     """Return ∂(fx, fy)/∂(ξ, η) from the gradients of the odd and even terms."""
     determinant: np.ndarray = (fx @ odd[0]) * (fy @ even[1]) - (fx @ odd[1]) * (fy @ even[0])
     return determinant

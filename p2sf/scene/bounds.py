@@ -1,14 +1,17 @@
-"""Checks made before a plan is measured, which takes minutes: wavelengths without glass data, blurs too wide."""
+"""Checks made before a plan is measured: wavelengths without glass data, blurs too wide."""
 
-from math import ceil, isinf
+from math import isinf
+
+import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GlassError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
+from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, half_widths, samples_each
+from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.scene.scene import Scene, depth_of
-from p2sf.scene.study import SAMPLINGS, Study
+from p2sf.scene.study import SAMPLINGS, Sampling, Study
 
 
 def check_colours(lens: Lens, scene: Scene) -> None:
@@ -30,26 +33,26 @@ def check_blur(study: Study) -> None:
 
     Blurs are widest at one end of the depths, and the shortest wavelength needs the most samples.
     """
-    wave = min(study.waves)
-    for vergence in study.scene.vergences(2)[::-1]:
-        for height in (study.nearest_mm, study.farthest_mm):
-            side, size = finest_side(study, height, float(vergence), wave)
-            if side > LARGEST_WINDOW:
-                depth = depth_of(vergence)
-                raise SamplingError(
-                    "points {depth} away blur over {size:.2g} mm, which takes {side}² "
-                    "samples of {most}² at most; bring the depths nearer to the focus or stop down",
-                    depth=Message("∞") if isinf(depth) else Message("{depth:.4g} mm", depth=depth),
-                    size=size / UM_PER_MM,
-                    side=side,
-                    most=LARGEST_WINDOW,
-                )
+    pixel = study.scene.sensor.pixel_um
+    halves, sides = transforms(*study.fitted(study.corners), pixel, SAMPLINGS[-1])
+    widest = int(sides.argmax())
+    if sides[widest] > LARGEST_WINDOW:
+        depth = depth_of(study.corners[widest].vergence)
+        raise SamplingError(
+            "points {depth} away blur over {size:.2g} mm, which takes {side}² "
+            "samples of {most}² at most; bring the depths nearer to the focus or stop down",
+            depth=Message("∞") if isinf(depth) else Message("{depth:.4g} mm", depth=depth),
+            size=float(2 * halves[widest] + 1) * pixel / UM_PER_MM,
+            side=int(sides[widest]),
+            most=LARGEST_WINDOW,
+        )
 
 
-def finest_side(study: Study, height_mm: float, vergence: float, wave: float) -> tuple[int, float]:
-    """Return the side in samples of the finest transform at one place, and the blur's width in µm."""
-    recipe, pixel = study.recipe(SAMPLINGS[-1]), study.scene.sensor.pixel_um
-    kernels = study.kernels(recipe, study.colour_of(wave), vergence)
-    half, (pupil, _) = kernels.half_width(height_mm), kernels.pupils(height_mm)[0]
-    size = 2 * (half + ceil(recipe.margin * half)) + 1
-    return size * samples_across(pupil, pixel, recipe.fineness), (2 * half + 1) * pixel
+def transforms(
+    pupils: PupilStack, shifts_mm: np.ndarray, pixel_um: float, sampling: Sampling
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return half widths of kernels in pixels, and the sides of their transforms in samples, (pupils,) each."""
+    fineness, margin = sampling
+    halves = half_widths(pupils, pixel_um, shifts_mm * UM_PER_MM)
+    sides = (2 * (halves + np.ceil(margin * halves)) + 1) * samples_each(pupils, pixel_um, fineness)
+    return halves, sides

@@ -5,7 +5,7 @@ from math import ceil, log2
 
 PUPIL_SECONDS = {"seidel": 1e-3, "fitted": 1.8e-3}  # rays, fit and its change of variables, per wavelength and height
 TERM_SECONDS = 3e-5  # more for each of the fit's numbers beyond the first 26
-KERNEL_SECONDS = 6e-4  # rotating a pupil and adding up samples, for any window
+ALONE_SECONDS, TOGETHER_SECONDS = 6e-4, 1e-4  # of any kernel: rotating its pupil, adding up; by itself, among many
 SAMPLE_SECONDS = 5e-9  # per sample of a transform and binary digit of its side
 PIXEL_SECONDS = 3.2e-9  # the same for the convolutions, there and back
 BYTES = 4
@@ -15,11 +15,13 @@ BYTES = 4
 class Work:
     """How much is computed: ``kernels`` of single wavelengths, each by a ``side``² transform; patches and pixels.
 
-    ``pupil_seconds``: of all fits of pupils together. ``half``: pixels beside the middle of a kernel.
+    ``each_seconds``: of any kernel beside its transform. ``pupil_seconds``: of all fits of pupils together. ``half``:
+    pixels beside the middle of a kernel.
     """
 
     kernels: float
     side: float
+    each_seconds: float
     pupil_seconds: float
     half: int
     rows: int
@@ -50,7 +52,7 @@ def pupil_seconds(method: str, numbers: int) -> float:
 
 def predicted_cost(work: Work) -> Cost:
     """Return the cost of this much work."""
-    kernel = KERNEL_SECONDS + SAMPLE_SECONDS * work.side**2 * log2(max(work.side, 2))
+    kernel = work.each_seconds + SAMPLE_SECONDS * work.side**2 * log2(max(work.side, 2))
     patch = [_support(n, count) + 2 * work.half for n, count in zip((work.rows, work.columns), work.nodes, strict=True)]
     area = patch[0] * patch[1]
     patches = work.nodes[0] * work.nodes[1] * work.channels * work.layers

@@ -1,17 +1,37 @@
 """The error of interpolating kernels between nodes of field and depth, for each number of nodes."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, Study, distance, widened
+from p2sf.scene.study import Place, Study, distance, oblique, weighted
 
-TRIED = (0.5, 0.5), (0.5, 0.2), (0.5, 0.8), (0.2, 0.5), (0.8, 0.5)  # down and right in a cell
-CELLS = 3  # nearest to the axis, farthest from it and between
+NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
+DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
+TRIED = (0.5, 0.5), (0.5, 0.2), (0.2, 0.5)  # down and right in a cell
+CELLS = 3  # nearest to the axis, between, and farthest from it
 EVERY = 8  # up to so many intervals of depth are all tried
 
-Cell = tuple[np.ndarray, np.ndarray]  # its two rows and its two columns, pixels
+
+@dataclass(frozen=True)
+class Between:
+    """A kernel, and those that it is interpolated from with these weights."""
+
+    true: Place
+    nodes: tuple[Place, ...]
+    weights: tuple[float, ...]
+
+
+def worst_errors(study: Study, groups: Sequence[Sequence[Between]]) -> list[float]:
+    """Return the worst error of interpolation in each group; all kernels are computed together."""
+    places = [place for group in groups for one in group for place in (one.true, *one.nodes)]
+    kernels = dict(zip(places, study.kernels(places), strict=True))
+    return [
+        max(distance(weighted([kernels[n] for n in one.nodes], one.weights), kernels[one.true]) for one in group)
+        for group in groups
+    ]
 
 
 def field_counts(study: Study, number: int) -> tuple[int, int]:
@@ -24,81 +44,82 @@ def field_counts(study: Study, number: int) -> tuple[int, int]:
     return rows, columns
 
 
-def field_places(study: Study) -> list[tuple[float, float, int]]:
-    """Return (wavelength, vergence, cell) for `field_error`, those likeliest to fail first: sharp and far out."""
-    sharp = study.sharpest(study.reference_um)
-    places = [(wave, v, cell) for wave in study.waves for v in study.depths(wave) for cell in range(CELLS)]
-    return sorted(places, key=lambda place: (abs(place[1] - sharp[1]), -place[2]))
+FieldPlace = tuple[float, float, int]  # wavelength, vergence, cell
 
 
-def field_error(study: Study, number: int, wave: float, vergence: float, cell: int) -> float:
-    """Return the worst error between nodes in one of CELLS cells."""
-    counts = field_counts(study, number)
-    cells = _cells(study, counts)
-    return _cell_error(study, cells[min(cell, len(cells) - 1)], vergence, wave, counts == (1, 1))
+def field_places(study: Study) -> list[FieldPlace]:
+    """Return where field nodes are tried: the likeliest to fail first, sharp, blue and far out."""
+    blue, *others = study.waves_um
+    axis, _, corner = study.sharpest(blue)
+    far, between, near = CELLS - 1, CELLS // 2, 0
+    places = [(blue, corner, far), (blue, corner, between), (blue, corner, near), (blue, axis, near), (blue, axis, far)]
+    places += [(blue, end, far) for end in study.ends] + [(wave, study.sharpest(wave)[-1], far) for wave in others]
+    return list(dict.fromkeys(places))
 
 
-def _cells(study: Study, counts: tuple[int, int]) -> list[Cell]:
-    """Return CELLS cells: nearest to the axis, between and farthest from it."""
-    sensor = study.scene.sensor
+def between_field_nodes(study: Study, number: int, place: FieldPlace) -> list[Between]:
+    """Return what an entry of NODE_COUNTS interpolates at a place."""
+    counts, sensor, (wave, vergence, cell) = field_counts(study, number), study.scene.sensor, place
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), counts, strict=True))
     if len(rows) == 1:
-        return [(np.array([0.0, sensor.rows - 1]), np.array([0.0, sensor.columns - 1]))]
+        return _about_one(study, wave, vergence)
     away = np.hypot(sensor.x_mm((columns[:-1] + columns[1:]) / 2), sensor.y_mm((rows[:-1] + rows[1:]) / 2)[:, None])
-    order = away.argsort(axis=None, kind="stable")
-    chosen = [np.unravel_index(order[n], away.shape) for n in sorted({0, order.size // 2, order.size - 1})]
-    return [(rows[a : a + 2], columns[b : b + 2]) for a, b in chosen]
+    order = away.argsort(axis=None, kind="stable")[[0, away.size // 2, -1]]
+    a, b = np.unravel_index(order[cell], away.shape)
+    return _in_cell(study, rows[a : a + 2], columns[b : b + 2], wave, vergence)
 
 
-def _cell_error(study: Study, cell: Cell, vergence: float, wave: float, single: bool) -> float:
-    """Return the worst error at TRIED points of a cell; with a ``single`` node, of its corners against the middle."""
-    rows, columns = cell
+def _pixel(study: Study, row: float, column: float, wave: float, vergence: float) -> Place:
+    sensor = study.scene.sensor
+    return Place(float(sensor.x_mm(column)), float(sensor.y_mm(row)), vergence, wave)
 
-    def kernel(down: float, right: float) -> np.ndarray:
+
+def _about_one(study: Study, wave: float, vergence: float) -> list[Between]:
+    """Return the sensor's corners, whose kernels a single node in the middle gives."""
+    last_row, last_column = study.scene.sensor.rows - 1.0, study.scene.sensor.columns - 1.0
+    middle = _pixel(study, last_row / 2, last_column / 2, wave, vergence)
+    corners = [_pixel(study, row, column, wave, vergence) for row in (0.0, last_row) for column in (0.0, last_column)]
+    return [Between(corner, (middle,), (1.0,)) for corner in corners]
+
+
+def _in_cell(study: Study, rows: np.ndarray, columns: np.ndarray, wave: float, vergence: float) -> list[Between]:
+    """Return TRIED points of a cell, whose kernels its corners give."""
+    corners = tuple(_pixel(study, row, column, wave, vergence) for row in rows for column in columns)
+    found = []
+    for down, right in TRIED:
         row, column = rows[0] + down * (rows[1] - rows[0]), columns[0] + right * (columns[1] - columns[0])
-        x, y = float(study.scene.sensor.x_mm(column)), float(study.scene.sensor.y_mm(row))
-        return study.kernel(vergence, x, y, wave)
-
-    corners = [(a, b) for a in (0.0, 1.0) for b in (0.0, 1.0)]
-    if single:
-        return max(distance(kernel(0.5, 0.5), kernel(*corner)) for corner in corners)
-    at_corners = [kernel(*corner) for corner in corners]
-    return max(
-        distance(weighted(at_corners, [abs(1 - a - d) * abs(1 - b - r) for a, b in corners]), kernel(d, r))
-        for d, r in TRIED
-    )
+        weights = tuple(y * x for y in (1 - down, down) for x in (1 - right, right))
+        found.append(Between(_pixel(study, row, column, wave, vergence), corners, weights))
+    return found
 
 
-def weighted(kernels: Sequence[np.ndarray], weights: Sequence[float]) -> np.ndarray:
-    """Return a weighted sum of kernels of different sizes."""
-    size = max(kernel.shape[-1] for kernel in kernels)
-    parts = [weight * widened(kernel, size) for kernel, weight in zip(kernels, weights, strict=True)]
-    return sum(parts[1:], parts[0])
+DepthPlace = tuple[float, float, float]  # wavelength, height, vergence
 
 
-def depth_places(study: Study) -> list[tuple[float, float, float]]:
-    """Return (wavelength, height, vergence) for `depth_error`."""
-    heights = study.nearest_mm, (study.nearest_mm + study.farthest_mm) / 2, study.farthest_mm
-    return [(wave, height, v) for wave in study.waves for height in heights for v in study.depths(wave)]
+def depth_places(study: Study) -> list[DepthPlace]:
+    """Return where depth nodes are tried: sharpest of all in the corner, in blue, then the axis and both ends."""
+    blue, *others = study.waves_um
+    axis, middle, corner = study.sharpest(blue)
+    places = [(blue, study.farthest_mm, v) for v in (corner, middle, *study.ends)]
+    places += [(blue, study.nearest_mm, v) for v in (axis, *study.ends)]
+    places += [(wave, study.farthest_mm, study.sharpest(wave)[-1]) for wave in others]
+    return list(dict.fromkeys(places))
 
 
-def depth_error(study: Study, number: int, wave: float, height: float, vergence: float) -> float:
-    """Return the worst error midway between depth nodes: near one vergence, or in all intervals where they are few."""
+def between_depth_nodes(study: Study, number: int, place: DepthPlace) -> list[Between]:
+    """Return what an entry of DEPTH_COUNTS interpolates midway: near a place's vergence, or everywhere between few."""
+    wave, height, vergence = place
     nodes = study.scene.vergences(DEPTH_COUNTS[number])
-    return max(_between(study, ends, middle, height, wave) for ends, middle in _intervals(nodes, vergence))
-
-
-def _intervals(nodes: np.ndarray, vergence: float) -> list[tuple[np.ndarray, float]]:
-    """Return (nodes, vergence tried) pairs: the interval of a vergence and its neighbours, or all of a few."""
     if len(nodes) == 1:
-        return [(nodes, vergence)]
+        return [Between(oblique(height, vergence, wave), (oblique(height, float(nodes[0]), wave),), (1.0,))]
     last = len(nodes) - 2
     about = np.clip(np.searchsorted(nodes, vergence) + np.array([-2, -1, 0]), 0, last)
     chosen = sorted(set(about.tolist()) | set(range(last + 1) if last < EVERY else ()))
-    return [(nodes[n : n + 2], float(nodes[n : n + 2].mean())) for n in chosen]
-
-
-def _between(study: Study, ends: np.ndarray, tried: float, height: float, wave: float) -> float:
-    """Return the error at one vergence of the mean of the kernels at the ends of its interval."""
-    *at_ends, kernel = (study.kernel(float(v), 0.6 * height, 0.8 * height, wave) for v in (*ends, tried))
-    return distance(weighted(at_ends, [1 / len(ends)] * len(ends)), kernel)
+    return [
+        Between(
+            oblique(height, float(nodes[n : n + 2].mean()), wave),
+            tuple(oblique(height, float(v), wave) for v in nodes[n : n + 2]),
+            (0.5, 0.5),
+        )
+        for n in chosen
+    ]

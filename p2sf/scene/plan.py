@@ -3,33 +3,49 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from itertools import pairwise
 from math import hypot
-from typing import Any
 
 import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap, sensor_map
-from p2sf.pixel_kernels.channel import own_pupil
-from p2sf.pixel_kernels.frequency_grid import FrequencyPupil, dropped_terms
-from p2sf.pixel_kernels.pupil_table import PupilTable, few_nodes, pupil_table
+from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.scene.bounds import check_blur, check_colours
 from p2sf.scene.cost import Cost, predicted_cost
-from p2sf.scene.nodes import depth_error, depth_places, field_counts, field_error, field_places
-from p2sf.scene.pricing import MethodZones, costliest_method, method_seconds, naive_work, plan_work, single_seconds
+from p2sf.scene.nodes import (
+    DEPTH_COUNTS,
+    NODE_COUNTS,
+    between_depth_nodes,
+    between_field_nodes,
+    depth_places,
+    field_counts,
+    field_places,
+    worst_errors,
+)
+from p2sf.scene.pricing import naive_work, plan_work
 from p2sf.scene.scene import Channel, Scene, depth_of
-from p2sf.scene.sharing import few_depths, few_heights, node_heights, share_pupils
+from p2sf.scene.sharing import seidel_table, share_pupils
 from p2sf.scene.spectrum import reduced
-from p2sf.scene.study import DEPTH_COUNTS, NODE_COUNTS, SAMPLINGS, Study, first_allowed, from_phase
+from p2sf.scene.study import (
+    FINE_SAMPLING,
+    SAMPLINGS,
+    Place,
+    Study,
+    Tries,
+    distance,
+    first_allowed,
+    from_phase,
+    oblique,
+    pupil_at,
+    weighted,
+)
 from p2sf.threads import one_blas_thread
 
 # The share of the tolerance that each kind of decision may use. The errors are independent, so their squares add.
-SHARES = {"method": 0.5, "terms": 0.1, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.1}
+SHARES = {"method": 0.5, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.15}
+FINE_ENOUGH, FINE_ENOUGH_ERROR = 4, 2.5e-3  # an entry of SAMPLINGS, and what it leaves of a kernel at most: measured
 SAFETY = 1.3  # for places between those where an error was measured
-
-PupilNodes = tuple[tuple[float, ...], tuple[float, ...]]
 
 
 @dataclass(frozen=True)
@@ -49,10 +65,9 @@ class Plan:
 
     ``zones`` of the field, from the axis outwards: (outer edge in mm, recipe); ``colours``: one per channel;
     ``counts``: kernel nodes along rows and columns; ``vergences`` of the depth nodes (1/mm), increasing.
-    ``predicted_error``: the root of the sum of squared errors, of the decisions and of the pupils that planning itself
-    interpolated. ``naive``: what the full grid would cost (`pricing.naive_work`).
-    ``pupil_nodes``: heights in mm and vergences of the pupils that all others are interpolated from; None where
-    each is fitted.
+    ``predicted_error``: the root of the sum of squared errors of the decisions. ``naive``: what the full grid would
+    cost (`pricing.naive_work`).
+    ``table``: the pupils that all others are interpolated from; None where each is fitted.
     """
 
     lens: Lens
@@ -66,7 +81,7 @@ class Plan:
     predicted_error: float
     cost: Cost
     naive: Cost
-    pupil_nodes: PupilNodes | None = None
+    table: PupilTable | None = None
 
     def __repr__(self) -> str:
         sensor, allowed = self.scene.sensor, self.scene.relative_tolerance
@@ -87,26 +102,12 @@ class Plan:
     def kernels(self, channel: int, vergence: float) -> Kernels:
         """Return the kernels of one channel at one depth."""
         seen, colour = self.sensor_map(vergence), self.colours[channel]
-        tables: dict[float, PupilTable] = {}
-        if self.pupil_nodes:
-            tables = {wave: pupils_between(self, wave) for wave in colour.wavelengths_um}
-        return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe_at, tables=tables)
+        return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe_at, table=self.table)
 
     def sensor_map(self, vergence: float) -> SensorMap:
         """Return where the points of one depth land."""
         corner = self.scene.sensor.corners_mm()[1]
         return _sensor_map(self.lens, depth_of(vergence), self.reference_um, corner, self.scene.clip)
-
-
-@lru_cache(maxsize=32)
-def pupils_between(planned: Plan, wavelength_um: float) -> PupilTable:
-    """Return the table of one wavelength's pupils of a plan that has ``pupil_nodes``, computed once."""
-    heights, vergences = planned.pupil_nodes or ((), ())
-
-    def own(height: float, vergence: float) -> tuple[FrequencyPupil, float]:
-        return own_pupil(planned.sensor_map(vergence), height, wavelength_um, planned.recipe_at(height))
-
-    return pupil_table(own, heights, vergences)
 
 
 @lru_cache(maxsize=32)
@@ -128,112 +129,113 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     check_blur(study)
     share_pupils(study)
     budget = scene.relative_tolerance
-    methods, method = _zones(study, budget)
-    colours, colour = _colours(study, budget)
     sampling, sampled = _sampling(study, budget)
+    recipe, method = _method(study, budget, SAMPLINGS[sampling])
     counts, field = _field(study, budget)
     vergences, depth = _depths(study, budget)
-    terms, drop = _terms(study, budget)
-    waves = sum(len(one.wavelengths_um) for one in colours)
-    nodes, seconds, pupils = _pupils(study, budget, methods, counts, vergences, waves)
-    if nodes:  # pupils that are interpolated together share one method
-        methods = [(edge, costliest_method(methods)) for edge, _ in methods]
-    zones = tuple((edge, Recipe(*study.methods[n], *SAMPLINGS[sampling], drop)) for edge, n in methods)
-    decisions = (*method, terms, sampled, field, depth, *colour, pupils)
-    errors = (max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES)
-    error = hypot(*errors, study.tables_error)
-    cost = predicted_cost(plan_work(study, zones, colours, counts, len(vergences), seconds))
-    naive = predicted_cost(naive_work(study, zones, counts, len(vergences)))
+    colours, colour = _colours(study, budget)
+    table = seidel_table(study, study.table) if study.table and recipe.method == "seidel" else study.table
+    decisions = (method, sampled, field, depth, *colour, _pupils(study))
+    error = hypot(*(max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES))
+    cost = predicted_cost(plan_work(study, recipe, colours, counts, len(vergences)))
+    naive = predicted_cost(naive_work(study, recipe, counts, len(vergences)))
+    zones = ((study.farthest_mm, recipe),)
     return Plan(
-        camera, scene, study.reference_um, zones, colours, counts, vergences, decisions, error, cost, naive, nodes
+        camera, scene, study.reference_um, zones, colours, counts, vergences, decisions, error, cost, naive, table
     )
 
 
 def _first(
-    choices: Sequence[Any], measure: Callable[..., float], places: Sequence[tuple], allowed: float
+    count: int, measure: Callable[[Tries], Sequence[float]], places: int, allowed: float, together: int = 4
 ) -> tuple[int, float]:
-    """Return `first_allowed` of these choices with SAFETY."""
-    number, error = first_allowed(len(choices), measure, places, allowed / SAFETY)
+    """Return `first_allowed` with SAFETY."""
+    number, error = first_allowed(count, measure, places, allowed / SAFETY, together)
     return number, SAFETY * error
 
 
-def _zones(study: Study, budget: float) -> tuple[MethodZones, list[Decision]]:
-    """Return (outer edge, method) of every zone, and the decisions."""
-    heights, found, decisions = study.heights(), [], []
-    for inner, outer in pairwise(heights):
-        number, error = _first(
-            study.methods, study.method_error, study.places((outer, inner)), SHARES["method"] * budget
+def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple[Recipe, Decision]:
+    """Return the cheapest description of a pupil: six Seidel coefficients, else the fewest fitted numbers."""
+    allowed, places = SHARES["method"] * budget, study.places(study.waves_um[0])
+    error = SAFETY * _seidel_error(study, places[:1])
+    if error <= allowed:
+        error = SAFETY * _seidel_error(study, places)
+    what = Message("method")
+    if error <= allowed:
+        why = Message("the six Seidel coefficients keep the pixels' error here")
+        return Recipe("seidel", None, *sampling), Decision(
+            what, Message("{method}", method="seidel"), why, error, "method"
         )
-        found.append((float(outer), number))
-        method, numbers = study.methods[number]
-        why = (
-            Message("the six Seidel coefficients keep the pixels' error here")
-            if method == "seidel"
-            else Message(
-                "{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not",
-                numbers=numbers,
-            )
-        )
-        what = Message("method {inner:.3g}–{outer:.3g} mm", inner=inner, outer=outer)
-        decisions.append(Decision(what, Message("{method}", method=method), why, error, "method"))
-    return found, decisions
+    sizes = [level for level in study.levels if level.numbers < study.level.numbers]
+    held = (level for level in sizes if SAFETY * from_phase(study.residual(level)) <= allowed)
+    level = next(held, study.level)
+    error = SAFETY * from_phase(study.residual(level))
+    why = Message(
+        "{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not", numbers=level.numbers
+    )
+    choice = Message("{method}", method="fitted")
+    return Recipe("fitted", level.numbers, *sampling), Decision(what, choice, why, error, "method")
 
 
-def _terms(study: Study, budget: float) -> tuple[Decision, float]:
-    """Return the decision on phase terms too weak to be seen, and their bound in waves."""
-    drop = float(SHARES["terms"] * budget / from_phase(1.0))
-    kernels = study.kernels(study.recipe(), study.single, study.depths(study.reference_um)[0])
-    pupil, _ = kernels.pupils(study.farthest_mm)[0]
-    gone = dropped_terms(pupil, drop)
-    kept = int(np.count_nonzero(pupil.phase)) - len(gone)
-    if gone:
-        n, m, strongest = gone[-1]
-        why = Message(
-            "at the corner {count} phase terms stay below {waves:.1e} waves RMS together, "
-            "the strongest (n={n}, m={m}) has {most:.1e} waves",
-            count=len(gone),
-            waves=drop,
-            n=n,
-            m=m,
-            most=strongest,
-        )
-    else:
-        why = Message(
-            "at the corner {count} phase terms stay below {waves:.1e} waves RMS together", count=0, waves=drop
-        )
-    error = from_phase(drop) if gone else 0.0
-    return Decision(Message("terms"), Message("{count} kept", count=kept), why, error, "terms"), drop
+def _seidel_error(study: Study, places: Sequence[Place]) -> float:
+    """Return the worst error of kernels by Seidel coefficients."""
+    pupils = [pupil_at(place) for place in places]
+    made = study.rendered(places, study.by_seidel(pupils), study.lights(pupils)[1], FINE_SAMPLING)
+    return max(map(distance, made, study.kernels(places, FINE_SAMPLING)))
 
 
 def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Decision]]:
     """Return the wavelengths of every channel, and the decisions."""
     colours, decisions = [], []
+    axis, _, corner = study.sharpest(study.reference_um)
+    places = [(study.farthest_mm, v) for v in dict.fromkeys((corner, *study.ends))] + [(study.nearest_mm, axis)]
     for channel in study.scene.channels:
-        depths = study.depths(study.reference_um)
-        places = [(h, v) for h in (study.farthest_mm, study.nearest_mm) for v in depths]
-        counts = range(1, len(channel.wavelengths_nm) + 1)
-        measure = partial(_colour_error, study, channel)
-        number, error = _first(counts, measure, places, SHARES["colour"] * budget)
+        every = len(channel.wavelengths_nm)
+        number, error = _first(
+            every, partial(_colour_errors, study, channel, places), len(places), SHARES["colour"] * budget
+        )
         colours.append(reduced(channel, number + 1))
         choice = Message("{waves:.0f} nm", waves=tuple(1000 * w for w in colours[-1].wavelengths_um))
         why = Message(
-            "{count} of {all} wavelengths keep the channel's lateral and axial colour",
-            count=number + 1,
-            all=len(counts),
+            "{count} of {all} wavelengths keep the channel's lateral and axial colour", count=number + 1, all=every
         )
         what = Message("colour {channel}", channel=channel.label)
         decisions.append(Decision(what, choice, why, error, "colour"))
     return tuple(colours), decisions
 
 
-def _colour_error(study: Study, channel: Channel, number: int, height: float, vergence: float) -> float:
-    return study.colour_error(channel, number + 1, height, vergence)
+def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[float, float]], tries: Tries) -> list[float]:
+    """Return the errors of fewer wavelengths, one more than each try's number, against all, at (height, vergence)."""
+    every = reduced(channel, len(channel.wavelengths_nm))
+    pairs = [(reduced(channel, number + 1), places[k]) for number, k in tries]
+    asked = [oblique(*place, wave) for few, place in pairs for colour in (few, every) for wave in colour.wavelengths_um]
+    kernels = dict(zip(asked, study.kernels(asked, FINE_SAMPLING), strict=True))  # a coarser one hides the change
+
+    def mixed(colour: Colour, place: tuple[float, float]) -> np.ndarray:
+        return weighted([kernels[oblique(*place, wave)] for wave in colour.wavelengths_um], colour.weights)
+
+    return [distance(mixed(few, place), mixed(every, place)) for few, place in pairs]
 
 
 def _sampling(study: Study, budget: float) -> tuple[int, Decision]:
-    heights = study.nearest_mm, (study.nearest_mm + study.farthest_mm) / 2, study.farthest_mm
-    places = study.places(heights)
-    number, error = _first(SAMPLINGS, study.sampling_error, places, SHARES["sampling"] * budget)
+    """Return the coarsest entry of SAMPLINGS that keeps its share, and the decision."""
+    red, blue = (study.places(wave) for wave in (study.waves_um[-1], study.waves_um[0]))
+    places = list(dict.fromkeys((red[-1], red[0], *blue)))
+
+    def errors(tries: Tries) -> list[float]:
+        finest = [FINE_ENOUGH if number < FINE_ENOUGH else len(SAMPLINGS) - 1 for number, _ in tries]
+        asked = [(number, k) for number, k in (*tries, *zip(finest, (k for _, k in tries), strict=True))]
+        kernels: dict[tuple[int, Place], np.ndarray] = {}
+        for number in {number for number, _ in asked}:
+            here = [places[k] for n, k in asked if n == number]
+            made = study.kernels(here, SAMPLINGS[number])
+            kernels.update(zip(((number, place) for place in here), made, strict=True))
+        left = {FINE_ENOUGH: FINE_ENOUGH_ERROR}  # by the finer kernels themselves
+        return [
+            hypot(distance(kernels[number, places[k]], kernels[finer, places[k]]), left.get(finer, 0.0))
+            for (number, k), finer in zip(tries, finest, strict=True)
+        ]
+
+    number, worst = _first(len(SAMPLINGS), errors, len(places), SHARES["sampling"] * budget, together=1)
     fineness, margin = SAMPLINGS[number]
     why = Message(
         "pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}",
@@ -241,12 +243,16 @@ def _sampling(study: Study, budget: float) -> tuple[int, Decision]:
         margin=margin,
     )
     choice = Message("λ/2NA/{fineness:g}", fineness=fineness)
-    return number, Decision(Message("sampling"), choice, why, error, "sampling")
+    return number, Decision(Message("sampling"), choice, why, worst, "sampling")
 
 
 def _field(study: Study, budget: float) -> tuple[tuple[int, int], Decision]:
-    measure = partial(field_error, study)
-    number, error = _first(NODE_COUNTS, measure, field_places(study), SHARES["field"] * budget)
+    places = field_places(study)
+
+    def errors(tries: Tries) -> list[float]:
+        return worst_errors(study, [between_field_nodes(study, n, places[k]) for n, k in tries])
+
+    number, error = _first(len(NODE_COUNTS), errors, len(places), SHARES["field"] * budget)
     counts = field_counts(study, number)
     why = Message("kernels in the middle of a cell are then the mean of its corners")
     choice = Message("{rows} × {columns} nodes", rows=counts[0], columns=counts[1])
@@ -254,45 +260,33 @@ def _field(study: Study, budget: float) -> tuple[tuple[int, int], Decision]:
 
 
 def _depths(study: Study, budget: float) -> tuple[tuple[float, ...], Decision]:
-    scene = study.scene
+    scene, places = study.scene, depth_places(study)
     if scene.near_mm == scene.far_mm:
         vergence = float(scene.vergences(1)[0])
         why = Message("the scene has one depth")
         return (vergence,), Decision(Message("depth"), Message("1 node"), why, 0.0, "depth")
-    measure = partial(depth_error, study)
-    number, error = _first(DEPTH_COUNTS, measure, depth_places(study), SHARES["depth"] * budget)
+
+    def errors(tries: Tries) -> list[float]:
+        return worst_errors(study, [between_depth_nodes(study, n, places[k]) for n, k in tries])
+
+    number, error = _first(len(DEPTH_COUNTS), errors, len(places), SHARES["depth"] * budget)
     nodes = scene.vergences(DEPTH_COUNTS[number])
     why = Message("defocus grows with 1/distance, so nodes stand at equal steps of it")
     choice = Message("{count} nodes", count=len(nodes)) if len(nodes) > 1 else Message("1 node")
     return tuple(nodes.tolist()), Decision(Message("depth"), choice, why, error, "depth")
 
 
-def _pupils(
-    study: Study,
-    budget: float,
-    methods: MethodZones,
-    counts: tuple[int, int],
-    vergences: tuple[float, ...],
-    waves: int,
-) -> tuple[PupilNodes | None, float, Decision]:
-    """Return the nodes of the pupils that are fitted, None for all of them; their seconds; and the decision."""
-    alone = single_seconds(study, methods, counts, len(vergences), waves)
-    heights, allowed = node_heights(study.scene.sensor, counts), SHARES["pupils"] * budget / SAFETY
-    height_count, height_error = few_heights(study, len(heights), allowed / 2)
-    depth_count, depth_error = few_depths(study, len(vergences), allowed / 2)
-    shared, every = height_count * depth_count * waves, len(heights) * len(vergences) * waves
-    seconds = shared * method_seconds(study, costliest_method(methods))
+def _pupils(study: Study) -> Decision:
+    """Return the decision on how many pupils are fitted."""
     what = Message("pupils")
-    if seconds >= alone:
-        why = Message("fewer fits, all of the costliest method, with the others interpolated would cost no less")
-        return None, alone, Decision(what, Message("{count} fits", count=every), why, 0.0, "pupils")
-    nodes = tuple(few_nodes(heights, height_count).tolist()), tuple(few_nodes(vergences, depth_count).tolist())
+    if study.table is None:
+        return Decision(
+            what, Message("all"), Message("no polynomials through a few of them give the others"), 0.0, "pupils"
+        )
     why = Message(
-        "heights × depths in each wavelength: {heights} × {depths}; "
-        "the others of {count} lie on polynomials through them",
-        heights=height_count,
-        depths=depth_count,
-        count=every,
+        "heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them",
+        heights=len(study.table.heights_mm),
+        depths=len(study.table.vergences),
+        waves=len(study.table.waves_um),
     )
-    error = SAFETY * (height_error + depth_error)
-    return nodes, seconds, Decision(what, Message("{count} fits", count=shared), why, error, "pupils")
+    return Decision(what, Message("{count} fits", count=study.table.fits), why, study.table_error, "pupils")

@@ -6,90 +6,46 @@ from math import ceil
 import numpy as np
 
 from p2sf.pixel_kernels import Colour, Recipe
-from p2sf.pixel_kernels.pixels import samples_across
-from p2sf.scene.cost import Work, pupil_seconds
-from p2sf.scene.sharing import node_heights
-from p2sf.scene.study import Study
+from p2sf.scene.bounds import transforms
+from p2sf.scene.cost import ALONE_SECONDS, TOGETHER_SECONDS, Work, pupil_seconds
+from p2sf.scene.study import PupilAt, Study
 
 NAIVE_FINENESS, NAIVE_MARGIN = 2.0, 0.5  # every fringe of the light (λ/4NA), and half a window against aliasing
 
-MethodZones = Sequence[tuple[float, int]]
-"""Zones of the field from the axis outwards: (outer edge in mm, index into `Study.methods`)."""
-RecipeZones = Sequence[tuple[float, Recipe]]
-"""The same with the recipe of the zone's kernels."""
 
-
-def costliest_method(zones: MethodZones) -> int:
-    """Return the costliest method of any zone: the cheapest that holds at the worst place."""
-    return max(method for _, method in zones)
-
-
-def method_seconds(study: Study, method: int) -> float:
-    """Return what one pupil of an entry of `Study.methods` costs, seconds."""
-    name, numbers = study.methods[method]
-    return pupil_seconds(name, numbers or 6)
-
-
-def single_seconds(study: Study, zones: MethodZones, counts: tuple[int, int], layers: int, waves: int) -> float:
-    """Return the seconds of fitting each height of each layer by its own zone's method."""
-    edges = np.array([edge for edge, _ in zones])
-    heights = node_heights(study.scene.sensor, counts)
-    which = np.minimum(np.searchsorted(edges, heights), len(edges) - 1)
-    return layers * waves * float(sum(method_seconds(study, zones[n][1]) for n in which))
-
-
-def plan_work(
-    study: Study,
-    zones: RecipeZones,
-    colours: Sequence[Colour],
-    counts: tuple[int, int],
-    layers: int,
-    pupil_cost: float,
-) -> Work:
-    """Return the plan's work."""
-    sensor = study.scene.sensor
+def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: tuple[int, int], layers: int) -> Work:
+    """Return the plan's work; its pupils were fitted while planning, unless each is fitted by itself."""
+    sensor, waves = study.scene.sensor, sum(len(colour.wavelengths_um) for colour in colours)
     nodes = ceil(counts[0] / 2) * ceil(counts[1] / 2) if sensor.centred else counts[0] * counts[1]
-    halves, sides = _widths(study, zones)
-    kernels = nodes * layers * sum(len(colour.wavelengths_um) for colour in colours)
-    side = float(np.sqrt(np.mean(np.square(sides))))
-    return Work(kernels, side, pupil_cost, int(halves.max()), *_picture(study, len(colours), counts, layers))
+    halves, sides = _widths(study, recipe)
+    kernels, side = nodes * layers * waves, float(np.sqrt(np.mean(np.square(sides))))
+    fits = 0.0 if study.table else kernels * pupil_seconds(recipe.method, recipe.numbers or 6)
+    picture = sensor.rows, sensor.columns, len(colours), counts, layers
+    return Work(kernels, side, TOGETHER_SECONDS, fits, int(halves.max()), *picture)
 
 
-def naive_work(study: Study, zones: RecipeZones, counts: tuple[int, int], layers: int) -> Work:
+def naive_work(study: Study, recipe: Recipe, counts: tuple[int, int], layers: int) -> Work:
     """Return the work of the full grid, which without a plan would have to be computed for the same error.
 
     One method everywhere, the cheapest that holds at the worst place, its own rays for every PSF; depth × rows ×
     columns × every wavelength, everywhere as dense as the worst place needs; every fringe; one window, that of the
     widest blur; no use of symmetry.
     """
-    scene, recipe = study.scene, naive_recipe(zones)
-    halves, sides = _widths(study, [(edge, recipe) for edge, _ in zones])
+    scene, recipe = study.scene, naive_recipe(recipe)
+    halves, sides = _widths(study, recipe)
     kernels = counts[0] * counts[1] * layers * sum(len(channel.wavelengths_nm) for channel in scene.channels)
     cost = kernels * pupil_seconds(recipe.method, recipe.numbers or 6)
-    picture = _picture(study, len(scene.channels), counts, layers)
-    return Work(kernels, float(sides.max()), cost, int(halves.max()), *picture)
+    picture = scene.sensor.rows, scene.sensor.columns, len(scene.channels), counts, layers
+    return Work(kernels, float(sides.max()), ALONE_SECONDS, cost, int(halves.max()), *picture)
 
 
-def naive_recipe(zones: RecipeZones) -> Recipe:
-    """Return the recipe of the full grid: the costliest method of any zone, all phase terms, every fringe."""
-    costliest = max((recipe for _, recipe in zones), key=lambda recipe: recipe.numbers or 0)
-    return Recipe(costliest.method, costliest.numbers, NAIVE_FINENESS, NAIVE_MARGIN)
+def naive_recipe(recipe: Recipe) -> Recipe:
+    """Return the recipe of the full grid: the plan's method, every fringe."""
+    return Recipe(recipe.method, recipe.numbers, NAIVE_FINENESS, NAIVE_MARGIN)
 
 
-def _picture(
-    study: Study, channels: int, counts: tuple[int, int], layers: int
-) -> tuple[int, int, int, tuple[int, int], int]:
-    sensor = study.scene.sensor
-    return sensor.rows, sensor.columns, channels, counts, layers
-
-
-def _widths(study: Study, zones: RecipeZones) -> tuple[np.ndarray, np.ndarray]:
-    """Return half widths (pixels) and transform sides (samples) at the zones' outer edges over all depths."""
-    pixel, halves, sides = study.scene.sensor.pixel_um, [], []
-    for vergence in study.depths(study.reference_um):
-        kernels = study.kernels(study.recipe(), study.single, vergence)
-        for edge, recipe in zones:
-            half, (pupil, _) = kernels.half_width(edge), kernels.pupils(edge)[0]
-            halves.append(half)
-            sides.append((2 * (half + ceil(half * recipe.margin)) + 1) * samples_across(pupil, pixel, recipe.fineness))
-    return np.array(halves), np.array(sides)
+def _widths(study: Study, recipe: Recipe) -> tuple[np.ndarray, np.ndarray]:
+    """Return half widths (pixels) and transform sides (samples) in the corner, at the ends and the sharpest depths."""
+    depths = dict.fromkeys((*study.ends, *study.sharpest(study.reference_um)))
+    pupils = study.lights([PupilAt(study.farthest_mm, v, study.reference_um) for v in depths])
+    return transforms(*pupils, study.scene.sensor.pixel_um, (recipe.fineness, recipe.margin))

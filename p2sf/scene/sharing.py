@@ -1,120 +1,84 @@
-"""How few pupils need fitting: the others, over the field's radius and the depths, are interpolated."""
+"""How few pupils need fitting: the others, over the field's radius, the depths and colours, are interpolated."""
 
-from collections.abc import Callable, Sequence
-from itertools import pairwise
+from collections.abc import Sequence
+from math import inf
 
 import numpy as np
 
-from p2sf.pixel_kernels import Kernels
-from p2sf.pixel_kernels.frequency_grid import FrequencyPupil
-from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
-from p2sf.scene.sensor import Sensor
-from p2sf.scene.study import Study, distance, first_allowed, oblique
+from p2sf.errors import GeometryError
+from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, pupil_table
+from p2sf.scene.study import DIGITS, Place, PupilAt, Study, distance, oblique, pupil_at
 
-COUNTS = (2, 3, 4, 5, 6, 8, 10, 13, 18, 25)  # of fits over the radius or the depths
-NESTED_COUNTS = (2, 3, 5, 9, 17)  # for planning itself: each one's nodes are among the next one's
-TARGET_ERROR, LARGEST_ERROR = 1e-3, 3e-2  # relative error of a kernel that planning's own interpolation may cause
+COUNTS = 2, 3, 5, 9, 17  # of fits over the radius, the depths or the colours: each one's nodes are among the next one's
+TARGET_ERROR, LARGEST_ERROR = 1e-3, 3e-2  # relative error of a kernel that interpolation along one axis may cause
 
-Error = Callable[[Study, int, float, float], float]  # (study, count, depth or height, wavelength)
-
-
-def node_heights(sensor: Sensor, counts: tuple[int, int]) -> tuple[float, ...]:
-    """Return the distances from the axis of a lattice's nodes, mm, increasing, each once."""
-    rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), counts, strict=True))
-    heights = np.hypot(sensor.x_mm(columns), sensor.y_mm(rows)[:, None]).ravel()
-    return tuple(np.unique(np.round(heights, 9)).tolist())
+Axes = tuple[Sequence[float], Sequence[float], Sequence[float]]  # heights, vergences, wavelengths
 
 
 def share_pupils(study: Study) -> None:
-    """Let a study interpolate its converged pupils unless kernels would change by more than LARGEST_ERROR.
+    """Give a study the table of its pupils, unless kernels would change by more than LARGEST_ERROR.
 
-    Tried in the bluest colour, which shows the most; at the sharpest depths and at both ends, since pixels wider than
-    a sharp kernel hide errors there that a blurred kernel shows.
+    Along each axis nodes are added until pupils midway between them change no kernel by more than TARGET_ERROR.
     """
-    wave, scene = min(study.waves), study.scene
-    low, high = map(float, scene.vergences(2))
-    depths = [(v, wave) for v in dict.fromkeys((*study.sharpest(wave), low, high))]
-    height_count, height_error = _first_count(_height_error, study, NESTED_COUNTS, TARGET_ERROR, depths)
-    depth_count, depth_error = 1, 0.0
-    if scene.near_mm < scene.far_mm:
-        ends = [(height, wave) for height in (study.farthest_mm, study.nearest_mm)]
-        depth_count, depth_error = _first_count(_depth_error, study, NESTED_COUNTS, TARGET_ERROR, ends)
-    if max(height_error, depth_error) > LARGEST_ERROR:
-        return
-    heights = chebyshev(study.nearest_mm, study.farthest_mm, height_count)
-    vergences = chebyshev(low, high, depth_count)
-    study.tables.update({w: pupil_table(_fitted_pupils(study, w), heights, vergences) for w in study.waves})
-    study.tables_error = height_error + depth_error
+    ends = (
+        (study.nearest_mm, study.farthest_mm),
+        (study.ends[0], study.ends[-1]),
+        (study.waves_um[0], study.waves_um[-1]),
+    )
+    # Entries of COUNTS: aberrations grow with powers of the height, and are nearly linear in 1/depth and wavelength.
+    counts = [start if low < high else -1 for start, (low, high) in zip((1, 0, 0), ends, strict=True)]
+    errors, tried = [0.0, 0.0, 0.0], [axis for axis in range(3) if counts[axis] >= 0]
+    while True:
+        axes = tuple(_nodes(*end, count).tolist() for end, count in zip(ends, counts, strict=True))
+        places = {axis: _between(study, axis, _nodes(*ends[axis], counts[axis] + 1)) for axis in tried}
+        study.fitted([*_grid(axes), *(pupil_at(place) for several in places.values() for place in several)])  # together
+        table = pupil_table(axes, *study.fitted(_grid(axes)))
+        for axis in tried:
+            errors[axis] = _error(study, table, places[axis])
+        tried = [axis for axis in tried if errors[axis] > TARGET_ERROR and counts[axis] < len(COUNTS) - 2]
+        if not tried:
+            break
+        for axis in tried:
+            counts[axis] += 1
+    if max(errors) <= LARGEST_ERROR:
+        study.table, study.table_error = table, sum(errors)
 
 
-def few_heights(study: Study, needed: int, allowed: float) -> tuple[int, float]:
-    """Return how many heights are fitted, all ``needed`` ones at most, and the error of interpolating between them."""
-    places = [(v, wave) for wave in study.waves for v in study.depths(wave)]
-    return _count_below(_height_error, study, needed, allowed, places)
+def seidel_table(study: Study, table: PupilTable) -> PupilTable:
+    """Return the table of the pupils by Seidel coefficients at the same nodes."""
+    axes = table.heights_mm, table.vergences, table.waves_um
+    return pupil_table(axes, study.by_seidel(_grid(axes)), table.shifts_mm)
 
 
-def few_depths(study: Study, needed: int, allowed: float) -> tuple[int, float]:
-    """Return how many depths are fitted, all ``needed`` ones at most, and the error of interpolating between them."""
-    places = [(h, wave) for h in (study.farthest_mm, study.nearest_mm) for wave in study.waves]
-    return _count_below(_depth_error, study, needed, allowed, places)
+def _nodes(low: float, high: float, entry: int) -> np.ndarray:
+    return chebyshev(low, high, COUNTS[entry] if entry >= 0 else 1)
 
 
-def _count_below(
-    error: Error, study: Study, needed: int, allowed: float, places: list[tuple[float, float]]
-) -> tuple[int, float]:
-    """Return the first of COUNTS below ``needed`` whose error is allowed, else ``needed``; and the error."""
-    counts = [n for n in COUNTS if n < needed]
-    count, found = _first_count(error, study, counts, allowed, places) if counts else (needed, np.inf)
-    return (count, found) if found <= allowed else (needed, 0.0)
+def _grid(axes: Axes) -> list[PupilAt]:
+    return [PupilAt(round(h, DIGITS), v, w) for h in axes[0] for v in axes[1] for w in axes[2]]
 
 
-def _first_count(
-    error: Error, study: Study, counts: Sequence[int], allowed: float, places: list[tuple[float, float]]
-) -> tuple[int, float]:
-    """Return the first of some counts whose error is allowed at all places, else the last; and the error."""
-    number, found = first_allowed(len(counts), lambda n, *place: error(study, counts[n], *place), places, allowed)
-    return counts[number], found
+def _between(study: Study, axis: int, finer: np.ndarray) -> list[Place]:
+    """Return places midway between the nodes along one axis, and at the ends and the sharpest depths of the others.
 
-
-def _height_error(study: Study, count: int, vergence: float, wave: float) -> float:
-    """Return the worst error between ``count`` fitted heights at one depth."""
-    ends = study.nearest_mm, study.farthest_mm
-    places = [(height, vergence) for height in chebyshev(*ends, 2 * count - 1)[1::2]]
-    return _error(study, chebyshev(*ends, count), [vergence], places, wave)
-
-
-def _depth_error(study: Study, count: int, height: float, wave: float) -> float:
-    """Return the worst error between ``count`` fitted depths at one height.
-
-    An error of the wavefront shows the more the sharper its kernel is. So it is tried at the depths of every other
-    decision, the sharpest among them, and midway between these and the fitted ones.
+    Pixels wider than a sharp kernel hide errors there that a blurred kernel shows, and the other way round.
     """
-    low, high = map(float, study.scene.vergences(2))
-    vergences, depths = chebyshev(low, high, count), study.depths(wave)[1:-1]
-    tried = *depths, *((a + b) / 2 for a, b in pairwise(sorted({*vergences.tolist(), *depths})))
-    return _error(study, [height], vergences, [(height, v) for v in tried], wave)
+    wave, middles = study.waves_um[0], finer[1::2].tolist()
+    sharp = study.sharpest(wave)
+    depths = list(dict.fromkeys((sharp[-1], *study.ends)))
+    if axis == 0:
+        return [oblique(h, v, wave) for h in middles for v in depths]
+    if axis == 1:
+        tried = dict.fromkeys((*middles, *sharp))
+        return [oblique(h, v, wave) for h in (study.farthest_mm, study.nearest_mm) for v in tried]
+    return [oblique(study.farthest_mm, v, w) for v in depths for w in middles]
 
 
-def _error(
-    study: Study,
-    heights: Sequence[float] | np.ndarray,
-    vergences: Sequence[float] | np.ndarray,
-    places: list[tuple[float, float]],
-    wave: float,
-) -> float:
-    """Return the worst error at (height, vergence) places of kernels interpolated between these nodes."""
-    study.check()
-    recipe, single, pixel = study.recipe(), study.colour_of(wave), study.scene.sensor.pixel_um
-    table, errors = pupil_table(_fitted_pupils(study, wave), heights, vergences), []
-    for height, vergence in places:
-        x, y = oblique(float(height))
-        seen = study.sensor_map(float(vergence))
-        interpolated = Kernels(seen, single, pixel, lambda _: recipe, tables={wave: table})
-        errors.append(distance(interpolated.at(x, y), study.kernel(float(vergence), x, y, wave)))
-    return max(errors)
-
-
-def _fitted_pupils(study: Study, wave: float) -> Callable[[float, float], tuple[FrequencyPupil, float]]:
-    """Return the function of (height, vergence) that gives the study's converged pupil and its lateral colour."""
-    return lambda height, vergence: study.kernels(study.recipe(), study.colour_of(wave), vergence).pupils(height)[0]
+def _error(study: Study, table: PupilTable, places: list[Place]) -> float:
+    """Return the worst error of kernels from a table against those from their own rays."""
+    pupils = [pupil_at(place) for place in places]
+    try:
+        between = table.at(*zip(*pupils, strict=True))
+    except GeometryError:  # so far off that they lose light
+        return inf
+    return max(map(distance, study.rendered(places, *between), study.rendered(places, *study.fitted(pupils))))

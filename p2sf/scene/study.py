@@ -1,212 +1,245 @@
-"""The error of each choice in a plan, measured on kernels that differ in nothing else.
+"""Kernels of one lens and scene while a plan is made: pupils from few fits, many kernels at once, each computed once.
 
-No error here depends on the tolerance, so a looser tolerance can only stop earlier in a list of choices and never
-costs more.
+No error measured here depends on the tolerance, so that a looser tolerance can only take a cheaper choice.
 """
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import groupby
+from math import hypot
+from typing import NamedTuple
 
 import numpy as np
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.seidel import coefficients
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap, sensor_map
+from p2sf.pixel_kernels import Recipe, SensorMap, sensor_maps
+from p2sf.pixel_kernels.channel import wave_kernels
+from p2sf.pixel_kernels.frequency_grid import ORDERS, fitted_forms, pupils_of, seidel_pupils
+from p2sf.pixel_kernels.pixels import half_widths
+from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable
-from p2sf.raytrace.fit import fit, levels
-from p2sf.scene.scene import Channel, Scene, depth_of
-from p2sf.scene.spectrum import reduced
+from p2sf.raytrace.aiming import Sources
+from p2sf.raytrace.fit import Level, PencilForms, levels
+from p2sf.scene.scene import Scene, depth_of
 
 # Fineness and margin of `Recipe`, cheapest first.
 SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0)
 # The first for errors that change a kernel as a whole, the second for those that only show in its fringes.
-COARSE_SAMPLING, FINE_SAMPLING = SAMPLINGS[2], SAMPLINGS[4]
-NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
-DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
-ZONES = 2
+COARSE_SAMPLING, FINE_SAMPLING = SAMPLINGS[0], SAMPLINGS[4]
 CONVERGED_WAVES = 3e-4
 SCAN = 65
+SEEN_AT = 0.0, 0.6, 1.0  # of the farthest height: where the sharpest depths are sought
+
+CHIEF_RAYS = 65  # between which fields are found by height: linearly to some 1e-6
+DIGITS = 12  # of heights in mm, so that the same height is one pupil however it was computed
+
+Sampling = tuple[float, float]
+
+
+class Place(NamedTuple):
+    """A point of the sensor, mm, one depth and one wavelength."""
+
+    x_mm: float
+    y_mm: float
+    vergence: float
+    wave_um: float
+
+
+class PupilAt(NamedTuple):
+    """A height on the sensor, mm, one depth and one wavelength: all points of a circle share their pupil."""
+
+    height_mm: float
+    vergence: float
+    wave_um: float
 
 
 @dataclass(eq=False)
 class Study:
     """Kernels of one lens and scene, each computed once; ``check`` may raise before each measurement, to stop.
 
-    ``tables`` hold the converged pupils by wavelength once `sharing.share_pupils` has found how few need fitting,
-    and ``tables_error`` is the relative error that this adds to a kernel.
+    ``table``, once `sharing.share_pupils` has found how few pupils need fitting, gives all others, and
+    ``table_error`` is the relative error that this adds to a kernel. ``waves_um``: the shortest, the reference and the
+    longest wavelength.
     """
 
     lens: Lens
     scene: Scene
     check: Callable[[], None] = lambda: None
-    tables: dict[float, PupilTable] = field(default_factory=dict)
-    tables_error: float = 0.0
+    table: PupilTable | None = None
+    table_error: float = 0.0
 
     def __post_init__(self) -> None:
         middle = self.scene.channels[len(self.scene.channels) // 2]
         self.reference_um = float(middle.wavelengths_um @ middle.shares)
         self.nearest_mm, self.farthest_mm = self.scene.sensor.corners_mm()
-        self.single = self.colour_of(self.reference_um)
-        means = [float(channel.wavelengths_um @ channel.shares) for channel in self.scene.channels]
-        self.waves = tuple(sorted({min(means), self.reference_um, max(means)}))
-        # What describes a pupil, cheapest first: the method and how many numbers it fits.
-        self.methods = (("seidel", None), *(("fitted", level.numbers) for level in levels(self.lens.aim)))
-        self._sensor_maps: dict[float, SensorMap] = {}
-        self._depths: dict[float, list[float]] = {}
-        self._kernels: dict[tuple[Recipe, Colour, float], Kernels] = {}
-        self._residuals: dict[tuple[int, float, float, float], float] = {}
-        self._arrays: dict[tuple[Recipe, Colour, float, float, float], np.ndarray] = {}
+        every = [float(wave) for channel in self.scene.channels for wave in channel.wavelengths_um]
+        self.waves_um = tuple(sorted({min(every), self.reference_um, max(every)}))
+        self.ends = tuple(dict.fromkeys(map(float, self.scene.vergences(2))))  # the far and the near end of the depths
+        self._maps: dict[float, SensorMap] = {}
+        self._fits: dict[PupilAt, tuple[FrequencyPupil, float]] = {}
+        self._of_corners: dict[Level, tuple[PencilForms, np.ndarray]] = {}
+        self._kernels: dict[tuple[Place, Sampling], np.ndarray] = {}
 
     def sensor_map(self, vergence: float) -> SensorMap:
         """Return where the points of one depth land, out to the sensor's corner."""
-        key = round(vergence, 15)
-        if key not in self._sensor_maps:
-            place = depth_of(vergence), self.reference_um, self.farthest_mm
-            self._sensor_maps[key] = sensor_map(self.lens, *place, self.scene.clip)
-        return self._sensor_maps[key]
+        self.map_depths([vergence])
+        return self._maps[vergence]
 
-    def heights(self) -> np.ndarray:
-        """Return the edges of the zones of the field, mm from the axis."""
-        return np.linspace(self.nearest_mm, self.farthest_mm, ZONES + 1)
-
-    def depths(self, wave: float) -> list[float]:
-        """Return the vergences at which errors are measured: five over the scene and the sharpest of `sharpest`."""
-        if wave not in self._depths:
-            scan = self.scene.vergences(SCAN)
-            self._depths[wave] = sorted({float(v) for v in (*scan[:: SCAN // 4], *self.sharpest(wave))})
-        return self._depths[wave]
+    def map_depths(self, vergences: Iterable[float]) -> None:
+        """Compute the maps of several depths together."""
+        missing = [v for v in dict.fromkeys(vergences) if v not in self._maps]
+        if missing:
+            depths = [depth_of(v) for v in missing]
+            found = sensor_maps(self.lens, depths, self.reference_um, self.farthest_mm, self.scene.clip, CHIEF_RAYS)
+            self._maps.update(zip(missing, found, strict=True))
 
     def sharpest(self, wave: float) -> list[float]:
-        """Return the vergences of the smallest blur on the axis, at 0.6 of the field and in the corner."""
-        scan = self.scene.vergences(SCAN)
-        depths = np.array([depth_of(v) for v in scan])[:, None]
-        slopes = self.sensor_map(scan[0]).slope(np.array([0.0, 0.6, 1.0]) * self.farthest_mm)
-        six = coefficients(self.lens, depths, slopes, wave)
-        blur = np.abs(six.wd + six.w40 + six.w20 + six.w22 / 2)
-        return [float(v) for v in scan[blur.argmin(0)]]
+        """Return the vergences of the smallest blur at SEEN_AT of the field: on the axis, between, in the corner."""
+        return self._sharpest[wave]
 
-    def places(self, heights: Iterable[float]) -> list[tuple[float, float, float]]:
-        """Return (height, vergence, wavelength) where choices about single pupils are tried: end and sharpest depths.
+    @cached_property
+    def _sharpest(self) -> dict[float, list[float]]:
+        scan = self.scene.vergences(SCAN)
+        depths = np.array([depth_of(v) for v in scan])[:, None, None]
+        slopes = np.asarray(self.sensor_map(self.ends[0]).slope(np.array(SEEN_AT) * self.farthest_mm))
+        six = coefficients(self.lens, depths, slopes[:, None], np.array(self.waves_um))
+        blur = np.abs(six.wd + six.w40 + six.w20 + six.w22 / 2)
+        return {wave: scan[at].tolist() for wave, at in zip(self.waves_um, blur.argmin(0).T, strict=True)}
+
+    def places(self, wave: float) -> list[Place]:
+        """Return where choices on single pupils are tried: the corner, sharp and at both ends of depth, and the axis.
 
         At depths between these, what a description of the pupil leaves out shows less.
         """
-        ends = self.scene.vergences(2).tolist()
-        depths = {wave: sorted({*ends, *self.sharpest(wave)}) for wave in self.waves}
-        return [(float(h), v, wave) for wave in self.waves for h in heights for v in depths[wave]]
-
-    def kernels(self, recipe: Recipe, colour: Colour, vergence: float) -> Kernels:
-        """Return the kernels of one recipe in one colour at one depth."""
-        key = (recipe, colour, round(vergence, 15))
-        if key not in self._kernels:
-            converged = (recipe.method, recipe.numbers) == self.methods[self.converged_method]
-            tables = self.tables if converged else {}
-            recipe_at = partial(self._fewest_numbers, recipe) if converged else partial(_same_everywhere, recipe)
-            pixel = self.scene.sensor.pixel_um
-            self._kernels[key] = Kernels(self.sensor_map(vergence), colour, pixel, recipe_at, tables=tables)
-        return self._kernels[key]
-
-    def _fewest_numbers(self, recipe: Recipe, height_mm: float) -> Recipe:
-        """Return the converged recipe with the fewest numbers that converge at this height."""
-        return recipe if self.tables else replace(recipe, numbers=self.methods[self.converged_at(height_mm)][1])
-
-    @staticmethod
-    def colour_of(wave: float) -> Colour:
-        """Return one wavelength as a colour."""
-        return Colour((wave,), (1.0,))
+        axis, _, corner = self.sharpest(wave)
+        found = [oblique(self.farthest_mm, v, wave) for v in (corner, *self.ends)]
+        return list(dict.fromkeys((*found, oblique(self.nearest_mm, axis, wave))))
 
     @cached_property
-    def converged_method(self) -> int:
-        """Return the first entry of ``methods`` converged at both ends of field and depth, in the bluest colour."""
-        return max(self.converged_at(height) for height in (self.farthest_mm, self.nearest_mm))
+    def level(self) -> Level:
+        """Return the first size of fit that leaves less than CONVERGED_WAVES at the ends of field, depth and colour."""
+        return next((level for level in self.levels if self.residual(level) < CONVERGED_WAVES), self.levels[-1])
 
-    def converged_at(self, height_mm: float) -> int:
-        """Return the first of ``methods`` whose fit leaves less than CONVERGED_WAVES at both ends of the depths."""
-        self.check()
-        ends, wave = {float(v) for v in self.scene.vergences(2)}, min(self.waves)
-        for method in range(1, len(self.methods)):
-            if all(self.residual(method, height_mm, v, wave) < CONVERGED_WAVES for v in ends):
-                return method
-        return len(self.methods) - 1
+    @property
+    def levels(self) -> tuple[Level, ...]:
+        """Return the sizes of fit, smallest first."""
+        return levels(self.lens.aim)
 
-    def recipe(self, sampling: tuple[float, float] = COARSE_SAMPLING) -> Recipe:
-        """Return the converged recipe."""
-        return Recipe(*self.methods[self.converged_method], *sampling)
+    def residual(self, level: Level) -> float:
+        """Return the largest RMS phase residual of fits of this size, waves, at the ends of field and depth."""
+        return float(self._corner_fits(level)[0].residual_waves.max())
 
-    def method_error(self, method: int, height_mm: float, vergence: float, wave: float) -> float:
-        """Return the relative error of a method's kernel against the converged one, and that one's own."""
-        if method >= self.converged_method:
-            return from_phase(self.residual(self.converged_method, height_mm, vergence, wave))
-        tried = Recipe(*self.methods[method], *FINE_SAMPLING)
-        return self.distance(tried, self.recipe(FINE_SAMPLING), height_mm, vergence, wave)
+    def _corner_fits(self, level: Level) -> tuple[PencilForms, np.ndarray]:
+        """Return the fits of one size at the ends of field and depth, and where their chief rays land, mm."""
+        if level not in self._of_corners:
+            self.check()
+            self._of_corners[level] = fitted_forms(self.lens, self._sources(self.corners), level)
+        return self._of_corners[level]
 
-    def residual(self, method: int, height_mm: float, vergence: float, wave: float) -> float:
-        """Return the RMS phase residual of a fit in waves."""
-        key = (method, round(height_mm, 9), round(vergence, 15), wave)
-        if key not in self._residuals:
-            source = self.sensor_map(vergence).source(height_mm, wave)
-            self._residuals[key] = fit(self.lens, source, self.methods[method][1]).residual_waves
-        return self._residuals[key]
+    @property
+    def corners(self) -> list[PupilAt]:
+        """Return the pupils at both ends of field and depth in the shortest wavelength, which shows most."""
+        return [
+            PupilAt(round(h, DIGITS), v, self.waves_um[0])
+            for h in (self.farthest_mm, self.nearest_mm)
+            for v in self.ends
+        ]
 
-    def distance(self, tried: Recipe, reference: Recipe, height_mm: float, vergence: float, wave: float) -> float:
-        """Return the relative L2 distance of two recipes' kernels at one place."""
-        self.check()
-        single, at = self.colour_of(wave), oblique(height_mm)
-        return distance(*(self.cached_kernel(r, single, vergence, at) for r in (tried, reference)))
+    def _sources(self, pupils: Sequence[PupilAt]) -> Sources:
+        """Return the object points of pupils; those of one depth and colour, which share a map, next to each other."""
+        self.map_depths(at.vergence for at in pupils)
+        slopes = np.empty(len(pupils))
+        for (vergence, wave), group in groupby(range(len(pupils)), lambda k: pupils[k][1:]):
+            here = list(group)
+            slopes[here] = self._maps[vergence].slopes_at(np.array([pupils[k].height_mm for k in here]), wave)
+        depths, waves = (
+            np.array(column) for column in zip(*((depth_of(at.vergence), at.wave_um) for at in pupils), strict=True)
+        )
+        return Sources(depths, slopes, waves)
 
-    def cached_kernel(self, recipe: Recipe, colour: Colour, vergence: float, at: tuple[float, float]) -> np.ndarray:
-        """Return one kernel, computed once."""
-        key = (recipe, colour, round(vergence, 15), round(at[0], 9), round(at[1], 9))
-        if key not in self._arrays:
-            self._arrays[key] = self.kernels(recipe, colour, vergence).at(*at)
-        return self._arrays[key]
+    def fitted(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
+        """Return pupils from their own rays, and their lateral colour in mm, (pupils,); each is fitted once."""
+        missing = [at for at in dict.fromkeys(pupils) if at not in self._fits]
+        if missing:
+            self.check()
+            sources = self._sources(missing)
+            known = missing == self.corners
+            fits, landed = self._corner_fits(self.level) if known else fitted_forms(self.lens, sources, self.level)
+            order = max((pupil.order for pupil, _ in self._fits.values()), default=ORDERS[0])
+            made = pupils_of(self.lens, sources, fits, self.level, self.scene.clip, order)
+            for k, at in enumerate(missing):
+                self._fits[at] = made.one(k), float(landed[k]) - at.height_mm
+        found = [self._fits[at] for at in pupils]
+        return stacked([pupil for pupil, _ in found]), np.array([shift for _, shift in found])
 
-    def sampling_error(self, number: int, height_mm: float, vergence: float, wave: float) -> float:
-        """Return the error of an entry of SAMPLINGS against the finest."""
-        tried, finest = (self.recipe(SAMPLINGS[n]) for n in (number, -1))
-        return self.distance(tried, finest, height_mm, vergence, wave)
+    def by_seidel(self, pupils: Sequence[PupilAt]) -> PupilStack:
+        """Return pupils by their Seidel coefficients."""
+        return seidel_pupils(self.lens, self._sources(pupils), self.scene.clip)
 
-    def colour_error(self, channel: Channel, count: int, height_mm: float, vergence: float) -> float:
-        """Return the error of fewer wavelengths against all of a channel's."""
-        self.check()
-        recipe, at = self.recipe(FINE_SAMPLING), oblique(height_mm)  # a coarser one hides the change
-        few, every = (reduced(channel, n) for n in (count, len(channel.wavelengths_nm)))
-        return distance(*(self.cached_kernel(recipe, c, vergence, at) for c in (few, every))) if few != every else 0.0
+    def lights(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
+        """Return pupils and their lateral colour in mm, (pupils,): from the table, or while there is none fitted."""
+        if self.table is None:
+            return self.fitted(pupils)
+        return self.table.at(*zip(*pupils, strict=True))
 
-    def kernel(self, vergence: float, x_mm: float, y_mm: float, wave: float) -> np.ndarray:
-        """Return the kernel in one wavelength by the converged recipe."""
-        self.check()
-        return self.cached_kernel(self.recipe(), self.colour_of(wave), vergence, (x_mm, y_mm))
+    def kernels(self, places: Sequence[Place], sampling: Sampling = COARSE_SAMPLING) -> list[np.ndarray]:
+        """Return the kernels of places, each computed once."""
+        missing = [place for place in dict.fromkeys(places) if (place, sampling) not in self._kernels]
+        if missing:
+            self.check()
+            made = self.rendered(missing, *self.lights([pupil_at(place) for place in missing]), sampling)
+            self._kernels.update(zip(((place, sampling) for place in missing), made, strict=True))
+        return [self._kernels[place, sampling] for place in places]
+
+    def rendered(
+        self, places: Sequence[Place], pupils: PupilStack, shifts_mm: np.ndarray, sampling: Sampling = COARSE_SAMPLING
+    ) -> list[np.ndarray]:
+        """Return the kernels of pupils, one for each place."""
+        x, y, pixel, shifts = *np.array(places)[:, :2].T, self.scene.sensor.pixel_um, shifts_mm * UM_PER_MM
+        angles, halves = np.arctan2(x, y), half_widths(pupils, pixel, shifts)
+        along = shifts[:, None] * np.stack([np.sin(angles), np.cos(angles)], axis=1)
+        return wave_kernels(pupils, angles, halves, pixel, Recipe("fitted", None, *sampling), along)
 
 
-def _same_everywhere(recipe: Recipe, height_mm: float) -> Recipe:
-    return recipe
+def pupil_at(place: Place) -> PupilAt:
+    """Return the pupil of a place."""
+    return PupilAt(round(hypot(place.x_mm, place.y_mm), DIGITS), place.vergence, place.wave_um)
+
+
+def oblique(height_mm: float, vergence: float, wave_um: float) -> Place:
+    """Return a place at this height in a direction that no pixel grid shares."""
+    return Place(0.6 * height_mm, 0.8 * height_mm, vergence, wave_um)
+
+
+Tries = Sequence[tuple[int, int]]
 
 
 def first_allowed(
-    count: int, measure: Callable[..., float], places: Iterable[tuple], allowed: float
+    count: int, measure: Callable[[Tries], Sequence[float]], places: int, allowed: float, together: int = 4
 ) -> tuple[int, float]:
-    """Return the first number whose error is allowed at all places, else the last below ``count``; and the error.
+    """Return the first of ``count`` choices whose error is allowed at all places, else the last; and its error.
 
-    The error is the largest of ``measure(number, *place)``. Most numbers fail where the one before did, so that
-    place is tried first.
+    ``measure`` gives the errors of (choice, number of a place), which fall from choice to choice. Most choices fail
+    where one before did, so that the first that holds there is sought first, from place 0 on, and then tried at all.
+    ``together``: how many choices are tried at once, spread over those left.
     """
-    places = list(places)
-    for number in range(count):
-        worst = 0.0
-        for n, place in enumerate(places):
-            worst = max(worst, measure(number, *place))
-            if worst > allowed and number < count - 1:
-                places.insert(0, places.pop(n))
-                break
-        else:
-            break
-    return number, worst
-
-
-def oblique(height_mm: float) -> tuple[float, float]:
-    """Return a point at this height in a direction that no pixel grid shares."""
-    return 0.6 * height_mm, 0.8 * height_mm
+    low, hardest = 0, 0
+    while True:
+        high = count - 1
+        while low < high:
+            tried = sorted({low + (high - low) * part // together for part in range(together)})
+            errors = measure([(choice, hardest) for choice in tried])
+            held = [error <= allowed for error in errors]
+            first = held.index(True) if any(held) else len(tried)
+            low, high = (tried[first - 1] + 1 if first else low), (tried[first] if any(held) else high)
+        errors = measure([(low, place) for place in range(places)])
+        worst = float(max(errors))
+        if worst <= allowed or low == count - 1:
+            return low, worst
+        low, hardest = low + 1, int(np.argmax(errors))
 
 
 def from_phase(residual_waves: float) -> float:
@@ -224,4 +257,17 @@ def distance(kernel: np.ndarray, reference: np.ndarray) -> float:
 def widened(kernel: np.ndarray, size: int) -> np.ndarray:
     """Return a kernel with zeros around it, to an odd size."""
     edge = (size - kernel.shape[-1]) // 2
-    return np.pad(kernel, edge) if edge else kernel
+    if not edge:
+        return kernel
+    wide = np.zeros((size, size), kernel.dtype)
+    wide[edge : size - edge, edge : size - edge] = kernel
+    return wide
+
+
+def weighted(kernels: Sequence[np.ndarray], weights: Sequence[float]) -> np.ndarray:
+    """Return a weighted sum of kernels of different sizes."""
+    total = np.zeros(2 * [max(kernel.shape[-1] for kernel in kernels)], np.float32)
+    for kernel, weight in zip(kernels, weights, strict=True):
+        edge = (len(total) - kernel.shape[-1]) // 2
+        total[edge : len(total) - edge, edge : len(total) - edge] += np.float32(weight) * kernel
+    return total

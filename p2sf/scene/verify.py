@@ -6,10 +6,9 @@ from time import thread_time
 import numpy as np
 
 from p2sf.pixel_kernels.nodes import hats, nodes_along
-from p2sf.scene.nodes import weighted
 from p2sf.scene.plan import Plan
 from p2sf.scene.reference import reference_kernel
-from p2sf.scene.study import distance
+from p2sf.scene.study import distance, weighted
 from p2sf.threads import mapped, one_blas_thread
 
 

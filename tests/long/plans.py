@@ -8,14 +8,21 @@ worst place needs; every fringe; all phase terms; one window, that of the widest
 the full grid from a sample of them; chief rays, which both need alike, are traced before), and beside them the cost of
 the reference sum on the same grid.
 
-`python -m tests.long.plans` runs 20 scenes of all lenses, `python -m tests.long.plans 4 tessar relay` four of two; set
-OMP_NUM_THREADS=1 and OPENBLAS_NUM_THREADS=1, or a second thread counts as CPU time. At the end it prints the sums of
-every lens and of all: full grid, plan, plan with its planning.
+`python -m tests.long.plans` runs 20 scenes of all lenses, `python -m tests.long.plans 4 tessar relay` four of two, and
+`--first 3` begins with the third of each. With `--keep FILE` every scene's figures are appended to a file of JSON
+lines; a scene already in it is not tried again, so that a run that was stopped goes on, and the figures at the end are
+those of the whole file. Set OMP_NUM_THREADS=1 and OPENBLAS_NUM_THREADS=1, or a second thread counts as CPU time.
+
+At the end it prints the sums of every lens and of all, full grid, plan, plan with its planning, and the figures that
+matter: seconds of planning, savings with the planning counted in, and how many errors the prediction bounds.
 """
 
-import sys
+import argparse
+import json
+from collections.abc import Iterator
 from dataclasses import replace
 from math import ceil
+from pathlib import Path
 from time import process_time
 
 import numpy as np
@@ -39,6 +46,7 @@ from p2sf.scene.scene import depth_of
 
 SCENES, POINTS, SAMPLE = 20, 2, 12
 TOLERANCES = 0.2, 0.1, 0.05, 0.03
+LARGE = 1.0  # second of full grid: a scene that is worth a plan
 AFFORDABLE = 2e11  # products of a reference sum, some minutes of one core
 SLOWEST_TRIED = 4.0  # f-number: faster lenses are stopped down to it or beyond, as their rims are not clipped here
 
@@ -91,31 +99,40 @@ def _channels(lens, random) -> tuple[Channel, ...]:
     )
 
 
-def trial(lens, scene, seed: int = 0) -> dict:
-    """Return one scene's figures; raises P2SFError where the lens cannot form it."""
-    started = process_time()
-    planned = plan(lens, scene)
-    planning = process_time() - started
-    check_affordable(planned)
+def trial(planned: Plan, planning: float, seed: int = 0) -> dict:
+    """Return one scene's figures; ``planning``: CPU seconds of planning it."""
     spent, full = plan_seconds(planned), naive_seconds(planned)
     verdict = verify(planned, POINTS, seed)
+    scene = planned.scene
     nodes = planned.counts[0] * planned.counts[1] * len(planned.vergences)
     grid = nodes * sum(len(channel.wavelengths_nm) for channel in scene.channels)
+    looser = loosened_cost(planned.lens, scene) <= planned.cost.kernel_seconds if seed % 5 == 0 else None
     return {
         "tolerance": scene.tolerance,
         "predicted": planned.predicted_error,
         "worst": verdict.worst,
         "meets": planned.meets,
         "kept": verdict.kept,
+        "bounded": verdict.worst <= planned.predicted_error,
         "planning_seconds": planning,
         "kernel_seconds": spent,
         "naive_seconds": full,
         "predicted_saving": planned.naive.kernel_seconds / planned.cost.kernel_seconds,
         "measured_saving": full / max(spent, 1e-9),
+        "saving_with_planning": full / (spent + planning),
         "reference_saving": grid * verdict.reference_seconds / max(spent, 1e-9),
-        "loosening_is_cheaper": loosened_cost(lens, scene) <= planned.cost.kernel_seconds if seed % 5 == 0 else None,
+        "loosening_is_cheaper": looser,
         "what": [f"{d.what}: {d.choice} ({d.error:.2g})" for d in planned.decisions],
     }
+
+
+def timed_plan(lens, scene) -> tuple[Plan, float]:
+    """Return a plan whose reference is affordable, and the CPU seconds of planning; P2SFError for another scene."""
+    started = process_time()
+    planned = plan(lens, scene)
+    seconds = process_time() - started
+    check_affordable(planned)
+    return planned, seconds
 
 
 def check_affordable(planned: Plan) -> None:
@@ -138,8 +155,6 @@ def plan_seconds(planned: Plan) -> float:
     """Return the CPU seconds of all kernels of a plan, its pupils included: of one depth times the depths."""
     for vergence in planned.vergences:
         planned.sensor_map(vergence)
-    for vergence in (planned.pupil_nodes or ((), ()))[1]:
-        planned.sensor_map(vergence)
     started = process_time()
     for number in range(len(planned.colours)):
         planned.kernels(number, planned.vergences[0])  # makes the pupils that are shared
@@ -150,7 +165,7 @@ def plan_seconds(planned: Plan) -> float:
 
 def naive_seconds(planned: Plan) -> float:
     """Return the CPU seconds of the full grid's kernels: SAMPLE of them made, times how many there are."""
-    sensor, recipe = planned.scene.sensor, naive_recipe(planned.zones)
+    sensor, recipe = planned.scene.sensor, naive_recipe(planned.zones[0][1])
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), planned.counts, strict=True))
     places = [(v, c, a, b) for v in planned.vergences for c in planned.scene.channels for a in rows for b in columns]
     ends, rim = (planned.vergences[0], planned.vergences[-1]), sensor.corners_mm()[1]
@@ -170,44 +185,69 @@ def loosened_cost(lens, scene) -> float:
     return plan(lens, replace(scene, tolerance=min(0.9, 2 * scene.tolerance))).cost.kernel_seconds
 
 
-def run(name: str, scenes: int) -> list[dict]:
-    """Return the figures of this many scenes of one lens, printing a line each.
+def run(name: str, numbers: range, known: set[tuple[str, int]]) -> Iterator[dict]:
+    """Yield the figures of these scenes of one lens, counted from 1, but for those known, printing a line each.
 
-    Scenes that no light reaches, or that take too long to check, are redrawn.
+    Scenes that no light reaches, or that take too long to check, are redrawn. What comes before the scenes wanted is
+    drawn and planned, so that they are the same as in a whole run.
     """
-    random, rows, refused = np.random.default_rng(sum(map(ord, name))), [], 0
-    while len(rows) < scenes and refused < 10 * scenes:
+    random, number, refused = np.random.default_rng(sum(map(ord, name))), 1, 0
+    while number < numbers.stop and refused < 10 * numbers.stop:
         try:
-            rows.append({"lens": name, **trial(*random_scene(find_lens(name), random), len(rows))})
+            planned = timed_plan(*random_scene(find_lens(name), random))
         except P2SFError as error:
             refused += 1
             print(f"  {name}: redrawn, {error}", flush=True)
             continue
-        row = rows[-1]
-        print(
-            f"{name} {len(rows)}: tolerance {row['tolerance']:g}, predicted {row['predicted']:.3f}, "
-            f"worst {row['worst']:.4f}{'' if row['kept'] else ' MISSED'}{'' if row['meets'] else ' (said so)'}, saving "
-            f"{row['predicted_saving']:.1f}× predicted, {row['measured_saving']:.1f}× measured "
-            f"({row['naive_seconds']:.3f} s to {row['kernel_seconds']:.3f} s), "
-            f"{row['reference_saving']:.0f}× against the reference, "
-            f"looser is cheaper: {row['loosening_is_cheaper']}, "
-            f"planned in {row['planning_seconds']:.2f} s",
-            flush=True,
-        )
-        if not row["kept"]:
-            print("   ", "; ".join(row["what"]), flush=True)
-    return rows
+        if number in numbers and (name, number) not in known:
+            row = {"lens": name, "number": number, **trial(*planned, number - 1)}
+            print(sentence(row), flush=True)
+            yield row
+        number += 1
 
 
-def main(arguments: list[str]) -> None:
+def sentence(row: dict) -> str:
+    """Return the figures of one scene in words, and its decisions if it missed its tolerance."""
+    return (
+        f"{row['lens']} {row['number']}: tolerance {row['tolerance']:g}, predicted {row['predicted']:.3f}, "
+        f"worst {row['worst']:.4f}{'' if row['kept'] else ' MISSED'}{'' if row['meets'] else ' (said so)'}, saving "
+        f"{row['predicted_saving']:.1f}× predicted, {row['measured_saving']:.1f}× measured "
+        f"({row['naive_seconds']:.3f} s to {row['kernel_seconds']:.3f} s), "
+        f"{row['saving_with_planning']:.1f}× with {row['planning_seconds']:.3f} s of planning, "
+        f"{row['reference_saving']:.0f}× against the reference, looser is cheaper: {row['loosening_is_cheaper']}"
+    ) + ("" if row["kept"] else f"\n    {'; '.join(row['what'])}")
+
+
+def main() -> None:
     """Run the trial and print its sums."""
-    scenes = int(arguments[0]) if arguments else SCENES
-    rows = [row for name in arguments[1:] or shipped_lenses() for row in run(name, scenes)]
+    asked = options()
+    kept = asked.keep.read_text().splitlines() if asked.keep and asked.keep.exists() else []
+    rows = [json.loads(line) for line in kept]
+    known = {(row["lens"], row["number"]) for row in rows}
+    for name in asked.lenses or shipped_lenses():
+        for row in run(name, range(asked.first, asked.scenes + 1), known):
+            rows.append(row)
+            if asked.keep:
+                with asked.keep.open("a") as file:
+                    file.write(json.dumps(row) + "\n")
+    if rows:
+        print_figures(rows)
+
+
+def options() -> argparse.Namespace:
+    """Return what the command line asks for."""
+    parser = argparse.ArgumentParser(prog="python -m tests.long.plans")
+    parser.add_argument("scenes", nargs="?", type=int, default=SCENES, help="number of the last scene of each lens")
+    parser.add_argument("lenses", nargs="*", help="shipped lenses; all if none is named")
+    parser.add_argument("--first", type=int, default=1, help="number of the first scene of each lens")
+    parser.add_argument("--keep", type=Path, help="file of JSON lines to go on with")
+    return parser.parse_args()
+
+
+def print_figures(rows: list[dict]) -> None:
+    """Print what the scenes cost and saved together."""
     missed = [row for row in rows if not row["kept"]]
-    print(f"{len(rows)} scenes, {len(missed)} missed, {sum(row['meets'] for row in missed)} of these unannounced")
-    if not rows:
-        return
-    for key in ("predicted_saving", "measured_saving", "reference_saving"):
+    for key in ("predicted_saving", "measured_saving", "saving_with_planning", "reference_saving"):
         found = np.array([row[key] for row in rows])
         low, middle = np.percentile(found, [5, 50])
         print(f"{key}: median {middle:.1f}, 5th percentile {low:.1f}, at least 5 in {np.mean(found >= 5):.0%}")
@@ -215,6 +255,22 @@ def main(arguments: list[str]) -> None:
     for name in dict.fromkeys(row["lens"] for row in rows):
         print(sums(name, [row for row in rows if row["lens"] == name]))
     print(sums("all", rows))
+    planning, saving, large = (
+        np.array(column)
+        for column in zip(
+            *((row["planning_seconds"], row["saving_with_planning"], row["naive_seconds"] >= LARGE) for row in rows),
+            strict=True,
+        )
+    )
+    print(f"{len(rows)} scenes, {len(missed)} missed, {sum(row['meets'] for row in missed)} of these unannounced")
+    print(f"planning: median {np.median(planning):.3f} s, worst {planning.max():.3f} s")
+    print(
+        f"saving with the planning counted in: median {np.median(saving):.1f}×, at least 5× in "
+        f"{np.mean(saving >= 5):.1%} of the scenes; in {large.sum()} scenes of {LARGE:g} s of full grid and more: "
+        f"median {np.median(saving[large]) if large.any() else np.nan:.1f}×, "
+        f"at least 5× in {np.mean(saving[large] >= 5) if large.any() else np.nan:.1%}"
+    )
+    print(f"the predicted error bounds the found one in {np.mean([row['bounded'] for row in rows]):.1%}")
 
 
 def sums(name: str, rows: list[dict]) -> str:
@@ -232,4 +288,4 @@ def sums(name: str, rows: list[dict]) -> str:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -8,9 +8,10 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, distortion_at, sensor_map
 from p2sf.pixel_kernels.channel import own_pupil
-from p2sf.pixel_kernels.frequency_grid import dropped_terms, pupil_map, without
-from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel
-from p2sf.pixel_kernels.pupil_table import chebyshev, few_nodes, lagrange, pupil_table
+from p2sf.pixel_kernels.frequency_grid import pupil_map
+from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, pixel_kernels
+from p2sf.pixel_kernels.pupil_stack import stacked
+from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange, pupil_table
 from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.binning import binned
 from p2sf.pupil.zernike import basis, basis_by_powers
@@ -80,14 +81,6 @@ def test_a_shift_moves_the_kernel_by_that_much():
         assert kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
 
 
-def test_dropped_terms_stay_below_their_bound_and_change_as_little():
-    pupil = pupil_map(find_lens("double_gauss_28"), source(10), "fitted")
-    gone = dropped_terms(pupil, 1e-3)
-    assert gone and sum(size**2 for *_, size in gone) <= 1e-6
-    one, two = (pixel_kernel(p, 0.3, PixelWindow(20, PIXEL, 6)) for p in (pupil, without(pupil, 1e-3)))
-    assert 0 < relative(two, one) < 4 * np.pi * 1e-3
-
-
 def test_a_view_finds_the_field_that_lands_where_it_says():
     lens = find_lens("double_gauss_28")
     seen = sensor_map(lens, np.inf, WAVE, 24.0)
@@ -128,25 +121,43 @@ def test_kernels_of_a_channel_have_unit_sum_and_carry_lateral_colour():
 
 
 def test_pupils_between_a_few_are_the_ones_that_rays_give():
-    """Four heights and three depths: phase RMS 2e-4 waves, 4πσ = 2.5e-3 of a kernel; at the nodes, the fit itself."""
+    """Four heights, three depths and colours: phase RMS 2e-4 waves, 4πσ = 2.5e-3 of a kernel; at nodes, the fit."""
     lens, recipe = find_lens("double_gauss_28"), Recipe("fitted", GOOD)
-    depths = 1 / chebyshev(1e-5, 2e-4, 3)
+    heights, depths, waves = chebyshev(2.0, 15.0, 4), 1 / chebyshev(1e-5, 2e-4, 3), (0.54, 0.55, 0.56)
     seen = {1 / d: sensor_map(lens, d, WAVE, 16.0) for d in (*depths, 9000.0)}
-    table = pupil_table(lambda h, v: own_pupil(seen[v], h, 0.55, recipe), chebyshev(2.0, 15.0, 4), list(seen)[:3])
-    for height in (3.1, 11.7):
-        made, own = table.at(height, 1 / 9000.0), own_pupil(seen[1 / 9000.0], height, 0.55, recipe)
-        assert np.linalg.norm(made[0].phase[1:] - own[0].phase[1:]) < 1e-3
-        assert np.abs(made[0].eta - own[0].eta).max() < 1e-4 and made[1] == pytest.approx(own[1], abs=2e-5)
-        assert made[0].reach_um == pytest.approx(own[0].reach_um, rel=0.02)
-    node = own_pupil(seen[1 / depths[1]], 15.0, 0.55, recipe)[0]
-    assert np.allclose(table.at(15.0, 1 / depths[1])[0].phase, node.phase, atol=1e-9)
-    assert table.at(15.1, 1e-4) is None and table.at(5.0, 1e-3) is None  # it never extrapolates
+    nodes = heights, list(seen)[:3], waves
+    fits = [own_pupil(seen[v], h, w, recipe) for h in heights for v in nodes[1] for w in waves]
+    pupils, shifts = zip(*fits, strict=True)
+    table = pupil_table(nodes, stacked(pupils), np.array(shifts))
+    between, landed = table.at([3.1, 11.7], 1 / 9000.0, 0.545)
+    for k, height in enumerate((3.1, 11.7)):
+        made, (own, shift) = between.one(k), own_pupil(seen[1 / 9000.0], height, 0.545, recipe)
+        assert np.linalg.norm(made.phase[1:] - own.phase[1:]) < 1e-3
+        assert np.abs(made.eta - own.eta).max() < 1e-4 and landed[k] == pytest.approx(shift, abs=2e-5)
+        assert made.reach_um == pytest.approx(own.reach_um, rel=0.02)
+    node = own_pupil(seen[1 / depths[1]], 15.0, 0.56, recipe)[0]
+    assert np.allclose(table.at(15.0, 1 / depths[1], 0.56)[0].phase, node.phase, atol=1e-9)
+    for place in ((15.1, 1e-4, 0.55), (5.0, 1e-3, 0.55), (5.0, 1e-4, 0.57)):
+        with pytest.raises(GeometryError, match="outside the pupils fitted"):  # it never extrapolates
+            table.at(*place)
 
 
-def test_interpolation_is_exact_for_polynomials_and_few_values_are_their_own_nodes():
+def test_kernels_made_together_are_those_made_alone():
+    """With shifts, in windows wider than the chunks of `pixel_kernels` and narrower."""
+    lens = find_lens("cooke_triplet")
+    pupils = [pupil_map(lens, source(degrees), "fitted") for degrees in (0.0, 7.0, 12.0, 16.0, 20.0)]
+    angles, shifts = np.linspace(0.0, 2.0, 5), np.random.default_rng(0).uniform(-3, 3, (5, 2))
+    for window in (PixelWindow(8, PIXEL, 5), PixelWindow(30, PIXEL, 6)):
+        together = pixel_kernels(stacked(pupils), angles, window, shifts)
+        for kernel, pupil, angle, shift in zip(together, pupils, angles, shifts, strict=True):
+            alone = pixel_kernel(pupil, float(angle), window, tuple(shift))
+            # float32; the pupils' grids are as wide as the widest of those made together
+            assert relative(kernel, alone) < 2e-6
+
+
+def test_interpolation_is_exact_for_polynomials():
     nodes = tuple(chebyshev(-1.0, 3.0, 4).tolist())
     assert lagrange(nodes, 0.7) @ np.power(nodes, 3) == pytest.approx(0.7**3)
-    assert few_nodes((1.0, 2.0, 7.0), 3).tolist() == [1, 2, 7] and few_nodes((1.0, 2.0, 7.0), 2).tolist() == [1, 7]
 
 
 def test_a_node_but_for_rounding_is_that_node():

@@ -38,7 +38,6 @@ HEADINGS = {  # of a plan's decisions by kind, in the order in which they are sh
     "field": "Places",
     "colour": "Colour {channel}",
     "method": "Method",
-    "terms": "Phase",
     "sampling": "Sampling",
     "depth": "Depths",
     "pupils": "Pupils",

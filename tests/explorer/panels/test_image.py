@@ -77,7 +77,7 @@ def test_the_words_count_the_psfs_and_explain_every_kind_of_decision(found):
     assert found.headline.values == {"count": rows * columns * waves}  # off the axis there are no mirror images
     assert str(notes["PSFs"]) == f"{rows} × {columns} places × {waves} wavelengths"
     names = {heading.split(" ")[0] for heading in notes}
-    assert names == {"Error", "PSFs", "Places", "Colour", "Method", "Phase", "Sampling", "Depths", "Pupils"}
+    assert names == {"Error", "PSFs", "Places", "Colour", "Method", "Sampling", "Depths", "Pupils"}
     assert "keeps 0.1" in str(notes["Error"])
     assert {f"Colour {channel.name}" for channel in found.plan.scene.channels} < set(notes)
 

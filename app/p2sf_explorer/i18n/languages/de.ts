@@ -346,7 +346,6 @@
 <message><source>Petzval lens f/1.4, 50 mm</source><translation>Petzval-Objektiv f/1,4, 50 mm</translation></message>
 <message><source>Petzval radius</source><translation>Petzval-Radius</translation></message>
 <message><source>Petzval sum</source><translation>Petzvalsumme</translation></message>
-<message><source>Phase</source><translation>Phase</translation></message>
 <message><source>Photo…</source><translation>Foto …</translation></message>
 <message><source>Picture (*.png)</source><translation>Bild (*.png)</translation></message>
 <message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
@@ -728,6 +727,7 @@
 <message><source>aim "{aim}" is unknown; choose "stop" or "paraxial"</source><translation>die Ausrichtung "{aim}" ist unbekannt; "stop" oder "paraxial" wählen</translation></message>
 <message><source>aimed at the real stop</source><translation>auf die wahre Blende gerichtet</translation></message>
 <message><source>air</source><translation>Luft</translation></message>
+<message><source>all</source><translation>alle</translation></message>
 <message><source>all panels</source><translation>alle Ansichten</translation></message>
 <message><source>all sums</source><translation>alle Summen</translation></message>
 <message><source>along x</source><translation>längs x</translation></message>
@@ -758,8 +758,6 @@
 <message><source>astigmatism</source><translation>Astigmatismus</translation></message>
 <message><source>at ({x}, {y}) of the corner: share of the peak</source><translation>bei ({x}, {y}) der Ecke: Anteil der Spitze</translation></message>
 <message><source>at infinity</source><translation>im Unendlichen</translation></message>
-<message><source>at the corner {count} phase terms stay below {waves:.1e} waves RMS together</source><translation>in der Ecke bleiben {count} Phasenterme zusammen unter {waves:.1e} Wellen RMS</translation></message>
-<message><source>at the corner {count} phase terms stay below {waves:.1e} waves RMS together, the strongest (n={n}, m={m}) has {most:.1e} waves</source><translation>in der Ecke bleiben {count} Phasenterme zusammen unter {waves:.1e} Wellen RMS, der stärkste (n={n}, m={m}) hat {most:.1e} Wellen</translation></message>
 <message><source>at {wavelength} nm</source><translation>bei {wavelength} nm</translation></message>
 <message><source>auto</source><translation>auto</translation></message>
 <message><source>back to the lens's own value</source><translation>zurück zum Wert des Objektivs</translation></message>
@@ -887,7 +885,6 @@
 <message><source>f-number N = f′/D: focal length over the diameter of the entrance pupil.</source><translation>Blendenzahl N = f′/D: Brennweite durch den Durchmesser der Eintrittspupille.</translation></message>
 <message><source>f-number flag</source><translation>Kennzeichen der Blendenzahl</translation></message>
 <message><source>fast</source><translation>schnell</translation></message>
-<message><source>fewer fits, all of the costliest method, with the others interpolated would cost no less</source><translation>weniger Anpassungen, alle mit dem teuersten Verfahren und die übrigen interpoliert, kosteten nicht weniger</translation></message>
 <message><source>field</source><translation>Feld</translation></message>
 <message><source>field angle</source><translation>Feldwinkel</translation></message>
 <message><source>field angle {angle:g}° is not below 90°; correct it</source><translation>der Feldwinkel {angle:g}° liegt nicht unter 90°; berichtigen</translation></message>
@@ -939,7 +936,7 @@
 <message><source>glass's nd or vd</source><translation>nd oder vd des Glases</translation></message>
 <message><source>green</source><translation>Grün</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an even asphere</source><translation>hat eine Form, die weder Kugel noch Kegelschnitt noch gerade Asphäre ist</translation></message>
-<message><source>heights × depths in each wavelength: {heights} × {depths}; the others of {count} lie on polynomials through them</source><translation>Höhen × Abstände je Wellenlänge: {heights} × {depths}; die übrigen von {count} liegen auf Polynomen durch diese</translation></message>
+<message><source>heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them</source><translation>Höhen × Abstände × Wellenlängen: {heights} × {depths} × {waves}; alle übrigen liegen auf Polynomen durch diese</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
 <message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
 <message><source>ignored, without effect on the picture</source><translation>übergangen, ohne Wirkung auf das Bild</translation></message>
@@ -1009,9 +1006,9 @@
 <message><source>medium {name} has no line in a Zemax file; save as TOML, or give nd and vd</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei; als TOML speichern oder nd und vd angeben</translation></message>
 <message><source>meets the asphere on surface {surface} where no safe intersection was found</source><translation>trifft die Asphäre auf Fläche {surface}, wo kein sicherer Schnittpunkt zu finden war</translation></message>
 <message><source>mercury g e</source><translation>Quecksilber g e</translation></message>
+<message><source>method</source><translation>Methode</translation></message>
 <message><source>method "{method}" describes no pupil; choose {methods}</source><translation>Verfahren "{method}" beschreibt keine Pupille; {methods} wählen</translation></message>
 <message><source>method "{method}" is unknown; choose {methods}</source><translation>die Methode "{method}" ist unbekannt; {methods} wählen</translation></message>
-<message><source>method {inner:.3g}–{outer:.3g} mm</source><translation>Methode {inner:.3g}–{outer:.3g} mm</translation></message>
 <message><source>misses surface {surface}</source><translation>verfehlt Fläche {surface}</translation></message>
 <message><source>mm</source><translation>mm</translation></message>
 <message><source>mode {mode} is not sequential; export the sequential lens</source><translation>der Modus {mode} ist nicht sequentiell; das sequentielle Objektiv exportieren</translation></message>
@@ -1031,6 +1028,7 @@
 <message><source>no nodes</source><translation>keine Knoten</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
 <message><source>no polynomial follows the rays of this pupil; stop the lens down or reduce the field</source><translation>kein Polynom folgt den Strahlen dieser Pupille; abblenden oder das Feld verkleinern</translation></message>
+<message><source>no polynomials through a few of them give the others</source><translation>keine Polynome durch wenige von ihnen ergeben die übrigen</translation></message>
 <message><source>no ray but the chief ray reaches the sensor; stop the lens down or reduce the field</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no ray lands within {half} pixels of the chief ray; take larger pixels</source><translation>im Umkreis von {half} Pixeln um den Hauptstrahl landet kein Strahl; größere Pixel nehmen</translation></message>
 <message><source>no ray of the fan reaches the sensor; choose a smaller field</source><translation>kein Strahl des Fächers erreicht den Sensor; ein kleineres Feld wählen</translation></message>
@@ -1551,7 +1549,6 @@
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
 <message><source>{count} PSFs of {pixels}² pixels are {size:.1f} GiB; ask for fewer, or for fewer pixels a side</source><translation>{count} PSFs von {pixels}² Pixeln sind {size:.1f} GiB; weniger verlangen, oder weniger Pixel je Seite</translation></message>
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
-<message><source>{count} kept</source><translation>{count} behalten</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
 <message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
@@ -1679,6 +1676,7 @@
 <message><source>{percent} % of the pupil</source><translation>{percent} % der Pupille</translation></message>
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
 <message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
+<message><source>{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene anew</source><translation>{place:.6g} liegt außerhalb der Pupillen, die von {low:.6g} bis {high:.6g} angepasst sind; die Szene neu planen</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>
 <message><source>{psnr:.1f} dB, SSIM {ssim:.3f}</source><translation>{psnr:.1f} dB, SSIM {ssim:.3f}</translation></message>

@@ -1,0 +1,236 @@
+"""Pupils over their spatial frequencies, one or many at once: how far their light lands, and their rotation.
+
+Many pupils of one order are handled together: the arrays of one are so small that calls would take longer than sums.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.zernike import basis, gradient, powers, terms
+from p2sf.raytrace.fit import Gradient
+
+REACH_NODES = 24, 48
+FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % where the polynomials hold
+STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
+SURELY_CLEAR = 0.05  # of 1 − (height/rim)²: a rim that stays above at nodes clips nothing between them
+FORMS = "phase", "eta", "xi", "weight", "rims"
+SIZES = "radius", "energy", "reach_um", "residual_waves"
+
+
+@dataclass(frozen=True, eq=False)
+class FrequencyPupil:
+    """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
+
+    ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``residual_waves`` RMS phase error left.
+    ``weight``: of the light by entrance pupil area, even; none for the even light of a paraxial pupil. ``rims``,
+    (surfaces, even terms): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
+    ``energy``: ∫(weight·|∂(ξ, η)/∂f|)² df over the part that no rim clips, which the polynomials must give too.
+    """
+
+    order: int
+    radius: float
+    phase: np.ndarray
+    eta: np.ndarray
+    xi: np.ndarray
+    weight: np.ndarray
+    rims: np.ndarray
+    energy: float
+    reach_um: float
+    residual_waves: float
+    method: str
+    numbers: int
+
+
+@dataclass(frozen=True, eq=False)
+class PupilStack:
+    """Several pupils of one order: every array of `FrequencyPupil` with an axis of pupils first, numbers (pupils,)."""
+
+    order: int
+    radius: np.ndarray
+    phase: np.ndarray
+    eta: np.ndarray
+    xi: np.ndarray
+    weight: np.ndarray
+    rims: np.ndarray
+    energy: np.ndarray
+    reach_um: np.ndarray
+    residual_waves: np.ndarray
+    method: str
+    numbers: int
+
+    def __len__(self) -> int:
+        return len(self.radius)
+
+    def one(self, k: int) -> FrequencyPupil:
+        """Return one of the pupils."""
+        values: dict[str, Any] = {name: getattr(self, name)[k] for name in FORMS}
+        values |= {name: float(getattr(self, name)[k]) for name in SIZES}
+        return FrequencyPupil(order=self.order, method=self.method, numbers=self.numbers, **values)
+
+    def some(self, chosen: np.ndarray | slice) -> "PupilStack":
+        """Return those of the pupils that an index array, a mask or a slice chooses."""
+        values: dict[str, Any] = {name: getattr(self, name)[chosen] for name in (*FORMS, *SIZES)}
+        return replace(self, **values)
+
+    def of_order(self, order: int) -> "PupilStack":
+        """Return the same pupils with zeros for the terms up to a higher order, which come last."""
+        lacking = len(terms(order)) - len(terms(self.order))
+        lacking_odd = len(terms(order, True)) - len(terms(self.order, True))
+        wider: dict[str, Any] = {
+            name: _widened(getattr(self, name), lacking) for name in ("phase", "eta", "weight", "rims")
+        }
+        return replace(self, order=order, xi=_widened(self.xi, lacking_odd), **wider)
+
+
+def _widened(form: np.ndarray, lacking: int) -> np.ndarray:
+    return np.pad(form, [(0, 0)] * (form.ndim - 1) + [(0, lacking)]) if form.shape[-1] and lacking else form
+
+
+def stacked(pupils: Sequence[FrequencyPupil | PupilStack]) -> PupilStack:
+    """Return pupils and stacks of them as one stack, of the highest order; all with a weight, or none."""
+    stacks = [_as_stack(pupil) for pupil in pupils]
+    order = max(stack.order for stack in stacks)
+    stacks = [stack.of_order(order) for stack in stacks]
+    first = stacks[0]
+    if len(stacks) == 1:
+        return first
+    joined: dict[str, Any] = {
+        name: np.concatenate([getattr(stack, name) for stack in stacks]) for name in (*FORMS, *SIZES)
+    }
+    return replace(first, **joined)
+
+
+def _as_stack(pupil: FrequencyPupil | PupilStack) -> PupilStack:
+    if isinstance(pupil, PupilStack):
+        return pupil
+    values: dict[str, Any] = {name: np.array([getattr(pupil, name)]) for name in (*FORMS, *SIZES)}
+    return PupilStack(order=pupil.order, method=pupil.method, numbers=pupil.numbers, **values)
+
+
+def with_reach(pupils: PupilStack) -> PupilStack:
+    """Return the pupils with the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton).
+
+    Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
+    they come back there, and would let light through that does not exist.
+    """
+    at = _terms_at(pupils.order)
+    (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
+        (form @ across, form @ along)
+        for form, (across, along) in zip((pupils.phase, pupils.eta, pupils.xi), at.slopes, strict=True)
+    )
+    area = np.abs(xi_u * eta_v - xi_v * eta_u)
+    inside = (pupils.eta @ at.even) ** 2 + (pupils.xi @ at.odd) ** 2 <= 1
+    light = np.where(inside & (pupils.rims @ at.even > 0).all(1), at.weight * area**2, 0.0)
+    if pupils.weight.size:
+        light *= (pupils.weight @ at.even) ** 2
+    share = np.pi * light.sum(1) / pupils.radius**2 / pupils.energy
+    worst = float(share[np.abs(share - 1).argmax()])
+    if abs(worst - 1) > FOLDED:
+        raise GeometryError(
+            "the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its "
+            "light; stop the lens down or reduce the field",
+            share=worst,
+        )
+    distance = np.hypot(phase_u, phase_v) / pupils.radius[:, None]
+    order_of = distance.argsort(1)
+    near_first = np.take_along_axis(light, order_of, 1).cumsum(1)
+    within = near_first <= (1 - STRAY) * light.sum(1, keepdims=True)
+    reach = np.where(within, np.take_along_axis(distance, order_of, 1), 0.0).max(1)
+    return replace(pupils, reach_um=reach)
+
+
+def cutting_rims(pupils: PupilStack) -> np.ndarray:
+    """Return which surfaces' rims clip any part of any of the pupils, (surfaces,)."""
+    if not pupils.rims.size:
+        return np.zeros(pupils.rims.shape[1], bool)
+    at = _terms_at(pupils.order)
+    inside = (pupils.eta @ at.even) ** 2 + (pupils.xi @ at.odd) ** 2 <= 1
+    nearest = np.where(inside[:, None], pupils.rims @ at.even, np.inf).min(2)
+    cutting: np.ndarray = (nearest < SURELY_CLEAR).any(0)
+    return cutting
+
+
+@dataclass(frozen=True, eq=False)
+class _TermsAt:
+    """Even and odd terms at REACH_NODES over u, the nodes' weights, and gradients as phase, η and ξ take them."""
+
+    even: np.ndarray
+    odd: np.ndarray
+    weight: np.ndarray
+    slopes: tuple[Gradient, Gradient, Gradient]
+
+
+@lru_cache(maxsize=16)
+def _terms_at(order: int) -> _TermsAt:
+    nodes = disc_nodes(*REACH_NODES)
+    even, odd = (basis(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
+    slopes, slopes_odd = (gradient(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
+    return _TermsAt(even, odd, nodes.weight, (slopes, slopes, slopes_odd))
+
+
+@dataclass(frozen=True, eq=False)
+class Turned:
+    """Pupils as plain powers Σ c[i, j]·uⁱ·vʲ, (pupils, i, j), each rotated to the direction of its field.
+
+    ``weight`` None: 1 everywhere. ``rims``, (surfaces, pupils, i, j): only those that clip.
+    """
+
+    radius: np.ndarray
+    phase: np.ndarray
+    eta: np.ndarray
+    xi: np.ndarray
+    weight: np.ndarray | None
+    rims: np.ndarray
+
+
+def turned(pupils: PupilStack, angles: np.ndarray) -> Turned:
+    """Return the pupils of fields ``angles`` (pupils,) radians from +y towards +x: θ becomes θ − angle in every term.
+
+    Rotation needs no interpolation: it turns cosine terms into sine terms of the same order.
+    """
+    even, odd = _harmonics(pupils.order)
+    keep = even > 0  # the odd terms are the even ones without m = 0, in the same order
+    cosine, sine = np.cos(np.multiply.outer(angles, even)), np.sin(np.multiply.outer(angles, even[keep]))
+    cosine_odd, sine_odd = np.cos(np.multiply.outer(angles, odd)), np.sin(np.multiply.outer(angles, odd))
+    from_xi = np.zeros_like(cosine)
+    from_xi[:, keep] = -pupils.xi * sine_odd
+    phase = _plain(pupils.order, pupils.phase * cosine, pupils.phase[:, keep] * sine)
+    eta = _plain(pupils.order, pupils.eta * cosine, pupils.eta[:, keep] * sine)
+    xi = _plain(pupils.order, from_xi, pupils.xi * cosine_odd)
+    weight, *rims = (
+        _plain(pupils.order, form * cosine, form[:, keep] * sine) if form.size else None
+        for form in (pupils.weight, *pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1))
+    )
+    return Turned(pupils.radius, phase, eta, xi, weight, np.array(rims))
+
+
+def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:
+    """Return coefficients c[i, j] of uⁱvʲ, (pupils, order + 1, order + 1)."""
+    forms = _all_powers(order)
+    plain: np.ndarray = (even @ forms[0] + odd @ forms[1]).reshape(-1, order + 1, order + 1)
+    return plain
+
+
+@lru_cache(maxsize=16)
+def _harmonics(order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return m of every even and every odd term."""
+    even, odd = (np.array([m for _, m in terms(order, flag)]) for flag in (False, True))
+    return even, odd
+
+
+@lru_cache(maxsize=16)
+def _all_powers(order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return every even and every odd term as flat rows of c[i, j]."""
+    out = []
+    for odd in (False, True):
+        form = powers(order, odd)
+        full = np.zeros((len(form), order + 1, order + 1))
+        full[:, (1 if odd else 0) :: 2] = form[:, : len(range(1 if odd else 0, order + 1, 2))]
+        out.append(full.reshape(len(form), -1))
+    return out[0], out[1]
