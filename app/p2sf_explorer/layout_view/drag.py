@@ -1,6 +1,7 @@
 """What a hand holds on the layout: it finds grips, moves them, and writes their value beside the pointer."""
 
 from collections.abc import Iterator
+from math import inf
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -67,8 +68,9 @@ class LayoutDrag:
         if self._source.near(shown, point):
             return SOURCE
         near = [(self._distance(grip, shown, point), k, grip) for k, grip in enumerate(self.grips(shown))]
-        distance, _, best = min(near, default=(NEAR_PX, 0, None), key=lambda found: found[:2])
-        return best if distance < NEAR_PX else self._glass(shown, point)
+        enough = NEAR_PX * self._chart.theme.scale
+        distance, _, best = min(near, default=(enough, 0, None), key=lambda found: found[:2])
+        return best if distance < enough else self._glass(shown, point)
 
     def grips(self, shown: DrawnSetup) -> Iterator[Grip]:
         """Yield everything to hold but the source and the glass."""
@@ -85,8 +87,8 @@ class LayoutDrag:
             return max(across, abs(point.y() - at.y()) - half)
         if grip.kind == "stop":
             axis = self._chart.to_pixels(0.0, 0.0)[1]
-            beyond = abs(point.y() - axis) - abs(at.y() - axis)
-            return across if NEAR_PX / 2 < beyond < NEAR_PX / 2 + WEDGE_PX else 2 * NEAR_PX
+            beyond = (abs(point.y() - axis) - abs(at.y() - axis)) / self._chart.theme.scale
+            return across if NEAR_PX / 2 < beyond < NEAR_PX / 2 + WEDGE_PX else inf
         return max(across, abs(point.y() - at.y()))
 
     def _scale(self) -> float:
@@ -177,7 +179,7 @@ class LayoutDrag:
     def paint(self, painter: QPainter, shown: DrawnSetup) -> None:
         """Paint the grips of what is selected, the one under the pointer, and the value beside a hand that moves."""
         held = self.grip or self.hover
-        painter.setPen(QPen(QColor(self._chart.theme.accent), 1.5))
+        painter.setPen(QPen(QColor(self._chart.theme.accent), 1.5 * self._chart.theme.scale))
         for grip in self.grips(shown):
             lit = held is not None and (grip.kind, grip.surfaces) == (held.kind, held.surfaces)
             if grip.kind not in ("edge", "vertex") and not lit:
@@ -190,7 +192,8 @@ class LayoutDrag:
     def _paint_dot(self, painter: QPainter, at: QPointF, lit: bool, square: bool) -> None:
         theme = self._chart.theme
         painter.setBrush(QColor(theme.accent if lit else theme.card))
-        room = QRectF(at.x() - DOT_PX, at.y() - DOT_PX, 2 * DOT_PX, 2 * DOT_PX)
+        half = DOT_PX * theme.scale
+        room = QRectF(at.x() - half, at.y() - half, 2 * half, 2 * half)
         (painter.drawRect if square else painter.drawEllipse)(room)
 
     def tip(self, shown: DrawnSetup, point: QPointF) -> str:
@@ -218,8 +221,8 @@ def paint_value(painter: QPainter, chart: Chart, at: QPointF, words: str) -> Non
     left = at.x() + gap if at.x() + gap + wide < chart.width() else at.x() - gap - wide
     top = min(max(2.0, at.y() - theme.px(30)), float(chart.height() - theme.px(24)))
     room = QRectF(max(2.0, left), top, wide, theme.px(21))
-    painter.setPen(QPen(QColor(theme.accent), 1))
+    painter.setPen(QPen(QColor(theme.accent), theme.scale))
     painter.setBrush(QColor(theme.card))
-    painter.drawRoundedRect(room, 5, 5)
+    painter.drawRoundedRect(room, theme.px(5), theme.px(5))
     painter.setPen(QColor(theme.text))
     write(painter, room, words, 0, size)

@@ -35,9 +35,9 @@ class Placed:
 def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
     """Paint ticks for points, bars for pupils, a disc for the image, and the names that have room."""
     placed = places(layout.marks, MarkFrame.of(chart, layout))
-    painter.setPen(pen(chart.theme.mark))
+    painter.setPen(pen(chart.theme.mark, 255, chart.theme.scale))
     painter.drawLines([mark.bar for mark in placed])
-    painter.setPen(pen(chart.theme.mark, 90))
+    painter.setPen(pen(chart.theme.mark, 90, chart.theme.scale))
     painter.drawLines([mark.leader for mark in placed if mark.leader])
     for mark in placed:
         if mark.room:
@@ -45,7 +45,9 @@ def paint_marks(painter: QPainter, chart: Chart, layout: Layout) -> None:
     if layout.image:
         painter.setPen(pen(chart.theme.card))
         painter.setBrush(QColor(chart.theme.chief))
-        painter.drawEllipse(QPointF(*(float(v) for v in chart.to_pixels(*layout.image))).toPoint(), 4, 4)
+        painter.drawEllipse(
+            QPointF(*(float(v) for v in chart.to_pixels(*layout.image))).toPoint(), chart.theme.px(4), chart.theme.px(4)
+        )
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,7 @@ def places(marks: tuple[Mark, ...], frame: MarkFrame) -> tuple[Placed, ...]:
     placed: list[Placed] = []
     taken = [QRectF(x - 1, frame.axis - half, 2, 2 * half)]
     for mark in sorted(marks, key=lambda mark: (mark.radius > 0, mark.z)):
-        x, height = frame.left + mark.z * frame.scale, max(mark.radius * frame.scale, 4.0)
+        x, height = frame.left + mark.z * frame.scale, max(mark.radius * frame.scale, 4.0 * frame.type_scale)
         if not -50 < x < frame.width + 50:
             continue
         bar, name = QLineF(x, frame.axis - height, x, frame.axis + height), tr(mark.name)

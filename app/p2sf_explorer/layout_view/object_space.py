@@ -103,22 +103,23 @@ def object_space(
     entrance_z: float,
     middle_mm: float | None,
     widest_deg: float,
+    type_scale: float = 1.0,
 ) -> ObjectSpace:
     """Return the room of sources for a view: ``origin`` and ``axis`` in pixels and pixels per mm; its width and height.
 
     ``glass`` is z of its left end and its half height, mm; ``middle_mm`` the depth to draw in the middle behind the
-    break, ``widest_deg`` the largest field that a hand can reach.
+    break, ``widest_deg`` the largest field that a hand can reach; the margins grow with ``type_scale``.
     """
     (origin, axis, scale), (width, height), (left, half) = view, size, glass
-    room = min(STRIP_PX, SHARE * width)
+    room = min(STRIP_PX * type_scale, SHARE * width)
     nearest = min(left, 0.0) - BEFORE_GLASS
-    broken = min(END_PX + room, origin + nearest * scale - BEFORE_PX)
+    broken = min(END_PX * type_scale + room, origin + nearest * scale - BEFORE_PX * type_scale)
     distance = (origin - broken) / scale
     return ObjectSpace(
         origin=origin,
         axis=axis,
         scale=scale,
-        half=max(min(axis - ABOVE_PX, height - BELOW_PX - axis), LEAST_SHARE * height),
+        half=max(min(axis - ABOVE_PX * type_scale, height - BELOW_PX * type_scale - axis), LEAST_SHARE * height),
         broken=broken,
         end=broken - room,
         nearest_z=nearest,

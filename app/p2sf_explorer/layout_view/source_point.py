@@ -48,6 +48,7 @@ def space_of(chart: Chart, shown: DrawnSetup) -> ObjectSpace:
         shown.layout.entrance_z,
         limits.middle_mm,
         max(limits.field_deg, abs(shown.state.optics.field_deg)),
+        chart.theme.scale,
     )
 
 
@@ -64,7 +65,7 @@ class SourceHandle:
     def near(self, shown: DrawnSetup, point: QPointF) -> bool:
         """Return whether a pixel is close enough to the ring to take hold of it."""
         apart = point - self.pixel(shown)
-        return apart.x() ** 2 + apart.y() ** 2 < NEAR_PX**2
+        return apart.x() ** 2 + apart.y() ** 2 < (NEAR_PX * self._chart.theme.scale) ** 2
 
     def changes(self, shown: DrawnSetup, point: QPointF) -> dict[str, float]:
         """Return the entries of the state that put the source under a pixel."""
@@ -80,11 +81,12 @@ class SourceHandle:
             write(painter, sign, "∞", 0, theme.tick)
         if at.x() < space.broken:
             self._paint_leads(painter, shown, space, at)
-        painter.setPen(QPen(QColor(theme.chief), 2))
+        radius = RADIUS_PX * theme.scale
+        painter.setPen(QPen(QColor(theme.chief), 2 * theme.scale))
         painter.setBrush(QColor(theme.card))
-        painter.drawEllipse(at, RADIUS_PX, RADIUS_PX)
+        painter.drawEllipse(at, radius, radius)
         painter.setPen(QColor(theme.muted))
-        rect = QRectF(at.x() - theme.px(40), at.y() + RADIUS_PX + 2, 2 * theme.px(40), theme.px(14))
+        rect = QRectF(at.x() - theme.px(40), at.y() + radius + theme.px(2), 2 * theme.px(40), theme.px(14))
         write(painter, rect, local(written_distance(shown.state.optics.depth_mm)), 0, theme.tick)
 
     def _paint_leads(self, painter: QPainter, shown: DrawnSetup, space: ObjectSpace, at: QPointF) -> None:
@@ -101,14 +103,19 @@ class SourceHandle:
             crossing = QPointF(space.broken, space.axis - height * space.scale)
             if not 0 <= crossing.y() <= self._chart.height():
                 continue
-            painter.setPen(QPen(pen(getattr(self._chart.theme, colour), 110).color(), 1, Qt.PenStyle.DotLine))
+            painter.setPen(
+                QPen(pen(getattr(self._chart.theme, colour), 110).color(), self._chart.theme.scale, Qt.PenStyle.DotLine)
+            )
             painter.drawLine(QLineF(start, crossing))
 
 
 def paint_break(painter: QPainter, chart: Chart, space: ObjectSpace) -> None:
     """Break the axis by two slanted strokes, and put a tick at infinity."""
-    painter.fillRect(QRectF(space.broken - 4, space.axis - 1, 5, 3), QColor(chart.theme.card))
-    painter.setPen(QPen(QColor(chart.theme.muted), 1.2))
-    for x in (space.broken - 4, space.broken + 1):
-        painter.drawLine(QPointF(x - 2.5, space.axis + STROKE_PX), QPointF(x + 2.5, space.axis - STROKE_PX))
-    painter.drawLine(QPointF(space.end, space.axis - 3), QPointF(space.end, space.axis + 3))
+    unit = chart.theme.scale
+    gap = QRectF(space.broken - 4 * unit, space.axis - unit, 5 * unit, 3 * unit)
+    painter.fillRect(gap, QColor(chart.theme.card))
+    painter.setPen(QPen(QColor(chart.theme.muted), 1.2 * unit))
+    tall, aside = STROKE_PX * unit, 2.5 * unit
+    for x in (gap.left(), gap.right()):
+        painter.drawLine(QPointF(x - aside, space.axis + tall), QPointF(x + aside, space.axis - tall))
+    painter.drawLine(QPointF(space.end, space.axis - 3 * unit), QPointF(space.end, space.axis + 3 * unit))

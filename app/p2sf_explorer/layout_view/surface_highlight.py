@@ -37,7 +37,7 @@ class SurfaceHighlight:
         """Paint the surface as a thick line."""
         if not 1 <= self.surface <= len(lens.surfaces):
             return
-        painter.setPen(QPen(QColor(self._chart.theme.accent), 4))
+        painter.setPen(QPen(QColor(self._chart.theme.accent), 4 * self._chart.theme.scale))
         for part in polylines(*self._chart.to_pixels(*section(lens, self.surface))):
             painter.drawPolyline(part)
 
@@ -50,11 +50,11 @@ def section(lens: Lens, surface: int) -> tuple[np.ndarray, np.ndarray]:
 
 def nearest(lens: Lens, chart: Chart, point: QPointF) -> int:
     """Return the surface within a few pixels of a point, 0 if none is."""
-    found = {}
+    found, near = {}, NEAR_PX * chart.theme.scale
     for surface in range(1, len(lens.surfaces) + 1):
         x, y = chart.to_pixels(*section(lens, surface))
         order = np.argsort(y)
-        if y.min() - NEAR_PX <= point.y() <= y.max() + NEAR_PX:
+        if y.min() - near <= point.y() <= y.max() + near:
             found[surface] = abs(float(np.interp(point.y(), y[order], x[order])) - point.x())
     close = min(found, key=found.__getitem__, default=0)
-    return close if close and found[close] <= NEAR_PX else 0
+    return close if close and found[close] <= near else 0

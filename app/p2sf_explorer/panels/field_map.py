@@ -82,7 +82,7 @@ class MapChart(TilesChart):
         super().paint_over(painter)
         if self.tiles:
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(QColor(self.theme.accent), 2))
+            painter.setPen(QPen(QColor(self.theme.accent), 2 * self.theme.scale))
             painter.drawRect(self.room(self.tiles[self.present()]))
         number = self.choice.number
         if self.hasFocus() and number is not None and number < len(self.tiles):

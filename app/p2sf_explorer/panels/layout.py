@@ -183,7 +183,7 @@ class LayoutChart(Chart):
         box, length = self.area, d.right - d.left
         rows = max(0.1, 1 - 2 * ROW_PX * self.theme.scale / box.height())  # the names' rows above and under the glass
         tall = max(2 * d.half_height / rows, 2.25 * max(d.half_height, half))
-        strip = min(END_PX + STRIP_PX, SHARE * box.width())
+        strip = min((END_PX + STRIP_PX) * self.theme.scale, SHARE * box.width())
         long = ROOM * length / (1 - strip / box.width())
         wide = nice(max(long, tall * box.width() / box.height()), WIDTHS)
         right = d.right + 0.06 * wide + ASIDE * max(0.0, wide - 1.06 * long)
@@ -195,12 +195,12 @@ class LayoutChart(Chart):
         """Paint axis and glass."""
         if not self._drawn:
             return
-        painter.setPen(QPen(QColor(self.theme.line), 1))
+        painter.setPen(QPen(QColor(self.theme.line), self.theme.scale))
         axis = float(self.to_pixels(0.0, 0.0)[1])
         painter.drawLine(QPointF(0, axis), QPointF(self.width(), axis))
         for outline in self._drawn[0].outlines:
             painter.setBrush(glass(outline.index, self.theme))
-            painter.setPen(QPen(QColor(self.theme.glass_edge), 1))
+            painter.setPen(QPen(QColor(self.theme.glass_edge), self.theme.scale))
             painter.drawPolygon(self._polygon(outline))
         for mirror in self._drawn[0].glass.mirrors:
             paint_mirror(painter, polygon(*self.to_pixels(mirror.z, mirror.y)), mirror.behind, self.theme)
@@ -217,11 +217,13 @@ class LayoutChart(Chart):
         for ray in self.live.layout.rays if self.live else ():
             if ray.clipped:
                 x, y = (float(v) for v in self.to_pixels(ray.z[-1], ray.y[-1]))
-                painter.fillRect(QRectF(x - 1, y - END_BAR_PX / 2, 2, END_BAR_PX), QColor(self.theme.text))
+                wide, tall = self.theme.px(2), self.theme.px(END_BAR_PX)
+                painter.fillRect(QRectF(x - wide / 2, y - tall / 2, wide, tall), QColor(self.theme.text))
 
     def _bar(self, painter: QPainter, width: float, z: float, start: float, end: float) -> None:
         (x, top), (_, bottom) = self.to_pixels(z, max(start, end)), self.to_pixels(z, min(start, end))
-        painter.fillRect(QRectF(x - width / 2, top, width, bottom - top), QColor(self.theme.text))
+        wide = width * self.theme.scale
+        painter.fillRect(QRectF(x - wide / 2, top, wide, bottom - top), QColor(self.theme.text))
 
     def _polygon(self, outline: Outline) -> QPolygonF:
         return polygon(*self.to_pixels(outline.z, outline.y))
@@ -244,7 +246,7 @@ class LayoutChart(Chart):
         selected, lens = self._store.selection, live.setup.lens
         if not selected or selected[1] > len(lens.surfaces):
             return
-        painter.setPen(QPen(QColor(self.theme.accent), 2))
+        painter.setPen(QPen(QColor(self.theme.accent), 2 * self.theme.scale))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for outline in live.layout.drawing.glass.outlines:
             if selected[0] <= outline.surfaces[0] and outline.surfaces[1] <= selected[1]:
@@ -313,7 +315,7 @@ def paint_mirror(painter: QPainter, line: QPolygonF, behind: int, theme: Tokens)
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.setPen(QPen(QColor(theme.glass_edge), theme.px(2)))
     painter.drawPolyline(line)
-    painter.setPen(QPen(QColor(theme.glass_edge), 1))
+    painter.setPen(QPen(QColor(theme.glass_edge), theme.scale))
     across = np.array([line.at(k).toTuple() for k in range(line.size())])
     travelled = np.append(0.0, np.cumsum(np.hypot(*np.diff(across, axis=0).T)))
     places = np.arange(theme.px(HATCH_PX) / 2, travelled[-1], theme.px(HATCH_PX))

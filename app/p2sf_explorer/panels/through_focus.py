@@ -56,15 +56,15 @@ class StripChart(TilesChart):
         """Paint the strip, then the sensor's line and handle."""
         super().paint_over(painter)
         x, bottom = float(self.to_pixels(self.sensor_um, 0.0)[0]), self.area.bottom()
-        colour = QColor(self.theme.chief)
-        painter.setPen(colour)
+        colour, unit = QColor(self.theme.chief), self.theme.scale
+        painter.setPen(QPen(colour, unit))
         painter.drawLine(QPointF(x, self.area.top()), QPointF(x, bottom))
         painter.setBrush(colour)
-        painter.drawEllipse(QPointF(x, bottom - 6), 5, 5)
+        painter.drawEllipse(QPointF(x, bottom - 6 * unit), 5 * unit, 5 * unit)
         if self.hasFocus():
-            painter.setPen(QPen(QColor(self.theme.accent), 2))
+            painter.setPen(QPen(QColor(self.theme.accent), 2 * unit))
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawEllipse(QPointF(x, bottom - 6), 8, 8)
+            painter.drawEllipse(QPointF(x, bottom - 6 * unit), 8 * unit, 8 * unit)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take hold of the sensor, or bring it under the pointer."""

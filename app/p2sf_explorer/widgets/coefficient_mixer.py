@@ -53,7 +53,8 @@ class MixerPlaces:
 
     def lock(self) -> QRectF:
         """Return the rectangle of the lock of the scale, at the right of its numbers."""
-        return QRectF(self.width - LOCK_PX, self.height - LOCK_PX - 1, LOCK_PX, LOCK_PX)
+        side = LOCK_PX * self.scale
+        return QRectF(self.width - side, self.height - side - 1, side, side)
 
     def row_at(self, y: float) -> int:
         """Return the row at a height."""
@@ -99,7 +100,7 @@ def paint_scale(painter: QPainter, places: MixerPlaces, theme: Tokens, limit: fl
     (left, right), bottom = places.ends, places.height - SCALE_HEIGHT * places.scale
     for part in (-1.0, -0.5, 0.0, 0.5, 1.0):
         x = (left + right) / 2 + part * (right - left) / 2
-        painter.setPen(QPen(QColor(theme.line if part == 0 else theme.faint), 1))
+        painter.setPen(QPen(QColor(theme.line if part == 0 else theme.faint), theme.scale))
         painter.drawLine(QPointF(x, 0), QPointF(x, bottom))
         if part in (-1.0, 0.0, 1.0):
             painter.setPen(QColor(theme.muted))
@@ -143,7 +144,7 @@ def paint_slider(
 
 def paint_button(painter: QPainter, room: QRectF, theme: Tokens, letter: str, colour: str, on: bool) -> None:
     """Paint a mute or solo button."""
-    painter.setPen(QPen(QColor(getattr(theme, colour) if on else theme.line), 1))
+    painter.setPen(QPen(QColor(getattr(theme, colour) if on else theme.line), theme.scale))
     painter.setBrush(QColor(getattr(theme, colour) if on else theme.raised))
     painter.drawRoundedRect(room.adjusted(0.5, 0.5, -0.5, -0.5), 4, 4)
     painter.setPen(QColor(theme.card if on else theme.muted))
@@ -161,10 +162,11 @@ def paint_value(painter: QPainter, places: MixerPlaces, theme: Tokens, number: i
 
 def paint_overflow(painter: QPainter, bar: QRectF, theme: Tokens, right: bool) -> None:
     """Cut the bar's end with two slanted strokes, which say that it goes on beyond the scale."""
-    painter.setPen(QPen(QColor(theme.card), 2))
-    for shift in (6.0, 11.0):
+    unit = theme.scale
+    painter.setPen(QPen(QColor(theme.card), 2 * unit))
+    for shift in (6 * unit, 11 * unit):
         x = bar.right() - shift if right else bar.left() + shift
-        painter.drawLine(QPointF(x - 3, bar.bottom() + 1), QPointF(x + 3, bar.top() - 1))
+        painter.drawLine(QPointF(x - 3 * unit, bar.bottom() + 1), QPointF(x + 3 * unit, bar.top() - 1))
 
 
 def waves(value: float) -> str:
@@ -297,7 +299,7 @@ class Mixer(QWidget):
             if abs(value) > self.limit:
                 paint_overflow(painter, places.bar(number, part), self._theme, value > 0)
             if self.own[name] != value:
-                painter.setPen(QPen(QColor(self._theme.muted), 1, Qt.PenStyle.DotLine))
+                painter.setPen(QPen(QColor(self._theme.muted), self._theme.scale, Qt.PenStyle.DotLine))
                 painter.setBrush(Qt.BrushStyle.NoBrush)
                 painter.drawRect(places.bar(number, clamped(self.own[name], self.limit)))
 
@@ -364,7 +366,8 @@ class Mixer(QWidget):
     def _ask(self) -> None:
         """Open the field over the row's number."""
         rect = self.places.number(self.row).toRect()
-        self.edit.setGeometry(rect.left(), rect.center().y() - 13, rect.width(), 26)
+        half = self._theme.px(13)
+        self.edit.setGeometry(rect.left(), rect.center().y() - half, rect.width(), 2 * half)
         self.edit.setText(local(waves(self.values[TERMS[self.row]]).removesuffix(" λ")))
         self.edit.show()
         self.edit.setFocus()

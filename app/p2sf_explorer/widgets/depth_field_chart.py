@@ -76,14 +76,14 @@ class DepthFieldMap(Chart):
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint the nodes as dots and the present point as a ring."""
-        painter.setPen(QPen(QColor(0, 0, 0, 90), 1.5))
+        painter.setPen(QPen(QColor(0, 0, 0, 90), 1.5 * self.theme.scale))
         x, y = self.to_pixels(*self.nodes)
         painter.drawPoints([QPointF(a, b) for b in y.tolist() for a in x.tolist()])
         if self.point:
             centre = QPointF(*(float(v) for v in self.to_pixels(*self.point)))
             for colour, width in (("#ffffff", 4.0), ("#000000", 1.6)):
-                painter.setPen(QPen(QColor(colour), width))
-                painter.drawEllipse(centre, 5.0, 5.0)
+                painter.setPen(QPen(QColor(colour), width * self.theme.scale))
+                painter.drawEllipse(centre, 5.0 * self.theme.scale, 5.0 * self.theme.scale)
         if self.hasFocus() and self.choice.number is not None:
             self._paint_cursor(painter, self.choice.number)
 

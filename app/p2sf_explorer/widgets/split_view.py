@@ -228,16 +228,18 @@ class SplitView(QWidget):
         scale, (row, column) = area.width() / self.after.shape[1], self.place
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for colour, width in (("#000000", 3.0), ("#ffffff", 1.4)):
-            painter.setPen(QPen(QColor(colour), width))
-            painter.drawEllipse(area.topLeft() + QPointF(column + 0.5, row + 0.5) * scale, 5.0, 5.0)
+            painter.setPen(QPen(QColor(colour), width * self._theme.scale))
+            radius = 5.0 * self._theme.scale
+            painter.drawEllipse(area.topLeft() + QPointF(column + 0.5, row + 0.5) * scale, radius, radius)
 
     def _paint_split(self, painter: QPainter, area: QRectF, x: float) -> None:
         for colour, width in (("#000000", 3.0), (self._theme.accent if self.hasFocus() else "#ffffff", 1.4)):
-            painter.setPen(QPen(QColor(colour), width))
+            painter.setPen(QPen(QColor(colour), width * self._theme.scale))
             painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()))
         painter.setBrush(QColor("#ffffff"))
-        painter.setPen(QPen(QColor("#000000"), 1))
-        painter.drawEllipse(QPointF(x, area.center().y()), HANDLE_PX, HANDLE_PX)
+        painter.setPen(QPen(QColor("#000000"), self._theme.scale))
+        radius = HANDLE_PX * self._theme.scale
+        painter.drawEllipse(QPointF(x, area.center().y()), radius, radius)
 
     def _paint_names(self, painter: QPainter, area: QRectF, x: float) -> None:
         px = self._theme.px
@@ -261,7 +263,7 @@ class SplitView(QWidget):
         scale = area.width() / self.after.shape[1]
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for colour, width in (("#000000", 3.0), ("#ffffff", 1.4)):  # shows on bright and on dark
-            painter.setPen(QPen(QColor(colour), width))
+            painter.setPen(QPen(QColor(colour), width * self._theme.scale))
             if places.details:
                 box = QRectF(*(scale * v for v in (part.x(), part.y(), part.width(), part.height())))
                 painter.drawRect(box.translated(area.topLeft()))
@@ -269,7 +271,7 @@ class SplitView(QWidget):
 
     def _frame(self, painter: QPainter, room: QRectF, name: str) -> None:
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(QPen(QColor(self._theme.line), 1.0))
+        painter.setPen(QPen(QColor(self._theme.line), self._theme.scale))
         painter.drawRect(room)
         wide = set_text(name, self._theme.tick).size().width() + 2 * PAD
         px = self._theme.px

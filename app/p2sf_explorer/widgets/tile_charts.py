@@ -180,12 +180,13 @@ class TileChart(Chart):
     def _paint_frame(self, painter: QPainter, area: QRectF) -> None:
         painter.setBrush(Qt.BrushStyle.NoBrush)
         style = Qt.PenStyle.DashLine if self.words.here == "near" else Qt.PenStyle.SolidLine
-        wide = 2.0 * self.theme.scale if self.words.here else 1.0
+        wide = 2.0 * self.theme.scale if self.words.here else self.theme.scale
         painter.setPen(QPen(QColor(self.theme.accent if self.words.here else self.theme.line), wide, style))
         painter.drawRect(area)
         if self.hasFocus():
-            painter.setPen(QPen(QColor(self.theme.text), 1, Qt.PenStyle.DotLine))
-            painter.drawRect(area.adjusted(3, 3, -3, -3))
+            painter.setPen(QPen(QColor(self.theme.text), self.theme.scale, Qt.PenStyle.DotLine))
+            inset = self.theme.px(3)
+            painter.drawRect(area.adjusted(inset, inset, -inset, -inset))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take this chart's point."""

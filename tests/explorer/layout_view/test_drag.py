@@ -321,3 +321,25 @@ def test_the_empty_object_space_takes_a_sixth_of_the_width_at_most(window, chart
         window.store.replace(with_lens(FIRST, name))
         space = space_of(chart, chart.live)
         assert space.broken < chart.width() / 4 and space.end > 0
+
+
+@pytest.mark.parametrize("depth", [30.0, 400.0, inf])
+@pytest.mark.parametrize("slope", [0.0, 0.3])
+def test_a_picture_of_twice_the_size_with_twice_the_type_has_its_sources_twice_as_far(depth, slope):
+    plain = object_space((500.0, 90.0, 1.3), (960.0, 180.0), (-2.0, 30.0), 57.0, 1000.0, 20.0)
+    large = object_space((1000.0, 180.0, 2.6), (1920.0, 360.0), (-2.0, 30.0), 57.0, 1000.0, 20.0, type_scale=2.0)
+    assert large.place(depth, slope) == pytest.approx(tuple(2 * v for v in plain.place(depth, slope)), rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["source", "sensor", "edge"])
+@pytest.mark.parametrize("percent", [100.0, 200.0])
+def test_large_type_has_large_handles(window, chart, kind, percent):
+    window.resize(round(14.4 * percent), round(9 * percent))
+    window.store.update(scale_percent=percent)
+    window.store.select((3, 5))
+    QApplication.processEvents()
+    at = chart.handle.pixel(chart.live) if kind == "source" else chart.drag.pixel(grip_of(chart, window, kind))
+    reach = {"source": 13.0, "sensor": 7.0, "edge": 7.0}[kind] * percent / 100  # in pixels, see the two NEAR_PX
+    for part, held in ((0.9, True), (1.1, False)):
+        found = chart.drag.find(chart.live, at - QPointF(part * reach, 0))
+        assert (found is not None and found.kind == kind) == held
