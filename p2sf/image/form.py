@@ -170,7 +170,7 @@ def _cropped_blur(planned: Plan, values: np.ndarray, lattice: Lattice, how: Form
     border = lattice.half if how.surround == "edge" else 0
     if border:
         values = np.pad(values, ((border, border), (border, border), (0, 0)), mode="edge")
-    whole = blur(values, lattice, how.method, RANK_TOLERANCE * planned.scene.relative_tolerance, watch, border)
+    whole = blur(values, lattice, how.method, RANK_TOLERANCE * planned.allowed_error, watch, border)
     cut = lattice.half + border
     return whole[cut : whole.shape[0] - cut, cut : whole.shape[1] - cut]
 

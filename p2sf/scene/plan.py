@@ -45,6 +45,7 @@ from p2sf.threads import one_blas_thread
 # The share of the tolerance that each kind of decision may use. The errors are independent, so their squares add.
 SHARES = {"method": 0.5, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour": 0.35, "pupils": 0.15}
 FINE_ENOUGH, FINE_ENOUGH_ERROR = 4, 2.5e-3  # an entry of SAMPLINGS, and what it leaves of a kernel at most: measured
+SHARPER = 1.1  # kernels between those seen may be so much sharper
 SAFETY = 1.3  # for places between those where an error was measured
 
 
@@ -67,6 +68,7 @@ class Plan:
     ``counts``: kernel nodes along rows and columns; ``vergences`` of the depth nodes (1/mm), increasing.
     ``predicted_error``: the root of the sum of squared errors of the decisions. ``naive``: what the full grid would
     cost (`pricing.naive_work`).
+    ``norm``: the largest root sum of squares of the kernels, by which `allowed_error` follows from the tolerance.
     ``table``: the pupils that all others are interpolated from; None where each is fitted.
     """
 
@@ -82,9 +84,10 @@ class Plan:
     cost: Cost
     naive: Cost
     table: PupilTable | None = None
+    norm: float = 1.0
 
     def __repr__(self) -> str:
-        sensor, allowed = self.scene.sensor, self.scene.relative_tolerance
+        sensor, allowed = self.scene.sensor, self.allowed_error
         picture = f"{sensor.rows} × {sensor.columns} pixels, {len(self.colours)} channels"
         return (
             f"<Plan {self.lens.name}: {picture}, predicted error {self.predicted_error:.2g} of {allowed:.2g} allowed>"
@@ -93,7 +96,12 @@ class Plan:
     @property
     def meets(self) -> bool:
         """Return whether the predicted error stays within the tolerance."""
-        return self.predicted_error <= self.scene.relative_tolerance
+        return self.predicted_error <= self.allowed_error
+
+    @property
+    def allowed_error(self) -> float:
+        """Return the tolerance as relative error of these kernels."""
+        return self.scene.relative_error(self.norm)
 
     def recipe_at(self, height_mm: float) -> Recipe:
         """Return the recipe of the zone that holds this height."""
@@ -128,7 +136,8 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     study = Study(camera, scene, check or (lambda: None))
     check_blur(study)
     share_pupils(study)
-    budget = scene.relative_tolerance
+    norm = _norm(study)
+    budget = scene.relative_error(norm)
     sampling, sampled = _sampling(study, budget)
     recipe, method = _method(study, budget, SAMPLINGS[sampling])
     counts, field = _field(study, budget)
@@ -141,8 +150,16 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     naive = predicted_cost(naive_work(study, recipe, counts, len(vergences)))
     zones = ((study.farthest_mm, recipe),)
     return Plan(
-        camera, scene, study.reference_um, zones, colours, counts, vergences, decisions, error, cost, naive, table
+        camera, scene, study.reference_um, zones, colours, counts, vergences, decisions, error, cost, naive, table, norm
     )
+
+
+def _norm(study: Study) -> float:
+    """Return the largest root sum of squares of the kernels, where the tolerance depends on it; it is 1 at most."""
+    if study.scene.measure not in ("mtf", "psnr"):
+        return 1.0
+    kernels = study.kernels([place for wave in study.waves_um for place in study.places(wave)])
+    return min(1.0, SHARPER * max(float(np.linalg.norm(kernel)) for kernel in kernels))
 
 
 def _first(

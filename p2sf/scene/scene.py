@@ -1,19 +1,22 @@
 """The scene: which depths, which part of the field, which colours, and how much error is tolerable."""
 
 from dataclasses import dataclass
-from math import inf, isfinite, sqrt
+from math import inf, isfinite, log10, sqrt
 
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
-from p2sf.messages import Message
+from p2sf.messages import Alternatives, Message
 from p2sf.request import AimChoice, Request, check_aim, set_up
 from p2sf.scene.sensor import Sensor
 
 NAMES = {"red": Message("red"), "green": Message("green"), "blue": Message("blue")}
+MEASURES = "relative", "r2", "mtf", "psnr"
 TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil keep no less
+LOOSEST = 0.9  # relative error: beyond 1 a kernel of zeros would do
+WHITE = 0.5  # the largest standard deviation of numbers from 0 to 1: half of them are 0 (Popoviciu 1935)
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,10 @@ class Scene:
     """Sensor, colours, depths (mm from the first vertex, inf allowed) and the error that is tolerable.
 
     ``tolerance``: relative L2 error of a pixel's kernel, which bounds a white picture's; or with ``measure`` "r2"
-    the least R². ``focus_mm`` puts the sensor at the paraxial image of that distance and ``f_number`` sets
+    the least R², with "mtf" the error of the MTF, root mean square over all spatial frequencies that the pixels show,
+    and with "psnr" the least peak signal-to-noise ratio in dB of a picture of white noise, between black and white, the
+    hardest there is: what is missing at low frequencies, where pictures have most of their light, is less.
+    ``focus_mm`` puts the sensor at the paraxial image of that distance and ``f_number`` sets
     the stop, None leaves both as the lens file has them. ``aim`` is how exact rays fill the pupil, as `Request` has
     it, and with ``clip`` the rims of all surfaces clip them. ``depth_map`` names a picture of depths in mm.
     """
@@ -90,11 +96,18 @@ class Scene:
                 near=self.near_mm,
                 far=self.far_mm,
             )
-        if self.measure not in ("relative", "r2"):
+        if self.measure not in MEASURES:
             raise RequestError(
-                'the tolerance is measured as "{measure}"; choose "relative" or "r2"', measure=self.measure
+                'the tolerance is measured as "{measure}"; choose {choices}',
+                measure=self.measure,
+                choices=Alternatives(MEASURES),
             )
-        if not 0 < self.tolerance < 1:
+        if self.measure == "psnr" and not self.tolerance > 0:
+            raise RequestError(
+                "the tolerance is {tolerance:g} dB; give the least peak signal-to-noise ratio, a positive number",
+                tolerance=self.tolerance,
+            )
+        if self.measure != "psnr" and not 0 < self.tolerance < 1:
             raise RequestError(
                 "the tolerance is {tolerance:g}; give a number between 0 and 1", tolerance=self.tolerance
             )
@@ -113,8 +126,32 @@ class Scene:
 
     @property
     def relative_tolerance(self) -> float:
-        """Return the tolerance as relative L2: √(1 − R²), which is the same for a small kernel on a dark ground."""
-        return self.tolerance if self.measure == "relative" else sqrt(1 - self.tolerance)
+        """Return the tolerance as relative L2 error of any kernel: `relative_error` of one on a single pixel."""
+        return self.relative_error(1.0)
+
+    def relative_error(self, norm: float) -> float:
+        """Return the tolerance as relative L2 error of kernels of unit sum, whose root sum of squares is ``norm`` at most.
+
+        √(1 − R²), which is the same for a small kernel on a dark ground. By Parseval the mean square of the difference
+        of two kernels' transforms, over all frequencies up to the pixels' own, is the sum of the squares of theirs, and
+        no two complex numbers are nearer than their moduli: so the MTF's error is at most the relative error times
+        ``norm``. Pixels of white noise add up without regard to each other: the mean square error of its picture is its
+        variance times that sum, the peak being 1.
+        """
+        if self.measure == "relative":
+            return self.tolerance
+        if self.measure == "r2":
+            return sqrt(1 - self.tolerance)
+        absolute = self.tolerance if self.measure == "mtf" else 10 ** (-self.tolerance / 20) / WHITE
+        return min(absolute / norm, LOOSEST)
+
+    def measured(self, relative: float, norm: float) -> float:
+        """Return a relative error in the measure of the tolerance, for kernels as `relative_error` has them."""
+        if self.measure == "relative":
+            return relative
+        if self.measure == "r2":
+            return 1 - relative**2
+        return relative * norm if self.measure == "mtf" else -20 * log10(max(relative * norm * WHITE, 1e-12))
 
     def vergences(self, count: int) -> np.ndarray:
         """Return ``count`` vergences (1/mm) from far to near, the middle for one."""

@@ -43,7 +43,7 @@ def verify(planned: Plan, points: int = 5, seed: int = 0) -> Verdict:
     found = mapped(lambda place: error_at(planned, *place), places)
     waves = sum(len(planned.scene.channels[channel].wavelengths_nm) for *_, channel in places)
     seconds = sum(spent for _, spent in found) / max(waves, 1)
-    return Verdict(np.array([error for error, _ in found]), places, planned.scene.relative_tolerance, seconds)
+    return Verdict(np.array([error for error, _ in found]), places, planned.allowed_error, seconds)
 
 
 def _place(planned: Plan, random: np.random.Generator) -> tuple[float, float, float, int]:

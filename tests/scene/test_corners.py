@@ -23,7 +23,9 @@ SIMPLE = Scene(Sensor(40, 60, 60.0))
     [
         ({"near_mm": 0.0}, "give positive depths, the near one first"),
         ({"near_mm": 5.0, "far_mm": 4.0}, "from 5 mm to 4 mm"),
-        ({"measure": "psnr"}, 'measured as "psnr"; choose "relative" or "r2"'),
+        ({"measure": "ssim"}, 'measured as "ssim"; choose relative, r2, mtf or psnr'),
+        ({"measure": "psnr", "tolerance": -3.0}, "the tolerance is -3 dB; give the least peak signal-to-noise"),
+        ({"measure": "psnr", "tolerance": 60.0}, "tighter than"),
         ({"tolerance": 1.0}, "the tolerance is 1; give a number between 0 and 1"),
         ({"tolerance": 1e-9}, "tighter than .* render single PSFs with method huygens"),
         ({"channels": ()}, "the scene has no channel"),

@@ -175,6 +175,34 @@ def test_r2_is_the_square_of_the_relative_error():
     assert Scene(Sensor(8, 8, 5.0), tolerance=0.99, measure="r2").relative_tolerance == pytest.approx(0.1)
 
 
+def test_a_tolerance_in_decibels_or_of_the_mtf_is_kept_against_exact_rays():
+    """Parseval's mean over all frequencies, and the picture of white noise, of one place of a plan asked for in dB."""
+    asked = Scene(Sensor(96, 128, 9.0), GREEN, 20000.0, 20000.0, 36.0, "psnr", focus_mm=20000.0, f_number=4.0)
+    made = plan(find_lens("double_gauss_28"), asked)
+    x, y, channel = 0.4, 0.3, 0
+    kernel = planned_kernel(made, x, y, made.vergences[0], channel)
+    true = reference_kernel(made.sensor_map(made.vergences[0]), GREEN[channel], x, y, kernel.shape[0] // 2, 9.0)
+    relative, norm = distance(kernel, true), float(np.linalg.norm(true))
+    assert made.meets and relative <= made.allowed_error
+    assert 0.2 < norm <= made.norm < 0.9  # the kernel's own size is used, not that of a single pixel
+    one, two = (np.abs(np.fft.fft2(k, (64, 64))) for k in (kernel, true))
+    of_mtf = replace(asked, measure="mtf", tolerance=0.02)
+    mtf_error = float(np.sqrt(np.mean((one - two) ** 2)))
+    assert 0.3 * relative * norm < mtf_error <= of_mtf.measured(relative, norm) * (1 + 1e-9)
+    noise = np.random.default_rng(0).integers(0, 2, (512, 512))
+    error = np.fft.ifft2(np.fft.fft2(noise) * np.fft.fft2(kernel - true, noise.shape)).real
+    decibels = -10 * np.log10(np.mean(error**2))
+    assert decibels == pytest.approx(asked.measured(relative, norm), abs=0.2)  # of 512² pixels
+    assert decibels >= 36.0
+
+
+@pytest.mark.parametrize(("measure", "tolerance"), [("relative", 0.05), ("r2", 0.99), ("mtf", 0.02), ("psnr", 40.0)])
+def test_a_tolerance_is_the_measure_of_the_error_it_allows(measure, tolerance):
+    scene = Scene(Sensor(8, 8, 5.0), tolerance=tolerance, measure=measure)
+    assert scene.measured(scene.relative_error(0.4), 0.4) == pytest.approx(tolerance, rel=1e-12)
+    assert scene.relative_tolerance <= scene.relative_error(0.4)
+
+
 def test_a_scene_is_read_from_toml(tmp_path):
     path = tmp_path / "desk.toml"
     path.write_text(SCENE)

@@ -80,7 +80,7 @@ def promise(plan: Plan) -> Message:
     """Return the error that a plan predicts, whether that is within the tolerance, and what the plan saves."""
     values = {
         "error": plan.predicted_error,
-        "tolerance": plan.scene.relative_tolerance,
+        "tolerance": plan.allowed_error,
         "times": plan.naive.kernel_seconds / plan.cost.kernel_seconds,
     }
     if plan.meets:
