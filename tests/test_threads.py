@@ -4,13 +4,17 @@ import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache, partial
 from threading import Barrier, Event, current_thread
 
 import numpy as np
 import pytest
 from threadpoolctl import ThreadpoolController, threadpool_info, threadpool_limits
 
+import p2sf
 from p2sf import threads
+from p2sf.database import Space, build_database
+from p2sf.database.render import Sampling, rendered
 from p2sf.errors import Cancelled, RequestError
 from p2sf.threads import AHEAD, for_each, mapped, one_blas_thread, threads_or_default, using_threads
 
@@ -220,3 +224,39 @@ def test_a_blas_with_a_number_for_each_thread_has_one_in_every_thread_of_a_pool(
     with one_blas_thread:
         assert mapped(lambda _: library.get_num_threads(), range(4), 2) == [1] * 4
     assert library.get_num_threads() == 8
+
+
+LENS = p2sf.load_lens("double_gauss_28")
+SPACE = Space(np.linspace(20_000, 60_000, 10), np.linspace(0, 0.2, 10), np.linspace(0.45, 0.65, 4))
+
+
+def stack():
+    return rendered(build_database(LENS, SPACE), SPACE.axes, Sampling(32, 1.0))
+
+
+def huygens_sum():
+    return p2sf.render(LENS, p2sf.Source(field_deg=10), "huygens", pixels=16).values
+
+
+@lru_cache(maxsize=1)
+def planned():
+    return p2sf.plan(LENS, p2sf.Scene(p2sf.Sensor(rows=24, columns=36, pixel_um=60.0), tolerance=0.2, f_number=8))
+
+
+def picture(method):
+    values = np.random.default_rng(1).random((24, 36, 3))
+    return p2sf.form_image(planned(), values, method=method)
+
+
+@pytest.mark.parametrize("work", [stack, huygens_sum, partial(picture, "patches"), partial(picture, "lowrank")])
+def test_results_are_the_same_to_the_last_bit_and_are_shared(work, monkeypatch):
+    shared = []
+    by_pool = threads._by_pool
+    monkeypatch.setattr(threads, "_by_pool", lambda *arguments: shared.append(1) or by_pool(*arguments))
+    with using_threads(1):
+        alone = work()
+    assert not shared
+    for count in (2, 3):
+        with using_threads(count):
+            assert work().tobytes() == alone.tobytes()
+    assert len(shared) >= 2

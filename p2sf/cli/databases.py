@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from cyclopts import App, Parameter
 
-from p2sf.cli.options import Json, LensName, Whole, check_samples
+from p2sf.cli.options import Json, LensName, Threads, Whole, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text
 from p2sf.cli.spans import even_span, span
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
@@ -23,6 +23,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.request import AimChoice, Request, Setup, StopChoice, set_up
+from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
     from p2sf.database import ExactDatabase, GridDatabase
@@ -126,6 +127,7 @@ def build(
     nodes: Annotated[Nodes, Parameter(name="*")] = Nodes(),
     camera: Annotated[CameraOptions, Parameter(name="*")] = CameraOptions(),
     kind: Annotated[Kind, Parameter(name="*")] = Kind(),
+    threads: Threads = None,
     as_json: Json = False,
 ) -> None:
     """Build the PSF database of a lens and write it, with its error, measured."""
@@ -136,7 +138,8 @@ def build(
     database = _built(setup, space_of(nodes, found), kind)
     seconds = perf_counter() - start
     if kind.stack:
-        _write_stack(database, setup.lens, output, kind)
+        with using_threads(threads):
+            _write_stack(database, setup.lens, output, kind)
     else:
         save_database(database, setup.lens, output, setup.stop)
     size = size_bytes(place_of(output)) if kind.stack else Path(output).stat().st_size

@@ -8,7 +8,7 @@ from cyclopts import Parameter
 
 from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import is_database, looked_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_samples
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Threads, Whole, check_output, check_samples
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table
 from p2sf.colour.spectrum import WORDS
 from p2sf.errors import P2SFError, RequestError, SamplingError
@@ -21,6 +21,7 @@ from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
 from p2sf.request import Request, Setup, set_up
+from p2sf.threads import using_threads
 
 
 @dataclass(frozen=True)
@@ -96,11 +97,17 @@ def psf(
     picture: Annotated[Picture, Parameter(name="*")] = USUAL,
     spectrum: SpectrumName = None,
     output: Output = None,
+    threads: Threads = None,
     as_json: Json = False,
 ) -> None:
     """Compute the PSF of one source and write it as .npz, .tiff, .csv or .png; with a spectrum as .npz or .png."""
-    if spectrum is not None:
-        return _in_colour(lens, request, picture, spectrum, output, as_json)
+    with using_threads(threads):
+        if spectrum is not None:
+            return _in_colour(lens, request, picture, spectrum, output, as_json)
+        return _of_one_colour(lens, request, picture, output, as_json)
+
+
+def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path | None, as_json: bool) -> None:
     check_output(output, ENDINGS)
     if is_database(lens):
         if picture.sampling or picture.method not in (None, "auto"):

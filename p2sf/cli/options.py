@@ -26,6 +26,10 @@ LensName = Annotated[str, Parameter(help="A lens file, or the name of a shipped 
 Asked = Annotated[Request, Parameter(name="*")]
 Json = Annotated[bool, Parameter("--json", negative="", help="Print one JSON object, mm unless a name says otherwise.")]
 Output = Annotated[Path | None, Parameter(["--output", "-o"], negative="", help="File to write, by its ending.")]
+Threads = Annotated[
+    int | None,
+    Parameter(converter=_whole, help="How many threads share the work; P2SF_THREADS, else every core, when not given."),
+]
 
 AS_IN_THE_FILE = Request()
 

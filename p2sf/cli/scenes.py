@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, LensName, Output, Whole, check_output, check_whole
+from p2sf.cli.options import Json, LensName, Output, Threads, Whole, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.image.charts import CHARTS, draw_chart
@@ -21,6 +21,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.scene import Plan, Scene, plan, read_scene, verify
 from p2sf.scene.table import plan_facts, plan_rows, plan_sentences
+from p2sf.threads import using_threads
 
 CHART = "chart:"
 TELL_EVERY_S = 1.0
@@ -40,13 +41,15 @@ def plan_command(
     /,
     *,
     check: Annotated[Whole, Parameter(help="Measure the error at this many random points against exact rays.")] = 0,
+    threads: Threads = None,
     as_json: Json = False,
 ) -> None:
     """Decide what a scene requires of a lens model, and say why."""
     check_whole("check", check, 0, 1000)
     glass = find_lens(lens)
     planned = _planned(glass, _asked(glass, scene))
-    verdict = verify(planned, check) if check else None
+    with using_threads(threads):
+        verdict = verify(planned, check) if check else None
     measured = None if verdict is None else {"points": check, "worst": verdict.worst, "kept": verdict.kept}
     if as_json:
         return print_json({"lens": lens, "scene": planned.scene.name, **plan_facts(planned), "measured": measured})
@@ -151,6 +154,7 @@ def image(
     *,
     output: Output = None,
     shown: Annotated[Shown, Parameter(name="*")] = USUAL,
+    threads: Threads = None,
     as_json: Json = False,
 ) -> None:
     """Form the picture that the lens makes of a scene, and write it as .png or .tif."""
@@ -163,7 +167,8 @@ def image(
     asked = _asked(glass, scene)
     _check_kept(output, picture, asked)
     values, encoding = source_picture(picture, asked, shown)
-    formed, facts = _formed(glass, asked, values, shown)
+    with using_threads(threads):
+        formed, facts = _formed(glass, asked, values, shown)
     written = _for_file(formed, asked)
     write_photo(output, written, encoding)
     rows, columns = written.shape[:2]

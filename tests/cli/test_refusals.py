@@ -82,6 +82,11 @@ def test_an_export_that_cannot_be_sampled_is_refused(options, words, refused):
     assert words in refused("export", "any.npz", "--to", "fits", *options)
 
 
+def test_no_thread_at_all_is_refused(refused):
+    told = refused("psf", "tessar", "--method", "huygens", "--pixels", "4", "--threads", "0")
+    assert "--threads is 0; give a whole number from 1 on" in told
+
+
 def test_an_export_and_a_stack_are_told_about_in_words(said, tmp_path):
     path = tmp_path / "one.zarr"
     nodes = ("--depths-mm", "inf", "--fields-deg", 0, "--wavelengths-nm", 550)
