@@ -10,7 +10,7 @@ from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.threads import for_each
 
 # Kernels of how many nodes are asked for at once: first, to see how large they are; then so many pixels, or nodes.
-FIRST, TOGETHER, MOST_NODES = 4, 2**16, 256
+FIRST, TOGETHER, MOST_NODES = 4, 2**16, 32
 
 
 @dataclass(frozen=True, eq=False)
