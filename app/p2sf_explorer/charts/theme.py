@@ -246,6 +246,7 @@ def _inputs(t: Tokens) -> str:
         border: 1px solid transparent; color: {t.muted}; }}
     QPushButton#group:checked {{ background: {t.faint}; color: {t.text}; border: 1px solid {t.line}; }}
     QPushButton#group:hover, QPushButton#group:focus {{ border: 1px solid {t.accent}; }}
+    QToolButton:checked {{ background: {t.faint}; border: 1px solid {t.muted}; }}
     QToolButton#small:checked {{ background: {t.accent}; color: {t.accent_text}; border: 1px solid {t.accent}; }}
     QToolButton#play {{ background: transparent; border: 1px solid transparent; padding: 0; font-size: 11px;
         color: {t.muted}; min-width: 17px; min-height: 17px; }}

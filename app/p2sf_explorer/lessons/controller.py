@@ -4,11 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel, QSplitter, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.files import recent
 from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
@@ -19,7 +20,8 @@ from p2sf_explorer.state.workspaces import Workspace, arrangement
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
-PAGE_SHARE = 62, 38  # per cent of the column's height for the page of a lesson, and for the sliders below
+SLIDER_SHARE = 0.38  # of the column's height for the sliders below the page of a lesson, at least
+PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to all that they need
 OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
 
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to put back: its lens stays")
@@ -60,6 +62,9 @@ class LessonController(QObject):
         self.offer: Offer | None = None
         self._lessons: dict[str, Lesson] = {}
         self._told_untranslated = False
+        room.column.installEventFilter(self)
+        room.column.splitterMoved.connect(self._keep_shares)
+        self._by_hand = False  # the shares of page and sliders are a person's
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
 
@@ -163,8 +168,26 @@ class LessonController(QObject):
         made.asked.connect(self.reveal)
         made.left.connect(self.leave)
         self._room.column.insertWidget(0, made)
-        self._room.column.setSizes(list(PAGE_SHARE))
+        QTimer.singleShot(0, self._share)  # when the page has its type
         return made
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Share the height of the column again when it changes."""
+        if event.type() in (QEvent.Type.Resize, QEvent.Type.StyleChange):
+            QTimer.singleShot(0, self._share)
+        return False
+
+    def _keep_shares(self) -> None:
+        self._by_hand = True
+
+    def _share(self) -> None:
+        """Give the page the height of a page of text, the sliders what is left, up to all that they need."""
+        if self.panel is None or self._by_hand:
+            return
+        whole, page = self._room.column.height(), PAGE_LINES * self.panel.fontMetrics().lineSpacing()
+        wanted = max(row.geometry().bottom() for row in self._room.sliders.rows.values()) + SPACE
+        sliders = round(max(SLIDER_SHARE * whole, min(wanted, whole - page)))
+        self._room.column.setSizes([whole - sliders, sliders])
 
     def _point(self, key: str) -> None:
         """Mark the row of one slider, by a line at its left and a bold name."""

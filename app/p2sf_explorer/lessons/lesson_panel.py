@@ -1,6 +1,6 @@
 """The page of a lesson beside the panels: text, what to try, a question and its answer, Back and Next."""
 
-from PySide6.QtCore import QRectF, Qt, Signal
+from PySide6.QtCore import QEvent, QRectF, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QTextDocument
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
@@ -8,6 +8,8 @@ from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.lessons.lesson import Lesson
 from p2sf_explorer.widgets.card import chooser, select
+
+LINE_PX = 15.0  # height of a line of text at scale 1
 
 
 class LessonPanel(QFrame):
@@ -20,13 +22,14 @@ class LessonPanel(QFrame):
 
     def __init__(self, lessons: tuple[Lesson, ...], parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._column, self.progress = QVBoxLayout(self), StepBar()
         self.setObjectName("card")
         self.setAccessibleName(tr("Lesson"))
         numbered = tuple((lesson.name, f"{k}  {lesson.title}") for k, lesson in enumerate(lessons, 1))
         self.choice = chooser(numbered, "Choose a lesson", self)
         self.choice.setSizeAdjustPolicy(self.choice.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.exit = tool("Exit", "End the lesson and put everything back as it was before (F3)")
-        self.title, self.count, self.progress = wrapped("title"), wrapped("muted"), StepBar()
+        self.title, self.count = wrapped("title"), wrapped("muted")
         self.about, self.text, self.attempt = (
             wrapped("muted"),
             wrapped("", Qt.TextFormat.RichText),
@@ -67,14 +70,26 @@ class LessonPanel(QFrame):
         foot.addWidget(self.back)
         foot.addStretch(1)
         foot.addWidget(self.next)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(12, 10, 8, 12)
-        column.setSpacing(10)
+        column = self._column
+        self._fit_type()
         column.addLayout(head)
         column.addWidget(self.progress)
         column.addWidget(self.choice)
         column.addWidget(self.area, 1)
         column.addLayout(foot)
+
+    def _fit_type(self) -> None:
+        """Let margins follow the type."""
+        unit = self.fontMetrics().height() / LINE_PX
+        self._column.setContentsMargins(*(round(unit * margin) for margin in (12, 10, 8, 12)))
+        self._column.setSpacing(round(unit * 10))
+        self.progress.setFixedHeight(round(unit * StepBar.HEIGHT))
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Follow the size of the type."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.StyleChange, QEvent.Type.FontChange):
+            self._fit_type()
 
     def _connect(self) -> None:
         self.choice.activated.connect(lambda: self.chosen.emit(self.choice.currentData()))
@@ -137,7 +152,7 @@ class StepBar(QWidget):
         for k in range(self.count):
             role = QPalette.ColorRole.Highlight if k <= self.number else QPalette.ColorRole.Mid
             painter.setBrush(colours.color(role))
-            painter.drawRoundedRect(QRectF(k * (wide + self.GAP), 0, wide, self.HEIGHT), 2, 2)
+            painter.drawRoundedRect(QRectF(k * (wide + self.GAP), 0, wide, self.height()), 2, 2)
 
 
 def rich(text: str) -> str:

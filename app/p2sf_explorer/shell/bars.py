@@ -48,7 +48,7 @@ class TopBar(QFrame):
     def __init__(self, store: Store, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("bar")
-        self._store, self._pinned = store, False
+        self._store = store
         self.workspaces: WorkspaceBar | None = None
         self._shown: tuple[object, ...] = ()
         self.lens = LensChooser(self)
@@ -67,7 +67,8 @@ class TopBar(QFrame):
         self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
         self.undo = self._tool("↶", "Undo: take back one step (Ctrl+Z)", store.undo)
         self.redo = self._tool("↷", "Redo: take the step again (Ctrl+Shift+Z)", store.redo)
-        self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it (Ctrl+B)", None)
+        self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it, or unpin it (Ctrl+B)", None)
+        self.pin.setCheckable(True)
         self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
         self.more = self._tool("More", "Report, command palette, colours, theme, language", None)
         self.more.setMenu(QMenu(self))
@@ -103,9 +104,8 @@ class TopBar(QFrame):
             self.named.setVisible(less < 1)
             if self.workspaces:
                 self.workspaces.make_narrow(less > 1)
-            for tool in (self.undo, self.redo, self.snapshot, self.help):
+            for tool in (self.undo, self.redo, self.pin, self.snapshot, self.help):
                 tool.setVisible(less < 3)
-            self.pin.setVisible(less < 3 and not self._pinned)
             parts = [item for k in range(self._row.count()) if (item := self._row.itemAt(k)) and not item.isEmpty()]
             needed = sum(part.minimumSize().width() + self._row.spacing() for part in parts)
             title = (self.lens.sizeHint().width() - self.lens.minimumSizeHint().width()) // 5  # as much as can be read
@@ -171,8 +171,8 @@ class TopBar(QFrame):
             self.workspaces.mark(state.display.workspace)
         self.undo.setEnabled(self._store.can_undo)
         self.redo.setEnabled(self._store.can_redo)
-        self._pinned = state.compare.pinned is not None
-        shown = state.optics.lens_text is None, state.optics.method, self._pinned
+        self.pin.setChecked(state.compare.pinned is not None)
+        shown = state.optics.lens_text is None, state.optics.method
         if shown != self._shown:  # a slider moves none of these
             self._shown = shown
             self.fit()

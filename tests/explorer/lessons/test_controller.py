@@ -173,3 +173,20 @@ def test_the_bar_has_a_part_for_each_step_and_is_filled_up_to_the_present_one(wi
     middles = [round((k + 0.5) * picture.width() / count) for k in range(count)]
     colours = [picture.pixelColor(x, picture.height() // 2).name() for x in middles]
     assert len(set(colours[:2])) == 1 and len(set(colours[2:])) == 1 and colours[0] != colours[-1]
+
+
+@pytest.mark.parametrize(("percent", "size"), [(100.0, (1280, 800)), (100.0, (1920, 1080)), (200.0, (3840, 2160))])
+def test_a_lesson_leaves_the_sliders_the_height_that_its_page_does_not_need(window, qtbot, percent, size):
+    window.resize(*size)
+    window.store.update(scale_percent=percent)
+    window.teaching.toggle()
+    rows, line = window.controls.rows.values(), window.teaching.panel.fontMetrics().lineSpacing()
+
+    def shared():
+        page, sliders = window.left_parts.sizes()
+        seen = max(row.geometry().bottom() for row in rows) <= sliders
+        assert seen == (size[1] > 800), "a small window has no room for all"
+        assert page >= 0.55 * (page + sliders) if size[1] == 800 else page >= 29 * line
+
+    qtbot.waitUntil(shared)
+    window.teaching.leave()

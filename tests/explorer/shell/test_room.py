@@ -185,3 +185,16 @@ def test_every_groups_tabs_fit_a_small_window_and_no_column_of_the_lens_is_cut(w
     finally:
         set_language("en")
         tabs.close()
+
+
+@pytest.mark.parametrize("wide", [1280, 1920])
+def test_the_top_bar_stays_in_place_while_b_is_pinned(window, qtbot, wide):
+    window.resize(wide, 800)
+    QApplication.processEvents()
+    parts = window.top.workspaces, window.top.undo, window.top.pin
+    before = [part.geometry() for part in parts]
+    for pinned in (True, False):
+        qtbot.mouseClick(window.top.pin, Qt.MouseButton.LeftButton)
+        QApplication.processEvents()
+        assert (window.store.state.compare.pinned is not None) == pinned == window.top.pin.isChecked()
+        assert [part.geometry() for part in parts] == before

@@ -356,7 +356,7 @@
 <message><source>Pin B</source><translation>B merken</translation></message>
 <message><source>Pin a marker here</source><translation>Hier eine Marke setzen</translation></message>
 <message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>
-<message><source>Pin what is on screen as B, to compare with it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen (Strg+B)</translation></message>
+<message><source>Pin what is on screen as B, to compare with it, or unpin it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen, oder B entfernen (Strg+B)</translation></message>
 <message><source>Pixel</source><translation>Pixel</translation></message>
 <message><source>Pixel pitch</source><translation>Pixelabstand</translation></message>
 <message><source>Pixel pitch of the sensor.</source><translation>Pixelabstand des Sensors.</translation></message>
