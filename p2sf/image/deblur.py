@@ -4,39 +4,60 @@ Both methods work on the lattice of a plan, so the kernel follows the field. Wie
 step; Richardson and Lucy's iteration keeps the light positive.
 """
 
-from collections.abc import Callable
+from itertools import product
 
 import numpy as np
 
 from p2sf.errors import RequestError
+from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.lattice import Lattice
-from p2sf.image.overlap import convolve, overlap_add, support
+from p2sf.image.overlap import support
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
-from p2sf.threads import one_blas_thread
+from p2sf.threads import for_each, one_blas_thread
 
 DARKEST = 1e-4  # of white: the floor that keeps Richardson–Lucy's ratio finite
 CORNER = 0.02  # cycles per pixel below which natural pictures' spectra are taken as flat
 
 
 @one_blas_thread
-def wiener(values: np.ndarray, lattice: Lattice, noise: float, watch: Progress | None = None) -> np.ndarray:
+def wiener(
+    values: np.ndarray, lattice: Lattice, noise: float, watch: Progress | None = None, threads: int | None = None
+) -> np.ndarray:
     """Return the picture sharpened by Wiener's filter patch by patch, float32, shape kept.
 
     ``noise``: its standard deviation on white at 1. The prior is a spectrum falling with 1/f² and the picture's own
-    variance (Wiener 1949; Field 1987). Raises RequestError for a noise that is not positive.
+    variance (Wiener 1949; Field 1987). ``threads`` as in `richardson_lucy`. Raises RequestError for a noise that is not
+    positive.
     """
     if not noise > 0:
         raise RequestError(
             "the noise is {noise:g}; give the standard deviation of the picture's noise, above 0", noise=noise
         )
     values, margin = np.asarray(values, np.float32), 3 * lattice.half
-    planes = np.pad(values, ((margin, margin), (margin, margin), (0, 0)), mode="symmetric")
+    planes = np.moveaxis(np.pad(values, ((margin, margin), (margin, margin), (0, 0)), mode="symmetric"), -1, 0)
+    by_row, by_column = (
+        hats(nodes, np.arange(n))
+        for nodes, n in zip((lattice.row_nodes, lattice.column_nodes), values.shape[:2], strict=True)
+    )
+    out, watch = np.zeros((len(planes), *values.shape[:2]), np.float32), watch or Progress()
+    watch.expect(len(by_row) * len(by_column))
 
-    def sharpened(patch: np.ndarray, kernels: np.ndarray) -> np.ndarray:
-        return _filtered(patch, kernels, noise)[:, margin:, margin:]
+    def sharpened(node: tuple[int, int]) -> tuple[slice, slice, np.ndarray]:
+        down, right = by_row[node[0]], by_column[node[1]]
+        rows, columns = support(down), support(right)
+        patch = planes[:, rows.start : rows.stop + 2 * margin, columns.start : columns.stop + 2 * margin]
+        found = _filtered(patch, lattice.kernels[node[0]][node[1]], noise)
+        inner = found[:, margin : found.shape[1] - margin, margin : found.shape[2] - margin]
+        return rows, columns, inner * np.outer(down[rows], right[columns]).astype(np.float32)
 
-    return _by_patches(planes, lattice, values.shape[:2], margin, sharpened, watch)
+    def take(patch: tuple[slice, slice, np.ndarray]) -> None:
+        rows, columns, found = patch
+        out[:, rows, columns] += found
+        watch.advance()
+
+    for_each(sharpened, product(range(len(by_row)), range(len(by_column))), take, threads)
+    return np.moveaxis(out, 0, -1)
 
 
 def _filtered(patch: np.ndarray, kernels: np.ndarray, noise: float) -> np.ndarray:
@@ -81,73 +102,33 @@ def _centred(kernels: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     return plane
 
 
-def _by_patches(
-    picture: np.ndarray,
-    lattice: Lattice,
-    shape: tuple[int, ...],
-    margin: int,
-    act: Callable[[np.ndarray, np.ndarray], np.ndarray],
-    watch: Progress | None = None,
-) -> np.ndarray:
-    """Return Σ window·act(patch, kernels) over all nodes, (*shape, channels).
-
-    ``picture`` and its patches have ``margin`` pixels more on every side; ``act`` takes a patch (channels, rows,
-    columns) and the kernels of its node, and returns at least the pixels without the margin, from the top left.
-    """
-    planes, watch = np.moveaxis(picture, -1, 0), watch or Progress()
-    by_row, by_column = (
-        hats(nodes, np.arange(n)) for nodes, n in zip((lattice.row_nodes, lattice.column_nodes), shape, strict=True)
-    )
-    out = np.zeros((len(planes), *shape), np.float32)
-    watch.expect(len(by_row) * len(by_column))
-    for a, down in enumerate(by_row):
-        for b, right in enumerate(by_column):
-            rows, columns = support(down), support(right)
-            patch = planes[:, rows.start : rows.stop + 2 * margin, columns.start : columns.stop + 2 * margin]
-            found = act(patch, lattice.kernels[a][b])[:, : rows.stop - rows.start, : columns.stop - columns.start]
-            out[:, rows, columns] += found * np.outer(down[rows], right[columns]).astype(np.float32)
-            watch.advance()
-    return np.moveaxis(out, 0, -1)
-
-
 @one_blas_thread
 def richardson_lucy(
-    values: np.ndarray, lattice: Lattice, rounds: int = 30, watch: Progress | None = None
+    values: np.ndarray,
+    lattice: Lattice,
+    rounds: int = 30,
+    watch: Progress | None = None,
+    threads: int | None = None,
 ) -> np.ndarray:
     """Return the picture after ``rounds`` of x ← x·Hᵀ(y/Hx)/Hᵀ1 (Richardson 1972; Lucy 1974), float32, not negative.
 
-    H is the space-variant blur, cut off at the picture's edge. Raises RequestError for fewer than one round.
+    H is the space-variant blur, cut off at the picture's edge; ``threads`` (`p2sf.threads`) share its blocks, and the
+    picture is the same on any number. Raises RequestError for fewer than one round.
     """
     if rounds < 1:
         raise RequestError("{rounds} rounds of Richardson–Lucy; give at least 1", rounds=rounds)
     measured = np.maximum(np.asarray(values, np.float32), 0)
+    blur = BlurOperator(lattice, (measured.shape[0], measured.shape[1]), threads)
     estimate = np.maximum(measured, DARKEST)
-    gain = np.maximum(transposed(np.ones_like(measured), lattice), DARKEST)
+    gain = np.maximum(blur.transposed(np.ones_like(measured)), DARKEST)
     watch = watch or Progress()
     watch.expect(rounds)
     for _ in range(rounds):
-        blurred = np.maximum(forward(estimate, lattice), DARKEST)
-        estimate = estimate * transposed(measured / blurred, lattice) / gain
+        blurred = np.maximum(blur.forward(estimate), DARKEST)
+        # A transform's rounding may leave a dark pixel a little below zero.
+        estimate = np.maximum(estimate * blur.transposed(measured / blurred) / gain, 0)
         watch.advance()
     return estimate
-
-
-def forward(values: np.ndarray, lattice: Lattice) -> np.ndarray:
-    """Return the blurred picture on its own pixels, black beyond."""
-    half = lattice.half
-    return overlap_add(values, lattice)[half : half + values.shape[0], half : half + values.shape[1]]
-
-
-def transposed(values: np.ndarray, lattice: Lattice) -> np.ndarray:
-    """Return the adjoint of `forward`: each pixel is the picture weighted with the kernel of that pixel."""
-    half = lattice.half
-    picture = np.pad(np.asarray(values, np.float32), ((half, half), (half, half), (0, 0)))
-
-    def correlated(patch: np.ndarray, kernels: np.ndarray) -> np.ndarray:
-        edge = half + kernels.shape[-1] // 2
-        return convolve(patch, kernels[:, ::-1, ::-1])[:, edge:, edge:]
-
-    return _by_patches(picture, lattice, values.shape[:2], half, correlated)
 
 
 def with_one_kernel(lattice: Lattice, kernels: np.ndarray) -> Lattice:
