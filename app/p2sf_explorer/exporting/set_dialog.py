@@ -77,6 +77,7 @@ class SetDialog(QDialog):
             edit.setToolTip(local(tr(tip)))
             edit.setAccessibleName(tr(label))
             edit.textChanged.connect(self._recount)
+            edit.editingFinished.connect(self._check)
             form.addRow(tr(label), edit)
         about = QLabel(tr(ABOUT), self)
         for text in (about, self.note, self.count):
@@ -115,11 +116,18 @@ class SetDialog(QDialog):
     def _recount(self) -> None:
         self.count.setText(tr("{count} PSFs", count=count_of(self.texts())))
 
-    def _ask_path(self) -> None:
+    def _check(self) -> bool:
+        """Say what is wrong with a field; return whether nothing is."""
         try:
             read_request(self._store.state, self.texts(), "set.npz")
         except P2SFError as error:
             self.note.setText(said(error))
+            return False
+        self.note.clear()
+        return True
+
+    def _ask_path(self) -> None:
+        if not self._check():
             return
         first = f"{Path(self._store.state.optics.lens).stem}_psfs.npz"
         path, chosen = QFileDialog.getSaveFileName(self, tr("Export a set of PSFs"), first, tr(FILES))

@@ -85,6 +85,7 @@ class LensTablePanel:
         """Link selection and scrubbing with the store."""
         self.view.clicked.connect(self._select)
         self.view.entered.connect(lambda index: store.point_at(index.row() + 1))
+        self.view.left.connect(lambda: store.point_at(0))
         store.selected.connect(self._mark)
         store.pointed.connect(self._mark)
         scrub = self.view.scrub

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from PySide6.QtWidgets import QCheckBox
 
 from p2sf_explorer.charts.brightness import SCALES, UNITS
-from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import at_least
 from p2sf_explorer.compute.quantities import QUANTITIES
@@ -19,8 +19,10 @@ from p2sf_explorer.state.state import changed
 from p2sf_explorer.state.terms import PLACES
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import TurningCard, chooser, select
+from p2sf_explorer.widgets.chart_card import legend
 from p2sf_explorer.widgets.readout import Readout
 from p2sf_explorer.widgets.tile_charts import (
+    LOOKS,
     LightChart,
     LinesChart,
     PointsChart,
@@ -92,6 +94,7 @@ class MatrixPanel:
         self.shown: tuple[MatrixRequest, Tiles] | None = None
         self.settled: tuple[MatrixRequest, Tiles] | None = None
         self._live: Live | None = None
+        self._theme = LIGHT
         self._connect()
 
     def _connect(self) -> None:
@@ -163,6 +166,7 @@ class MatrixPanel:
         if self._live is None or (len(tiles), len(tiles[0])) != self.grid.shape:
             return
         self.shown = request, tiles
+        self.widget.set_readout(self._legend(tiles))
         self.grid.linked = request.shared
         rows, columns = told(request)
         one_brightness = request.shared and self._live.state.display.psf_units != "peak"
@@ -177,6 +181,12 @@ class MatrixPanel:
                 self._fill(chart, request.what, tile, sizes[r][c], brightest[r][c])
                 chart.tell(Words((rows[r], columns[c]), made_words(tile), figure, extent, why, here))
         self._show_badge(request, tiles)
+
+    def _legend(self, tiles: Tiles) -> str:
+        """Return the names of the curves in their colours, "" for other pictures."""
+        lines = (tile.content for row in tiles for tile in row if isinstance(tile.content, Lines))
+        named = {name for content in lines for name in content.curves}
+        return legend({name: token for name, (token, _) in LOOKS.items() if name in named}, self._theme)
 
     def _fill(self, chart: TileChart, what: str, tile: Tile, size: float, peak: float) -> None:
         content = tile.content
@@ -229,6 +239,7 @@ class MatrixPanel:
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
+        self._theme = theme
         self.grid.restyle(theme)
         self.badge.restyle(theme)
         if self.shown:

@@ -150,6 +150,15 @@ def written_r_squared(value: float) -> str:
     return f"{value:.4f}" if value > 0.99 else f"{value:.3f}".replace("-", "−")
 
 
+def powered(value: float) -> str:
+    """Return a small number with its power of ten: "−1.5e−7"; zero is "0"."""
+    digits, _, power = f"{value:.2e}".partition("e")
+    return f"{float(digits):g}e{int(power)}".replace("-", "−") if value else "0"
+
+
+MOST_PLACES = 4  # behind the point of a tick: an axis has no room for more
+
+
 def ticks(low: float, high: float, most: float) -> list[tuple[float, str]]:
     """Return about ``most`` round values between two others, each with its text; never zero alone."""
     step = nice((high - low) / max(2.0, most))
@@ -160,7 +169,8 @@ def ticks(low: float, high: float, most: float) -> list[tuple[float, str]]:
         if len(counts) > 3:
             step, counts = 2 * step, _multiples(2 * step, low, high)
     places = max(0, -floor(log10(step) + 1e-9))
-    return [(step * k, signed(step * k, places)) for k in counts]
+    write = signed if places <= MOST_PLACES else lambda value, _: powered(value)
+    return [(step * k, write(step * k, places)) for k in counts]
 
 
 def _multiples(step: float, low: float, high: float) -> range:

@@ -41,6 +41,7 @@ def places(width: float, height: float, rows: int, columns: int) -> SplitPlaces:
     if left < 0:
         under = min(height - picture.height() - GAP, (width - 2 * GAP) / 3)
         if under < LEAST_UNDER:
+            picture.moveLeft((width - picture.width()) / 2)
             return SplitPlaces(picture, overlaid(picture), ())
         picture.moveTop((height - picture.height() - GAP - under) / 2)
         first, second, psf = (QRectF(k * (width - under) / 2, picture.bottom() + GAP, under, under) for k in range(3))
@@ -167,7 +168,7 @@ class SplitView(QWidget):
         return places(self.width(), self.height(), *self.after.shape)
 
     def area(self) -> QRectF:
-        """Return the place of the picture: at the left, as large as fits; side by side, that of the first."""
+        """Return the place of the picture, as large as fits: at the left of its details, or in the middle."""
         return self.places().picture
 
     def halves(self) -> tuple[QRectF, QRectF]:

@@ -1,7 +1,7 @@
 """The surfaces of a lens as a Qt table model, which shows their entries and passes on what is typed."""
 
 from PySide6.QtCore import QAbstractTableModel, QEvent, QLocale, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
-from PySide6.QtGui import QBrush, QKeyEvent, QMouseEvent, QPainter
+from PySide6.QtGui import QBrush, QHideEvent, QKeyEvent, QMouseEvent, QPainter
 from PySide6.QtWidgets import QStyledItemDelegate, QStyleOptionViewItem, QTableView, QWidget
 
 from p2sf_explorer.compute.editing import written
@@ -34,13 +34,28 @@ UP_DOWN: dict[int, int] = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1}
 
 
 class SurfaceView(QTableView):
-    """The table, whose numbers follow a horizontal drag, and with Alt ↑ and ↓; ``cell`` is what moves."""
+    """The table, whose numbers follow a horizontal drag, and with Alt ↑ and ↓; ``cell`` is what moves.
+
+    ``left``: the pointer is on no row any more.
+    """
+
+    left = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.scrub = Scrub(self)
         self.cell: tuple[int, str] | None = None  # surface from 1, and column
         self.setMouseTracking(True)
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Tell that the pointer has gone."""
+        super().leaveEvent(event)
+        self.left.emit()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Tell that there is nothing to point at."""
+        super().hideEvent(event)
+        self.left.emit()
 
     def _take(self, index: QModelIndex) -> bool:
         """Choose the cell to move; return whether it has a number."""

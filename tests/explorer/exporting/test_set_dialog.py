@@ -4,6 +4,7 @@ from math import inf
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 
 from p2sf.errors import P2SFError
 from p2sf.lensfile.library import shipped_lenses
@@ -79,6 +80,15 @@ def test_what_cannot_be_is_said_under_the_fields(dialog, tmp_path, key, text, wh
     assert not list(tmp_path.iterdir())
     with pytest.raises(P2SFError):
         read_request(new_state(), dialog.texts(), "set.npz")
+
+
+def test_a_field_is_read_when_it_is_left(dialog, qtbot):
+    fill(dialog, TEXTS)
+    for text, why in (("soon", "distance"), ("2 m", "")):
+        dialog.edits["depths"].setFocus()
+        dialog.edits["depths"].setText(text)
+        qtbot.keyClick(dialog.edits["depths"], Qt.Key.Key_Tab)
+        assert (why in dialog.note.text()) if why else not dialog.note.text()
 
 
 def test_a_set_is_written_with_its_state_while_the_window_goes_on(window, dialog, qtbot, tmp_path):

@@ -59,6 +59,8 @@ def test_a_low_panel_has_details_and_the_psf_beside_the_picture_and_a_narrow_one
     edges = [low.picture, *low.details, low.psf]
     assert all(one.right() < two.left() for one, two in pairwise(edges))
     assert narrow.picture.width() == 320 and not narrow.details and narrow.picture.contains(narrow.psf)
+    wide = places(500, 300, ROWS, COLUMNS)  # not enough for a PSF beside the picture
+    assert not wide.details and wide.picture.center().x() == pytest.approx(250), "it stands in the middle"
     part = close_up((0.0, 300.0), (ROWS, COLUMNS), low.details[0])
     assert part.top() == 0 and part.right() == COLUMNS  # never beyond the rim
     assert part.width() / part.height() == pytest.approx(low.details[0].width() / low.details[0].height())

@@ -236,3 +236,13 @@ def test_what_is_read_is_the_sample_under_the_pointer(window, panel, qtbot, what
 def test_the_frame_does_not_depend_on_what_is_shown(window, panel):
     request = panel.shown[0]
     assert nearest(request, window.store.state)[:2] == (1, 1)
+
+
+def test_curves_have_a_legend_and_pictures_have_none(window, panel, qtbot):
+    assert panel.widget.readout.text() == ""
+    for what, names in (("ray_fan", {"sagittal", "tangential"}), ("mtf", {"perfect lens", "sagittal", "tangential"})):
+        window.store.update(matrix_what=what)
+        qtbot.waitUntil(lambda names=names: all(name in panel.widget.readout.text() for name in names), timeout=10000)
+    window.store.update(matrix_what="psf")
+    rested(panel, qtbot)
+    assert panel.widget.readout.text() == ""

@@ -4,7 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtWidgets import QApplication
 
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.layout_view.surface_highlight import section
@@ -125,3 +126,16 @@ def test_dragging_the_source_still_works_beside_the_light(window, panel, qtbot):
     qtbot.mouseMove(chart, place + QPoint(0, 12))
     qtbot.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=place + QPoint(0, 12))
     assert window.store.state.optics.field_deg != field
+
+
+@pytest.mark.parametrize("way", ["leave", "hide"])
+def test_no_surface_is_pointed_at_once_the_table_is_left_or_hidden(window, panel, way):
+    window.open_panel("lens")
+    view = window.panels["lens"].view
+    view.entered.emit(view.model().index(2, 0))
+    assert window.store.pointed_at == 3
+    if way == "leave":
+        QApplication.sendEvent(view, QEvent(QEvent.Type.Leave))
+    else:
+        window.open_panel("seidel")
+    assert window.store.pointed_at == 0 and window.panels["layout"].chart.highlight.surface == 0

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.compute.quantities import QUANTITIES
-from p2sf_explorer.state.scales import Linear, Logarithmic, Vergence, nice, read_distance, written_distance
+from p2sf_explorer.state.scales import Linear, Logarithmic, Vergence, nice, read_distance, ticks, written_distance
 
 
 @pytest.mark.parametrize("scale", [Linear(-2.0, 5.0), Logarithmic(1.4, 32.0), Vergence(60.0)])
@@ -78,3 +78,12 @@ def test_what_is_no_distance_is_a_sentence(text):
 
 def test_nice_is_the_next_round_number():
     assert [nice(x) for x in (0.9, 1.0, 1.1, 3.0, 7.0)] == [1, 1, 2, 5, 10]
+
+
+@pytest.mark.parametrize("decade", range(-12, 7))
+@pytest.mark.parametrize("span", [1.0, 1.7, 3.0, 7.0])
+def test_ticks_are_short_and_say_their_values(decade, span):
+    half = span * 10.0**decade
+    for value, text in ticks(-half, half, 5):
+        assert float(text.replace("−", "-")) == pytest.approx(value, rel=1e-9, abs=1e-12 * half)
+        assert len(text) <= 8, "an axis has room for no more"
