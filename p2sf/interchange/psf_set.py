@@ -18,7 +18,7 @@ from p2sf.pixel_kernels.pupil_stack import FrequencyPupil
 from p2sf.pixel_kernels.ray_spread import RaySpread, part_filled_rays, ray_spread
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.psf.prediction import predicted_error
-from p2sf.threads import one_blas_thread
+from p2sf.threads import for_each, one_blas_thread
 
 EVERY_FRINGE = 2.0  # samples a λ/2NA, as `part_filled_kernel` needs
 WIDEST_SUM = 2048  # samples a side of a sum of waves; over so wide a blur pixels average what diffraction adds
@@ -129,9 +129,11 @@ def psf_set(lens: Lens, axes: SetAxes, grid: PixelGrid, clip: bool = False, watc
     pixels = grid.pixels or 2 * min(MOST_PIXELS // 2 - 1, max(half_width(light, grid.pixel_um) for light in lights)) + 1
     _check_size(len(points), pixels)
     values = np.empty((len(points), pixels, pixels), np.float32)
-    for number, light in enumerate(lights):
-        values[number] = _on_pixels(light, grid, pixels)
-        watch.advance()
+
+    def fill(number: int) -> None:
+        values[number] = _on_pixels(lights[number], grid, pixels)
+
+    for_each(fill, range(len(points)), lambda _: watch.advance())
     figures = np.array([_figures(lens, point, clip) for point in points])
     return PsfSet(
         lens=lens,
