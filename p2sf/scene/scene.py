@@ -130,7 +130,7 @@ class Scene:
         return self.relative_error(1.0)
 
     def relative_error(self, norm: float) -> float:
-        """Return the tolerance as relative L2 error of kernels of unit sum, whose root sum of squares is ``norm`` at most.
+        """Return the tolerance as relative L2 error of kernels of unit sum with a root sum of squares up to ``norm``.
 
         √(1 − R²), which is the same for a small kernel on a dark ground. By Parseval the mean square of the difference
         of two kernels' transforms, over all frequencies up to the pixels' own, is the sum of the squares of theirs, and
