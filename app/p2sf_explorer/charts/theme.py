@@ -277,7 +277,7 @@ def _lists(t: Tokens) -> str:
     QTabWidget::tab-bar {{ left: 4px; }}
     QTabBar {{ background: transparent; qproperty-drawBase: 0; }}
     QTabBar QToolButton {{ padding: 0; min-height: 0; border-radius: 3px; }}
-    QTabBar::scroller {{ width: 18px; }}
+    QTabBar::scroller {{ width: 36px; }}
     QTabBar::tear {{ width: 0; }}
     QTabBar::tab {{ padding: 4px 11px; color: {t.muted}; border: none; border-bottom: 2px solid transparent; }}
     QTabBar::tab:selected {{ color: {t.text}; border-bottom: 2px solid {t.accent}; }}

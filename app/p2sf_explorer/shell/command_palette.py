@@ -95,8 +95,10 @@ class Palette(QFrame):
 
     def _find(self, sought: str) -> None:
         names = [named(command) for command in self._commands]
+        english = [f"{command.group}: {command.title}" for command in self._commands]  # whatever language was left on
+        fitting = dict.fromkeys(number % len(names) for number in ranked(sought, [*names, *english]))
         self.found.clear()
-        for number in ranked(sought, names)[:MOST]:
+        for number in list(fitting)[:MOST]:
             keys = self._commands[number].keys
             item = QListWidgetItem(names[number] + (f"    {keys[0]}" if keys else ""))
             item.setData(Qt.ItemDataRole.UserRole, number)
@@ -104,7 +106,8 @@ class Palette(QFrame):
         if self.found.count():
             self.found.setCurrentRow(0)
         else:
-            self.found.addItem(QListWidgetItem(tr("Nothing fits; try fewer letters.")))
+            nothing = QListWidgetItem(tr("Nothing fits; try fewer letters."), self.found)
+            nothing.setFlags(Qt.ItemFlag.NoItemFlags)
 
     def take(self) -> None:
         """Do what is chosen."""

@@ -3,13 +3,15 @@
 import pytest
 from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from p2sf_explorer.compute.setup import shipped, title
+from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.panels import REGISTRY
-from p2sf_explorer.shell.command_palette import named, ranked, score
+from p2sf_explorer.shell.command_palette import Palette, named, ranked, score
 from p2sf_explorer.shell.help import HelpPage
 from p2sf_explorer.state.what_if import PRESETS
+from p2sf_explorer.widgets.command import Command
 
 
 @pytest.mark.parametrize(
@@ -148,3 +150,26 @@ def test_every_control_is_reached_by_tab_and_shows_its_focus(window):
         QApplication.processEvents()
         assert widget.grab().toImage() != before, type(widget).__name__
         widget.clearFocus()
+
+
+def test_a_command_is_found_by_its_english_name_in_any_language(qapp):
+    ran = []
+    set_language("de")
+    try:
+        parent = QWidget()
+        parent.resize(800, 700)
+        palette = Palette(parent)
+        commands = tuple(Command(title, lambda title=title: ran.append(title), (), "Language") for title in ("A", "B"))
+        palette.open_with(commands)
+        shown = [palette.found.item(k).text() for k in range(palette.found.count())]
+        assert shown == ["Sprache: A", "Sprache: B"], "each once, in the language of the window"
+        palette.sought.setText("language b")
+        assert palette.found.item(0).text() == "Sprache: B"
+        palette.take()
+        assert ran == ["B"]
+        palette.sought.setText("xyzzy")
+        palette.take()
+        assert ran == ["B"] and not palette.found.item(0).flags(), "the sentence that nothing fits is no command"
+    finally:
+        set_language("en")
+        palette.close()

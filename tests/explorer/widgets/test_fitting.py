@@ -99,7 +99,7 @@ def test_every_choice_of_the_matrix_can_be_read(window, qtbot, percent, size):
 @pytest.mark.parametrize("scale", [1.0, 2.0, 3.0])
 def test_lengths_of_single_widgets_follow_the_type(scale):
     plain, large = stylesheet(LIGHT), stylesheet(replace(LIGHT, scale=scale))
-    for selector, px in (("SetDialog", 560), ('QLineEdit#value[wide="true"]', 120), ("QTabBar::scroller", 18)):
+    for selector, px in (("SetDialog", 560), ('QLineEdit#value[wide="true"]', 120), ("QTabBar::scroller", 36)):
         rule = next(line for line in large.splitlines() if line.strip().startswith(selector))
         assert f"width: {round(px * scale)}px" in rule
         assert any(line.strip().startswith(selector) and f"width: {px}px" in line for line in plain.splitlines())
