@@ -17,44 +17,52 @@ SHIPPED = Path(__file__).with_name("complete_trade.json")
 DIGITS = 3  # of measured numbers: times and errors are not known better
 ROW = tuple(field.name for field in fields(Row))
 SPREADS = ("one_less_r2", "relative_l2", "mtf", "r80")
-EXACT = ("numbers", "nbytes", "points")  # whole numbers, kept as they are
 
 
 def record(trades: Iterable[LensTrade]) -> dict[str, Any]:
-    """Return trades as one JSON object: rows are lists in the order of ``columns``, errors (median, 95 %, worst)."""
-    return {"columns": ROW, "spreads": ("median", "95 %", "worst"), "lenses": [_lens(trade) for trade in trades]}
+    """Return trades as one JSON object.
+
+    Rows are lists in the order of ``columns``. Their settings are places in ``settings``; an error is (median, 95 %,
+    worst), or one number where these are the same.
+    """
+    settings: dict[str, int] = {}
+    lenses = [_lens(trade, settings) for trade in trades]
+    return {"columns": ROW, "errors": ("median", "95 %", "worst"), "settings": list(settings), "lenses": lenses}
 
 
-def _lens(trade: LensTrade) -> dict[str, Any]:
+def _lens(trade: LensTrade, settings: dict[str, int]) -> dict[str, Any]:
     plain = asdict(trade)
-    plain["rows"] = [_row(row) for row in trade.rows]
-    plain["singles"] = [[_short(field), [_row(row) for row in rows]] for field, rows in trade.singles]
+    plain["rows"] = [_row(row, settings) for row in trade.rows]
+    plain["singles"] = [[_short(field), [_row(row, settings) for row in rows]] for field, rows in trade.singles]
     plain["truth_error"], plain["seconds"] = _short(trade.truth_error), _short(trade.seconds)
     return plain
 
 
-def _row(row: Row) -> list[Any]:
-    return [_cell(name, getattr(row, name)) for name in ROW]
+def _row(row: Row, settings: dict[str, int]) -> list[Any]:
+    place = settings.setdefault(row.settings, len(settings))
+    return [place if name == "settings" else _cell(getattr(row, name)) for name in ROW]
 
 
-def _cell(name: str, value: Any) -> Any:
+def _cell(value: Any) -> Any:
     if isinstance(value, Spread):
-        return [_short(x) for x in (value.median, value.most, value.worst)]
-    if name == "worst_at":
+        three = [_short(x) for x in (value.median, value.most, value.worst)]
+        return three if len(set(three)) > 1 else three[0]
+    if isinstance(value, tuple):
         return [_short(x) for x in value]
-    return _short(value) if isinstance(value, float) and name not in EXACT else value
+    return _short(value) if isinstance(value, float) else value
 
 
-def _short(value: float) -> float:
-    return float(f"{value:.{DIGITS}g}")
+def _short(value: float) -> float | int:
+    rounded = float(f"{value:.{DIGITS}g}")
+    return int(rounded) if rounded.is_integer() else rounded
 
 
 def trades_of(found: dict[str, Any]) -> list[LensTrade]:
     """Return the trades that `record` has put into JSON."""
-    return [_trade(lens, found["columns"]) for lens in found["lenses"]]
+    return [_trade(lens, found["columns"], found["settings"]) for lens in found["lenses"]]
 
 
-def _trade(lens: dict[str, Any], columns: list[str]) -> LensTrade:
+def _trade(lens: dict[str, Any], columns: list[str], settings: list[str]) -> LensTrade:
     space: dict[str, Any] = {
         name: tuple(value) if isinstance(value, list) else value for name, value in lens["space"].items()
     }
@@ -62,19 +70,24 @@ def _trade(lens: dict[str, Any], columns: list[str]) -> LensTrade:
         **{
             **lens,
             "space": SpaceWords(**space),
-            "rows": tuple(_read_row(row, columns) for row in lens["rows"]),
+            "rows": tuple(_read_row(row, columns, settings) for row in lens["rows"]),
             "singles": tuple(
-                (field, tuple(_read_row(row, columns) for row in rows)) for field, rows in lens["singles"]
+                (field, tuple(_read_row(row, columns, settings) for row in rows)) for field, rows in lens["singles"]
             ),
             "refused": tuple((name, why) for name, why in lens["refused"]),
         }
     )
 
 
-def _read_row(row: list[Any], columns: list[str]) -> Row:
+def _read_row(row: list[Any], columns: list[str], settings: list[str]) -> Row:
     cells = dict(zip(columns, row, strict=True))
-    spreads = {name: Spread(*cells[name]) for name in SPREADS}
-    return Row(**{**cells, **spreads, "worst_at": tuple(cells["worst_at"])})
+    spreads = {name: _spread(cells[name]) for name in SPREADS}
+    words = settings[cells["settings"]]
+    return Row(**{**cells, **spreads, "settings": words, "worst_at": tuple(cells["worst_at"])})
+
+
+def _spread(cell: Any) -> Spread:
+    return Spread(*(cell if isinstance(cell, list) else (cell, cell, cell)))
 
 
 def save_trades(path: str | PathLike[str], trades: Iterable[LensTrade]) -> Path:

@@ -126,7 +126,7 @@ def _times(trades: Sequence[LensTrade], group: str) -> str:
     """Return the median over lenses of the time of the group's most exact row within a megabyte."""
     best = [within((r for r in trade.rows if group_of(r) == group), nbytes, BUDGETS[-1]) for trade in trades]
     known = [row.batch_us for row in best if row]
-    return f"{median(known):.3g}" if known else "–"
+    return _two_digits(median(known)) if known else "–"
 
 
 def _ahead(trades: Sequence[LensTrade], group: str) -> str:
@@ -135,7 +135,11 @@ def _ahead(trades: Sequence[LensTrade], group: str) -> str:
         return "–"
     found = [one.ahead for trade in trades for one in equal_bytes(trade, (group,)) if one.budget == 8192]
     known = [factor for factor in found if isfinite(factor)]
-    return f"{median(known):.3g} ×, at least {min(known):.2g} ×" if known else "nothing so small"
+    return f"{_two_digits(median(known))} ×, at least {_two_digits(min(known))} ×" if known else "nothing so small"
+
+
+def _two_digits(value: float) -> str:
+    return f"{float(f'{value:.2g}'):.10g}"
 
 
 def _bytes(budget: int) -> str:

@@ -1,12 +1,14 @@
 """The axes of a chart: lines, ticks, names, and the locks beside them."""
 
 from collections.abc import Callable, Sequence
+from math import ceil, floor
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from p2sf_explorer.charts.painting import fitting, width_of, write
+from p2sf_explorer.charts.reading import RAISED
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.state.scales import ticks
 
@@ -19,6 +21,13 @@ TickMaker = Callable[[float, float, float], Ticks]
 TICK_EVERY_PX = {"bottom": 66, "left": 34}
 AXIS_PX = {"bottom": 20, "left": 44, "name": 16, "top": 5, "right": 9, "bare": 8}  # margins at scale 1
 LOCK_PX = 15
+
+
+def decades(low: float, high: float, most: float) -> list[tuple[float, str]]:
+    """Return whole decades with their values: numbers near one, powers of ten elsewhere."""
+    step = max(1, ceil((high - low) / max(1.0, most)))
+    shown = range(ceil(low), floor(high) + 1, step)
+    return [(float(k), f"{10.0**k:g}" if -2 <= k <= 3 else "10" + str(k).translate(RAISED)) for k in shown]
 
 
 def area_of(chart: "Chart", labels: tuple[str, str]) -> QRectF:

@@ -17,6 +17,8 @@ from p2sf_explorer.exactness.bounds import (
     r80_sensitivity,
     within,
 )
+from p2sf_explorer.exactness.trade import Curve, curves, trade_of, typical_costs
+from p2sf_explorer.exactness.trade_chart import TradeChart, TradeDot
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State
@@ -29,7 +31,8 @@ TIP = "From fast to exact: which error auto may make, or how long a picture may 
 MEASURES = {"r2": "by R²", "mtf": "by the MTF", "r80": "by the radius R80", "time": "by time"}
 QUICKEST_MS, SLOWEST_MS = 1.0, 1000.0
 SERIES = (1.0, 2.0, 5.0)
-PANEL_PX = 340
+PANEL_PX, CHART_PX = 340, 150
+TOKENS = {"seidel": "marginal", "fitted": "chief", "traced": "text", "huygens": "muted"}
 
 
 class ExactnessButton(QPushButton):
@@ -54,6 +57,8 @@ class ExactnessButton(QPushButton):
     def restyle(self, theme: Tokens) -> None:
         """Take the colours and the scale of a theme."""
         self.panel.slider.restyle(theme)
+        self.panel.chart.restyle(theme)
+        self.panel.chart.setFixedHeight(theme.px(CHART_PX))
         self.panel.setFixedWidth(theme.px(PANEL_PX))
 
     def stop(self) -> None:
@@ -82,10 +87,12 @@ class ExactnessPanel(QFrame):
         self._store = store
         self._live: Live | None = None
         self._costs: tuple[Cost, ...] = ()
+        self._curves: tuple[Curve, ...] = ()  # of the complete trade, none of a lens that it does not have
+        self.chart = TradeChart("time of one PSF, ms", "error")
         self.measure = chooser(tuple(MEASURES.items()), "What the slider is about: an error, or the time of a picture")
         self.slider = Slider(self)
         self.slider.setAccessibleName(tr("From fast to exact"))
-        self.asked, self.costing, self.given = QLabel(self), QLabel(self), QLabel(self)
+        self.asked, self.costing, self.given, self.typical = (QLabel(self) for _ in range(4))
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_costs)
         self._lay_out()
@@ -97,9 +104,9 @@ class ExactnessPanel(QFrame):
     def _lay_out(self) -> None:
         grid = QGridLayout()
         fast, exact = QLabel(tr("fast"), self), QLabel(tr("exact"), self)
-        for label in (fast, exact, self.costing, self.given):
+        for label in (fast, exact, self.costing, self.given, self.typical):
             label.setObjectName("muted")
-            label.setWordWrap(label in (self.costing, self.given))
+            label.setWordWrap(label not in (fast, exact))
         self.asked.setObjectName("title")
         grid.addWidget(self.slider, 0, 0, 1, 2)
         grid.addWidget(fast, 1, 0)
@@ -109,13 +116,14 @@ class ExactnessPanel(QFrame):
         column.setSpacing(SPACE)
         column.addWidget(self.measure)
         column.addLayout(grid)
-        for label in (self.asked, self.costing, self.given):
-            column.addWidget(label)
+        for part in (self.asked, self.costing, self.given, self.chart, self.typical):
+            column.addWidget(part)
 
     def open_at(self, place: QPoint) -> None:
         """Show the panel at a place of the screen and measure what each method costs here."""
         state = self._store.state
         self._costs = ()
+        self._curves = curves(trade) if (trade := trade_of(state)) else ()
         self.worker.submit(state, lambda cancelled, progress: costs(state))
         self._place()
         self.adjustSize()
@@ -157,12 +165,16 @@ class ExactnessPanel(QFrame):
         return rounded(QUICKEST_MS * (SLOWEST_MS / QUICKEST_MS) ** (self.slider.value() / STEPS))
 
     def choice(self) -> Cost | None:
-        """Return the method that would be taken, None while costs are unknown."""
-        if not self._costs:
+        """Return the method that would be taken, None while costs are unknown.
+
+        Until they are measured at this point they are those of the lens in the complete trade.
+        """
+        known = self._costs or typical_costs(self._curves)
+        if not known:
             return None
         if self.measure.currentData() == "time":
-            return within(self._costs, self.milliseconds())
-        return next((cost for cost in self._costs if cost.error <= self.one_less_r2()), self._costs[-1])
+            return within(known, self.milliseconds())
+        return next((cost for cost in known if cost.error <= self.one_less_r2()), known[-1])
 
     def commit(self) -> None:
         """Take what the slider asks for."""
@@ -174,13 +186,30 @@ class ExactnessPanel(QFrame):
     def _tell(self) -> None:
         self.asked.setText(local(tr(ASKED[self.measure.currentData()], **self._values())))
         choice = self.choice()
-        if choice is None:
+        self._tell_typical(choice)
+        if choice is None or not self._costs:
             self.costing.setText(tr("measuring what each method takes here"))
         elif isfinite(choice.milliseconds):
             known = {"ms": significant(choice.milliseconds, 2), "error": predicted(choice.error)}
             self.costing.setText(tr("{method} here: {ms} ms, {error}", method=choice.method, **known))
         else:
             self.costing.setText(tr("{method} here: longer than a frame", method=choice.method))
+
+    def _tell_typical(self, choice: Cost | None) -> None:
+        """Show the curves of the complete trade in the slider's measure, and the figures of the method in question."""
+        self.chart.setVisible(bool(self._curves))
+        self.typical.setVisible(bool(self._curves))
+        measure = self.measure.currentData()
+        self.chart.name_axes("time of one PSF, ms", TRADED[measure])
+        self.chart.show_dots(tuple(dot_of(curve, measure) for curve in self._curves))
+        by_time, by_r2 = measure == "time", measure == "r2"
+        self.chart.ask(self.milliseconds() if by_time else None, self.one_less_r2() if by_r2 else None)
+        same = [curve for curve in self._curves if choice and curve.method == choice.method]
+        if same:
+            errors = same[0].errors(measure)
+            known = {"half": f"{errors.median:.1g}", "most": f"{errors.most:.1g}", "what": tr(TRADED[measure])}
+            words = "{method} over this whole lens, measured: {what} {half} at half of all points, {most} at 95 %"
+            self.typical.setText(tr(words, method=same[0].family, **known))
 
     def _values(self) -> dict[str, str]:
         error = self.one_less_r2()
@@ -221,6 +250,22 @@ ASKED = {
     "r80": "R80: error ≤ {percent} % of R80, by a bound",
     "time": "a picture in ≤ {ms} ms",
 }
+
+
+TRADED = {
+    "r2": "1 − R²",
+    "mtf": "largest difference of contrast",
+    "r80": "relative error of R80",
+    "time": "1 − R²",
+}
+
+
+def dot_of(curve: Curve, measure: str) -> TradeDot:
+    """Return a method of the complete trade as a dot of the chart."""
+    errors, first = curve.errors(measure), curve.family not in ("fitted 46", "fitted adaptive")
+    name = curve.family if first else ""
+    token = TOKENS[curve.method]
+    return TradeDot(curve.milliseconds, errors.median, errors.most, token, name or curve.family, curve.settings, first)
 
 
 def rounded(value: float) -> float:

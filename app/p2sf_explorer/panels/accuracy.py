@@ -1,7 +1,5 @@
 """How good the picture is: the Huygens reference, the difference, and every method's time against its error."""
 
-from math import ceil, floor
-
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QPainter, QResizeEvent
@@ -9,20 +7,26 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf.studies.complete_trade import Row
+from p2sf.studies.trade_fronts import batch_us, error, front, group_of, nbytes
+from p2sf_explorer.charts.axes import decades
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.painting import set_text, write
 from p2sf_explorer.charts.plots import HeatMap
-from p2sf_explorer.charts.reading import RAISED, Reading, closest, value_of
+from p2sf_explorer.charts.reading import Reading, closest, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.reference import Accuracy, MethodResult
+from p2sf_explorer.exactness.trade import trade_of
+from p2sf_explorer.exactness.trade_chart import TradeChart, TradeDot
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.psf import PSF_MAP
 from p2sf_explorer.state.scales import nice, significant, written_r_squared
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.readout import Readout
 
 TIP = "Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens)."
@@ -32,6 +36,23 @@ EMPTY = (
     "difference, and what every method costs in time and error appear here."
 )
 SMALLEST_ERROR = 1e-9
+SHOWN = {"here": "methods here", "bytes": "all PSFs, by bytes", "time": "all PSFs, by time"}
+SHOWN_TIP = (
+    "What the plot at the right shows: every method at this point, or every representation of all the lens's PSFs"
+)
+COSTS = {"bytes": ("bytes of all PSFs of the lens", nbytes), "time": ("time of a PSF among many, µs", batch_us)}
+GROUP_COLOURS = {
+    "six coefficients": "marginal",
+    "fitted numbers": "chief",
+    "Zernike grid": "#009e73",
+    "PSF grid": "#cc79a7",
+    "PCA": "#9a7bd0",
+    "neural": "#c8a000",
+    "Gaussian, Moffat": "muted",
+    "traced": "text",
+    "huygens": "#d64545",
+}
+NOT_TRADED = "The complete trade is measured of shipped lenses; of others by p2sf tradeoff LENS --complete"
 Anchor = tuple[float, float]
 MARGIN_PX = 14  # between the outer dots and the edge of their plot
 DOT_PX = 4.5  # radius
@@ -50,6 +71,14 @@ class AccuracyPanel:
         self.reference.set_map(PSF_MAP)
         self.difference.set_map(DIFFERENCE_MAP)
         self.methods = MethodsChart()
+        self.trade = TradeChart("bytes of all PSFs of the lens", "L2 error")
+        self.trade.setVisible(False)
+        self.shown = chooser(tuple(SHOWN.items()), SHOWN_TIP, self.widget)
+        self.widget.add_tool(self.shown)
+        self.shown.activated.connect(self._choose)
+        self._traded: tuple[str, str] | None = None
+        self._state: State | None = None
+        self._legend = ""
         self.message = Readout(self.widget, pill=True, colour="text")
         self.body = QWidget(self.widget)
         self.body.setVisible(False)
@@ -59,7 +88,7 @@ class AccuracyPanel:
         self.empty.setWordWrap(True)
         row = QHBoxLayout(self.body)
         row.setContentsMargins(0, 0, 0, 0)
-        for part, share in ((self.reference, 4), (self.difference, 4), (self.methods, 6)):
+        for part, share in ((self.reference, 4), (self.difference, 4), (self.methods, 6), (self.trade, 6)):
             row.addWidget(part, share)
         self.widget.set_body(self.body)
         self.widget.set_body(self.empty)
@@ -71,8 +100,28 @@ class AccuracyPanel:
 
     def show(self, live: Live) -> None:
         """Mark what is shown as belonging to an earlier picture until the worker answers."""
+        self._state = live.state
+        self._choose()
         if self._figure:
             self._show_figure(stale=True)
+
+    def _choose(self) -> None:
+        """Show the methods at this point, or what the complete trade has measured of this lens."""
+        cost = self.shown.currentData()
+        trade = trade_of(self._state) if self._state and cost in COSTS else None
+        for part in (self.reference, self.difference, self.methods):
+            part.setVisible(trade is None)
+        self.trade.setVisible(trade is not None)
+        self.shown.setToolTip(tr(SHOWN_TIP) if trade or cost == "here" else tr(NOT_TRADED))
+        self.widget.set_readout(self._legend if trade else "")
+        if trade is None or self._traded == (trade.lens, cost):
+            return
+        self._traded = trade.lens, cost
+        label, of = COSTS[cost]
+        self.trade.name_axes(label, "L2 error")
+        best = front(trade.rows, of)
+        dots = {id(row): dot_of(row, of(row)) for row in trade.rows}
+        self.trade.show_dots(tuple(dots.values()), tuple(dots[id(row)] for row in best))
 
     def show_progress(self, part: float) -> None:
         """Show how far the sum of the reference is."""
@@ -120,8 +169,18 @@ class AccuracyPanel:
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        for part in (self.reference, self.difference, self.methods, self.message):
+        for part in (self.reference, self.difference, self.methods, self.trade, self.message):
             part.restyle(theme)
+        colours = {group: getattr(theme, token, token) for group, token in GROUP_COLOURS.items()}
+        marks = (f'<span style="color:{colour}">●</span> {tr(group)}' for group, colour in colours.items())
+        self._legend = " &nbsp; ".join(marks)
+        self._choose()
+
+
+def dot_of(row: Row, cost: float) -> TradeDot:
+    """Return a representation of the complete trade as a dot; its error is the median relative L2."""
+    group, most = group_of(row), max(row.relative_l2.most, error(row))
+    return TradeDot(cost, error(row), most, GROUP_COLOURS[group], group, row.settings)
 
 
 class MethodsChart(Chart):
@@ -196,13 +255,6 @@ class MethodsChart(Chart):
             for (across, down), size, (x, y) in zip(found, sizes, dots, strict=True)
         ]
         return [QRectF(corner, size) for corner, size in zip(corners, sizes, strict=True)]
-
-
-def decades(low: float, high: float, most: float) -> list[tuple[float, str]]:
-    """Return whole decades with their values: numbers near one, powers of ten elsewhere."""
-    step = max(1, ceil((high - low) / max(1.0, most)))
-    shown = range(ceil(low), floor(high) + 1, step)
-    return [(float(k), f"{10.0**k:g}" if -2 <= k <= 3 else "10" + str(k).translate(RAISED)) for k in shown]
 
 
 def common_limit(delta: np.ndarray) -> float:

@@ -3,6 +3,7 @@
 import pytest
 from PySide6.QtCore import Qt
 
+from p2sf.studies.trade_files import shipped_trades
 from p2sf_explorer.exactness.bounds import Cost
 from p2sf_explorer.exactness.slider import MEASURES, rounded
 from p2sf_explorer.widgets.slider import STEPS
@@ -80,6 +81,25 @@ def test_a_time_takes_a_method(window, panel):
     take(panel, "r2")
     panel.commit()
     assert window.store.state.optics.method == "auto"
+
+
+def test_the_complete_trade_of_the_lens_is_shown_and_serves_until_costs_are_known_here(window, panel):
+    """Its figures are those of the shipped table; a lens that it does not have has none."""
+    trade = shipped_trades()["double_gauss_28"]
+    best = min((r for r in trade.rows if r.family == "fitted 26"), key=lambda row: row.relative_l2.median)
+    dot = next(dot for dot in panel.chart.dots if dot.name == "fitted 26")
+    assert (dot.cost, dot.error) == (best.single_us / 1e3, best.one_less_r2.median)
+    assert panel.chart.asked == (None, pytest.approx(0.01))
+    assert f"{best.one_less_r2.most:.1g}" in panel.typical.text()
+    take(panel, "r80")
+    dot = next(dot for dot in panel.chart.dots if dot.name == "fitted 26")
+    assert (dot.error, dot.most) == (best.r80.median, best.r80.most) and panel.chart.asked == (None, None)
+    take(panel, "r2")
+    panel._costs = ()
+    assert panel.choice().method == "fitted" and panel.choice().milliseconds == best.single_us / 1e3
+    panel._curves = ()
+    panel._tell()
+    assert panel.choice() is None and panel.chart.isHidden() and panel.typical.isHidden()
 
 
 @pytest.mark.parametrize(("value", "member"), [(0.0099, 0.01), (0.0034, 0.005), (3.0, 2.0), (900.0, 1000.0)])

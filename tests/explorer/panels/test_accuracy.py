@@ -1,10 +1,14 @@
 """The accuracy panel: a figure of an earlier picture is marked, in every language."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QApplication
 
+from p2sf.studies.trade_files import shipped_trades
+from p2sf_explorer.charts.theme import LIGHT
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.reference import MethodResult
 from p2sf_explorer.i18n.language import set_language
@@ -60,3 +64,23 @@ def test_labels_of_methods_cover_neither_each_other_nor_a_dot(qapp, size, close)
 @pytest.mark.parametrize(("largest", "limit"), [(5.0, 10.0), (1.1, 10.0), (0.9, 1.0), (0.0, 1e-4), (70.0, 100.0)])
 def test_differences_share_few_scales(largest, limit):
     assert common_limit(np.array([[-largest, 0.0]])) == pytest.approx(limit)
+
+
+def test_the_complete_trade_of_a_shipped_lens_takes_the_plot_s_place(qapp):
+    """Every dot is a row of the shipped table, the front is lower the dearer it is, and a changed lens has none."""
+    panel, answer = AccuracyPanel(Store(State())), live(new_state(method="seidel", lens="tessar"))
+    panel.restyle(LIGHT)
+    trade = shipped_trades()["tessar"]
+    for cost, of in (("bytes", "nbytes"), ("time", "batch_us")):
+        panel.shown.setCurrentIndex(panel.shown.findData(cost))
+        panel.show(answer)
+        assert [dot.cost for dot in panel.trade.dots] == [getattr(row, of) for row in trade.rows]
+        line = panel.trade.front
+        assert all(a.cost < b.cost and a.error > b.error for a, b in pairwise(line))
+        assert not panel.trade.isHidden() and panel.methods.isHidden() and "PCA" in panel.widget.readout.text()
+    dot = panel.trade.dots[0]
+    found = panel.trade.read(*panel.trade.place(dot))
+    assert dot.settings in found.head and len(panel.trade.rows_of_data()) == len(trade.rows) + 1
+    panel.shown.setCurrentIndex(panel.shown.findData("here"))
+    panel.show(answer)
+    assert panel.trade.isHidden() and not panel.methods.isHidden()

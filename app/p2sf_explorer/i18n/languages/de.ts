@@ -15,6 +15,7 @@
 <message><source>0.7 of the pupil</source><translation>0,7 der Pupille</translation></message>
 <message><source>1 node</source><translation>1 Knoten</translation></message>
 <message><source>1 surface</source><translation>1 Fläche</translation></message>
+<message><source>1 − R²</source><translation>1 − R²</translation></message>
 <message><source>1/depth, 1/m (0 is ∞)</source><translation>1/Abstand, 1/m (0 ist ∞)</translation></message>
 <message><source>1/depth, 1/mm</source><translation>1/Abstand, 1/mm</translation></message>
 <message><source>16 µm pixels</source><translation>16-µm-Pixel</translation></message>
@@ -210,6 +211,7 @@
 <message><source>Front focus F</source><translation>Objektseitiger Brennpunkt F</translation></message>
 <message><source>Front principal plane, imaged onto H′ at magnification 1; from the first vertex.</source><translation>Objektseitige Hauptebene, mit Maßstab 1 auf H′ abgebildet; vom ersten Scheitel.</translation></message>
 <message><source>Front-stop landscape singlet</source><translation>Landschaftslinse mit vorderer Blende</translation></message>
+<message><source>Gaussian, Moffat</source><translation>Gauß, Moffat</translation></message>
 <message><source>Glass</source><translation>Glas</translation></message>
 <message><source>Glass or index</source><translation>Glas oder Index</translation></message>
 <message><source>Gram–Schmidt over {percent:.0f} % of the pupil</source><translation>Gram–Schmidt über {percent:.0f} % der Pupille</translation></message>
@@ -236,6 +238,7 @@
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
 <message><source>Keep beside the stage</source><translation>Neben der Bühne behalten</translation></message>
 <message><source>Keep in focus: while the lens is edited, the sensor follows its paraxial image, or goes to the smallest RMS of the present point, so that the aberrations are seen and not the defocus.</source><translation>Im Fokus halten: während das Objektiv bearbeitet wird, folgt der Sensor seinem paraxialen Bild oder geht zum kleinsten RMS des gegenwärtigen Punkts, damit die Abbildungsfehler zu sehen sind und nicht die Defokussierung.</translation></message>
+<message><source>L2 error</source><translation>L2-Fehler</translation></message>
 <message><source>Lagrange invariant</source><translation>Lagrange-Invariante</translation></message>
 <message><source>Lagrange invariant H = {h} mm</source><translation>Lagrange-Invariante H = {h} mm</translation></message>
 <message><source>Landscape</source><translation>Landschaft</translation></message>
@@ -319,8 +322,10 @@
 <message><source>Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present place.</source><translation>Vergleichskurven: eine Kurve für jedes Feld, jede Wellenlänge oder Ortsfrequenz. Der Kontrast ist tangential (dick) und sagittal (fein). Felder und Wellenlängen sind die der Matrix; eine senkrechte Linie zeigt die jetzige Stelle.</translation></message>
 <message><source>P2SF Explorer</source><translation>P2SF Explorer</translation></message>
 <message><source>P2SF lens (*.toml);;Zemax (*.zmx);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;ISET-Objektiv (*.json)</translation></message>
+<message><source>PCA</source><translation>PCA</translation></message>
 <message><source>PSF</source><translation>PSF</translation></message>
 <message><source>PSF data or window…</source><translation>PSF-Daten oder Fenster …</translation></message>
+<message><source>PSF grid</source><translation>PSF-Gitter</translation></message>
 <message><source>PSF over the field</source><translation>PSF über das Feld</translation></message>
 <message><source>PSF profiles</source><translation>PSF-Profile</translation></message>
 <message><source>PSF, % of the peak</source><translation>PSF, % der Spitze</translation></message>
@@ -527,6 +532,7 @@
 <message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The achromat's plain companion: same focal length and aperture, one glass</source><translation>Das schlichte Gegenstück zum Achromaten: gleiche Brennweite und Öffnung, ein Glas</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; {remedy}.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; {remedy}.</translation></message>
+<message><source>The complete trade is measured of shipped lenses; of others by p2sf tradeoff LENS --complete</source><translation>Der vollständige Vergleich ist für die mitgelieferten Objektive gemessen; für andere mit p2sf tradeoff LENS --complete</translation></message>
 <message><source>The distance between pixels, µm</source><translation>Der Abstand der Pixel, µm</translation></message>
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>The human eye, 60 dioptres, with its image in the vitreous (n' = 1.3377)</source><translation>Das menschliche Auge, 60 Dioptrien, mit dem Bild im Glaskörper (n' = 1,3377)</translation></message>
@@ -651,6 +657,7 @@
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
 <message><source>What the pictures show</source><translation>Was die Bilder zeigen</translation></message>
+<message><source>What the plot at the right shows: every method at this point, or every representation of all the lens's PSFs</source><translation>Was das rechte Diagramm zeigt: alle Verfahren an diesem Punkt, oder alle Darstellungen aller PSFs des Objektivs</translation></message>
 <message><source>What the slider is about: an error, or the time of a picture</source><translation>Worum es beim Regler geht: einen Fehler oder die Zeit eines Bildes</translation></message>
 <message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
@@ -671,6 +678,7 @@
 <message><source>Workspace</source><translation>Arbeitsbereich</translation></message>
 <message><source>Workspaces: save this one, delete it, or choose another</source><translation>Arbeitsbereiche: diesen speichern oder löschen, oder einen anderen wählen</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
+<message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
 <message><source>Zone</source><translation>Zone</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
@@ -728,6 +736,8 @@
 <message><source>aimed at the real stop</source><translation>auf die wahre Blende gerichtet</translation></message>
 <message><source>air</source><translation>Luft</translation></message>
 <message><source>all</source><translation>alle</translation></message>
+<message><source>all PSFs, by bytes</source><translation>alle PSFs, nach Bytes</translation></message>
+<message><source>all PSFs, by time</source><translation>alle PSFs, nach Zeit</translation></message>
 <message><source>all panels</source><translation>alle Ansichten</translation></message>
 <message><source>all sums</source><translation>alle Summen</translation></message>
 <message><source>along x</source><translation>längs x</translation></message>
@@ -784,6 +794,7 @@
 <message><source>by the radius R80</source><translation>nach dem Radius R80</translation></message>
 <message><source>by time</source><translation>nach Zeit</translation></message>
 <message><source>by wavelength</source><translation>nach Wellenlänge</translation></message>
+<message><source>bytes of all PSFs of the lens</source><translation>Bytes aller PSFs des Objektivs</translation></message>
 <message><source>cannot compare {psf} with {reference}; render both on the same grid</source><translation>{psf} und {reference} sind nicht vergleichbar; beide auf demselben Gitter rechnen</translation></message>
 <message><source>centre_mm has {count} numbers; give two, x and y</source><translation>centre_mm hat {count} Zahlen; zwei angeben, x und y</translation></message>
 <message><source>change it; a click types</source><translation>ändert sie; ein Klick beginnt zu tippen</translation></message>
@@ -899,6 +910,10 @@
 <message><source>file</source><translation>Datei</translation></message>
 <message><source>fill factor</source><translation>Füllfaktor</translation></message>
 <message><source>fitted</source><translation>fitted</translation></message>
+<message><source>fitted 26</source><translation>fitted 26</translation></message>
+<message><source>fitted 46</source><translation>fitted 46</translation></message>
+<message><source>fitted adaptive</source><translation>fitted adaptiv</translation></message>
+<message><source>fitted numbers</source><translation>angepasste Zahlen</translation></message>
 <message><source>fitted while the slider moves, {method} when it rests</source><translation>fitted, solange der Regler sich bewegt, {method}, wenn er ruht</translation></message>
 <message><source>fitted: polynomial from real rays</source><translation>fitted: Polynom aus wahren Strahlen</translation></message>
 <message><source>fitted: {numbers} numbers from {rays} rays, predicted R² ≥ {r_squared}; the six Seidel coefficients would miss {tolerance:g}</source><translation>fitted: {numbers} Zahlen aus {rays} Strahlen, vorhergesagt R² ≥ {r_squared}; die sechs Seidel-Koeffizienten verfehlten {tolerance:g}</translation></message>
@@ -972,6 +987,7 @@
 <message><source>key "{name}" is unknown; known here are {known}</source><translation>der Schlüssel "{name}" ist unbekannt; hier bekannt sind {known}</translation></message>
 <message><source>key {name}, which is not known to describe the lens</source><translation>Schlüssel {name}, von dem nicht bekannt ist, dass er das Objektiv beschreibt</translation></message>
 <message><source>landing point, µm</source><translation>Landepunkt, µm</translation></message>
+<message><source>largest difference of contrast</source><translation>größter Unterschied des Kontrasts</translation></message>
 <message><source>largest error in {name}: exact {error} λ</source><translation>größter Fehler in {name}: exakt {error} λ</translation></message>
 <message><source>lateral colour</source><translation>Farbquerfehler</translation></message>
 <message><source>lateral colour {shift} µm</source><translation>Farbquerfehler {shift} µm</translation></message>
@@ -1009,11 +1025,13 @@
 <message><source>method</source><translation>Methode</translation></message>
 <message><source>method "{method}" describes no pupil; choose {methods}</source><translation>Verfahren "{method}" beschreibt keine Pupille; {methods} wählen</translation></message>
 <message><source>method "{method}" is unknown; choose {methods}</source><translation>die Methode "{method}" ist unbekannt; {methods} wählen</translation></message>
+<message><source>methods here</source><translation>Verfahren hier</translation></message>
 <message><source>misses surface {surface}</source><translation>verfehlt Fläche {surface}</translation></message>
 <message><source>mm</source><translation>mm</translation></message>
 <message><source>mode {mode} is not sequential; export the sequential lens</source><translation>der Modus {mode} ist nicht sequentiell; das sequentielle Objektiv exportieren</translation></message>
 <message><source>move the slider that has the focus</source><translation>den Regler bewegen, der den Fokus hat</translation></message>
 <message><source>nd is {value}; give an index between 1 and 4</source><translation>nd ist {value}; einen Index zwischen 1 und 4 angeben</translation></message>
+<message><source>neural</source><translation>neuronal</translation></message>
 <message><source>nm</source><translation>nm</translation></message>
 <message><source>no</source><translation>keine</translation></message>
 <message><source>no PSF of this lens is sharp enough for the atlas; stop down</source><translation>keine PSF dieses Objektivs ist scharf genug für den Atlas; abblenden</translation></message>
@@ -1137,6 +1155,7 @@
 <message><source>refractive index is {value}; give a number between 0.5 and 6</source><translation>der Brechungsindex ist {value}; eine Zahl zwischen 0,5 und 6 angeben</translation></message>
 <message><source>refused</source><translation>abgelehnt</translation></message>
 <message><source>relative L2 error</source><translation>relativer L2-Fehler</translation></message>
+<message><source>relative error of R80</source><translation>relativer Fehler von R80</translation></message>
 <message><source>relative illumination</source><translation>relative Beleuchtungsstärke</translation></message>
 <message><source>relative illumination, %</source><translation>relative Beleuchtungsstärke, %</translation></message>
 <message><source>rim</source><translation>Rand</translation></message>
@@ -1296,11 +1315,11 @@
 <message><source>the depth map holds depths that are not positive; give mm from the first vertex, inf allowed</source><translation>die Tiefenkarte enthält Abstände, die nicht positiv sind; mm vom ersten Scheitel angeben, inf erlaubt</translation></message>
 <message><source>the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞</source><translation>der Abstand "{text}" hat eine unbekannte Einheit; mm, cm, m, km oder ∞ schreiben</translation></message>
 <message><source>the energy follows when the slider rests</source><translation>die Energie folgt, wenn der Regler ruht</translation></message>
-<message><source>the environment variable {name} is {value}; give a whole number from 1 on</source><translation>die Umgebungsvariable {name} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts; die Blende von diesem Brennpunkt wegrücken</translation></message>
 <message><source>the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, or in Python state the field as an object height, field="height"</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts; die Blende von diesem Brennpunkt wegrücken oder in Python das Feld als Objekthöhe angeben, field="height"</translation></message>
 <message><source>the entrance pupil is at infinity, so it has no diameter; state the stop's semi-diameter</source><translation>die Eintrittspupille liegt im Unendlichen, hat also keinen Durchmesser; den Halbmesser der Blende angeben</translation></message>
 <message><source>the entrance pupil, {pupil:.6g} mm before the first vertex, lies among the depths, {near:g} to {far:g} mm; build one database on either side of it</source><translation>die Eintrittspupille, {pupil:.6g} mm vor dem ersten Scheitel, liegt zwischen den Abständen, {near:g} bis {far:g} mm; auf jeder Seite von ihr eine Datenbank bauen</translation></message>
+<message><source>the environment variable {name} is {value}; give a whole number from 1 on</source><translation>die Umgebungsvariable {name} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>the export was cancelled; nothing was written</source><translation>der Export wurde abgebrochen; nichts wurde geschrieben</translation></message>
 <message><source>the field is stated {count} times, by {names}; keep one</source><translation>das Feld ist {count}-mal angegeben, durch {names}; eines behalten</translation></message>
 <message><source>the file asks for telecentric object space; chief rays pass the centre of its stop instead</source><translation>die Datei verlangt einen telezentrischen Objektraum; Hauptstrahlen gehen stattdessen durch die Mitte ihrer Blende</translation></message>
@@ -1367,6 +1386,7 @@
 <message><source>the object stands in a medium, which an ISET file cannot say; save as TOML</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the open tab</source><translation>das offene Blatt</translation></message>
 <message><source>the paraxial pupil</source><translation>die paraxiale Pupille</translation></message>
+<message><source>the phase is {slope:.0f} waves steep; stop the lens down</source><translation>die Phase ist {slope:.0f} Wellen steil; das Objektiv abblenden</translation></message>
 <message><source>the picture has the shape ({shape}), but the scene's sensor wants {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
@@ -1457,6 +1477,7 @@
 <message><source>tilt of the 3D view</source><translation>Neigung der 3D-Ansicht</translation></message>
 <message><source>tilt of the wavefront's surface</source><translation>Neigung der Wellenfrontfläche</translation></message>
 <message><source>time</source><translation>Zeit</translation></message>
+<message><source>time of a PSF among many, µs</source><translation>Zeit einer PSF unter vielen, µs</translation></message>
 <message><source>time of one PSF, ms</source><translation>Zeit einer PSF, ms</translation></message>
 <message><source>titles, sessions and computing settings</source><translation>Titel, Sitzungen und Recheneinstellungen</translation></message>
 <message><source>to</source><translation>bis</translation></message>
@@ -1583,6 +1604,7 @@
 <message><source>{method} follows: its sum of waves takes a moment</source><translation>{method} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
 <message><source>{method} here: longer than a frame</source><translation>{method} hier: länger als ein Bild der Bewegung</translation></message>
 <message><source>{method} here: {ms} ms, {error}</source><translation>{method} hier: {ms} ms, {error}</translation></message>
+<message><source>{method} over this whole lens, measured: {what} {half} at half of all points, {most} at 95 %</source><translation>{method} über das ganze Objektiv, gemessen: {what} {half} an der Hälfte aller Punkte, {most} an 95 %</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
 <message><source>{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto to see ray density</source><translation>{method} bräuchte {count:.2g} Pupillenproben für diese Unschärfe, was zu lange dauert; {remedy} oder auto wählen, um die Strahlendichte zu sehen</translation></message>
 <message><source>{method}, by waves of the pupil; the picture is the density of its rays</source><translation>{method}, durch Wellen der Pupille; das Bild ist die Dichte ihrer Strahlen</translation></message>
