@@ -1,4 +1,4 @@
-"""What a PSF costs to sum, before it is summed (handbook 7.5)."""
+"""What a PSF costs to sum, before it is summed (handbook 7.4)."""
 
 import numpy as np
 

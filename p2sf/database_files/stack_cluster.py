@@ -1,12 +1,14 @@
 """Filling a PSF stack by the workers of a dask.distributed scheduler.
 
-What goes to a worker is the name of the stack and of a chunk: it opens the stack itself, keeps it for the chunks to
+What goes to a worker is the name of the stack and of some chunks: it opens the stack itself, keeps it for the chunks to
 come, renders, writes, and answers with the seconds that this took.
 """
 
 import ctypes
+import logging
 import sys
 import time
+from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import lru_cache
@@ -21,14 +23,17 @@ from p2sf.database_files.stack_write import Work, write_chunk
 from p2sf.errors import DatabaseError
 from p2sf.threads import one_blas_thread
 
-AHEAD = 2  # chunks per thread that are under way: while one is rendered, the next is there
-RETRIES = 2  # of a chunk that could not be written, before its error counts
-LATE = 4.0  # times the longest chunk's seconds, after which one is given to another worker too
+AHEAD = 2  # groups of chunks per thread that are under way: while one is rendered, the next is there
+GROUP_S = 0.5  # of work, a hundred times what sending a group and its answer takes
+SHARE = 4  # groups that each thread has still to come, at least: they become smaller towards the end
+RETRIES = 2  # of a group that could not be written, before its error counts
+LATE = 4.0  # times the longest group's seconds, after which one is given to another worker too
 ANSWER_S = 10.0  # for the scheduler to answer, and for the first worker to come
 ABSENCE_S = 60.0  # for which all workers may be gone, to be started again
 LOOK_S = 0.25  # between looks at whoever cancels, and at the workers
 SCHEDULER = "dask scheduler"
 WORKER = "dask worker {address} --nworkers -1 --nthreads 1"
+Group = tuple[Chunk, ...]
 M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 LARGEST_MMAP_THRESHOLD = 4 * 1024 * 1024 * 8  # DEFAULT_MMAP_THRESHOLD_MAX there, at 8 bytes a word
 
@@ -55,8 +60,16 @@ def connected(scheduler: str) -> Iterator[Any]:
             address=scheduler,
             command=SCHEDULER,
         ) from error
-    with client:
-        yield client
+    logs = [logging.getLogger(f"distributed.{name}") for name in ("batched", "client", "core")]
+    levels = [log.level for log in logs]
+    try:
+        for log in logs:  # pages about a connection that is lost: an error says so in a sentence
+            log.setLevel(logging.CRITICAL)
+        with client:
+            yield client
+    finally:
+        for log, level in zip(logs, levels, strict=True):
+            log.setLevel(level)
 
 
 def worker_versions(client: Any, scheduler: str) -> dict[str, str | Exception]:
@@ -106,36 +119,44 @@ def _check_shared(place: Place) -> None:
 
 
 class _Filling:
-    """Chunks on their way to the workers and back."""
+    """Groups of chunks on their way to the workers and back."""
 
     def __init__(self, work: Work, client: Any, scheduler: str) -> None:
         self._work, self._client, self._scheduler = work, client, scheduler
-        self._waiting = iter(work.chunks)
-        self._next = next(self._waiting, None)
-        self._under_way: dict[Any, Chunk] = {}
-        self._since: dict[Chunk, float] = {}  # when a chunk was sent that is not done
-        self._twice: set[Chunk] = set()
+        self._waiting = deque(work.chunks)
+        self._under_way: dict[Any, Group] = {}
+        self._since: dict[Group, float] = {}  # when a group was sent that is not done
+        self._twice: set[Group] = set()
         self._answers: Queue[Any] = Queue()
-        self._longest = 0.0
+        self._longest = self._seconds = self._cost = 0.0
         self._threads, self._looked, self._seen = 0, 0.0, time.monotonic()
         place = work.stack.path
         self._place = place if isinstance(place, str) else str(place.absolute())
         self._content = content(work.stack)
+        errors = needed("distributed").client
+        self._gone = OSError, errors.ClosedClientError, errors.FutureCancelledError  # what a lost scheduler raises
 
     def run(self) -> None:
-        """Send chunks and take answers until all are done, or cancelled."""
-        while self._next is not None or self._since:
+        """Send groups and take answers until all are done, or cancelled."""
+        while (self._waiting or self._since) and not self._work.watch.cancelled():
             self._look()
-            while self._next is not None and len(self._under_way) < AHEAD * self._threads:
-                self._send(self._next)
-                self._next = next(self._waiting, None)
+            while self._waiting and len(self._under_way) < AHEAD * self._threads:
+                self._send(self._next_group())
             try:
                 self._take(self._answers.get(timeout=LOOK_S))
             except Empty:
                 self._send_late_ones()
-            if self._work.watch.cancelled():
-                break
         self._client.cancel(list(self._under_way))
+
+    def _next_group(self) -> Group:
+        """Return chunks of GROUP_S of work, or fewer near the end (Polychronopoulos and Kuck 1987); one at first."""
+        most = max(1, len(self._waiting) // (SHARE * self._threads))
+        group = [self._waiting.popleft()]
+        cost = self._work.costs[group[0]]
+        while len(group) < most and 0 < cost * self._seconds < GROUP_S * self._cost:
+            group.append(self._waiting.popleft())
+            cost += self._work.costs[group[-1]]
+        return tuple(group)
 
     def _look(self) -> None:
         """Count the workers' threads, now and then; DatabaseError once the scheduler or all workers are gone."""
@@ -144,7 +165,7 @@ class _Filling:
             return
         try:
             self._threads = sum(self._client.nthreads().values())
-        except OSError as error:
+        except self._gone as error:
             raise self._lost() from error
         self._looked = time.monotonic()
         if self._threads:
@@ -157,44 +178,50 @@ class _Filling:
                 command=WORKER.format(address=self._scheduler),
             )
 
-    def _send(self, chunk: Chunk) -> None:
+    def _send(self, group: Group) -> None:
         future = self._client.submit(
-            fill_chunk, self._place, self._content, __version__, chunk, retries=RETRIES, pure=False
+            fill_chunks, self._place, self._content, __version__, group, retries=RETRIES, pure=False
         )
-        self._under_way[future] = chunk
-        self._since.setdefault(chunk, time.monotonic())
+        self._under_way[future] = group
+        self._since.setdefault(group, time.monotonic())
         future.add_done_callback(self._answers.put)
 
     def _take(self, future: Any) -> None:
-        """Count a chunk that is done, or raise why it is not."""
-        chunk = self._under_way.pop(future, None)
-        if chunk is None or chunk not in self._since:
+        """Count a group that is done, or raise why it is not."""
+        group = self._under_way.pop(future, None)
+        if group is None or group not in self._since:
             return  # the later answer of two
         if future.status == "error":
             raise self._put_into_words(future.exception())
         if future.status != "finished":
             raise self._lost()
-        self._longest = max(self._longest, future.result())
-        del self._since[chunk]
-        self._work.finished(chunk)
+        try:
+            seconds = future.result()
+        except self._gone as error:  # between its end and this question
+            raise self._lost() from error
+        self._longest, self._seconds = max(self._longest, seconds), self._seconds + seconds
+        self._cost += sum(self._work.costs[chunk] for chunk in group)
+        del self._since[group]
+        for chunk in group:
+            self._work.finished(chunk)
 
     def _send_late_ones(self) -> None:
-        """Give chunks to other workers too that are late, once there is nothing else to do: the first answer counts.
+        """Give groups to other workers too that are late, once there is nothing else to do: the first answer counts.
 
         Their worker may be frozen, or its machine busy with something else (Dean and Ghemawat 2004, §3.6). Both write
         the same bytes.
         """
         late = time.monotonic() - max(LATE * self._longest, 1.0)
-        if self._next is None:
-            for chunk in [chunk for chunk, sent in self._since.items() if sent < late and chunk not in self._twice]:
-                self._twice.add(chunk)
-                self._send(chunk)
+        if not self._waiting:
+            for group in [group for group, sent in self._since.items() if sent < late and group not in self._twice]:
+                self._twice.add(group)
+                self._send(group)
 
     def _put_into_words(self, error: Exception) -> Exception:
         if isinstance(error, needed("distributed").KilledWorker):
             return DatabaseError(
-                "{count} workers ended while they rendered one chunk; look at their logs, give them more memory, and "
-                "give the same command again, which keeps what is done",
+                "{count} workers ended while they rendered the same chunks; look at their logs, give them more memory, "
+                "and give the same command again, which keeps what is done",
                 count=error.allowed_failures + 1,
             )
         return error
@@ -213,14 +240,15 @@ def content(stack: Stack) -> str:
     return sha256(about.encode() + stack.raw).hexdigest()
 
 
-def fill_chunk(place: str, named: str, version: str, chunk: Chunk) -> float:
-    """Render and write a chunk on a worker, and return the seconds that it took."""
+def fill_chunks(place: str, named: str, version: str, chunks: Group) -> float:
+    """Render and write chunks on a worker, and return the seconds that it took."""
     start = time.monotonic()
     if version != __version__:  # on a worker that came after the others were asked
         check_versions({needed("distributed").get_worker().address: __version__}, version)
     _keep_freed_memory()
     with one_blas_thread:
-        write_chunk(_opened(place, named), chunk)
+        for chunk in chunks:
+            write_chunk(_opened(place, named), chunk)
     return time.monotonic() - start
 
 

@@ -100,26 +100,29 @@ def _write_errors(path: str | PathLike[str]) -> Iterator[None]:
 
 
 class Work:
-    """The chunks that a stack lacks, the costliest first, so that at the end no worker waits for a long one."""
+    """The chunks that a stack lacks, the costliest first, so that at the end no worker waits for a long one.
+
+    ``costs``: about how many products each takes that is not done (`database.cost`).
+    """
 
     def __init__(self, stack: Stack, missing: Sequence[Chunk], watch: StackProgress) -> None:
         self.stack, self.watch = stack, watch
         costs = chunk_costs(stack, missing)
         order = np.argsort(-costs, kind="stable").tolist()
         self.chunks = [missing[k] for k in order]
-        self._costs = {missing[k]: float(costs[k]) for k in order}
+        self.costs = {missing[k]: float(costs[k]) for k in order}
         self._left = float(costs.sum())
         self._before = len(stack.chunks) - len(missing)
         self._start, self._cost, self._psfs, self._done = time.monotonic(), 0.0, 0, 0
 
     def finished(self, chunk: Chunk) -> None:
         """Count a chunk that is written, and tell the watch."""
-        cost = self._costs.pop(chunk)
+        cost = self.costs.pop(chunk)
         self._cost, self._left = self._cost + cost, self._left - cost
         self._psfs, self._done = self._psfs + psf_count(self.stack, chunk), self._done + 1
         seconds = max(time.monotonic() - self._start, 1e-9)
-        left = seconds / self._cost * self._left if self._costs else 0.0
-        done, total = self._before + self._done, self._before + self._done + len(self._costs)
+        left = seconds / self._cost * self._left if self.costs else 0.0
+        done, total = self._before + self._done, self._before + self._done + len(self.costs)
         self.watch.progress(Progress(done, total, self._psfs, self._psfs / seconds, left))
 
 

@@ -13,7 +13,7 @@ import pytest
 from p2sf import __version__
 from p2sf.cli import main
 from p2sf.database_files.stack import open_stack
-from p2sf.database_files.stack_cluster import connected, fill_chunk
+from p2sf.database_files.stack_cluster import connected, fill_chunks
 from p2sf.database_files.stack_write import StackProgress, write_stack
 from p2sf.errors import DatabaseError
 from tests.database_files.test_stack import SAMPLING, contents, small
@@ -85,7 +85,7 @@ def test_another_version_or_none_is_a_sentence(cluster, tmp_path):
                 filled(cluster, tmp_path / "other.zarr")
             assert victim in str(refused.value)
             client.run(versioned, before[victim], workers=[victim])
-        late = client.submit(fill_chunk, str(tmp_path), "", "0.0.9", (0, 0, 0))  # for a worker that came later
+        late = client.submit(fill_chunks, str(tmp_path), "", "0.0.9", ((0, 0, 0),))  # for a worker that came later
         with pytest.raises(DatabaseError, match=r"and 0\.0\.9 is needed"):
             late.result()
 
@@ -102,7 +102,7 @@ def versioned(version: str | None) -> str:
 
 def test_a_folder_that_workers_do_not_share_is_a_sentence(cluster, tmp_path):
     with connected(cluster.address) as client:
-        elsewhere = client.submit(fill_chunk, str(tmp_path / "other.zarr"), "", __version__, (0, 0, 0))
+        elsewhere = client.submit(fill_chunks, str(tmp_path / "other.zarr"), "", __version__, ((0, 0, 0),))
         with pytest.raises(DatabaseError, match=r"other.zarr is not there"):
             elsewhere.result()
     with pytest.raises(DatabaseError, match="the memory of one process"):
