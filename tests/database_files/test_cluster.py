@@ -7,6 +7,7 @@ import json
 import os
 import signal
 import time
+from threading import Timer
 
 import pytest
 
@@ -67,10 +68,12 @@ def test_a_worker_that_is_killed_costs_no_chunk(plain, cluster, tmp_path):
 
 def test_a_worker_that_is_frozen_is_not_waited_for(plain, cluster, tmp_path):
     progress, victim = on_the_way(cluster, lambda pid: os.kill(pid, signal.SIGSTOP))
-    try:
-        built = filled(cluster, tmp_path / "frozen.zarr", progress)  # returns while one worker does nothing
-    finally:
-        os.kill(victim, signal.SIGCONT)
+    thaw = Timer(60, os.kill, (victim, signal.SIGCONT))  # so that a failure ends
+    thaw.start()
+    built = filled(cluster, tmp_path / "frozen.zarr", progress)
+    assert thaw.is_alive()
+    thaw.cancel()
+    os.kill(victim, signal.SIGCONT)
     assert built.complete
     assert victim in cluster.worker_pids()  # which answers once its chunk is written a second time
     assert contents(built.path) == plain

@@ -39,8 +39,11 @@ def running_cluster(folder: Path, workers: int = 2) -> Iterator[RunningCluster]:
     told = folder / "scheduler.json"
     told.unlink(missing_ok=True)
     code = "from distributed.cli.dask_{} import main; main()"
-    scheduler = _started([code.format("scheduler"), "--port", "0", "--no-dashboard", "--scheduler-file", str(told)])
-    options = ["--nworkers", str(workers), "--nthreads", "1", "--no-dashboard", "--local-directory", str(folder)]
+    here = "--host", "127.0.0.1"
+    scheduler = _started(
+        [code.format("scheduler"), *here, "--port", "0", "--no-dashboard", "--scheduler-file", str(told)]
+    )
+    options = [*here, "--nworkers", str(workers), "--nthreads", "1", "--no-dashboard", "--local-directory", str(folder)]
     nannies = _started([code.format("worker"), "--scheduler-file", str(told), *options])
     try:
         yield RunningCluster(_address(told, workers), scheduler)
@@ -65,11 +68,12 @@ def _started(arguments: list[str]) -> subprocess.Popen:
 def _address(told: Path, workers: int) -> str:
     from distributed import Client
 
-    deadline = time.monotonic() + 60
-    while not told.exists():
+    deadline, address = time.monotonic() + 60, ""
+    while not address:
         assert time.monotonic() < deadline, "the scheduler has not started"
         time.sleep(0.05)
-    address: str = json.loads(told.read_text())["address"]
+        with suppress(OSError, ValueError):  # not there, or half written
+            address = json.loads(told.read_text())["address"]
     with Client(address, timeout=60, set_as_default=False) as client:
         client.wait_for_workers(workers, timeout=60)
     return address
