@@ -109,7 +109,10 @@ def _lost(count: int) -> Message | None:
 
 
 def _crossed(lens: Lens, rays: tuple[RayPath, ...]) -> Message | None:
-    found = (out_of_order(lens, ray.z[1 : len(lens.surfaces) + 1]) for ray in rays)
+    met = [ray.z[1 : len(lens.surfaces) + 1] for ray in rays]
+    whole = [z for z in met if len(z) == len(lens.surfaces)]
+    together = [np.stack(whole, axis=-1)] if whole else []
+    found = (out_of_order(lens, z) for z in (*together, *(z for z in met if len(z) < len(lens.surfaces))))
     warning = next((message for message in found if message), None)
     return Message("{warning}.", warning=warning) if warning else None
 

@@ -69,10 +69,9 @@ def matrix_request(live: Live) -> MatrixRequest:
 
 def moved(state: State, field_deg: float, across: str, value: Value) -> State:
     """Return a state at another field, and at a value of ``across``."""
-    state = changed(state, field_deg=field_deg)
     if across == "wavelength_nm":
-        return at_wavelength(state, float(value))
-    return state if across == SIDE else changed(state, **{across: float(value)})
+        return at_wavelength(state, float(value), field_deg=field_deg)
+    return changed(state, field_deg=field_deg, **({} if across == SIDE else {across: float(value)}))
 
 
 def columns_of(live: Live) -> tuple[Value, ...]:

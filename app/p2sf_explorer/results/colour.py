@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -88,12 +89,14 @@ def answer(request: ColourQuestion, stopped: Callable[[], bool], tell: Callable[
     return Colours(psf, NM_PER_UM * waves, power * matching(waves)[:, 1], hues(waves))
 
 
-def at_wavelength(state: State, wavelength_nm: float) -> State:
-    """Return the setup at another wavelength; a path added by hand is more waves of a shorter wavelength."""
+def at_wavelength(state: State, wavelength_nm: float, **entries: Any) -> State:
+    """Return the setup at another wavelength; a path added by hand is more waves of a shorter wavelength.
+
+    ``entries``: others that are changed with it.
+    """
     ratio = state.optics.wavelength_nm / wavelength_nm
-    return changed(
-        state, wavelength_nm=wavelength_nm, added_waves=tuple(ratio * waves for waves in state.what_if.added_waves)
-    )
+    added = tuple(ratio * waves for waves in state.what_if.added_waves)
+    return changed(state, wavelength_nm=wavelength_nm, added_waves=added, **entries)
 
 
 def hues(wavelength_um: np.ndarray) -> np.ndarray:

@@ -26,7 +26,7 @@ from p2sf_explorer.state.scales import signed
 from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
-from p2sf_explorer.widgets.readout import FactTable, Readout, scrolled
+from p2sf_explorer.widgets.readout import FactTable, Readout, Sentence, scrolled
 from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.widgets.value_edit import PlayButton, ValueEdit
 
@@ -105,6 +105,7 @@ class QuantityRow(QWidget):
         self.play = PlayButton(self)
         self.buttons = [self._button(*button) for button in quantity.buttons]
         self._scale: Scale | None = None
+        self._limits: Ranges | None = None
         self._shown: tuple[float, Scale] | None = None
         self._before = 0.0
         self._lay_out()
@@ -171,10 +172,11 @@ class QuantityRow(QWidget):
 
     def show_state(self, state: State, limits: Ranges) -> None:
         """Follow a state: slider, number, ticks; no signal goes back."""
-        scale = self.quantity.scale(limits)
-        if scale != self._scale:
-            self._scale = scale
-            self._set_ticks(scale, limits)
+        if limits is not self._limits or self._scale is None:
+            self._limits, before, self._scale = limits, self._scale, self.quantity.scale(limits)
+            if self._scale != before:
+                self._set_ticks(self._scale, limits)
+        scale = self._scale
         self.slider.fine_arrows = self.edit.fine_arrows = not state.lesson.name
         marks = self.quantity.marks(state, limits)
         self.slider.set_marks(tuple(scale.travel(value) for value in marks if scale.low <= value <= scale.high))
@@ -237,14 +239,12 @@ class Controls(QWidget):
         self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
         self.focus_button.clicked.connect(self.autofocus)
         self.stopping, self.aiming = StopRow(store, self), AimRow(store, self)
-        self.sentence, self.detail, self.facts = QLabel(self), QLabel(self), FactTable(self)
+        self.sentence, self.detail, self.facts = Sentence(self), Sentence(self), FactTable(self)
         self._lay_out()
 
     def _lay_out(self) -> None:
         self.sentence.setObjectName("sentence")
         self.detail.setObjectName("muted")
-        for label in (self.sentence, self.detail):
-            label.setWordWrap(True)
         column = self._column()
         for row in self.rows.values():
             column.addWidget(row)

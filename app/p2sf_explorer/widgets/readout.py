@@ -2,9 +2,9 @@
 
 from math import ceil
 
-from PySide6.QtCore import QEvent, QRectF, QSize, Qt
+from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QLabel, QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
 
 from p2sf.messages import Message
 from p2sf_explorer.charts.painting import elided, metrics, width_of, write
@@ -92,6 +92,55 @@ class Readout(QWidget):
         painter.setPen(QColor(getattr(self._theme, self._colour)))
         room = QRectF(pad, 0, self.width() - 2 * pad, self.height())
         write(painter, room, text, 1 if self._align == Qt.AlignmentFlag.AlignRight else -1, self._theme.px(SIZE))
+
+
+class Sentence(QLabel):
+    """Wrapped text that may change with every frame: the window is laid out again only for another number of lines."""
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setWordWrap(True)
+        self._words = ""
+
+    def text(self) -> str:
+        """Return the text shown."""
+        return self._words
+
+    def setText(self, text: str) -> None:
+        """Show a text."""
+        if text == self._words:
+            return
+        before, self._words = self.heightForWidth(self.width()), text
+        self.setAccessibleName(text)
+        if self.heightForWidth(self.width()) != before:
+            self.updateGeometry()
+        self.update()
+
+    def clear(self) -> None:
+        """Show nothing."""
+        self.setText("")
+
+    def heightForWidth(self, width: int) -> int:
+        """Return the height of the lines that the text takes, at least of one."""
+        metrics = self.fontMetrics()
+        tall: int = metrics.boundingRect(QRect(0, 0, width, 1), Qt.TextFlag.TextWordWrap, self._words).height()
+        return max(tall, metrics.lineSpacing())
+
+    def sizeHint(self) -> QSize:
+        """Return the height at the present width."""
+        return QSize(self.minimumSizeHint().width(), self.heightForWidth(self.width()))
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the smallest useful size."""
+        metrics = self.fontMetrics()
+        return QSize(10 * metrics.averageCharWidth(), metrics.lineSpacing())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the text."""
+        flags = int(Qt.TextFlag.TextWordWrap | Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        self.style().drawItemText(
+            QPainter(self), self.rect(), flags, self.palette(), self.isEnabled(), self._words, self.foregroundRole()
+        )
 
 
 FactRow = tuple[str, Message, str]
