@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import FloatOrArray
+from p2sf.conventions import FloatOrArray, is_number
 from p2sf.paraxial.seidel import Coefficients
 
 # Polar samples that find the extremes of these low-order polynomials: within 1 % over random coefficients (tested).
@@ -40,7 +40,7 @@ def shape_coefficients(
 
 def spread(*columns: FloatOrArray) -> np.ndarray:
     """Return broadcast numbers or arrays as one array with a last axis, (…, columns)."""
-    if all(np.ndim(x) == 0 for x in columns):  # a single PSF, several times faster
+    if all([is_number(x) for x in columns]):  # a single PSF, several times faster
         return np.array(columns, dtype=float)
     return np.stack(np.broadcast_arrays(*columns), axis=-1)
 

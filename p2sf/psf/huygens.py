@@ -25,7 +25,7 @@ from p2sf.psf.result import Psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.fit import FittedPencil, fit
-from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.pencil import Pencil, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, radiometric, whole_nodes
 from p2sf.threads import for_each, one_blas_thread
@@ -152,7 +152,7 @@ def first_counts(lens: Lens, source: Source, window: Window, clip: bool) -> Coun
     Raises GeometryError where no ray passes, SamplingError where more than MOST_NODES nodes would be needed.
     """
     xi, eta = _probe()
-    rays = pencil(lens, source, xi, eta)
+    rays = _probing(lens, source)
     if not rays.passed.any():
         raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
     counts = counts_for(steepness(ray_data(rays), xi, eta), *window)
@@ -231,7 +231,13 @@ def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNo
 @lru_cache(maxsize=16)
 def all_reach(lens: Lens, source: Source) -> bool:
     """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
-    return bool(pencil(lens, source, *_probe()).passed.all())
+    return bool(_probing(lens, source).passed.all())
+
+
+@lru_cache(maxsize=4)
+def _probing(lens: Lens, source: Source) -> Pencil:
+    """Return the coarse pencil, which says both how steep the phase is and whether all rays reach the sensor."""
+    return pencil(lens, source, *_probe())
 
 
 def _block(lens: Lens, source: Source, nodes: ClearNodes, part: slice) -> tuple[RayData, np.ndarray]:

@@ -18,7 +18,7 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import bound_of, chords_of, steepest_of
 from p2sf.psf._seidel_sum import BATCH, batch_intensities, groups, shape_terms
 from p2sf.pupil.quadrature import RowNodes, chord_rows, chords_for, even_count, grid_rows
-from p2sf.threads import mapped
+from p2sf.threads import mapped, one_blas_thread, threads_or_default
 
 PREVIEW_GRID = 128
 LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
@@ -65,7 +65,14 @@ def stack_of(
             values[some] = found
         return max((rows for _, rows in parts), key=_size)
 
-    used = mapped(fill, _shares(stack_parts(terms, pixels, pixel_um, quality)), threads)
+    parts = stack_parts(terms, pixels, pixel_um, quality)
+    if len(terms) == 1:  # sharing it out would take a tenth of its time
+        if threads is not None:
+            threads_or_default(threads)  # refuses a number that is none
+        with one_blas_thread:
+            used = [fill(list(parts))]
+    else:
+        used = mapped(fill, _shares(parts), threads)
     sampling = Message(
         "{nodes}, {precision}" if len(terms) <= 1 else "up to {nodes}, {precision}",
         nodes=max(used, key=_size).name if used else Message("no nodes"),

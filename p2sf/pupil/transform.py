@@ -40,23 +40,20 @@ def _plain_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.nd
 
 
 def _even_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the block's sum from real products at |x|, |y| only: half the kernels and half the products."""
+    """Return the block's sum from one real product at |x|, |y| only: half the kernels and half the products."""
     columns, from_column = np.unique(np.abs(x), return_inverse=True)
     rows, from_row = np.unique(np.abs(y), return_inverse=True)
     across = np.cos(_radians(kx[..., :, None] * columns))
     phase = _radians(rows[:, None] * ky[..., None, :])
-    upright, odd = (_real_product(amplitude, kernel, across) for kernel in (np.cos(phase), np.sin(phase)))
+    both = np.concatenate([np.cos(phase), np.sin(phase)], axis=-2)
+    parts = np.concatenate([part[..., None] * across for part in (amplitude.real, amplitude.imag)], axis=-1)
+    product, wide = both @ parts, columns.size
+    halves = product[..., : rows.size, :], product[..., rows.size :, :]
+    upright, odd = (half[..., :wide] + 1j * half[..., wide:] for half in halves)
     sign = np.sign(y)[:, None]
     field = upright[..., from_row, :] + (1j * sign).astype(upright.dtype) * odd[..., from_row, :]
     mirrored: np.ndarray = field[..., from_column]
     return mirrored
-
-
-def _real_product(amplitude: np.ndarray, kernel: np.ndarray, across: np.ndarray) -> np.ndarray:
-    """Return (amplitude·kernel) @ across with its real and imaginary parts as two real products."""
-    real = (amplitude.real[..., None, :] * kernel) @ across
-    product: np.ndarray = real + 1j * ((amplitude.imag[..., None, :] * kernel) @ across)
-    return product
 
 
 def _radians(cycles: np.ndarray) -> np.ndarray:

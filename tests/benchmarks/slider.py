@@ -21,7 +21,7 @@ from functools import wraps
 from importlib import import_module
 from math import pi, sin
 from statistics import median, quantiles
-from time import process_time, thread_time
+from time import perf_counter, process_time, sleep, thread_time
 from typing import Any
 
 from PySide6.QtCore import QSize
@@ -43,11 +43,15 @@ SLIDERS = "field_deg", "depth_mm", "wavelength_nm", "sensor_shift_um", "f_number
 ASKED = {(1440, 900): (10, 16), (3840, 2160): (16, 25)}  # ms: median, 95th percentile
 MATRIX_MS, MATRIX_SLIDERS = 33, ("f_number", "sensor_shift_um")
 LEAST_MS = 0.02  # of a part that is printed
+LONGEST_S = 10.0  # for which a settled picture is waited for
 FIRST, FRAMES, SWING = 10, 100, 37  # frames that do not count, frames that do, frames to and fro
 PARTS = {  # what is timed by ``--split``: the name that calls it, and what it is
     "p2sf_explorer.compute.live:paraxial_setup": "compute: first order",
     "p2sf_explorer.compute.live:layout": "compute: layout's rays",
     "p2sf_explorer.compute.live:rendered": "compute: method and window",
+    "p2sf_explorer.compute.ray_density:pencil": "compute: aiming and tracing",
+    "p2sf_explorer.compute.method:main_reach_um": "compute: ray density",
+    "p2sf_explorer.compute.method:geometric_psf": "compute: ray density",
     "p2sf_explorer.compute.method:chosen": "compute: choice",
     "p2sf_explorer.compute.preview:pencil": "compute: aiming and tracing",
     "p2sf_explorer.compute.preview:best_fit": "compute: fit",
@@ -146,7 +150,16 @@ def dragged(window: MainWindow, key: str, clock: Clock) -> list[tuple[float, flo
         spent.append((1e3 * (thread_time() - begun[0]), 1e3 * (process_time() - begun[1])))
     clock.running = False
     store.end()
+    wait(window)
     return spent[FIRST:]
+
+
+def wait(window: MainWindow) -> None:
+    """Wait for what is computed in the background once a slider rests: it is no part of the next frames."""
+    until = perf_counter() + LONGEST_S
+    while window.is_busy() and perf_counter() < until:
+        QApplication.processEvents()
+        sleep(0.01)
 
 
 def opened(state: State, size: tuple[int, int]) -> MainWindow:
