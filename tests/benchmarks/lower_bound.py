@@ -29,6 +29,7 @@ from p2sf.psf.huygens import LIVE, huygens_psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.quadrature import disc_nodes, grid_rows
 from p2sf.raytrace.aiming import PupilRays, pupil_rays
+from p2sf.threads import using_threads
 
 LENS = find_lens("double_gauss_28")
 SOURCE = Source(np.inf, float(np.tan(np.deg2rad(10.0))), 0.5875618)
@@ -141,7 +142,7 @@ def huygens_picture(apart: float = 0.0) -> tuple[Work, Work]:
 
     def call() -> np.ndarray:
         source = replace(SOURCE, field_slope=SOURCE.field_slope + next(steps_aside) * apart)
-        return huygens_psf(LENS, source, PIXELS, PIXEL_UM, None, threads=1).values
+        return huygens_psf(LENS, source, PIXELS, PIXEL_UM, None).values
 
     return call, bare
 
@@ -193,7 +194,7 @@ def main() -> None:
     parser.add_argument("--turns", type=int, default=TURNS)
     turns = parser.parse_args().turns
     np.ones(1 << 20)  # once a process has freed megabytes it keeps them
-    with threadpool_limits(1):
+    with threadpool_limits(1), using_threads(1):
         for name, made in PICTURES.items():
             call, bare = made()
             apart = check(bare(), call())
