@@ -53,7 +53,7 @@ def field_places(study: Study) -> list[FieldPlace]:
     axis, _, corner = study.sharpest(blue)
     far, between, near = CELLS - 1, CELLS // 2, 0
     places = [(blue, corner, far), (blue, corner, between), (blue, corner, near), (blue, axis, near), (blue, axis, far)]
-    places += [(blue, end, far) for end in study.ends] + [(wave, study.sharpest(wave)[-1], far) for wave in others]
+    places += [(blue, v, far) for v in study.scan] + [(wave, study.sharpest(wave)[-1], far) for wave in others]
     return list(dict.fromkeys(places))
 
 
@@ -100,8 +100,8 @@ def depth_places(study: Study) -> list[DepthPlace]:
     """Return where depth nodes are tried: sharpest of all in the corner, in blue, then the axis and both ends."""
     blue, *others = study.waves_um
     axis, middle, corner = study.sharpest(blue)
-    places = [(blue, study.farthest_mm, v) for v in (corner, middle, *study.ends)]
-    places += [(blue, study.nearest_mm, v) for v in (axis, *study.ends)]
+    places = [(blue, study.farthest_mm, v) for v in (corner, middle, *study.scan)]
+    places += [(blue, study.nearest_mm, v) for v in (axis, *study.scan)]
     places += [(wave, study.farthest_mm, study.sharpest(wave)[-1]) for wave in others]
     return list(dict.fromkeys(places))
 

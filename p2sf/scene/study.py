@@ -30,7 +30,7 @@ SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0
 # The first for errors that change a kernel as a whole, the second for those that only show in its fringes.
 COARSE_SAMPLING, FINE_SAMPLING = SAMPLINGS[0], SAMPLINGS[4]
 CONVERGED_WAVES = 3e-4
-SCAN = 65
+SCAN, DEPTHS = 65, 5  # depths among which the sharpest are sought, and at which nodes are tried besides
 SEEN_AT = 0.0, 0.6, 1.0  # of the farthest height: where the sharpest depths are sought
 
 CHIEF_RAYS = 65  # between which fields are found by height: linearly to some 1e-6
@@ -78,6 +78,7 @@ class Study:
         every = [float(wave) for channel in self.scene.channels for wave in channel.wavelengths_um]
         self.waves_um = tuple(sorted({min(every), self.reference_um, max(every)}))
         self.ends = tuple(dict.fromkeys(map(float, self.scene.vergences(2))))  # the far and the near end of the depths
+        self.scan = tuple(dict.fromkeys(map(float, self.scene.vergences(DEPTHS))))  # both, and depths between them
         self._maps: dict[float, SensorMap] = {}
         self._fits: dict[PupilAt, tuple[FrequencyPupil, float]] = {}
         self._of_corners: dict[Level, tuple[PencilForms, np.ndarray]] = {}
