@@ -7,7 +7,7 @@ from p2sf_explorer.state.scales import nice
 
 Span = tuple[float, float]
 STEPS = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)  # times a power of ten: the widths of automatic ranges
-KEPT = 0.5  # of an automatic range that data fill at least: less than 3/5, so that the steps do not flicker
+KEPT = 0.4  # of an automatic range that data fill at least: less than 3/5, so that the steps do not flicker
 PARTS = 10  # into which the width of a range is divided for its round ends
 DEEPEST, WIDEST = 1e-4, 20.0  # of the range without zoom, that zooming leads to
 

@@ -148,6 +148,10 @@ class LayoutDrag:
         except P2SFError as error:
             self._store.refused.emit(error)
 
+    def leave(self) -> None:
+        """Mark nothing any more that could be held."""
+        self._hover_over(None)
+
     def _hover_over(self, found: Grip | None) -> None:
         if found != self.hover:
             self.hover = found

@@ -290,8 +290,9 @@ class LayoutChart(Chart):
             self.setCursor(CURSORS[over.kind] if over else Qt.CursorShape.ArrowCursor)
 
     def leaveEvent(self, event: QEvent) -> None:
-        """Highlight no surface any more."""
+        """Highlight nothing any more."""
         self.highlight.leave()
+        self.drag.leave()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Let go, and fit the picture to what has become of it."""

@@ -106,7 +106,6 @@ def test_a_typed_glass_is_live(window, typed, glass):
         (0, "radius", "0", "surface 1: radius 0"),
         (0, "radius", "round", "surface 1"),
         (2, "medium", "SCHOTT N-SK222", "surface 3: glass"),
-        (2, "medium", "mirror", "mirror"),
         (1, "semi_diameter", "-3", "surface 2: semi-diameter"),
         (4, "thickness", "∞", "surface 5"),
     ],
