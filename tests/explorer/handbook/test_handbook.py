@@ -70,7 +70,7 @@ def test_links_between_pages_are_followed(qtbot):
     qtbot.addWidget(book)
     book.show_section("theory")
     for name in PAGES:
-        for link in re.findall(r"\]\(([^)]+)\)", page(name)):
+        for link in re.findall(r"(?<!!)\[[^]]*\]\(([^)]+)\)", page(name)):  # not of pictures
             book.text.anchorClicked.emit(QUrl(link))
             assert book.text.document().firstBlock().text() == headings(page(link.removesuffix(".md")))[0].text
 
