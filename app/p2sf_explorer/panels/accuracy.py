@@ -158,7 +158,7 @@ class AccuracyPanel:
         )
         self.difference.show_map(delta, rect, about)
         for chart in (self.reference, self.difference):
-            chart.set_extent(count * step / 2, steady=True)
+            chart.set_extent(count * step / 2)
         self.methods.show_methods(accuracy.results, psf.method)
         r2 = written_r_squared(accuracy.r_squared)
         wide, seconds = significant(count * step, 3), f"{reference.seconds:.2f}"

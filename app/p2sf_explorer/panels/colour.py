@@ -115,7 +115,7 @@ class ColourPanel:
             return
         if self.found is None:
             half = asked.window[0] * asked.window[1] / 2
-            self.picture.set_extent(half, steady=True)
+            self.picture.set_extent(half)
         self.asking.ask(asked)
         if changed:
             self.asking.again()
@@ -127,7 +127,7 @@ class ColourPanel:
         rect, luminance = (start, start, count * step, count * step), found.psf.xyz[..., 1]
         seen = Samples(luminance / (float(luminance.max()) or 1.0), rect, tr("luminance, peak = 1"))
         self.picture.show_pixels(pixels(found.psf, self._scale), rect, seen)
-        self.picture.set_extent(count * step / 2, steady=True)
+        self.picture.set_extent(count * step / 2)
         self.spectrum.show_colours(found)
         spread = float(np.ptp(found.psf.shift_um))
         count_said = tr("{count} wavelengths", count=len(found.psf.wavelengths_um))

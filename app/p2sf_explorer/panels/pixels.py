@@ -48,7 +48,7 @@ class BesidePanel:
                 BRIGHTNESS, 0.0, top, unit, means, live.state.display.psf_scale, measure=means, grounded=True
             )
             heat.show_map(np.asarray(values, float), rect, scale)
-            heat.set_extent(half, steady=True)
+            heat.set_extent(half, steady=live.quality == "preview")
         self._say(live, view)
 
     def _say(self, live: Live, view: Beside) -> None:

@@ -54,7 +54,7 @@ class PsfPanel:
         self.badge = Readout(self.widget, pill=True, colour="text")
         self.widget.set_body(self.map)
         self.widget.add_footer(self.badge)
-        self._half = self._airy = 0.0
+        self._framed, self._airy = (0.0, False), 0.0
         self._times: dict[str, str] = {}
         self._live: Live | None = None
         self._finer: tuple[SumRequest, Psf] | None = None
@@ -117,9 +117,10 @@ class PsfPanel:
         self._frame(count * step / 2, live)
 
     def _frame(self, half: float, live: Live) -> None:
-        if half != self._half:
-            self._half = half
-            self.map.set_extent(half, steady=True)
+        moving = live.quality == "preview"
+        if (half, moving) != self._framed:
+            self._framed = half, moving
+            self.map.set_extent(half, steady=moving)
         if live.airy_radius_um != self._airy:
             self._airy = live.airy_radius_um
             turn = np.linspace(0, 2 * np.pi, 73)
