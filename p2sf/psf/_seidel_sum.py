@@ -26,7 +26,7 @@ from p2sf.paraxial.wavefront import shape_coefficients, spread
 from p2sf.pupil.phasors import TURN, cosine_sine, cosine_sine_of_radians
 from p2sf.pupil.quadrature import RowNodes
 
-BATCH = 10  # PSFs at a time: their 128² pupils of float32 just fit a second-level cache
+BATCH = 32  # PSFs at a time: with fewer, two threads wait for the interpreter between them
 KERNEL_BYTES = 2**22  # the most that one kernel may take; more rows than that are summed block by block
 SINGLE_COLUMNS = 128  # most columns of half a chord for float32 phases: they reach 60 waves, rounded to 4e-6 wave
 

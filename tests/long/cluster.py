@@ -70,12 +70,15 @@ def frozen(pid: int, seconds: float) -> None:
 
 
 def filled(path: Path, database, watch: StackProgress, address: str | None) -> tuple[float, Contents]:
-    """Return the seconds of writing a stack, and its files, which are deleted."""
+    """Return the seconds of writing a stack, and its files, which are deleted.
+
+    A group that two workers wrote is done with the first; the other may still be writing, hence a path for each stack.
+    """
     start = time.perf_counter()
     write_stack(*database, path, SAMPLING, watch, address, THREADS)
     seconds = time.perf_counter() - start
     found = contents(path)
-    shutil.rmtree(path)
+    shutil.rmtree(path, ignore_errors=True)
     return seconds, found
 
 
@@ -93,9 +96,10 @@ def compared(folder: Path, database, cluster: RunningCluster, options: argparse.
     }
     times: dict[str, list[float]] = {name: [] for name in ways}
     same, first = True, None
-    for _ in range(options.rounds):
+    for number in range(options.rounds):
         for name, watch in ways.items():
-            seconds, found = filled(folder / "a.zarr", database, watch(), None if name == "local" else cluster.address)
+            path, address = folder / f"{name}_{number}.zarr", None if name == "local" else cluster.address
+            seconds, found = filled(path, database, watch(), address)
             times[name].append(seconds)
             first = first or found
             same = same and found == first
