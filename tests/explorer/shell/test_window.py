@@ -15,13 +15,16 @@ KEYS = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um",
 
 
 def pictures(window) -> dict[str, np.ndarray]:
-    """Return what each panel shows at this moment, as the painted items hold it."""
+    """Return what each panel shows at this moment, as the painted items hold it.
+
+    Of the pupil its waves: the scale of their colours stays while they fill it, so that it depends on what was shown.
+    """
     layout, bars = window.panels["layout"], window.panels["coefficients"].bars
     rays = np.concatenate([np.concatenate(curve.data()) for curve in layout.rays.values()])
     shown = layout.chart.live.layout
     return {
         "layout": np.append(rays, (shown.drawing.sensor_z, shown.sensor_half)),
-        "pupil": window.panels["pupil"].map.indices.copy(),
+        "pupil": window.panels["pupil"].map.values.copy(),
         "psf": window.panels["psf"].map.indices.copy(),
         "coefficients": np.array(list(bars.values.values())),
         "profiles": np.concatenate(window.panels["profiles"].curves["along y"].data()),
