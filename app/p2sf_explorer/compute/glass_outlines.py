@@ -88,7 +88,8 @@ def glass_of(lens: Lens) -> Glass:
 def crossed_before(lens: Lens, at: int, z: list[float]) -> bool:
     """Return whether light crosses the glass behind surface ``at``, from 0, on its way back through an element."""
     return any(
-        np.allclose((z[at], z[at + 1]), (z[other + 1], z[other]), rtol=0, atol=SAME_PLACE_MM)
+        abs(z[at] - z[other + 1]) <= SAME_PLACE_MM
+        and abs(z[at + 1] - z[other]) <= SAME_PLACE_MM
         and lens.media[other + 1] == lens.media[at + 1]
         for other in range(at)
     )
