@@ -24,7 +24,7 @@ def test_a_published_figure_agrees_or_waits(name):
 
 def test_the_figures_asked_for_are_in_the_table():
     assert [figure.value for figure in OPTICSTUDIO] == [49.99978307143194, 0.2364, 1.2182]
-    assert sum(figure.waits_for == "mirrors" for figure in published()) == 8
+    assert sum(figure.waits_for == "obscured pupils" for figure in published()) == 8
     assert sum(figure.kind == "paper" for figure in published()) == 4
 
 
