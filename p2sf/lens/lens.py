@@ -207,7 +207,7 @@ def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:
     """Return the refractive index of every medium, shape (surfaces + 1, *wavelength_um.shape).
 
     It is negative where light runs to the left: a mirror is then a surface with n' = −n, and every equation of
-    refraction holds for it (Welford 1986, §4.7). Raises GlassError for a wavelength, µm, outside a glass's data.
+    refraction holds for it (Welford 1986, ch. 4). Raises GlassError for a wavelength, µm, outside a glass's data.
     """
     wavelength, media = np.asarray(wavelength_um, dtype=float), lens.media
     known = {id(medium): medium.index(wavelength) for medium in {id(medium): medium for medium in media}.values()}

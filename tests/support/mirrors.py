@@ -38,7 +38,7 @@ def classical() -> tuple[float, float]:
 
 
 def aplanatic(focal: float = 400.0, m: float = 4.0, behind: float = 60.0) -> tuple[float, float]:
-    """Return the conics of Ritchey and Chrétien (Schroeder 2000, eqs 6.3.1 and 6.2.6) that end S_I and S_II."""
+    """Return the conics of Ritchey and Chrétien (Schroeder 2000, ch. 6) that end S_I and S_II."""
     k = (focal + behind) / (m + 1) / focal
     first = -1 - 2 * k / ((1 - k) * m**2)
     return first, -(((m + 1) / (m - 1)) ** 2) - 2 * m / ((1 - k) * (m - 1) ** 3)
