@@ -41,6 +41,8 @@ def window(only_window, qtbot):
     only_window.resize(1440, 900)
     only_window.store.replace(FIRST)
     only_window.refresh(FIRST)
+    for button in QApplication.mouseButtons():
+        qtbot.mouseRelease(only_window, button)  # a double-click of QTest ends without a release: moves would drag
     if focused := QApplication.focusWidget():
         focused.clearFocus()  # a shortcut is about the panel that has the focus
     only_window.activateWindow()  # shortcuts and editors answer in the active window only
