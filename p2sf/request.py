@@ -186,7 +186,7 @@ def sensor_position(lens: Lens, request: Request) -> float:
     """
     place = _focused(lens, request.focus_mm)
     shifted = place + request.sensor_shift_um / UM_PER_MM
-    if shifted <= 0 < place:
+    if shifted * lens.directions[-1] <= 0 < place * lens.directions[-1]:
         raise RequestError(
             "{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into it; "
             "give a smaller shift",
@@ -201,7 +201,7 @@ def _focused(lens: Lens, focus_mm: float | None) -> float:
     if focus_mm is None:
         return lens.sensor_mm
     place = float(image_distance(lens, focus_mm, lens.reference_wavelength_um))
-    if not (isfinite(place) and place > 0):
+    if not (isfinite(place) and place * lens.directions[-1] > 0):
         finite = Message("{place:g} mm from the last vertex", place=place)
         raise RequestError(
             "{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind "

@@ -11,6 +11,7 @@ from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import f_number, find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.request import Request, set_up
+from tests.support.mirrors import mirror
 from tests.support.reference import prescription_lens
 
 ROUND_OFF = 1e-12  # a few operations in float64
@@ -40,6 +41,15 @@ def test_the_sensor_stands_at_the_image_of_the_focus_distance(focus):
     setup = asked(focus_mm=focus, depth_mm=focus)
     assert setup.lens.sensor_mm == pytest.approx(float(image_distance(lens(), focus, 0.5875618)), rel=ROUND_OFF)
     assert abs(float(numbers(setup).wd)) < 1e-9  # round-off of 60 mm against a 0.1 µm wave
+
+
+@pytest.mark.parametrize("focus", [150.0, 300.0, inf])
+def test_the_sensor_of_a_mirror_stands_in_front_of_it(focus):
+    """1/s + 1/s' = 2/R: a radius of -200 mm focuses infinity 100 mm to the left."""
+    setup = set_up(mirror(-200.0, -100.0), Request(focus_mm=focus, depth_mm=focus))
+    assert setup.lens.sensor_mm == pytest.approx(-1 / (1 / 100 - 1 / focus), rel=ROUND_OFF)
+    with pytest.raises(P2SFError, match="sensor_shift_um"):
+        set_up(mirror(-200.0, -100.0), Request(sensor_shift_um=200_000.0))
 
 
 def test_a_shift_comes_on_top_of_focus():

@@ -42,13 +42,14 @@ def virtual_image(setup: Setup) -> Message | None:
     """Return a warning where the image of the object is virtual, which the sensor can only show as a wide blur."""
     depth = setup.source.depth_mm
     place = float(image_distance(setup.lens, depth, setup.source.wavelength_um))
-    if not -inf < place < 0 < setup.lens.sensor_mm:
+    along = setup.lens.directions[-1]
+    if not -inf < along * place < 0 < along * setup.lens.sensor_mm:
         return None
     return Message(
         "the image of an object at {depth} mm is virtual, {distance:.6g} mm before the last vertex, so this is the "
         "blur on the sensor at {sensor:.6g} mm; move the object beyond the front focal point",
         depth=text(depth),
-        distance=-place,
+        distance=abs(place),
         sensor=setup.lens.sensor_mm,
     )
 

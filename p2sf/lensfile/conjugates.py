@@ -126,7 +126,8 @@ def _marginal_height(kind: RawApertureKind, value: float, raw: RawLens, rays: Pa
     if kind == "object_na":
         return distance * tan(asin(_sine(value, rays.object_index))) * per_height
     slope = c + d * start
-    goal = 1 / (2 * value) if kind == "image_f_number" else rays.image_index * tan(asin(_sine(value, rays.image_index)))
+    index = abs(rays.image_index)  # negative behind a mirror
+    goal = 1 / (2 * value) if kind == "image_f_number" else index * tan(asin(_sine(value, index)))
     return goal / slope * per_height if slope else inf
 
 

@@ -47,6 +47,14 @@ def test_the_image_f_number_is_the_working_one_of_a_finite_object():
     assert float(working_f_number(lens, 254.0, 0.55)) == pytest.approx(4.0, rel=1e-10)
 
 
+@pytest.mark.parametrize("aperture", ["FNO 4", "NA 0.124034735"])  # sin(arctan(1/8))
+def test_an_image_sided_aperture_holds_behind_a_mirror_too(aperture):
+    folded = ("S 0.0 0.05 620.364", "S -4.0 -0.2 REFL"), ("S 0.0 1.4", "S 0.0 -1.4"), ("FNO 4", aperture)
+    lens = read(PRIVATE, *folded).lens
+    assert lens.directions[-1] == -1
+    assert abs(float(working_f_number(lens, 254.0, 0.55))) == pytest.approx(4.0, rel=1e-8)  # the digits of NA
+
+
 def test_the_image_f_number_of_an_object_at_infinity_is_the_f_number():
     aperture = read(DOUBLET, ("EPD   20.0", "FNO 5")).lens.aperture
     assert (aperture.kind, aperture.value) == ("f_number", 5.0)

@@ -50,8 +50,8 @@ def followed_sensor(before: Lens, after: Lens, depth_mm: float) -> float:
     Where either lens has no real image of this depth, the sensor stays where the edited lens has it.
     """
     old, new = (float(image_distance(lens, depth_mm, lens.reference_wavelength_um)) for lens in (before, after))
-    place = before.sensor_mm + new - old
-    if not (isfinite(place) and new > 0 and place > 0) or isclose(place, after.sensor_mm, rel_tol=SAME):
+    place, along = before.sensor_mm + new - old, after.directions[-1]
+    if not (isfinite(place) and along * new > 0 and along * place > 0) or isclose(place, after.sensor_mm, rel_tol=SAME):
         return after.sensor_mm
     return place
 

@@ -185,6 +185,6 @@ def hyperfocal(setup: ParaxialSetup, tolerated_um: float) -> float:
     at_focus, behind = (float(axial_heights(setup, np.array([inf]), focus + step)[0]) for step in (0.0, 1.0))
     if not isfinite(focus) or behind == at_focus:
         return inf
-    sensor = focus + tolerated_um / 2 / UM_PER_MM / abs(behind - at_focus)
+    sensor = focus + setup.lens.directions[-1] * tolerated_um / 2 / UM_PER_MM / abs(behind - at_focus)
     roots = linear_roots(setup, pupil, 0.0, sensor)
     return 1 / roots[0] - pupil if roots and roots[0] else inf
