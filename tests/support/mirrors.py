@@ -1,6 +1,7 @@
 """Systems of mirrors for tests: closed forms, and another program's telescope of three mirrors and three lenses."""
 
 import json
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 
@@ -42,6 +43,14 @@ def aplanatic(focal: float = 400.0, m: float = 4.0, behind: float = 60.0) -> tup
     k = (focal + behind) / (m + 1) / focal
     first = -1 - 2 * k / ((1 - k) * m**2)
     return first, -(((m + 1) / (m - 1)) ** 2) - 2 * m / ((1 - k) * (m - 1) ** 3)
+
+
+def folded(lens: Lens) -> Lens:
+    """Return a lens with a plane mirror at two fifths of the way to its sensor."""
+    before = 0.4 * lens.sensor_mm
+    last = replace(lens.surfaces[-1], thickness=before)
+    mirror = Surface(inf, before - lens.sensor_mm, MIRROR)
+    return replace(lens, surfaces=(*lens.surfaces[:-1], last, mirror))
 
 
 def telescope() -> Lens:

@@ -160,7 +160,7 @@ def one_wave(live: Live) -> float:
 def shifts_around(live: Live, count: int) -> tuple[float, ...]:
     """Return sensor shifts on both sides of the present one, a depth of focus n′λ/NA² or a little more apart, µm."""
     c = live.setup.own
-    depth = float(c.image_index) * live.setup.source.wavelength_um / float(c.na) ** 2 if float(c.na) else 100.0
+    depth = abs(float(c.image_index)) * live.setup.source.wavelength_um / float(c.na) ** 2 if float(c.na) else 100.0
     steps = nice(depth) * (np.arange(count) - (count - 1) / 2)
     return tuple(float(live.state.optics.sensor_shift_um + step) for step in steps)
 

@@ -32,5 +32,5 @@ def chromatic(live: Live) -> Chromatic:
     nm = np.linspace(*wavelength_range(prescription(live.state)), WAVELENGTHS[live.quality])
     shift = 1e3 * colour_shift(setup.lens, setup.source.depth_mm, nm / NM_PER_UM, ZONES, setup.stop)
     c = setup.own
-    half = float(c.image_index) * setup.source.wavelength_um / (2 * float(c.na) ** 2) if float(c.na) else np.inf
+    half = abs(float(c.image_index)) * setup.source.wavelength_um / (2 * float(c.na) ** 2) if float(c.na) else np.inf
     return Chromatic(nm, shift, half)

@@ -72,14 +72,15 @@ def strip(live: Live) -> Strip | Message:
 def shift_range(setup: ParaxialSetup) -> tuple[float, float, float]:
     """Return the shifts to show, µm, around sensor and foci, and half the width of a window that holds the blur, µm."""
     c = setup.coefficients
-    na, index = float(c.na), float(c.image_index)
+    na, index = float(c.na), float(c.image_index)  # negative behind an odd number of mirrors
     unit = 1e3 * index * setup.source.wavelength_um / 1e3 / na**2  # n′λ/NA², the depth of focus, µm
     sagittal, tangential = (1e3 * float(place) for place in seidel_foci(c))
     balanced = (sagittal + tangential) / 2 - 2 * unit * float(c.w40)
     low, high = (side(0.0, sagittal, tangential, balanced) for side in (min, max))
-    step = nice((high - low + 2 * AIR * unit) / 8)
-    low, high = step * np.floor((low - AIR * unit) / step), step * np.ceil((high + AIR * unit) / step)
-    blur = 0.35 * (high - low) * na / index
+    air = AIR * abs(unit)
+    step = nice((high - low + 2 * air) / 8)
+    low, high = step * np.floor((low - air) / step), step * np.ceil((high + air) / step)
+    blur = 0.35 * (high - low) * na / abs(index)
     return float(low), float(high), blur + ROOM * float(airy_radius_um(setup.source.wavelength_um, na))
 
 

@@ -41,7 +41,9 @@ def scene(live: Live) -> Scene3D:
         rays=rays,
         colour=visible_colour(live.state.optics.wavelength_nm),
         front=front(setup, drawn, float(drawn.glass.last[0].max())),
-        psf_surface=psf_surface(live.psf, brightness(live), drawn, half, float(rays[0, -1, 1])),
+        psf_surface=psf_surface(
+            live.psf, brightness(live), drawn, half, float(rays[0, -1, 1]), live.setup.lens.directions[-1]
+        ),
     )
 
 
