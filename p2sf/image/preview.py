@@ -58,13 +58,13 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     middle = colours[len(colours) // 2].wavelengths_um[0]
     edge = scene.sensor.corners_mm()[1]
     vergence = float(scene.vergences(2)[0])
-    zones, counts = ((edge, Recipe("fitted", levels(camera.aim)[0].numbers)),), WAVE_COUNTS[0][1]
-    planned = Plan(camera, scene, middle, zones, colours, counts, (vergence,), (), float("nan"), UNKNOWN, UNKNOWN)
+    recipe, counts = Recipe("fitted", levels(camera.aim)[0].numbers), WAVE_COUNTS[0][1]
+    planned = Plan(camera, scene, middle, recipe, colours, counts, (vergence,), (), float("nan"), UNKNOWN, UNKNOWN)
     side = wave_side(planned)
     for most, fewer in WAVE_COUNTS:
         if side <= most:
             return replace(planned, counts=fewer)
-    by_rays = replace(planned, zones=((edge, BY_RAYS),))
+    by_rays = replace(planned, recipe=BY_RAYS)
     size = 2 * _middle_kernels(by_rays).half_width(edge) + 1
     return replace(by_rays, counts=next((fewer for most, fewer in RAY_COUNTS if size <= most), (1, 1)))
 

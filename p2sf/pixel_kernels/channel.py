@@ -1,6 +1,6 @@
 """The kernel of one spectral channel anywhere on the sensor: fits along a radius, rotated, summed over wavelength."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -97,7 +97,7 @@ def wave_kernels(
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """The light of points in all wavelengths of a channel, by recipe: (recipe, indices of its points, their lights).
+    """The light of points in all wavelengths of a channel, and the recipe that makes kernels of it.
 
     ``weights`` of the wavelengths; ``angles``, (points,), of their fields from +y towards +x.
     """
@@ -105,24 +105,22 @@ class Points:
     pixel_um: float
     weights: tuple[float, ...]
     angles: np.ndarray
-    parts: list[tuple[Recipe, np.ndarray, PointLights]]
+    recipe: Recipe
+    lights: PointLights
 
     def half_widths(self) -> np.ndarray:
         """Return how many pixels on either side of the centre hold each point's kernel, (points,)."""
-        halves = np.empty(len(self.angles), int)
-        for _, chosen, lights in self.parts:
-            halves[chosen] = lights.half_widths(self.pixel_um).reshape(len(self.weights), -1).max(0)
+        halves: np.ndarray = self.lights.half_widths(self.pixel_um).reshape(len(self.weights), -1).max(0)
         return halves
 
     def kernels(self, halves: np.ndarray) -> list[np.ndarray]:
         """Return each point's kernel of this half width, (2·half + 1,)² float32 of unit sum, row 0 the top."""
         totals = [np.zeros((size, size), np.float32) for size in (2 * halves + 1).tolist()]
-        for recipe, chosen, lights in self.parts:
-            every = np.tile(chosen, len(self.weights))
-            made = lights.kernels(self.angles[every], halves[every], self.pixel_um, recipe)
-            shares = np.repeat(np.array(self.weights, np.float32), len(chosen))
-            for k, share, kernel in zip(every.tolist(), shares, made, strict=True):
-                totals[k] += share * kernel
+        waves, points = len(self.weights), len(self.angles)
+        made = self.lights.kernels(np.tile(self.angles, waves), np.tile(halves, waves), self.pixel_um, self.recipe)
+        shares = np.repeat(np.array(self.weights, np.float32), points)
+        for k, (share, kernel) in enumerate(zip(shares, made, strict=True)):
+            totals[k % points] += share * kernel
         for total in totals:
             total /= total.sum(dtype=float).astype(np.float32)
         return totals
@@ -132,14 +130,13 @@ class Points:
 class Kernels:
     """Kernels of one view, channel and pixel pitch; pupils are cached per height, since points on a circle share them.
 
-    ``recipe_at(height_mm)`` may choose a cheaper method where it is accurate enough; a ``table``, if any, replaces a
-    fit for every height that it covers.
+    A ``table``, if any, replaces a fit for every height that it covers.
     """
 
     seen: SensorMap
     colour: Colour
     pixel_um: float
-    recipe_at: Callable[[float], Recipe]
+    recipe: Recipe
     half: int | None = None
     table: PupilTable | None = None
     kept: dict[float, list[tuple[Light, float]]] = field(default_factory=dict)
@@ -152,20 +149,19 @@ class Kernels:
     def points(self, x_mm: ArrayLike, y_mm: ArrayLike) -> "Points":
         """Return the light of points that land at (x, y up), (points,) each."""
         x, y = np.asarray(x_mm, float), np.asarray(y_mm, float)
-        heights = np.hypot(x, y)
-        recipes = [self.recipe_at(height) for height in heights.tolist()]
-        parts = []
-        for recipe in dict.fromkeys(recipes):
-            chosen = np.flatnonzero([other == recipe for other in recipes])
-            parts.append((recipe, chosen, self._lights_at(heights[chosen], recipe)))
-        return Points(self.pixel_um, self.colour.weights, np.arctan2(x, y), parts)
+        lights = self._lights_at(np.hypot(x, y))
+        return Points(self.pixel_um, self.colour.weights, np.arctan2(x, y), self.recipe, lights)
 
-    def _lights_at(self, heights_mm: np.ndarray, recipe: Recipe) -> PointLights:
+    def _lights_at(self, heights_mm: np.ndarray) -> PointLights:
         """Return the light of points at some heights in every wavelength."""
         waves = self.colour.wavelengths_um
         depth = float(vergence(self.seen.depth_mm))
         table = self.table
-        if table is not None and recipe.method != RAYS and all(table.covers(height, depth) for height in heights_mm):
+        if (
+            table is not None
+            and self.recipe.method != RAYS
+            and all(table.covers(height, depth) for height in heights_mm)
+        ):
             every = np.repeat(waves, len(heights_mm))
             pupils, shifts_mm = table.at(np.tile(heights_mm, len(waves)), depth, every)
             return PointLights(pupils, shifts_mm * UM_PER_MM)
@@ -183,18 +179,17 @@ class Kernels:
         """Return (pupil or rays, lateral colour in mm) of every wavelength at one height."""
         key = round(height_mm, 9)
         if key not in self.kept:
-            recipe = self.recipe_at(height_mm)
-            self.kept[key] = [self._light(height_mm, w, recipe) for w in self.colour.wavelengths_um]
+            self.kept[key] = [self._light(height_mm, w) for w in self.colour.wavelengths_um]
         return self.kept[key]
 
-    def _light(self, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[Light, float]:
-        if recipe.method == RAYS:
+    def _light(self, height_mm: float, wavelength_um: float) -> tuple[Light, float]:
+        if self.recipe.method == RAYS:
             return _own_rays(self.seen, height_mm, wavelength_um)
         depth = float(vergence(self.seen.depth_mm))
         if self.table is not None and self.table.covers(height_mm, depth):
             pupils, shifts_mm = self.table.at(height_mm, depth, wavelength_um)
             return pupils.one(0), float(shifts_mm[0])
-        return own_pupil(self.seen, height_mm, wavelength_um, recipe)
+        return own_pupil(self.seen, height_mm, wavelength_um, self.recipe)
 
     def half_width(self, height_mm: float) -> int:
         """Return how many pixels on either side of the centre hold the whole kernel at this height."""

@@ -47,6 +47,7 @@ SHARES = {"method": 0.5, "sampling": 0.25, "field": 0.5, "depth": 0.54, "colour"
 FINE_ENOUGH, FINE_ENOUGH_ERROR = 4, 2.5e-3  # an entry of SAMPLINGS, and what it leaves of a kernel at most: measured
 SHARPER = 1.1  # kernels between those seen may be so much sharper
 SAFETY = 1.3  # for places between those where an error was measured
+TOGETHER = 1.1  # times the root sum: the errors are not quite independent, and all but 1 of 320 scenes kept to this
 
 
 @dataclass(frozen=True)
@@ -64,10 +65,9 @@ class Decision:
 class Plan:
     """Everything that kernels of a scene are made of.
 
-    ``zones`` of the field, from the axis outwards: (outer edge in mm, recipe); ``colours``: one per channel;
-    ``counts``: kernel nodes along rows and columns; ``vergences`` of the depth nodes (1/mm), increasing.
-    ``predicted_error``: the root of the sum of squared errors of the decisions. ``naive``: what the full grid would
-    cost (`pricing.naive_work`).
+    ``recipe``: how each kernel is made; ``colours``: one per channel; ``counts``: kernel nodes along rows and columns;
+    ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error``: the root of the sum of squared errors of
+    the decisions, times TOGETHER. ``naive``: what the full grid would cost (`pricing.naive_work`).
     ``norm``: the largest root sum of squares of the kernels, by which `allowed_error` follows from the tolerance.
     ``table``: the pupils that all others are interpolated from; None where each is fitted.
     """
@@ -75,7 +75,7 @@ class Plan:
     lens: Lens
     scene: Scene
     reference_um: float
-    zones: tuple[tuple[float, Recipe], ...]
+    recipe: Recipe
     colours: tuple[Colour, ...]
     counts: tuple[int, int]
     vergences: tuple[float, ...]
@@ -103,14 +103,10 @@ class Plan:
         """Return the tolerance as relative error of these kernels."""
         return self.scene.relative_error(self.norm)
 
-    def recipe_at(self, height_mm: float) -> Recipe:
-        """Return the recipe of the zone that holds this height."""
-        return next((recipe for edge, recipe in self.zones if height_mm <= edge), self.zones[-1][1])
-
     def kernels(self, channel: int, vergence: float) -> Kernels:
         """Return the kernels of one channel at one depth."""
         seen, colour = self.sensor_map(vergence), self.colours[channel]
-        return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe_at, table=self.table)
+        return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe, table=self.table)
 
     def sensor_map(self, vergence: float) -> SensorMap:
         """Return where the points of one depth land."""
@@ -145,12 +141,24 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     colours, colour = _colours(study, budget)
     table = seidel_table(study, study.table) if study.table and recipe.method == "seidel" else study.table
     decisions = (method, sampled, field, depth, *colour, _pupils(study))
-    error = hypot(*(max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES))
+    errors = (max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES)
+    error = TOGETHER * hypot(*errors)
     cost = predicted_cost(plan_work(study, recipe, colours, counts, len(vergences)))
     naive = predicted_cost(naive_work(study, recipe, counts, len(vergences)))
-    zones = ((study.farthest_mm, recipe),)
     return Plan(
-        camera, scene, study.reference_um, zones, colours, counts, vergences, decisions, error, cost, naive, table, norm
+        camera,
+        scene,
+        study.reference_um,
+        recipe,
+        colours,
+        counts,
+        vergences,
+        decisions,
+        error,
+        cost,
+        naive,
+        table,
+        norm,
     )
 
 

@@ -65,7 +65,7 @@ def test_a_real_lens_equals_its_direct_sum():
     """400 bright pixels anywhere in 128 × 128 at 18 mm of the Double Gauss, each sent out with its own kernel."""
     sensor = Sensor(SIDE, SIDE, 8.0, (0.0, 18.0))
     seen = sensor_map(find_lens("double_gauss_28"), np.inf, 0.5876, sensor.corners_mm()[1])
-    kernels = Kernels(seen, Colour((0.5876,), (1.0,)), 8.0, lambda height: Recipe("fitted"), half=14)
+    kernels = Kernels(seen, Colour((0.5876,), (1.0,)), 8.0, Recipe("fitted"), half=14)
 
     def kernel_at(row, column):
         return kernels.at(float(sensor.x_mm(column)), float(sensor.y_mm(row)))[None]
@@ -109,7 +109,7 @@ def test_the_slanted_edge_has_the_psfs_contrast():
     size, pixel, angle, bins = 161, 5.0, np.deg2rad(5.0), 8
     sensor = Sensor(size, size, pixel, (0.0, 8.0))
     planned = quick(sensor, f_number=6.0)
-    planned = replace(planned, zones=((99.0, Recipe("fitted", None, 4.0, 0.5)),))
+    planned = replace(planned, recipe=Recipe("fitted", None, 4.0, 0.5))
     picture = form_image(planned, draw_chart("slanted_edge", size, size)[..., :1], how=Forming(geometry=False))
     inner = picture[30:-30, 20:-20, 0].astype(float)
     y, x = np.mgrid[30 : size - 30, 20 : size - 20] - size // 2

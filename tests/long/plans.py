@@ -165,7 +165,7 @@ def plan_seconds(planned: Plan) -> float:
 
 def naive_seconds(planned: Plan) -> float:
     """Return the CPU seconds of the full grid's kernels: SAMPLE of them made, times how many there are."""
-    sensor, recipe = planned.scene.sensor, naive_recipe(planned.zones[0][1])
+    sensor, recipe = planned.scene.sensor, naive_recipe(planned.recipe)
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), planned.counts, strict=True))
     places = [(v, c, a, b) for v in planned.vergences for c in planned.scene.channels for a in rows for b in columns]
     ends, rim = (planned.vergences[0], planned.vergences[-1]), sensor.corners_mm()[1]
@@ -175,7 +175,7 @@ def naive_seconds(planned: Plan) -> float:
     started = process_time()
     for v, channel, row, column in picked:
         colour = Colour(tuple(channel.wavelengths_um.tolist()), tuple(channel.shares.tolist()))
-        kernels = Kernels(views[v], colour, sensor.pixel_um, lambda _: recipe, half)
+        kernels = Kernels(views[v], colour, sensor.pixel_um, recipe, half)
         kernels.at(float(sensor.x_mm(column)), float(sensor.y_mm(row)))
     return (process_time() - started) * len(places) / len(picked)
 

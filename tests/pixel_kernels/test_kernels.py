@@ -108,9 +108,9 @@ def test_fewer_wavelengths_keep_the_spectrums_moments():
 def test_kernels_of_a_channel_have_unit_sum_and_carry_lateral_colour():
     seen = sensor_map(find_lens("landscape"), np.inf, WAVE, 15.0)
     colours = Colour((0.45, 0.65), (0.5, 0.5))
-    kernel = Kernels(seen, colours, 8.0, lambda height: Recipe()).at(0.0, 12.0)
+    kernel = Kernels(seen, colours, 8.0, Recipe()).at(0.0, 12.0)
     assert kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
-    single = Kernels(seen, Colour((WAVE,), (1.0,)), 8.0, lambda height: Recipe()).at(0.0, 12.0)
+    single = Kernels(seen, Colour((WAVE,), (1.0,)), 8.0, Recipe()).at(0.0, 12.0)
 
     def spread(k):
         axis = np.arange(len(k)) - len(k) // 2

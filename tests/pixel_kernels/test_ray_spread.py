@@ -92,7 +92,7 @@ def test_rims_darken_their_part_of_the_pupil():
 
 def test_kernels_of_rays_carry_their_lateral_colour():
     seen = sensor_map(find_lens("fast_gauss_f14"), np.inf, WAVE, 15.0)
-    kernels = Kernels(seen, Colour((0.45, WAVE), (0.5, 0.5)), 16.0, lambda height: Recipe(RAYS))
+    kernels = Kernels(seen, Colour((0.45, WAVE), (0.5, 0.5)), 16.0, Recipe(RAYS))
     assert not kernels.pupils(13.0) and len(kernels.lights(13.0)) == 2
     kernel = kernels.at(0.0, 13.0)
     assert kernel.shape[0] == 2 * kernels.half_width(13.0) + 1

@@ -62,7 +62,7 @@ def psf_counts(plan: Plan) -> tuple[Message, Message]:
 
 
 def plan_notes(plan: Plan) -> Notes:
-    """Return the promise of a plan and its decisions; zones of the field that agree appear once."""
+    """Return the promise of a plan and its decisions; channels that agree appear once."""
     errors: dict[tuple[str, Message, Message, Message], list[float]] = {}
     for decision in plan.decisions:
         heading = Message(HEADINGS[decision.kind], **(decision.what.values if decision.kind == "colour" else {}))
@@ -129,7 +129,6 @@ UNMEASURED = {
 RAY_NOTE = Message("These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.")
 SHARPENED = ("sharpened", "axis")  # of what can be shown
 CELL_PX = 24  # of the map of PSFs, at least
-RING = (0.9, 0.45, 0.0)
 ROWS_AT_ONCE = 256
 CORNER = 0.97  # of the way to the outermost chief ray
 TOLERANCE = 0.1  # relative error of a pixel's kernel: less cannot be seen
@@ -287,7 +286,7 @@ def shown(
         return values, form_image(plan, values, watch=watch, lattice=lattice), ()
     if show == "psfs":
         formed = form_image(plan, values, watch=watch, lattice=lattice)
-        return formed, psf_map(plan, lattice, values.shape[:2]), zone_notes(plan)
+        return formed, psf_map(lattice, values.shape[:2]), method_notes(plan)
     blurred = form_image(plan, values, how=Forming(geometry=False), watch=watch, lattice=lattice)
     blurred = blurred + np.random.default_rng(0).normal(0, NOISE, blurred.shape).astype(np.float32)
     right = wiener(blurred, lattice, NOISE, watch)
@@ -308,8 +307,8 @@ def likeness(picture: np.ndarray, scene: np.ndarray) -> Message:
     return Message("{psnr:.1f} dB, SSIM {ssim:.3f}", psnr=psnr(picture, scene), ssim=ssim(shown, wanted))
 
 
-def psf_map(plan: Plan, lattice: Lattice, shape: tuple[int, int]) -> np.ndarray:
-    """Return the PSFs that make a picture, each at its place, (rows, columns, 3), and rings where another zone begins.
+def psf_map(lattice: Lattice, shape: tuple[int, int]) -> np.ndarray:
+    """Return the PSFs that make a picture, each at its place, (rows, columns, 3).
 
     Each is the root of its kernel over its peak, as large as its cell allows; where cells are small only every second
     place is shown, or every third, and so on.
@@ -325,10 +324,6 @@ def psf_map(plan: Plan, lattice: Lattice, shape: tuple[int, int]) -> np.ndarray:
             tile = small_psf(lattice.kernels[a][b], min(bottom - top, right - left) - 2)
             row, column = (top + bottom - len(tile)) // 2, (left + right - len(tile)) // 2
             picture[row : row + len(tile), column : column + len(tile)] = tile
-    sensor = plan.scene.sensor
-    heights = np.hypot(sensor.x_mm(np.arange(shape[1])), sensor.y_mm(np.arange(shape[0]))[:, None])
-    for edge, _ in plan.zones[:-1]:
-        picture[np.abs(heights - edge) < 0.75 * sensor.pixel_mm * max(1, shape[1] // COLUMNS)] = RING
     return picture
 
 
@@ -355,20 +350,13 @@ def small_psf(kernels: np.ndarray, side: int) -> np.ndarray:
     return found
 
 
-def zone_notes(plan: Plan) -> Notes:
-    """Return which method makes the PSFs of each zone, from the axis outwards."""
-    from_mm, notes = 0.0, []
-    for edge, recipe in plan.zones:
-        words = Message(
-            "{start:.3g} to {end:.3g} mm from the axis: {method}", start=from_mm, end=edge, method=recipe_words(recipe)
-        )
-        notes.append((Message("Zone"), words))
-        from_mm = edge
-    return tuple(notes)
+def method_notes(plan: Plan) -> Notes:
+    """Return which method makes the PSFs, of a plan whose decisions do not say so."""
+    return () if plan.decisions else ((Message("Method"), recipe_words(plan.recipe)),)
 
 
 def recipe_words(recipe: Recipe) -> Message:
-    """Return how the kernels of a zone are made."""
+    """Return how kernels are made."""
     if recipe.method == RAYS:
         return Message("ray density")
     if recipe.numbers is None:
@@ -392,7 +380,7 @@ def no_plan(plan: Plan) -> Message | None:
 
 def by_rays(plan: Plan) -> bool:
     """Return whether a plan's kernels are densities of rays."""
-    return any(recipe.method == RAYS for _, recipe in plan.zones)
+    return plan.recipe.method == RAYS
 
 
 def axis_kernel(plan: Plan, lattice: Lattice) -> np.ndarray:

@@ -205,8 +205,7 @@ def test_the_picture_obeys_clipping():
 def test_rays_make_nearly_the_picture_of_waves():
     """The Double Gauss at 14°, where a kernel of rays differs by a seventh: it is fringes that a picture hides."""
     found = coarse(asked(field_deg=14.0, photo_source="siemens_star"))
-    edge = found.plan.scene.sensor.corners_mm()[1]
-    rays = form_image(replace(found.plan, zones=((edge, Recipe(RAYS)),)), found.before)
+    rays = form_image(replace(found.plan, recipe=Recipe(RAYS)), found.before)
     apart = np.linalg.norm(found.after - rays) / np.linalg.norm(found.after)
     assert 0 < apart < 0.01 < 0.1 < np.linalg.norm(found.after - found.before) / np.linalg.norm(found.after)
 
@@ -332,9 +331,9 @@ def test_more_than_twelve_megapixels_are_reduced(monkeypatch, shape, expected):
     assert full_shape("photo.jpg") == expected
 
 
-def test_the_map_shows_each_psf_at_its_place_and_where_another_zone_begins(found):
+def test_the_map_shows_each_psf_at_its_place(found):
     shape = found.after.shape[:2]
-    lattice, shown_map = found.lattice, image.psf_map(found.plan, found.lattice, found.after.shape[:2])
+    lattice, shown_map = found.lattice, image.psf_map(found.lattice, found.after.shape[:2])
     assert shown_map.shape == (*shape, 3) and shown_map.max() == 1.0
     place = round(float(lattice.row_nodes[0])), round(float(lattice.column_nodes[0]))
     tile = image.small_psf(lattice.kernels[0][0], 9)
@@ -342,9 +341,5 @@ def test_the_map_shows_each_psf_at_its_place_and_where_another_zone_begins(found
     peak = np.unravel_index(tile.max(-1).argmax(), tile.shape[:2])
     assert np.abs(np.array(peak) - 4).max() <= 2, "the light is in its middle"
     assert place == (0, 0)
-    zones = image.zone_notes(found.plan)
-    assert len(zones) == len(found.plan.zones)
-    ends = [note.values["end"] for _, note in zones]
-    assert ends == sorted(ends) and ends[-1] >= found.plan.scene.sensor.corners_mm()[1] * 0.999
     pieces = image.cell_edges(lattice.column_nodes, shape[1])
     assert pieces[0] == 0 and pieces[-1] == shape[1] and pieces == sorted(pieces)

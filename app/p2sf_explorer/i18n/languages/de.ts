@@ -680,7 +680,6 @@
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
-<message><source>Zone</source><translation>Zone</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
 <message><source>Zoom out</source><translation>Verkleinern</translation></message>
 <message><source>Z{number}: {waves} λ · {share}</source><translation>Z{number}: {waves} λ · {share}</translation></message>
@@ -1721,7 +1720,6 @@
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>
-<message><source>{start:.3g} to {end:.3g} mm from the axis: {method}</source><translation>{start:.3g} bis {end:.3g} mm von der Achse: {method}</translation></message>
 <message><source>{surface} has a rim decentred by ({x:g}, {y:g}); only centred lenses are read</source><translation>{surface} hat einen um ({x:g}, {y:g}) dezentrierten Rand; nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
 <message><source>{surface} has type {kind}, {description}; only STANDARD and EVENASPH surfaces are read</source><translation>{surface} hat den Typ {kind}, {description}; nur Flächen STANDARD und EVENASPH werden gelesen</translation></message>
