@@ -39,6 +39,16 @@ PARAMETERS = {
         Parameter("method", "Method"),
         Parameter("tolerance", "the tolerance"),
         Parameter("clip", "Clip at rims"),
+        Parameter("obscuration", "Obscuration"),
+        Parameter("vanes", "Vanes"),
+        Parameter("vane_width", "Vane width"),
+        Parameter("vane_angle_deg", "Vane angle", "°"),
+        Parameter("blades", "Blades"),
+        Parameter("roundness", "Roundness"),
+        Parameter("blade_angle_deg", "Blade angle", "°"),
+        Parameter("apodisation", "Apodisation"),
+        Parameter("apodisation_power", "Apodisation power"),
+        Parameter("cubic_um", "Cubic phase", "µm"),
     )
 }
 

@@ -13,7 +13,9 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium
+from p2sf.messages import Message
 from p2sf.notebook import html_table
+from p2sf.pupil.mask import CLEAR, PupilMask
 
 # Far below any atom, and far above where the cube of a curvature overflows.
 SMALLEST_RADIUS_MM = 1e-30
@@ -96,6 +98,8 @@ class Lens:
     aim : str
         How exact rays fill the pupil: "stop", evenly up to the rim of the real stop; "paraxial", evenly over the
         paraxial entrance pupil.
+    mask : PupilMask
+        What stands in the stop: an obscuration, vanes, blades, an apodisation, a phase; the clear disc if not given.
 
     Raises
     ------
@@ -115,6 +119,7 @@ class Lens:
     wavelengths_nm: tuple[float, ...] = (587.5618,)
     object_medium: Medium = AIR
     aim: Aim = USUAL_AIM
+    mask: PupilMask = CLEAR
 
     def __post_init__(self) -> None:
         _check_surfaces(self.surfaces)
@@ -201,6 +206,19 @@ def with_f_number(lens: Lens, f_number: float) -> Lens:
 def with_aim(lens: Lens, aim: Aim) -> Lens:
     """Return the same lens with its pupil filled as ``aim`` says; GeometryError for an unknown one."""
     return lens if lens.aim == aim else replace(lens, aim=aim)
+
+
+def with_mask(lens: Lens, mask: PupilMask) -> Lens:
+    """Return the same lens with this mask in its stop."""
+    return lens if lens.mask == mask else replace(lens, mask=mask)
+
+
+def check_unmasked(lens: Lens, what: Message) -> None:
+    """Raise GeometryError for ``what`` knows the clear disc of the stop only, where the lens has a mask in it."""
+    if not lens.mask.clear:
+        raise GeometryError(
+            "a mask stands in the stop, and {what} knows a clear round stop only; take the mask away", what=what
+        )
 
 
 def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:

@@ -10,6 +10,15 @@ object_medium = "air"
 [aperture]                       # exactly one: stop_semi_diameter, entrance_pupil_diameter, f_number
 f_number = 8
 
+[pupil]                          # what stands in the stop; left out: nothing. All keys may be left out
+obscuration = 0.3                # dark disc, radius over the rim's
+vanes = 4                        # also vane_width (over the rim's diameter), vane_angle_deg (from +y towards +x)
+blades = 6                       # also roundness (0 straight, 1 a circle), blade_angle_deg
+apodisation = 0.8                # 1/e of the amplitude at this radius over the rim's; apodisation_power 2, 4, …
+zernike_um = [0, 0, 0, 0.1]      # path added, µm RMS, by Noll's terms; also cubic_um
+phase_file = "plate.png"         # black 0, white phase_file_um; or phase_map, rows in µm from −y up
+amplitude_file = "filter.npy"    # pictures from 0 to 1; or amplitude_map
+
 [[surface]]                      # in the order light meets them
 radius = 50.0                    # > 0: centre of curvature to the right; inf is a plane
 thickness = 4.0                  # to the next surface, the last one to the sensor; < 0 where light runs back
@@ -32,11 +41,13 @@ from typing import Any
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, Mirror, ModelGlass, TabulatedIndex
-from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface
+from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_mask
 from p2sf.lensfile.agf import FormulaGlass
 from p2sf.lensfile.storage import read_text, write_text
+from p2sf.lensfile.toml_mask import mask_lines, read_mask
 from p2sf.lensfile.toml_table import Constraint, Table, find_line, shown
 from p2sf.messages import Message
+from p2sf.pupil.mask import PupilMask
 
 
 @dataclass(frozen=True)
@@ -68,7 +79,8 @@ def lens_to_toml(lens: Lens) -> str:
     )
     aperture = f"\n[aperture]\n{lens.aperture.kind} = {_number(lens.aperture.value)}\n"
     surfaces = [_surface_text(surface, number, lens) for number, surface in enumerate(lens.surfaces, 1)]
-    return "".join(map(str, head)) + aperture + "".join(surfaces)
+    pupil = "".join(str(_Line(*line)) for line in mask_lines(lens.mask))
+    return "".join(map(str, head)) + aperture + (f"\n[pupil]\n{pupil}" if pupil else "") + "".join(surfaces)
 
 
 def _surface_text(surface: Surface, number: int, lens: Lens) -> str:
@@ -122,7 +134,7 @@ def _medium(medium: Medium) -> str:
 
 MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
 TEXTS = ("title", "name", "character", "source", "comment")
-TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "surface")
+TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "pupil", "surface")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric")
 
@@ -156,7 +168,7 @@ def parse_toml(text: str, path: str | os.PathLike = "lens.toml") -> Lens:
     surfaces = tuple(_surface(table, scale) for table in _surface_tables(top))
     texts = {key: top.string(key) for key in TEXTS}
     texts["name"] = texts["name"] or Path(path).stem.encode("utf-8", "replace").decode("utf-8")
-    lens = _lens(top, surfaces, _aperture(top, scale), texts)
+    lens = with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top))
     _check_wavelengths(top, lens)
     return lens
 
@@ -233,6 +245,13 @@ def _aperture(top: Table, scale: float) -> Aperture:
         table.fail("[aperture] states {count} of {names}; keep exactly one", count=len(values), names=APERTURES)
     kind: ApertureKind = next(iter(values))
     return Aperture(kind, table.number(kind, OPENING) * (1.0 if kind == "f_number" else scale))
+
+
+def _mask(top: Table) -> PupilMask:
+    values = top.values.get("pupil", {})
+    if not isinstance(values, dict):
+        top.fail("pupil is {found}; write [pupil] and what stands in the stop", "pupil", found=shown(values))
+    return read_mask(Table(top.path, top.text, values, "pupil"), TOP)
 
 
 def _lens(top: Table, surfaces: tuple[Surface, ...], aperture: Aperture, texts: dict[str, Any]) -> Lens:

@@ -39,6 +39,12 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
         raise LensFileError(
             'ending "{ending}" is none of {endings}; choose one', path, ending=ending, endings=tuple(writers)
         )
+    if ending != ".toml" and not lens.mask.clear:
+        raise LensFileError(
+            "a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML",
+            path,
+            ending=ending,
+        )
     text = writers[ending](lens)
     catalogue = lens_to_agf(lens) if ending == ".zmx" else ""
     if catalogue:

@@ -10,7 +10,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.errors import GeometryError, RequestError, SamplingError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.seidel import Coefficients, coefficients
@@ -97,6 +97,7 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
     Raises GeometryError where the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
     """
+    check_unmasked(lens, Message("the choice of a method"))
     _check_tolerance(tolerance, BELOW_ONE)
     allowed = 1 - tolerance
     xi, eta, weight = level_rays(QUICK_LEVELS[0])
@@ -197,6 +198,7 @@ def _by_method(
     if clip and method in ("seidel", "fitted"):
         _check_unclipped(lens, source, method)
     if method == "seidel":
+        check_unmasked(lens, Message("the method seidel"))
         c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         return replace(seidel_psf(c, *window, quality), predicted_error=seidel_error(lens, source, c))
     if method == "fitted":

@@ -14,7 +14,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.huygens import huygens_psf
@@ -51,6 +51,7 @@ def traced_psf(
     reference is, to FALLBACK_TOLERANCE, which takes long: ``cancelled`` is called between blocks of them (`Cancelled`).
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
+    check_unmasked(lens, Message("the method traced"))
     started = perf_counter()
     rows = None if clip else _rows(lens, source, (pixels, pixel_um), quality)
     if rows is None:

@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import protected
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Aim, Lens
+from p2sf.lens.lens import Aim, Lens, check_unmasked
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, columns, evaluate, gradient, terms
@@ -155,6 +156,7 @@ def fit(
     ``numbers``: those of a level, with or without those of its weight, so that one count serves every `Lens.aim`.
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
+    check_unmasked(lens, Message("a fit"))
     traced, rays, sampling, found = 0, None, None, None
     for level in levels(lens.aim)[first:]:
         if numbers not in (None, level.numbers, level.unweighted_numbers):

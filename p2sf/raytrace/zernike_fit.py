@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, whole_nodes
@@ -61,6 +62,7 @@ def pupil_opd(
     lens: Lens, source: Source, clip: bool = False, counts: tuple[int, int] = COUNTS
 ) -> tuple[ClearNodes, np.ndarray]:
     """Return nodes over the clear part of the half disc ξ > 0 and the displayed OPD there, waves, (nodes,)."""
+    check_unmasked(lens, Message("the decomposition of a wavefront"))
     nodes = whole_nodes(counts)
     turn = np.linspace(0, np.pi, RIM_RAYS)
     tried = np.append(nodes.xi, np.sin(turn)), np.append(nodes.eta, np.cos(turn))

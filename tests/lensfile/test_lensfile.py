@@ -10,11 +10,13 @@ from hypothesis import strategies as st
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex, TabulatedIndex, catalogue_glass, model_glass
-from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.lensfile.toml import lens_to_toml, parse_toml, write_toml
+from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml, write_toml
+from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import cardinal_points
+from p2sf.pupil.mask import PupilMap, PupilMask
 
 GOOD = """\
 title = "Biconvex"
@@ -211,3 +213,58 @@ def test_a_medium_no_file_can_hold_is_refused():
     lens = parse_toml(GOOD)
     with pytest.raises(LensFileError, match="medium strange stuff cannot be written"):
         lens_to_toml(replace(lens, object_medium=Strange()))
+
+
+MASKED = """\
+[aperture]
+f_number = 8
+[pupil]
+{entry}
+[[surface]]
+radius = 50.0
+thickness = 90.0
+"""
+
+
+def test_a_mask_is_read_and_written():
+    mask = PupilMask(
+        0.3, 3, 0.03, 10.0, 6, 0.4, 5.0, 0.8, 4, (0, 0, 0, 0.1), 0.5, PupilMap(np.arange(16.0).reshape(4, 4))
+    )
+    lens = with_mask(parse_toml(MASKED.format(entry="")), mask)
+    again = parse_toml(lens_to_toml(lens))
+    assert again.mask == mask and hash(again) == hash(lens)
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        "obscuration = 1.5",
+        "vanes = 2.5",
+        "obscuratio = 1",
+        "zernike_um = 3",
+        "phase_map = [[1, 2], [3]]",
+        "cubic_um = inf",
+    ],
+)
+def test_a_mask_that_cannot_be_is_refused_with_its_line(entry):
+    with pytest.raises(LensFileError, match=entry.split()[0]) as error:
+        parse_toml(MASKED.format(entry=entry))
+    assert error.value.line == 4
+
+
+def test_a_mask_of_a_picture_stands_upright(tmp_path):
+    from PIL import Image
+
+    picture = np.zeros((8, 8), np.uint8)
+    picture[0] = 255  # the top row
+    Image.fromarray(picture).save(tmp_path / "plate.png")
+    path = tmp_path / "lens.toml"
+    path.write_text(MASKED.format(entry='phase_file = "plate.png"\nphase_file_um = 2.0'), encoding="utf-8")
+    values = read_toml(path).mask.phase_map.values
+    assert (values[-1] == 2).all() and not values[:-1].any()
+
+
+def test_other_formats_say_that_they_hold_no_mask(tmp_path):
+    lens = with_mask(parse_toml(MASKED.format(entry="")), PupilMask(obscuration=0.2))
+    with pytest.raises(LensFileError, match="mask"):
+        write_lens(lens, tmp_path / "lens.zmx")

@@ -60,6 +60,8 @@
 <message><source>An aperture of NA {na:.2f} is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Eine Öffnung von NA {na:.2f} liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>An aspheric f/2 condenser: a conic and two polynomial terms against spherical aberration</source><translation>Ein asphärischer Kondensor f/2: ein Kegelschnitt und zwei Polynomglieder gegen sphärische Aberration</translation></message>
 <message><source>Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)</source><translation>Animiertes GIF (*.gif);;MP4-Film (*.mp4);;Nummerierte PNG-Bilder (*.png)</translation></message>
+<message><source>Apodisation</source><translation>Apodisation</translation></message>
+<message><source>Apodisation power</source><translation>Potenz der Apodisation</translation></message>
 <message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
 <message><source>As the system</source><translation>Wie das System</translation></message>
 <message><source>Aspheric plano-convex condenser, f/2 (synthetic)</source><translation>Asphärischer plankonvexer Kondensor, f/2 (synthetisch)</translation></message>
@@ -83,6 +85,8 @@
 <message><source>Bending X</source><translation>Durchbiegung X</translation></message>
 <message><source>Bending: the shape factor X = (c₁ + c₂)/(c₁ − c₂) of the selected element; its thin-lens power stays. 0 is equiconvex or equiconcave, ±1 has one plane side. Select an element in the layout or in the table.</source><translation>Durchbiegung: der Formfaktor X = (c₁ + c₂)/(c₁ − c₂) des gewählten Elements; seine Brechkraft als dünne Linse bleibt. 0 ist gleichseitig bikonvex oder bikonkav, bei ±1 ist eine Seite eben. Wählen Sie ein Element im Schnittbild oder in der Tabelle.</translation></message>
 <message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
+<message><source>Blade angle</source><translation>Lamellenwinkel</translation></message>
+<message><source>Blades</source><translation>Lamellen</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
 <message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
@@ -128,6 +132,7 @@
 <message><source>Copy the panel's data as CSV</source><translation>Daten der Ansicht als CSV kopieren</translation></message>
 <message><source>Copy the panel's picture</source><translation>Bild der Ansicht kopieren</translation></message>
 <message><source>Crown and flint cemented: colour and spherical aberration corrected, field curvature not</source><translation>Kron und Flint verkittet: Farbe und sphärische Aberration korrigiert, Bildfeldwölbung nicht</translation></message>
+<message><source>Cubic phase</source><translation>Kubische Phase</translation></message>
 <message><source>Dark</source><translation>Dunkel</translation></message>
 <message><source>Database</source><translation>Datenbank</translation></message>
 <message><source>Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; drag on a map or the atlas, or use the arrow keys and Enter, to set the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas, oder Pfeiltasten und Enter, setzen die Quelle.</translation></message>
@@ -307,6 +312,7 @@
 <message><source>OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included.</source><translation>OPD-Fächer: (optischer Weg des Hauptstrahls − des Strahls)/λ für exakte Strahlen, mit Kippung.</translation></message>
 <message><source>OPD, waves</source><translation>OPD, Wellen</translation></message>
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
+<message><source>Obscuration</source><translation>Abschattung</translation></message>
 <message><source>On the stage</source><translation>Auf die Bühne</translation></message>
 <message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>One scale</source><translation>Ein Maßstab</translation></message>
@@ -433,6 +439,7 @@
 <message><source>Reset</source><translation>Nullen</translation></message>
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
+<message><source>Roundness</source><translation>Rundung</translation></message>
 <message><source>R² not predicted</source><translation>R² nicht vorhergesagt</translation></message>
 <message><source>R² {r} vs Huygens</source><translation>R² {r} gegen Huygens</translation></message>
 <message><source>R² ≥ 0.9</source><translation>R² ≥ 0,9</translation></message>
@@ -619,6 +626,9 @@
 <message><source>Unmeasured. When the sliders rest a plan follows.</source><translation>Ungemessen. Wenn die Regler ruhen, folgt ein Plan.</translation></message>
 <message><source>Unpin</source><translation>B lösen</translation></message>
 <message><source>Values with semicolons between; empty: evenly spread by themselves</source><translation>Werte mit Strichpunkten dazwischen; leer: von selbst gleichmäßig verteilt</translation></message>
+<message><source>Vane angle</source><translation>Strebenwinkel</translation></message>
+<message><source>Vane width</source><translation>Strebenbreite</translation></message>
+<message><source>Vanes</source><translation>Streben</translation></message>
 <message><source>View</source><translation>Darstellung</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
 <message><source>W modulo 1, waves</source><translation>W modulo 1, Wellen</translation></message>
@@ -691,9 +701,11 @@
 <message><source>a blur of {size} pixels with {samples} samples each needs a {side}² transform; bring the depths nearer to focus, stop down, or ask for larger pixels</source><translation>eine Unschärfe von {size} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²; die Abstände dem Fokus nähern, abblenden oder größere Pixel verlangen</translation></message>
 <message><source>a blur of {waves:.0f} waves per pupil radius needs {lines} × {samples} pupil samples; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius braucht {lines} × {samples} Pupillenproben; den Sensor dem Bild nähern oder abblenden</translation></message>
 <message><source>a chart of {columns} × {rows} pixels; give {least} to {most} each way</source><translation>eine Tafel von {columns} × {rows} Pixeln; {least} bis {most} je Richtung angeben</translation></message>
+<message><source>a comparison of descriptions</source><translation>ein Vergleich von Beschreibungen</translation></message>
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
 <message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
+<message><source>a fit</source><translation>eine Anpassung</translation></message>
 <message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
 <message><source>a glass needs a name and a formula number (NM name formula …); complete it</source><translation>ein Glas braucht Namen und Formelnummer (NM Name Formel …); ergänzen</translation></message>
 <message><source>a gradient index</source><translation>ein Gradientenindex</translation></message>
@@ -702,6 +714,10 @@
 <message><source>a lens lists its "surfaces"</source><translation>ein Objektiv listet seine "surfaces"</translation></message>
 <message><source>a lens needs at least one surface; insert another before deleting this one</source><translation>ein Objektiv braucht mindestens eine Fläche; eine andere einfügen, bevor diese gelöscht wird</translation></message>
 <message><source>a lesson begins with a line "{fence}"; put title, about and lens below it</source><translation>eine Lektion beginnt mit einer Zeile "{fence}"; title, about und lens darunter schreiben</translation></message>
+<message><source>a map of the pupil has cells that are no finite numbers; give every cell one</source><translation>eine Karte der Pupille hat Zellen, die keine endlichen Zahlen sind; jeder Zelle eine geben</translation></message>
+<message><source>a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side</source><translation>eine Karte der Pupille hat die Form {shape}; ein Quadrat von {low} bis {high} Zellen je Seite angeben</translation></message>
+<message><source>a mask stands in the stop, and {what} knows a clear round stop only; take the mask away</source><translation>in der Blende steht eine Maske, und {what} kennt nur eine freie runde Blende; die Maske wegnehmen</translation></message>
+<message><source>a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
@@ -724,6 +740,7 @@
 <message><source>a text</source><translation>einen Text</translation></message>
 <message><source>a tolerance of {tolerance:g}; give the R² to hold, below 1</source><translation>eine Toleranz von {tolerance:g}; das einzuhaltende R² angeben, unter 1</translation></message>
 <message><source>a toroid that is not round</source><translation>ein Toroid, das nicht rund ist</translation></message>
+<message><source>a transfer function</source><translation>eine Übertragungsfunktion</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
 <message><source>a wavelength is not light; give nanometres</source><translation>eine Wellenlänge ist kein Licht; Nanometer angeben</translation></message>
@@ -1125,6 +1142,7 @@
 <message><source>private glass {name} has no wavelengths (PWL) before it; add them</source><translation>dem privaten Glas {name} gehen keine Wellenlängen (PWL) voraus; hinzufügen</translation></message>
 <message><source>private glass {name} has not one index per wavelength; complete it</source><translation>das private Glas {name} hat nicht einen Index je Wellenlänge; ergänzen</translation></message>
 <message><source>private glass {name}: {error}</source><translation>privates Glas {name}: {error}</translation></message>
+<message><source>pupil is {found}; write [pupil] and what stands in the stop</source><translation>pupil ist {found}; [pupil] schreiben und was in der Blende steht</translation></message>
 <message><source>pupils</source><translation>Pupillen</translation></message>
 <message><source>quality "{quality}" is unknown; choose "settled" or "preview"</source><translation>die Güte "{quality}" ist unbekannt; "settled" oder "preview" wählen</translation></message>
 <message><source>quaternary astigmatism</source><translation>quartärer Astigmatismus</translation></message>
@@ -1306,10 +1324,12 @@
 <message><source>the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600</source><translation>der Schwarze Körper hat {given:g} K; eine Temperatur von {least:g} bis {most:g} K angeben, wie in planck:5600</translation></message>
 <message><source>the blur is too large for a reference here; {remedy}</source><translation>die Unschärfe ist hier zu groß für eine Referenz; {remedy}</translation></message>
 <message><source>the chief ray {outcome}; choose a smaller field</source><translation>der Hauptstrahl {outcome}; ein kleineres Feld wählen</translation></message>
+<message><source>the choice of a method</source><translation>die Wahl eines Verfahrens</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
 <message><source>the coefficients</source><translation>die Koeffizienten</translation></message>
 <message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
+<message><source>the decomposition of a wavefront</source><translation>die Zerlegung einer Wellenfront</translation></message>
 <message><source>the depth map has the shape ({shape}), but the picture ({picture}); resize it</source><translation>die Tiefenkarte hat die Form ({shape}), aber das Bild ({picture}); ihre Größe anpassen</translation></message>
 <message><source>the depth map holds depths that are not positive; give mm from the first vertex, inf allowed</source><translation>die Tiefenkarte enthält Abstände, die nicht positiv sind; mm vom ersten Scheitel angeben, inf erlaubt</translation></message>
 <message><source>the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞</source><translation>der Abstand "{text}" hat eine unbekannte Einheit; mm, cm, m, km oder ∞ schreiben</translation></message>
@@ -1345,6 +1365,7 @@
 <message><source>the file's object is at {distance:.6g} mm; ask for this depth to see the file's image</source><translation>das Objekt der Datei liegt bei {distance:.6g} mm; mit diesem Objektabstand entsteht das Bild der Datei</translation></message>
 <message><source>the fill factor is {fill:g}; give a part above 0 and up to 1</source><translation>der Füllfaktor ist {fill:g}; einen Teil über 0 und bis 1 angeben</translation></message>
 <message><source>the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
+<message><source>the forming of images</source><translation>die Bilderzeugung</translation></message>
 <message><source>the fourth column as the rim's diameter</source><translation>die vierte Spalte als Durchmesser des Rands</translation></message>
 <message><source>the free pupil has no lens</source><translation>die freie Pupille hat kein Objektiv</translation></message>
 <message><source>the glass has no coefficients (CD line); complete it</source><translation>das Glas hat keine Koeffizienten (Zeile CD); ergänzen</translation></message>
@@ -1375,6 +1396,9 @@
 <message><source>the link</source><translation>der Link</translation></message>
 <message><source>the link holds no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
 <message><source>the link is cut off or changed; copy all of it again, from p2sf: to its last letter</source><translation>der Link ist abgeschnitten oder verändert; noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
+<message><source>the method huygens</source><translation>das Verfahren huygens</translation></message>
+<message><source>the method seidel</source><translation>das Verfahren seidel</translation></message>
+<message><source>the method traced</source><translation>das Verfahren traced</translation></message>
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
 <message><source>the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %</source><translation>das mittlere Pixel hält {real} % des Lichts, von dem einer idealen Linse {perfect} %</translation></message>
 <message><source>the model glass's deviation in partial dispersion is left out; n changes by less than 1e-4</source><translation>die Abweichung der Teildispersion des Modellglases ist weggelassen; n ändert sich um weniger als 1e-4</translation></message>
@@ -1438,6 +1462,7 @@
 <message><source>the transfer function was stopped</source><translation>die Übertragungsfunktion wurde angehalten</translation></message>
 <message><source>the wavefront changes by {step:.3g} waves from one cell to the next, and more than {most:g} is ambiguous; give it on a finer grid, without jumps of whole waves</source><translation>die Wellenfront ändert sich von einer Zelle zur nächsten um {step:.3g} Wellen, und mehr als {most:g} ist mehrdeutig; auf einem feineren Gitter angeben, ohne Sprünge um ganze Wellen</translation></message>
 <message><source>the wavefront has the shape {shape}; give a square array</source><translation>die Wellenfront hat die Form {shape}; eine quadratische Matrix angeben</translation></message>
+<message><source>the window</source><translation>das Fenster</translation></message>
 <message><source>the {axis} nodes must be one or more numbers in ascending order; sort them</source><translation>die Knoten für {axis} müssen eine oder mehrere Zahlen in steigender Folge sein; ordnen</translation></message>
 <message><source>the {quantity} "{text}" has the unit "{unit}"; {remedy}</source><translation>"{text}" hat die Einheit "{unit}" bei: {quantity}; {remedy}</translation></message>
 <message><source>the {quantity} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {quantity}; eine wie 12,5 schreiben</translation></message>
@@ -1530,6 +1555,7 @@
 <message><source>worst R² ≥ {r}</source><translation>kleinstes R² ≥ {r}</translation></message>
 <message><source>wrapped</source><translation>gefaltet</translation></message>
 <message><source>write a finite number</source><translation>eine endliche Zahl schreiben</translation></message>
+<message><source>write a number</source><translation>eine Zahl schreiben</translation></message>
 <message><source>write a number that is not 0, inf for a plane</source><translation>eine Zahl schreiben, die nicht 0 ist, inf für eine Ebene</translation></message>
 <message><source>write a positive number</source><translation>eine positive Zahl schreiben</translation></message>
 <message><source>write a wavelength in nanometres, 50 to 50000</source><translation>eine Wellenlänge in Nanometern schreiben, 50 bis 50000</translation></message>
@@ -1613,6 +1639,8 @@
 <message><source>{method}; {note}</source><translation>{method}; {note}</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
+<message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
+<message><source>{name} cannot be read ({reason}); name a picture or a .npy file</source><translation>{name} lässt sich nicht lesen ({reason}); ein Bild oder eine .npy-Datei nennen</translation></message>
 <message><source>{name} has changed on disk and was read again</source><translation>{name} hat sich auf dem Datenträger geändert und wurde neu gelesen</translation></message>
 <message><source>{name} has changed on disk; your edits are kept, Back to file takes the new one</source><translation>{name} hat sich auf dem Datenträger geändert; Ihre Änderungen bleiben, „Zurück zur Datei“ nimmt die neue</translation></message>
 <message><source>{name} has the ending "{ending}"; give the scene a name in {names}</source><translation>{name} hat die Endung "{ending}"; der Szene einen Namen mit {names} geben</translation></message>
@@ -1621,6 +1649,7 @@
 <message><source>{name} is an empty list; write at least one number</source><translation>{name} ist eine leere Liste; mindestens eine Zahl schreiben</translation></message>
 <message><source>{name} is missing; {remedy}</source><translation>{name} fehlt; {remedy}</translation></message>
 <message><source>{name} is {found}; write a list of numbers as in [1.0, 2.0]</source><translation>{name} ist {found}; eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
+<message><source>{name} is {found}; write a square list of rows of numbers</source><translation>{name} ist {found}; eine quadratische Liste von Zeilen von Zahlen schreiben</translation></message>
 <message><source>{name} is {found}; write a text in quotation marks</source><translation>{name} ist {found}; einen Text in Anführungszeichen schreiben</translation></message>
 <message><source>{name} is {found}; write a whole number</source><translation>{name} ist {found}; eine ganze Zahl schreiben</translation></message>
 <message><source>{name} is {found}; {remedy}</source><translation>{name} ist {found}; {remedy}</translation></message>
@@ -1641,6 +1670,7 @@
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
+<message><source>{parameter} has {count} terms; give up to {most} finite numbers</source><translation>{parameter} hat {count} Terme; bis zu {most} endliche Zahlen angeben</translation></message>
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose noll or fringe</source><translation>{parameter} ist "{value}"; noll oder fringe wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose stop or paraxial</source><translation>{parameter} ist "{value}"; stop oder paraxial wählen</translation></message>
@@ -1650,14 +1680,18 @@
 <message><source>{parameter} is {value:g} mm, but an object at infinity has no height; give {depth} as well, or the field as an angle or an image height</source><translation>{parameter} ist {value:g} mm, aber ein Objekt im Unendlichen hat keine Höhe; auch {depth} angeben oder das Feld als Winkel oder Bildhöhe</translation></message>
 <message><source>{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind the lens; give a distance whose image is real, as a rule a longer one</source><translation>{parameter}: {value:g} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv; einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
 <message><source>{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into it; give a smaller shift</source><translation>{parameter} ist {value:g} µm, was den Sensor von {place:g} mm hinter dem Objektiv in dieses hinein schiebt; einen kleineren Versatz angeben</translation></message>
+<message><source>{parameter} is {value:g}; give a number from {low:g} to {high:g}</source><translation>{parameter} ist {value:g}; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
+<message><source>{parameter} is {value:g}; give a radius of at least {low:g}, inf for none</source><translation>{parameter} ist {value:g}; einen Radius von mindestens {low:g} angeben, inf für keine</translation></message>
 <message><source>{parameter} is {value:g}{unit}, which needs a chief ray at 90° to the axis; give a smaller one</source><translation>{parameter} ist {value:g}{unit}, wofür der Hauptstrahl 90° zur Achse stehen müsste; einen kleineren Wert angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a finite number</source><translation>{parameter}: {value:g}{unit}; eine endliche Zahl angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a positive finite number</source><translation>{parameter}: {value:g}{unit}; eine positive endliche Zahl angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a positive number, inf allowed</source><translation>{parameter}: {value:g}{unit}; eine positive Zahl angeben, ∞ erlaubt</translation></message>
 <message><source>{parameter} is {value:g}°, and no ray at 90° or more from the axis enters a lens; give an angle between −90 and 90°, both ends left out</source><translation>{parameter} ist {value:g}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein; einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>
 <message><source>{parameter} is {value}, which is for {method} seidel; leave it out</source><translation>{parameter} ist {value}, was für {method} seidel gilt; weglassen</translation></message>
+<message><source>{parameter} is {value}; give 0 for none, or a whole number from {low} to {high}</source><translation>{parameter} ist {value}; 0 für keine oder eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number from 1 on</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
+<message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>

@@ -1,0 +1,419 @@
+"""The pupil function A(ξ, η): what of the stop's disc is open, how much light passes there, and which phase it gets.
+
+All is stated in stop coordinates: (ξ, η) on the unit disc of the stop's rim, angles from +η towards +ξ, as azimuths of
+sources are. Phases are path lengths in µm, so that the wavelength scales them.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, lru_cache
+from hashlib import sha256
+from math import cos, inf, isfinite, pi, radians, sin, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.conventions import protected
+from p2sf.errors import RequestError
+from p2sf.parameters import check_finite
+from p2sf.pupil.zernike_terms import MOST_TERMS, zernike_terms, zernike_values
+
+if TYPE_CHECKING:
+    from scipy.interpolate import RectBivariateSpline
+
+LARGEST_OBSCURATION = 0.99
+MOST_VANES, WIDEST_VANE = 12, 0.5
+FEWEST_BLADES, MOST_BLADES = 3, 32
+NARROWEST_APODISATION, MOST_POWER = 0.1, 20
+FEWEST_CELLS, MOST_CELLS, SAMPLED = 4, 1024, 129
+SAME_ANGLE_DEG = 1e-9
+PROBE = 65  # points across the pupil where slopes are looked for
+
+
+class PupilMap:
+    """A phase or an amplitude over the stop as samples, with a cubic spline through them (Dierckx 1993, ch. 5).
+
+    ``values``: (size, size) at cell centres (2k + 1 − size)/size of the rim's radius, rows towards +η, columns
+    towards +ξ; cells outside the disc count too, where they shape the spline beside the rim. Frozen and hashable.
+    """
+
+    def __init__(self, values: ArrayLike):
+        table = np.array(values, dtype=float)
+        if table.ndim != 2 or table.shape[0] != table.shape[1] or not FEWEST_CELLS <= len(table) <= MOST_CELLS:
+            raise RequestError(
+                "a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side",
+                shape=str(table.shape),
+                low=FEWEST_CELLS,
+                high=MOST_CELLS,
+            )
+        if not np.isfinite(table).all():
+            raise RequestError("a map of the pupil has cells that are no finite numbers; give every cell one")
+        self.values = protected(table)
+        self._digest = sha256(table.tobytes()).digest()
+
+    @classmethod
+    def sampled(cls, function: Callable[[np.ndarray, np.ndarray], ArrayLike], size: int = SAMPLED) -> "PupilMap":
+        """Return the map of a function of (ξ, η), sampled once, also a little outside the disc: |ξ|, |η| < 1."""
+        centre = (2 * np.arange(size) + 1 - size) / size
+        xi, eta = np.meshgrid(centre, centre)
+        return cls(np.broadcast_to(np.asarray(function(xi, eta), dtype=float), xi.shape))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, PupilMap) and self._digest == other._digest
+
+    def __hash__(self) -> int:
+        return int.from_bytes(self._digest[:8], "big", signed=True)
+
+    def __repr__(self) -> str:
+        return f"<PupilMap: {len(self.values)} × {len(self.values)} cells>"
+
+    def __getstate__(self) -> dict:
+        return {"values": self.values, "_digest": self._digest}
+
+    @property
+    def even(self) -> bool:
+        """Return whether the map is its own mirror image, ξ → −ξ."""
+        return bool(np.array_equal(self.values, self.values[:, ::-1]))
+
+    @cached_property
+    def _spline(self) -> "RectBivariateSpline":
+        from scipy.interpolate import RectBivariateSpline
+
+        size = len(self.values)
+        centre = (2 * np.arange(size) + 1 - size) / size
+        return RectBivariateSpline(centre, centre, self.values)
+
+    def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return the spline at points of any shape; beyond the outermost cells' centres it stays as it is there."""
+        values: np.ndarray = self._spline.ev(eta, xi)
+        return values
+
+
+@dataclass(frozen=True)
+class PupilMask:
+    """What stands in the stop: all parts apply at once, and the default is the clear disc.
+
+    Parameters
+    ----------
+    obscuration : float
+        Radius of the dark disc in the middle over the rim's radius, 0 to 0.99.
+    vanes : int
+        How many vanes run from the middle to the rim, evenly around.
+    vane_width : float
+        Width of a vane over the rim's diameter.
+    vane_angle_deg : float
+        Direction of the first vane, degrees from +η towards +ξ.
+    blades : int
+        How many blades the iris has, their corners on the rim's circle; 0 for a round stop.
+    roundness : float
+        Curvature of the blades' edges times the rim's radius: 0 for straight ones, 1 for a circle.
+    blade_angle_deg : float
+        Direction of the first corner, degrees from +η towards +ξ.
+    apodisation : float
+        Radius, over the rim's, where the amplitude has fallen to 1/e and the intensity to 1/e²; inf for none.
+    apodisation_power : int
+        2 for a Gaussian, exp(−(ρ/width)²), a larger even number for a super-Gaussian.
+    zernike_um : tuple of float
+        Optical path added, µm RMS, by Noll's terms from the first (Noll 1976).
+    cubic_um : float
+        α of the path α(ξ³ + η³) added, µm: the cubic phase plate for extended depth of field (Dowski & Cathey 1995).
+    phase_map : PupilMap, optional
+        More path, µm.
+    amplitude_map : PupilMap, optional
+        Amplitude let through, as a factor.
+    turn_deg : float
+        The whole mask turned, degrees from +η towards +ξ.
+
+    Raises
+    ------
+    RequestError
+        For a value that cannot be.
+    """
+
+    obscuration: float = 0.0
+    vanes: int = 0
+    vane_width: float = 0.02
+    vane_angle_deg: float = 0.0
+    blades: int = 0
+    roundness: float = 0.0
+    blade_angle_deg: float = 0.0
+    apodisation: float = inf
+    apodisation_power: int = 2
+    zernike_um: tuple[float, ...] = ()
+    cubic_um: float = 0.0
+    phase_map: PupilMap | None = None
+    amplitude_map: PupilMap | None = None
+    turn_deg: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_between("obscuration", self.obscuration, 0, LARGEST_OBSCURATION)
+        _check_count("vanes", self.vanes, 1, MOST_VANES)
+        _check_between("vane_width", self.vane_width, 0, WIDEST_VANE)
+        _check_count("blades", self.blades, FEWEST_BLADES, MOST_BLADES)
+        _check_between("roundness", self.roundness, 0, 1)
+        for name in ("vane_angle_deg", "blade_angle_deg", "turn_deg", "cubic_um"):
+            check_finite(name, getattr(self, name))
+        if not self.apodisation >= NARROWEST_APODISATION:
+            raise RequestError(
+                "{parameter} is {value:g}; give a radius of at least {low:g}, inf for none",
+                parameter="apodisation",
+                value=self.apodisation,
+                low=NARROWEST_APODISATION,
+            )
+        _check_power(self.apodisation_power)
+        if len(self.zernike_um) > MOST_TERMS["noll"] or not all(map(isfinite, self.zernike_um)):
+            raise RequestError(
+                "{parameter} has {count} terms; give up to {most} finite numbers",
+                parameter="zernike_um",
+                count=len(self.zernike_um),
+                most=MOST_TERMS["noll"],
+            )
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash(tuple(getattr(self, field.name) for field in fields(self)))
+
+    def __getstate__(self) -> dict:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @cached_property
+    def clear(self) -> bool:
+        """Return whether this is the clear disc."""
+        return not (self.edged or self.shaded or self.phased)
+
+    @property
+    def edged(self) -> bool:
+        """Return whether something dark with a hard edge stands in the disc."""
+        return bool(self.obscuration or self.spider or self.iris)
+
+    @property
+    def spider(self) -> bool:
+        """Return whether there are vanes of any width."""
+        return bool(self.vanes and self.vane_width)
+
+    @property
+    def iris(self) -> bool:
+        """Return whether there are blades that do not make a circle."""
+        return bool(self.blades and self.roundness < 1)
+
+    @property
+    def shaded(self) -> bool:
+        """Return whether the open part lets light through unevenly."""
+        return self.apodisation < inf or self.amplitude_map is not None
+
+    @property
+    def phased(self) -> bool:
+        """Return whether there is a phase."""
+        return bool(any(self.zernike_um) or self.cubic_um or self.phase_map is not None)
+
+    @cached_property
+    def even(self) -> bool:
+        """Return whether the mask is its own mirror image, ξ → −ξ, as a lens with a source in the plane ξ = 0 is."""
+        upright = _multiple_of(self.turn_deg, 180)
+        maps = [part for part in (self.phase_map, self.amplitude_map) if part is not None]
+        terms = [t for t, waves in zip(_terms(len(self.zernike_um)), self.zernike_um, strict=True) if waves]
+        return (
+            not (self.spider and not _mirrored(self.vane_angle_deg + self.turn_deg, self.vanes))
+            and not (self.iris and not _mirrored(self.blade_angle_deg + self.turn_deg, self.blades))
+            and not self.cubic_um
+            and all(upright and part.even for part in maps)
+            and all(term.m == 0 or (upright and term.even) for term in terms)
+        )
+
+    @cached_property
+    def round(self) -> bool:
+        """Return whether the mask looks alike from every azimuth."""
+        terms = [t for t, waves in zip(_terms(len(self.zernike_um)), self.zernike_um, strict=True) if waves]
+        maps = self.phase_map is not None or self.amplitude_map is not None
+        return not (self.spider or self.iris or self.cubic_um or maps) and all(term.m == 0 for term in terms)
+
+    def turned(self, angle_deg: float) -> "PupilMask":
+        """Return the mask turned, degrees from +η towards +ξ; the same object where that makes no difference."""
+        return self if self.round or not angle_deg else replace(self, turn_deg=self.turn_deg + angle_deg)
+
+    def without_phase(self) -> "PupilMask":
+        """Return the same mask without its phase."""
+        return replace(self, zernike_um=(), cubic_um=0.0, phase_map=None) if self.phased else self
+
+    def path_um(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return the optical path that the mask adds at pupil points of any shape, µm."""
+        xi, eta = _turned_points(xi, eta, -self.turn_deg)
+        path = np.zeros(np.shape(xi))
+        if any(self.zernike_um):
+            values = zernike_values(_terms(len(self.zernike_um)), np.ravel(xi), np.ravel(eta))
+            path += np.reshape(np.asarray(self.zernike_um) @ values, path.shape)
+        if self.cubic_um:
+            path += self.cubic_um * (xi**3 + eta**3)
+        return path if self.phase_map is None else path + self.phase_map.at(xi, eta)
+
+    def amplitude(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return the amplitude that passes at points of the open part, of any shape."""
+        amplitude = np.ones(np.shape(xi))
+        if self.apodisation < inf:
+            square = (np.square(xi) + np.square(eta)) / self.apodisation**2
+            amplitude *= np.exp(-(square ** (self.apodisation_power // 2)))
+        if self.amplitude_map is not None:
+            amplitude *= self.amplitude_map.at(*_turned_points(xi, eta, -self.turn_deg))
+        return amplitude
+
+    def opens(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return which points of the disc no obscuration, vane or blade covers, bool."""
+        xi, eta = np.asarray(xi, float), np.asarray(eta, float)
+        open_: np.ndarray = xi * xi + eta * eta >= self.obscuration**2
+        for edge in self.edges:
+            open_ &= edge.lies_inside(xi, eta)
+        if self.spider:
+            for angle in self.vane_angles:
+                along, aside = eta * cos(angle) + xi * sin(angle), xi * cos(angle) - eta * sin(angle)
+                open_ &= ~((along >= 0) & (np.abs(aside) < self.vane_width))
+        return open_
+
+    @property
+    def vane_angles(self) -> tuple[float, ...]:
+        """Return the directions of the vanes, radians from +η towards +ξ."""
+        first = self.vane_angle_deg + self.turn_deg
+        return tuple(radians(first + 360 * k / self.vanes) for k in range(self.vanes if self.spider else 0))
+
+    @property
+    def corner_angles(self) -> tuple[float, ...]:
+        """Return the directions of the iris's corners, radians from +η towards +ξ, ascending over one turn."""
+        first = self.blade_angle_deg + self.turn_deg
+        return tuple(radians(first + 360 * k / self.blades) for k in range(self.blades if self.iris else 0))
+
+    @property
+    def edges(self) -> "tuple[BladeEdge, ...]":
+        """Return the edges of the blades; none for a round stop."""
+        return tuple(BladeEdge(angle + pi / self.blades, self.blades, self.roundness) for angle in self.corner_angles)
+
+
+@dataclass(frozen=True)
+class BladeEdge:
+    """The edge of one blade, a straight line or an arc of curvature ``roundness`` through two corners on the rim.
+
+    ``angle`` of its middle, radians from +η towards +ξ. Inside of it, with n the direction of its middle, d and c the
+    distance and the half length of its chord and m = √(1 − κ²c²), κ(|p|² + d² − c²)/2 − (κd − m)p·n − dm ≤ 0: the disc
+    of radius 1/κ through both corners, which is the half plane p·n ≤ d where κ = 0.
+    """
+
+    angle: float
+    blades: int
+    roundness: float
+
+    def _numbers(self) -> tuple[float, float, float]:
+        """Return κ/2, κd − m and the constant term."""
+        half, distance, kappa = sin(pi / self.blades), cos(pi / self.blades), self.roundness
+        m = sqrt(1 - (kappa * half) ** 2)
+        return kappa / 2, kappa * distance - m, kappa / 2 * (distance**2 - half**2) - distance * m
+
+    def lies_inside(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return which points the blade leaves open."""
+        square, linear, constant = self._numbers()
+        across = xi * sin(self.angle) + eta * cos(self.angle)
+        inside: np.ndarray = square * (xi * xi + eta * eta) - linear * across + constant <= 0
+        return inside
+
+    def distance(self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray) -> np.ndarray:
+        """Return how far inner points (ξ, η) lie from the edge along the directions (sine, cosine); inf where it goes.
+
+        The larger root of a quadratic equation, written so that nothing cancels where the edge is nearly straight.
+        """
+        square, linear, constant = self._numbers()
+        normal_xi, normal_eta = sin(self.angle), cos(self.angle)
+        b = 2 * square * (xi * sine + eta * cosine) - linear * (sine * normal_xi + cosine * normal_eta)
+        c = square * (xi * xi + eta * eta) - linear * (xi * normal_xi + eta * normal_eta) + constant
+        below = b + np.sqrt(np.maximum(b * b - 4 * square * np.minimum(c, 0), 0))
+        inner = -2 * np.minimum(c, 0)
+        distance: np.ndarray = np.divide(inner, below, where=below > 0, out=np.full(np.shape(below), inf))
+        return distance
+
+    def crossing(self, radius: float) -> float | None:
+        """Return how far from its middle, in radians about the centre, the edge crosses a circle; None if not."""
+        square, linear, constant = self._numbers()
+        if linear == 0 or radius == 0:
+            return None
+        cosine = (square * radius**2 + constant) / (radius * linear)
+        return float(np.arccos(cosine)) if cos(pi / self.blades) < cosine < 1 else None
+
+
+@dataclass(frozen=True)
+class MaskSlopes:
+    """How fast the smooth parts of a mask change, per rim radius or radian: path in µm, amplitude as it is."""
+
+    path_radial_um: float
+    path_angular_um: float
+    amplitude: float
+
+
+@lru_cache(maxsize=64)
+def mask_slopes(mask: PupilMask) -> MaskSlopes:
+    """Return the steepest slopes over the disc, from differences on a polar grid."""
+    rho = np.linspace(0, 1, PROBE)[:, None]
+    theta = np.linspace(0, 2 * pi, 2 * PROBE)
+    xi, eta = rho * np.sin(theta), rho * np.cos(theta)
+    path, amplitude = mask.path_um(xi, eta), mask.amplitude(xi, eta)
+    steps = rho[1, 0], theta[1]
+    slopes = [float(np.abs(np.gradient(path, step, axis=axis)).max()) for axis, step in enumerate(steps)]
+    fall = max(float(np.abs(np.gradient(amplitude, step, axis=axis)).max()) for axis, step in enumerate(steps))
+    return MaskSlopes(slopes[0], slopes[1], fall)
+
+
+def _terms(count: int) -> tuple:
+    return zernike_terms("noll", count) if count else ()
+
+
+def _turned_points(xi: np.ndarray, eta: np.ndarray, angle_deg: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return points turned from +η towards +ξ."""
+    if not angle_deg:
+        return xi, eta
+    sine, cosine = sin(radians(angle_deg)), cos(radians(angle_deg))
+    return xi * cosine + eta * sine, eta * cosine - xi * sine
+
+
+def _mirrored(first_deg: float, count: int) -> bool:
+    """Return whether ``count`` even directions, one of them ``first_deg``, are their own mirror image."""
+    return _multiple_of(2 * first_deg, 360 / count)
+
+
+def _multiple_of(angle_deg: float, step_deg: float) -> bool:
+    rest = angle_deg % step_deg
+    return min(rest, step_deg - rest) < SAME_ANGLE_DEG
+
+
+def _check_between(name: str, value: float, low: float, high: float) -> None:
+    if not low <= value <= high:
+        raise RequestError(
+            "{parameter} is {value:g}; give a number from {low:g} to {high:g}",
+            parameter=name,
+            value=value,
+            low=low,
+            high=high,
+        )
+
+
+def _check_count(name: str, value: int, low: int, most: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not (value == 0 or low <= value <= most):
+        raise RequestError(
+            "{parameter} is {value}; give 0 for none, or a whole number from {low} to {high}",
+            parameter=name,
+            value=value,
+            low=low,
+            high=most,
+        )
+
+
+def _check_power(value: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value % 2 or not 2 <= value <= MOST_POWER:
+        raise RequestError(
+            "{parameter} is {value}; give an even number from {low} to {high}",
+            parameter="apodisation_power",
+            value=value,
+            low=2,
+            high=MOST_POWER,
+        )
+
+
+CLEAR = PupilMask()
