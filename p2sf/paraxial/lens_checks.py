@@ -1,5 +1,6 @@
-"""Checks for lenses that can be computed but not made: rims wider than their surfaces, media that bend no light."""
+"""Checks for lenses that can be computed but not made: rims beyond their surfaces, glass of negative thickness."""
 
+from collections.abc import Iterator
 from math import inf, isfinite, sqrt
 
 import numpy as np
@@ -9,14 +10,16 @@ from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import named_stop, stop_rim
 
+AIR_LIKE = 1.01  # an index up to which a medium is a gas
+
 
 def lens_checks(lens: Lens) -> tuple[Message, ...]:
-    """Return a warning for each rim that its surface cannot have, and one if no surface bends light.
+    """Return a warning for each rim that its surface cannot have, for glass inside out, and if no surface bends light.
 
     Raises GlassError for a reference wavelength outside a glass's data.
     """
     rims = (_rim_beyond_its_sphere(number, surface) for number, surface in enumerate(lens.surfaces, 1))
-    found = (*rims, _stop_beyond_its_sphere(lens), _nothing_bends(lens))
+    found = (*rims, _stop_beyond_its_sphere(lens), *_negative_glass(lens), _nothing_bends(lens))
     return tuple(warning for warning in found if warning)
 
 
@@ -57,6 +60,19 @@ def _stop_beyond_its_sphere(lens: Lens) -> Message | None:
         radius=surface.radius,
         edge=edge(surface),
     )
+
+
+def _negative_glass(lens: Lens) -> Iterator[Message]:
+    """Yield a warning for each glass whose thickness runs against the light; in air it stands for a virtual object."""
+    index = np.abs(indices(lens, lens.reference_wavelength_um))
+    for number, surface in enumerate(lens.surfaces[:-1], 1):
+        if surface.thickness * lens.directions[number] < 0 and index[number] > AIR_LIKE:
+            yield Message(
+                "the glass behind surface {surface} is {thickness:g} mm thick, against the direction of the light; "
+                "change its sign or its neighbours",
+                surface=number,
+                thickness=surface.thickness,
+            )
 
 
 def _nothing_bends(lens: Lens) -> Message | None:

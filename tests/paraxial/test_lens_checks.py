@@ -1,5 +1,6 @@
 """Lenses that can be computed but not made: `p2sf info` warns of them, and is silent about real ones."""
 
+from dataclasses import replace
 from math import inf
 
 import pytest
@@ -9,6 +10,7 @@ from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.lens_checks import edge, lens_checks
+from tests.support.mirrors import classical, mangin, telescope, two_mirrors
 
 GLASS = ConstantIndex(1.5)
 
@@ -16,6 +18,15 @@ GLASS = ConstantIndex(1.5)
 def singlet(rim=5.0, stop=2.0, conic=0.0, glass=GLASS, stop_surface=1) -> Lens:
     surfaces = (Surface(10.0, 3.0, glass, conic, (), rim), Surface(-40.0, 20.0))
     return Lens(surfaces, Aperture("stop_semi_diameter", stop), stop_surface)
+
+
+def reversed_glass() -> Lens:
+    return replace(singlet(), surfaces=(Surface(10.0, -3.0, GLASS), Surface(-40.0, 20.0)))
+
+
+@pytest.mark.parametrize("lens", [mangin(), two_mirrors(classical()), telescope()], ids=repr)
+def test_negative_thicknesses_behind_mirrors_are_in_order(lens):
+    assert lens_checks(lens) == ()
 
 
 @pytest.mark.parametrize("name", shipped_lenses())
@@ -34,6 +45,7 @@ def test_the_shipped_lenses_pass_the_checks(name):
         ),
         (singlet(rim=5.1, conic=3.0), "ends it at 5 mm"),
         (singlet(rim=12.0, stop=10.5), "the stop on surface 1 has a semi-diameter of 10.5 mm"),
+        (reversed_glass(), "the glass behind surface 1 is -3 mm thick, against the direction of the light"),
         (singlet(glass=ConstantIndex(1.0)), "every medium of this lens has the index 1, so no surface bends light"),
     ],
 )

@@ -1368,6 +1368,7 @@
 <message><source>the forming of images</source><translation>die Bilderzeugung</translation></message>
 <message><source>the fourth column as the rim's diameter</source><translation>die vierte Spalte als Durchmesser des Rands</translation></message>
 <message><source>the free pupil has no lens</source><translation>die freie Pupille hat kein Objektiv</translation></message>
+<message><source>the glass behind surface {surface} is {thickness:g} mm thick, against the direction of the light; change its sign or its neighbours</source><translation>das Glas hinter Fläche {surface} ist {thickness:g} mm dick, gegen die Richtung des Lichts; sein Vorzeichen oder seine Nachbarn ändern</translation></message>
 <message><source>the glass has no coefficients (CD line); complete it</source><translation>das Glas hat keine Koeffizienten (Zeile CD); ergänzen</translation></message>
 <message><source>the glass has no wavelength range (LD line); complete it</source><translation>das Glas hat keinen Wellenlängenbereich (Zeile LD); ergänzen</translation></message>
 <message><source>the glass's range is {low:g} to {high:g} µm; give the smaller first, both positive</source><translation>der Bereich des Glases ist {low:g} bis {high:g} µm; das kleinere zuerst angeben, beide positiv</translation></message>
