@@ -48,7 +48,7 @@ def load_lens(name_or_path: Path) -> Lens:
     ----------
     name_or_path : str or path
         The name of a shipped lens, such as "double_gauss_28" (``p2sf lenses`` lists them), or a file of P2SF (TOML),
-        Zemax, CODE V, ISET, the Optical Bench, or a CSV table; the content says which.
+        Zemax, CODE V, OSLO, ray-optics, ISET, the Optical Bench, or a CSV table; the content says which.
 
     Returns
     -------

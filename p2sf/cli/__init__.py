@@ -34,7 +34,7 @@ COMMANDS = {
     "lenses": ("lenses:lenses", "The shipped lenses."),
     "import": (
         "importing:import_",
-        "A lens of Zemax, CODE V, ISET, Optical Bench or CSV, with a report.",
+        "A lens of Zemax, CODE V, OSLO, ISET … with a report; --list does it for a folder.",
     ),
 }
 

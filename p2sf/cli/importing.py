@@ -1,4 +1,4 @@
-"""`p2sf import`: a lens from another program's file, with a report on what was read and how."""
+"""`p2sf import`: a lens from another program's file, with a report on what was read and how; or a whole folder's."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -7,11 +7,18 @@ from cyclopts import Parameter
 
 from p2sf.cli.options import Json, Output
 from p2sf.cli.screen import print_json, text
-from p2sf.errors import LensFileError
+from p2sf.cli.verdicts import list_folder
+from p2sf.errors import LensFileError, RequestError
 from p2sf.lensfile.importing import Import, import_lens
 
 Consent = Annotated[bool, Parameter(negative="", help="Take the substitute glasses that are offered, and report them.")]
 Glasses = Annotated[list[Path] | None, Parameter("--agf", negative="", help="AGF glass catalogue; may be repeated.")]
+
+
+Whole = Annotated[
+    bool,
+    Parameter("--list", negative="", help="Take a folder, and say of every lens file in it whether it is read."),
+]
 
 
 def import_(
@@ -20,9 +27,14 @@ def import_(
     output: Output = None,
     accept_substitutes: Consent = False,
     agf: Glasses = None,
+    whole_folder: Whole = False,
     as_json: Json = False,
 ) -> None:
-    """Read a lens of Zemax, CODE V, ISET, Optical Bench or a CSV table; write it as .toml, .zmx or ISET .json."""
+    """Read a lens of Zemax, CODE V, OSLO, ray-optics, ISET, Optical Bench or CSV; write it as .toml, .zmx or .json."""
+    if whole_folder:
+        if output is not None:
+            raise RequestError("{parameter} is for one lens, not for the list of a folder", parameter="output")
+        return list_folder(file, accept_substitutes, agf or (), as_json)
     found = import_lens(file, accept_substitutes, agf or ())
     if output is not None:
         _check_apart(output, file)

@@ -46,6 +46,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     if not raw.sensor_stated:
         lens = _located(lambda: _focused(lens, raw, notes), raw, source, None)
     _read_notes(lens, raw, notes)
+    _note_vignetting(lens, raw, notes)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
 
 
@@ -258,6 +259,28 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
             "read",
             "the file's object is at {distance:.6g} mm; ask for this depth to see the file's image",
             distance=raw.object_distance * raw.unit_mm,
+        )
+
+
+def _note_vignetting(lens: Lens, raw: RawLens, notes: Notebook) -> None:
+    """Say what became of vignetting factors: rims cut the pencil of every field themselves, without them it is full."""
+    if raw.vignetting is None:
+        return
+    others = (s for number, s in enumerate(lens.surfaces, 1) if number != lens.stop_surface)
+    if not raw.vignetting:
+        notes.add("ignored", "vignetting factors, all of them 0")
+    elif any(isfinite(surface.semi_diameter) for surface in others):
+        notes.add(
+            "read",
+            "vignetting factors (up to {value:g}) are not needed: the rims of the surfaces cut the pencil themselves",
+            value=raw.vignetting,
+        )
+    else:
+        notes.add(
+            "caution",
+            "vignetting factors (up to {value:g}) are not applied, and no surface but the stop states a rim; "
+            "the pupil is full at every field",
+            value=raw.vignetting,
         )
 
 

@@ -1,7 +1,8 @@
 """CODE V .seq files: commands of three letters.
 
 Numbers after S are radius (or curvature, RDM N, which is what a file without RDM means), thickness, glass.
-Surfaces count from 1; the object is SO, the image SI.
+Surfaces count from 1; the object is SO, the image SI. Other programs write files without RDM that hold radii; such
+numbers are told by their size (`_finish`).
 """
 
 import re
@@ -17,7 +18,7 @@ from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
-from p2sf.lensfile.report import Notebook, note_vignetting
+from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
 from p2sf.messages import Message
 
@@ -51,10 +52,10 @@ REASON = {name: reason for reason, names in HARMLESS for name in names.split()}
 VIGNETTING = ("VUY", "VLY", "VUX", "VLX", "SET")
 
 
-def note(notes: Notebook, name: str, words: tuple[str, ...], surface: int | None, line: int) -> None:
+def note(notes: Notebook, raw: RawLens, name: str, words: tuple[str, ...], surface: int | None, line: int) -> None:
     """Note a command that is not read: harmless ones once per reason, unknown ones by name."""
     if name in VIGNETTING:
-        note_vignetting(notes, words)
+        raw.add_vignetting(words)
     elif name in REASON:
         notes.add("ignored", REASON[name])
     else:
@@ -111,6 +112,8 @@ FIELD_KINDS: dict[str, RawFieldKind] = {
     "IM": "image_height",
     "RI": "real_image_height",
 }
+# No lens of a file has a surface of a shorter radius than this, mm.
+SMALLEST_LENS_MM = 0.1
 ORDERS = {letter: 4 + 2 * place for place, letter in enumerate("ABCDEFGHJ")}
 
 
@@ -124,7 +127,8 @@ class CodeVReading:
     surfaces: list[RawSurface] = field(default_factory=lambda: [RawSurface(0)])
     image: RawSurface | None = None
     current: RawSurface | None = None
-    radii: bool = False
+    radii: bool | None = None  # None: the file does not say
+    numbered: dict[int, RawSurface] = field(default_factory=dict)  # whose shape is the number after S, by their id
     fields: dict[str, list[float]] = field(default_factory=dict)
     private: dict[str, Medium] = field(default_factory=dict)
     private_nm: list[float] | None = None
@@ -150,24 +154,32 @@ def curved(value: float, is_radius: bool) -> float:
     return (1 / value if value else 0.0) if is_radius else value
 
 
-def distance(reading: CodeVReading, value: float, surface: RawSurface, line: int) -> float:
+def distance(reading: CodeVReading, command: CodeVCommand, place: int, surface: RawSurface) -> float:
     """Return a thickness; the object may be infinitely far, no other surface; LensFileError."""
+    infinite = command.words[place : place + 1] and re.fullmatch(r"[+-]?inf(inity)?", command.words[place], re.I)
+    value = inf if infinite else reading.number(command, place, Message("thickness"), 0.0 if place else None)
     if abs(value) < FAR:
         return value
     if surface.number == 0:
         return inf
-    raise reading.source.error("{surface} has an infinite thickness; give a finite one", line, surface=surface.name)
+    raise reading.source.error(
+        "{surface} has an infinite thickness; give a finite one", command.line, surface=surface.name
+    )
 
 
 def read_glass(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
-    """Read a glass: NAME_MAKER, a private name, nnnvvv, or nnn.vvv; REFL is a mirror."""
+    """Read a glass: NAME_MAKER, a private name, nnnvvv, nnn.vvv, or nd:vd; REFL is a mirror."""
     word = command.words[0] if command.words else ""
     if word.upper() in ("REFR", "AIR", ""):
         return
     if word.upper() == "REFL":
         surface.glass = RawGlass(medium=MIRROR, line=command.line)
         return
+    pair = re.fullmatch(r"(\d\.\d+):(\d+\.?\d*)", word)
     code = re.fullmatch(r"(\d{3,9})\.(\d{3,9})|(\d{3})(\d{3})", word)
+    if pair:
+        surface.glass = RawGlass(model=(float(pair[1]), float(pair[2])), line=command.line)
+        return
     if code:
         index, abbe = (code[1], code[2]) if code[1] else (code[3], code[4])
         model = (1 + int(index) / 10 ** len(index), int(abbe) / 10 ** (len(abbe) - 2))
@@ -273,10 +285,11 @@ def _label(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) ->
 
 def _radius(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     surface.curvature = curved(reading.number(command, 0, Message("radius")), command.name.startswith("RD"))
+    reading.numbered.pop(id(surface), None)
 
 
 def _thickness(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
-    surface.thickness = distance(reading, reading.number(command, 0, Message("thickness")), surface, command.line)
+    surface.thickness = distance(reading, command, 0, surface)
 
 
 def _coefficient(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
@@ -358,7 +371,7 @@ def _dispatch(reading: CodeVReading, command: CodeVCommand, name: str) -> None:
         reading.fields[name] = reading.numbers(command, Message("field"))
         reading.raw.field_line = command.line
     else:
-        note(reading.notes, name, command.words, surface.number if surface else None, command.line)
+        note(reading.notes, reading.raw, name, command.words, surface.number if surface else None, command.line)
 
 
 def _addressed(reading: CodeVReading, command: CodeVCommand) -> tuple[CodeVCommand, RawSurface | None]:
@@ -422,8 +435,9 @@ def _surface(reading: CodeVReading, command: CodeVCommand) -> None:
         surface = RawSurface(len(reading.surfaces), command.line)
         reading.surfaces.append(surface)
     reading.current = surface
-    surface.curvature = curved(reading.number(command, 0, Message("radius"), 0.0), reading.radii)
-    surface.thickness = distance(reading, reading.number(command, 1, Message("thickness"), 0.0), surface, command.line)
+    surface.curvature = curved(reading.number(command, 0, Message("radius"), 0.0), bool(reading.radii))
+    reading.numbered[id(surface)] = surface
+    surface.thickness = distance(reading, command, 1, surface)
     for word in command.words[2:]:
         read_glass(reading, CodeVCommand("GLA", (word,), command.line), surface)
 
@@ -431,6 +445,8 @@ def _surface(reading: CodeVReading, command: CodeVCommand) -> None:
 def _finish(reading: CodeVReading) -> None:
     """Complete the raw lens once all commands are read."""
     raw = reading.raw
+    if reading.radii is None:
+        _tell_radii(reading)
     first, *raw.surfaces = reading.surfaces
     raw.object_distance, raw.object_glass = first.thickness, first.glass
     if first.line is None:
@@ -447,6 +463,23 @@ def _finish(reading: CodeVReading) -> None:
     if not 1 <= raw.stop <= len(raw.surfaces):
         raise reading.source.error("the stop is on the object or the image; put it on a surface between", first.line)
     _gather_fields(reading)
+
+
+def _tell_radii(reading: CodeVReading) -> None:
+    """Take the numbers of a file without RDM as radii where a surface would else be curved too strongly for a lens."""
+    numbered = [surface for surface in reading.numbered.values() if surface.curvature]
+    strongest = max(numbered, key=lambda surface: abs(surface.curvature), default=None)
+    if strongest is None or abs(strongest.curvature) * SMALLEST_LENS_MM < reading.raw.unit_mm:
+        return
+    reading.notes.add(
+        "caution",
+        "the file does not say RDM; its numbers are read as radii, since {value:g} is no lens's curvature",
+        strongest.number,
+        strongest.line,
+        value=strongest.curvature,
+    )
+    for surface in numbered:
+        surface.curvature = 1 / surface.curvature
 
 
 def _gather_fields(reading: CodeVReading) -> None:

@@ -5,7 +5,8 @@ Exact, taken without asking:
 2. the user's AGF catalogues that the file names, in the file's order; all of them if it names none;
 3. the built-in makers' table, for the makers the file names, in the file's order;
    hyphens, spaces and case do not count ("NBK7" is "N-BK7");
-4. fused silica by its common names (I. H. Malitson, J. Opt. Soc. Am. 55, 1205, 1965);
+4. fused silica by its common names (I. H. Malitson, J. Opt. Soc. Am. 55, 1205, 1965), and a crystal by the page of
+   refractiveindex.info that stands in the maker's place ("CAF2_DAIMON-20" is main/CaF2/Daimon-20);
 5. where the file names no known maker: the glass of that name, if the indices of all its sellers agree.
 
 Substitutes, offered in the error and taken when the user accepts them:
@@ -21,6 +22,7 @@ from p2sf.errors import GlassError
 from p2sf.glass.catalogue import find_entry, glasses_by_maker
 from p2sf.glass.dispersion import LINES_UM
 from p2sf.glass.media import CatalogueGlass, Medium, catalogue_glass, constant_index, model_glass
+from p2sf.glass.pages import page_names
 from p2sf.lensfile.agf import Catalogue, FormulaGlass
 from p2sf.lensfile.raw import RawGlass
 from p2sf.messages import Message
@@ -166,6 +168,7 @@ def _exact(glass: RawGlass, sources: GlassSources) -> Medium | None:
         _from_catalogues(glass, sources.catalogues)
         or _from_makers(glass.name, glass.makers)
         or _silica(glass.name)
+        or _from_pages(glass)
         or (None if _known(glass.makers) else _sold_by_anyone(glass))
     )
 
@@ -240,6 +243,16 @@ def _refractive(label: str) -> Medium | None:
 
 def _silica(name: str) -> Medium | None:
     return CatalogueGlass(find_entry("main/SiO2/Malitson")) if key(name) in map(key, SILICA) else None
+
+
+def _from_pages(glass: RawGlass) -> Medium | None:
+    """Return the glass of a page "main/name/maker" of refractiveindex.info; None where there is none."""
+    for maker in glass.makers:
+        wanted = f"main/{glass.name}/{maker}".lower()
+        found = next((name for name in page_names() if name.lower() == wanted), None)
+        if found:
+            return _refractive(found)
+    return None
 
 
 def _sellers(name: str) -> list[str]:

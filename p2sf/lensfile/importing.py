@@ -14,6 +14,8 @@ from p2sf.lensfile.csv_table import read_table
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.iset import read_iset_dat, read_iset_json
 from p2sf.lensfile.optical_bench import read_optical_bench
+from p2sf.lensfile.oslo import read_oslo
+from p2sf.lensfile.ray_optics import read_ray_optics
 from p2sf.lensfile.report import ImportReport, Notebook
 from p2sf.lensfile.source_text import LensText, read_source
 from p2sf.lensfile.toml import parse_toml
@@ -48,10 +50,12 @@ def _pattern(text: str) -> re.Pattern[str]:
 
 
 FORMATS = (
+    Format("ray-optics model", re.compile(r'\A\s*\{\s*"optical_model"\s*:'), ".roa", read_ray_optics),
     Format("ISET lens (JSON)", re.compile(r"\A\s*\{"), ".json", read_iset_json),
     Format("Optical Bench text", _pattern(r"^\s*\[lens data\]"), ".txt", read_optical_bench),
     Format("P2SF lens (TOML)", _pattern(r"^\s*\[\[\s*surface\s*\]\]"), ".toml", _read_toml),
     Format("Zemax", _pattern(r"^\s*SURF\s+\d+\s*$"), ".zmx", read_zemax),
+    Format("OSLO", _pattern(r"\A\s*//\s*OSLO\b|^\s*LEN\s+NEW\b"), ".len", read_oslo),
     Format("CODE V", _pattern(r"^\s*(SO|RDM|LEN|TIT(LE)?)\b[^=,]*$"), ".seq", read_codev),
     Format("table with named columns", _pattern(r"^[^#\n]*\bradius\b[^\n]*[,;\t]"), ".csv", read_table),
     Format("ISET lens (.dat)", _pattern(r"^\s*([-+.\deE]+[ \t,]+){3}[-+.\deE]+\s*$"), ".dat", read_iset_dat),
@@ -59,11 +63,11 @@ FORMATS = (
 
 
 def import_lens(
-    path: str | os.PathLike, accept_substitutes: bool = False, catalogues: Iterable[str | os.PathLike] = ()
+    path: str | os.PathLike, accept_substitutes: bool = False, catalogues: Iterable[str | os.PathLike | Catalogue] = ()
 ) -> Import:
     """Return the lens of a file of any known format, and the report on reading it.
 
-    ``catalogues`` are paths of AGF glass catalogues; those in the file's folder are used as well. Raises
+    ``catalogues`` are AGF glass catalogues, as paths or as read; those in the file's folder are used as well. Raises
     LensFileError, with its line, for what cannot be read exactly; a substitute glass needs consent.
     """
     source = read_source(path)
@@ -109,9 +113,9 @@ def _name(path: str) -> str:
     return stem.lower() or "lens"
 
 
-def _catalogues(path: str | os.PathLike, given: Iterable[str | os.PathLike]) -> tuple[Catalogue, ...]:
+def _catalogues(path: str | os.PathLike, given: Iterable[str | os.PathLike | Catalogue]) -> tuple[Catalogue, ...]:
     """Return the user's catalogues, then those in the lens's folder, of which an unreadable one is left out."""
-    listed = [read_agf(item) for item in given]
+    listed = [item if isinstance(item, Catalogue) else read_agf(item) for item in given]
     folder = Path(path).parent
     beside = sorted(item for item in folder.glob("*") if item.suffix.lower() == ".agf")[:50]
     known = {Path(item.path).resolve() for item in listed}

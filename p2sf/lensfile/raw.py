@@ -1,5 +1,7 @@
 """A lens as a file states it, in the file's own units, every item with its line."""
 
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import inf
 from typing import Literal
@@ -73,6 +75,12 @@ class RawLens:
     wavelengths_um: list[float] = field(default_factory=list)
     wavelength_line: int | None = None
     primary: int | None = None
+    vignetting: float | None = None  # the largest vignetting factor of the file, None where it has no such line
     title: str = ""
     source: str = ""
     sensor_stated: bool = True
+
+    def add_vignetting(self, factors: Iterable[str]) -> None:
+        """Take note of a line of vignetting factors; words that are no numbers say that rims give them."""
+        sizes = [abs(float(word)) for word in factors if re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", word)]
+        self.vignetting = max([*sizes, self.vignetting or 0.0])

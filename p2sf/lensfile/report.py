@@ -1,6 +1,5 @@
 """The import report: what was read, substituted, ignored or taken differently from the file."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -95,11 +94,3 @@ class Notebook:
         if len(self.seen) < MOST_NOTES:
             message = template if isinstance(template, Message) else Message(template, **values)
             self.seen[Note(kind, message, surface, line)] = None
-
-
-def note_vignetting(notes: Notebook, factors: Sequence[str]) -> None:
-    """Note vignetting factors: without effect where all are 0, else the pupil stays full unless rims cut it."""
-    if all(word.strip("+-0.").upper() in ("", "E") for word in factors):
-        notes.add("ignored", "vignetting factors, all of them 0")
-    else:
-        notes.add("caution", "vignetting factors are not applied; the pupil is full unless the rims cut it")

@@ -1,4 +1,4 @@
-"""Other programs' files as lines of text: size limits, encodings, zip archives, and numbers with their line."""
+"""Lens files as text: size limits, encodings, zip archives, numbers with their line, and writing whole."""
 
 import math
 import os
@@ -7,12 +7,15 @@ from functools import cached_property
 from pathlib import Path
 
 from p2sf.errors import LensFileError
+from p2sf.files.atomic import write_whole
 from p2sf.messages import Message
 
 # A prescription of a thousand surfaces is 300 kB, the largest glass catalogue 1.2 MB.
 LARGEST_BYTES = 4_000_000
+LARGEST_FILE = 1_000_000  # bytes of a file of this program; a lens takes a few thousand
 MOST_LINES = 200_000
 LONGEST_LINE = 300_000
+IN_ARCHIVES = (".zmx", ".seq", ".len", ".roa", ".json", ".txt")
 BYTE_ORDER_MARKS = (("utf-8-sig", b"\xef\xbb\xbf"), ("utf-16", b"\xff\xfe"), ("utf-16", b"\xfe\xff"))
 
 
@@ -117,7 +120,7 @@ def _zip_member(data: bytes, path: str) -> tuple[str, bytes]:
     damaged = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError)
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            names = [name for name in archive.namelist() if name.lower().endswith((".zmx", ".seq", ".json", ".txt"))]
+            names = [name for name in archive.namelist() if name.lower().endswith(IN_ARCHIVES)]
             if not names:
                 raise LensFileError("the archive holds no .zmx or .seq file; unpack the lens yourself", path)
             first = sorted(names, key=lambda name: not name.lower().endswith(".zmx"))[0]
@@ -153,3 +156,52 @@ def whole(word: str, what: str | Message, source: LensText, line: int) -> int:
     if value != int(value) or abs(value) > 1e6:
         raise source.error('{what} "{word}" is not a whole number; correct it', line, what=what, word=word[:40])
     return int(value)
+
+
+def read_text(path: str | os.PathLike) -> str:
+    """Return the text of a lens file of this program.
+
+    Raises LensFileError for a file that is missing, unreadable, empty, huge or not UTF-8.
+    """
+    try:
+        return _decoded(_bytes(Path(path)), path)
+    except FileNotFoundError:
+        raise LensFileError("there is no such file; check the path", path) from None
+    except IsADirectoryError:
+        raise LensFileError("this is a folder; name a lens file in it", path) from None
+    except LensFileError:
+        raise
+    except (OSError, ValueError) as error:
+        raise LensFileError(
+            "the file cannot be read ({reason}); check its path and permissions",
+            path,
+            reason=getattr(error, "strerror", None) or str(error),
+        ) from None
+
+
+def _bytes(path: Path) -> bytes:
+    with open(path, "rb") as file:
+        return file.read(LARGEST_FILE + 1)
+
+
+def _decoded(data: bytes, path: str | os.PathLike) -> str:
+    if len(data) > LARGEST_FILE:
+        raise LensFileError("the file is larger than {size} bytes; this is no lens file", path, size=LARGEST_FILE)
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        raise LensFileError("the file is not UTF-8 text; save it as UTF-8", path, line) from None
+    if not text.strip():
+        raise LensFileError("the file is empty; write a lens into it", path)
+    return text
+
+
+def write_text(text: str, path: str | os.PathLike) -> None:
+    """Write a text whole or not at all (`files.atomic.write_whole`); LensFileError."""
+    try:
+        write_whole(path, lambda handle: handle.write(text.encode("utf-8")))
+    except OSError as error:
+        raise LensFileError(
+            "the file cannot be written ({reason}); choose another place", path, reason=error.strerror
+        ) from None

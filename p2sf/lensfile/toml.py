@@ -43,7 +43,7 @@ from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, Mirror, ModelGlass, TabulatedIndex
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_mask
 from p2sf.lensfile.agf import FormulaGlass
-from p2sf.lensfile.storage import read_text, write_text
+from p2sf.lensfile.source_text import read_text, write_text
 from p2sf.lensfile.toml_mask import mask_lines, read_mask
 from p2sf.lensfile.toml_table import Constraint, Table, find_line, shown
 from p2sf.messages import Message

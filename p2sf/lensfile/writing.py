@@ -15,7 +15,7 @@ from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
 from p2sf.lensfile.conjugates import limiting_rim, trace
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
-from p2sf.lensfile.storage import write_text
+from p2sf.lensfile.source_text import write_text
 from p2sf.lensfile.toml import lens_to_toml
 
 SILICA_LABEL = "main/SiO2/Malitson"

@@ -13,7 +13,7 @@ from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
-from p2sf.lensfile.report import Notebook, note_vignetting
+from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number, whole
 from p2sf.messages import Message
 
@@ -66,13 +66,13 @@ VIGNETTING = ("VDXN", "VDYN", "VCXN", "VCYN", "VANN", "ZVDX", "ZVDY", "ZVCX", "Z
 RIMS = ("SQAP", "RECA", "ELAP", "SPID", "UDAD", "USAP")
 
 
-def note(notes: Notebook, words: list[str], surface: int | None, line: int) -> None:
+def note(notes: Notebook, raw: RawLens, words: list[str], surface: int | None, line: int) -> None:
     """Note a keyword that is not read: harmless ones once per reason, rims and unknown ones by name."""
     keyword = words[0].upper()
     if keyword in REASON:
         notes.add("ignored", REASON[keyword])
     elif keyword in VIGNETTING:
-        note_vignetting(notes, words[1:])
+        raw.add_vignetting(words[1:])
     elif keyword in RIMS:
         notes.add(
             "caution",
@@ -390,7 +390,7 @@ def _read_line(reading: ZemaxReading, words: list[str], text: str) -> None:
     elif keyword == "COMM" and reading.surfaces:
         reading.surface.label = text[4:].strip()
     else:
-        note(reading.notes, words, reading.surface.number if reading.surfaces else None, reading.line)
+        note(reading.notes, reading.raw, words, reading.surface.number if reading.surfaces else None, reading.line)
 
 
 def _finish(reading: ZemaxReading) -> None:

@@ -70,8 +70,34 @@ def test_image_heights_of_a_finite_object_become_angles():
 
 
 def test_without_a_radius_mode_numbers_are_curvatures():
-    lens = read(DOUBLET, ("RDM;LEN", "LEN")).lens
-    assert lens.surfaces[0].radius == 1 / 62.5
+    found = read(PRIVATE, ("RDM N", ""))
+    assert found.lens.surfaces == load_lens(FOLDER / PRIVATE).surfaces and "RDM" not in found.report.text
+
+
+def test_without_a_radius_mode_numbers_that_no_lens_has_as_curvatures_are_radii():
+    """A sphere of 1/62.5 mm cannot hold a pupil of 20 mm; what stands in RDY or CUY is what it says all the same."""
+    found = read(DOUBLET, ("RDM;LEN", "LEN"))
+    assert found.lens.surfaces == load_lens(FOLDER / DOUBLET).surfaces
+    assert "the file does not say RDM; its numbers are read as radii" in found.report.text
+    stated = read(DOUBLET, ("RDM;LEN", "LEN"), ("  STO\n", "  STO\n  CUY 0.01\n")).lens
+    assert [s.radius for s in stated.surfaces] == [100.0, *[s.radius for s in found.lens.surfaces[1:]]]
+
+
+def test_a_glass_may_be_an_index_and_an_abbe_number():
+    first = read(DOUBLET, ("NBK7_SCHOTT", "1.5168:64.17")).lens.surfaces[0].medium
+    assert (first.nd, first.vd) == (1.5168, 64.17)
+
+
+def test_a_crystal_may_be_named_by_its_page_of_refractiveindex_info():
+    """Malitson's calcium fluoride at d, 1.43385 (I. H. Malitson, Appl. Opt. 2, 1103, 1963)."""
+    medium = read(DOUBLET, ("NBK7_SCHOTT", "CAF2_MALITSON")).lens.surfaces[0].medium
+    assert medium.label == "main/CaF2/Malitson" and float(medium.index(0.5875618)) == pytest.approx(1.43385, abs=2e-5)
+
+
+@pytest.mark.parametrize("word", ["inf", "INFINITY", "1e20"])
+def test_the_object_may_be_infinitely_far_in_words(word):
+    assert "the file's object" not in read(DOUBLET, ("SO    0.0 0.1e14", f"SO 0 {word}")).report.text
+    refused_at(DOUBLET, ("62.5 6.0", f"62.5 {word}"), "surface 1 has an infinite thickness")
 
 
 def test_without_a_stop_it_is_surface_1_and_said():

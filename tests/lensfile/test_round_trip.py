@@ -61,7 +61,7 @@ def test_zmx_is_the_same_lens_to_this_reader(name, tmp_path):
         assert (new.conic, new.aspheric, new.thickness) == (old.conic, old.aspheric, old.thickness)
 
 
-@pytest.mark.parametrize("name", LENSES)
+@pytest.mark.parametrize("name", sorted({*LENSES} - {"mirrors.roa"}))  # ISET has no mirrors
 def test_iset_is_the_same_lens_at_its_reference_wavelength(name, tmp_path):
     """A stop on a refracting surface becomes a plane at its vertex, which changes no Seidel sum."""
     lens, path = LENSES[name](), tmp_path / "out.json"

@@ -5,7 +5,7 @@ import os
 from pathlib import Path
 
 from p2sf.errors import P2SFError
-from p2sf.lensfile.storage import write_text
+from p2sf.lensfile.source_text import write_text
 
 MOST = 10
 

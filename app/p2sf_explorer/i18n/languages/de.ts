@@ -743,6 +743,7 @@
 <message><source>a transfer function</source><translation>eine Übertragungsfunktion</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
+<message><source>a wavelength is not light; give micrometres</source><translation>eine Wellenlänge ist kein Licht; Mikrometer angeben</translation></message>
 <message><source>a wavelength is not light; give nanometres</source><translation>eine Wellenlänge ist kein Licht; Nanometer angeben</translation></message>
 <message><source>a whole number</source><translation>eine ganze Zahl</translation></message>
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
@@ -986,6 +987,7 @@
 <message><source>interpolant "{interpolant}" is unknown; choose {interpolants}</source><translation>die Interpolation "{interpolant}" ist unbekannt; {interpolants} wählen</translation></message>
 <message><source>is a Fresnel surface</source><translation>ist eine Fresnel-Fläche</translation></message>
 <message><source>is a lens module that hides its surfaces</source><translation>ist ein Linsenmodul, das seine Flächen verbirgt</translation></message>
+<message><source>is an ideal lens without a prescription</source><translation>ist eine ideale Linse ohne Konstruktionsdaten</translation></message>
 <message><source>is followed by a gradient index</source><translation>wird von einem Gradientenindex gefolgt</translation></message>
 <message><source>is stopped by the rim of surface {surface}</source><translation>wird vom Rand der Fläche {surface} aufgehalten</translation></message>
 <message><source>is tilted or decentred</source><translation>ist gekippt oder dezentriert</translation></message>
@@ -1013,6 +1015,8 @@
 <message><source>lens "{name}" is neither shipped nor a file; shipped are {lenses}</source><translation>das Objektiv "{name}" ist weder mitgeliefert noch eine Datei; mitgeliefert sind {lenses}</translation></message>
 <message><source>lens unit "{unit}" is none of M (mm), C, I; correct it</source><translation>die Längeneinheit "{unit}" ist keine von M (mm), C, I; berichtigen</translation></message>
 <message><source>lens unit "{unit}" is none of MM, CM, IN, M; correct it</source><translation>die Längeneinheit "{unit}" ist keine von MM, CM, IN, M; berichtigen</translation></message>
+<message><source>lens unit "{unit}" is none of {units}; correct it</source><translation>Die Längeneinheit „{unit}“ ist keine von {units}; bitte berichtigen</translation></message>
+<message><source>lens unit "{unit}" is not in mm; correct it</source><translation>Die Längeneinheit „{unit}“ ist nicht in mm angegeben; bitte berichtigen</translation></message>
 <message><source>line every {step} λ</source><translation>Linie alle {step} λ</translation></message>
 <message><source>line {line}: {message}</source><translation>Zeile {line}: {message}</translation></message>
 <message><source>linear</source><translation>linear</translation></message>
@@ -1069,6 +1073,7 @@
 <message><source>no ray reaches the sensor; choose a smaller field or leave {parameter} off</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder {parameter} auslassen</translation></message>
 <message><source>no ray reaches the sensor; choose a smaller field or stop the lens down</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder abblenden</translation></message>
 <message><source>no ray reaches the sensor; {remedy}</source><translation>kein Strahl erreicht den Sensor; {remedy}</translation></message>
+<message><source>no stop (AST) is stated; surface 1 is the stop, which is what OSLO takes</source><translation>es ist keine Blende (AST) angegeben; Fläche 1 ist die Blende, wie OSLO es annimmt</translation></message>
 <message><source>no stop (STO) is stated; surface 1 is the stop, which is what CODE V takes</source><translation>keine Blende (STO) ist angegeben; Fläche 1 ist die Blende, wie CODE V es annimmt</translation></message>
 <message><source>no stop is named; the narrowest rim, surface {number}, is the stop</source><translation>keine Blende ist genannt; der engste Rand, Fläche {number}, ist die Blende</translation></message>
 <message><source>no stop named</source><translation>keine Blende genannt</translation></message>
@@ -1097,7 +1102,7 @@
 <message><source>one pass in float32</source><translation>ein Durchgang in float32</translation></message>
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
-<message><source>open it: Zemax .zmx (also zipped), CODE V .seq, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
+<message><source>open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>or</source><translation>oder</translation></message>
 <message><source>outer radius</source><translation>Außenradius</translation></message>
 <message><source>parameter</source><translation>Parameter</translation></message>
@@ -1344,6 +1349,7 @@
 <message><source>the file asks for telecentric object space; chief rays pass the centre of its stop instead</source><translation>die Datei verlangt einen telezentrischen Objektraum; Hauptstrahlen gehen stattdessen durch die Mitte ihrer Blende</translation></message>
 <message><source>the file cannot be read ({reason}); check its path and permissions</source><translation>die Datei ist nicht lesbar ({reason}); Pfad und Rechte prüfen</translation></message>
 <message><source>the file cannot be written ({reason}); choose another place</source><translation>die Datei ist nicht schreibbar ({reason}); einen anderen Ort wählen</translation></message>
+<message><source>the file does not say RDM; its numbers are read as radii, since {value:g} is no lens's curvature</source><translation>die Datei sagt kein RDM; ihre Zahlen sind als Radien gelesen, denn {value:g} ist keine Krümmung einer Linse</translation></message>
 <message><source>the file does not say where the sensor is, and the lens has no focus; it is at the last vertex</source><translation>die Datei sagt nicht, wo der Sensor steht, und das Objektiv hat keinen Fokus; er steht am letzten Scheitel</translation></message>
 <message><source>the file does not say where the sensor is; it is put at the paraxial focus for infinity</source><translation>die Datei sagt nicht, wo der Sensor steht; er kommt in den paraxialen Fokus für unendlich</translation></message>
 <message><source>the file has over {count} lines; a prescription is far smaller</source><translation>die Datei hat über {count} Zeilen; ein Objektiv ist viel kleiner</translation></message>
@@ -1362,6 +1368,7 @@
 <message><source>the file is not text but binary; give the lens as a text file</source><translation>die Datei ist kein Text, sondern binär; das Objektiv als Textdatei angeben</translation></message>
 <message><source>the file is over {size:g} MB; a prescription is far smaller</source><translation>die Datei ist über {size:g} MB groß; ein Objektiv ist viel kleiner</translation></message>
 <message><source>the file states no aperture, no stop and no semi-diameter; add one of them</source><translation>die Datei nennt weder Öffnung noch Blende noch Halbmesser; eines davon hinzufügen</translation></message>
+<message><source>the file's model is incomplete ({reason}); save it again</source><translation>Das Modell der Datei ist unvollständig ({reason}); bitte neu speichern</translation></message>
 <message><source>the file's object is at {distance:.6g} mm; ask for this depth to see the file's image</source><translation>das Objekt der Datei liegt bei {distance:.6g} mm; mit diesem Objektabstand entsteht das Bild der Datei</translation></message>
 <message><source>the fill factor is {fill:g}; give a part above 0 and up to 1</source><translation>der Füllfaktor ist {fill:g}; einen Teil über 0 und bis 1 angeben</translation></message>
 <message><source>the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
@@ -1408,6 +1415,7 @@
 <message><source>the object lies in the entrance pupil, so no cone of light is defined; move the object</source><translation>das Objekt liegt in der Eintrittspupille, also ist kein Lichtkegel festgelegt; das Objekt verschieben</translation></message>
 <message><source>the object lies in the first vertex, where an aperture angle fills no stop; move it</source><translation>das Objekt liegt im ersten Scheitel, wo ein Öffnungswinkel keine Blende füllt; verschieben</translation></message>
 <message><source>the object stands in a medium, which an ISET file cannot say; save as TOML</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
+<message><source>the object's height of {height:g} as an angle, for it is far away</source><translation>die Objekthöhe {height:g} als Winkel, denn das Objekt ist sehr weit entfernt</translation></message>
 <message><source>the open tab</source><translation>das offene Blatt</translation></message>
 <message><source>the paraxial pupil</source><translation>die paraxiale Pupille</translation></message>
 <message><source>the phase is {slope:.0f} waves steep; stop the lens down</source><translation>die Phase ist {slope:.0f} Wellen steil; das Objektiv abblenden</translation></message>
@@ -1524,7 +1532,8 @@
 <message><source>value</source><translation>Wert</translation></message>
 <message><source>variables, pickups and solves, whose stored values are read</source><translation>Variable, Übernahme- und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 <message><source>vd is {value}; give an Abbe number between 10 and 120</source><translation>vd ist {value}; eine Abbe-Zahl zwischen 10 und 120 angeben</translation></message>
-<message><source>vignetting factors are not applied; the pupil is full unless the rims cut it</source><translation>Vignettierungsfaktoren werden nicht angewandt; die Pupille ist voll, soweit die Ränder sie nicht beschneiden</translation></message>
+<message><source>vignetting factors (up to {value:g}) are not applied, and no surface but the stop states a rim; the pupil is full at every field</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht angewandt, und außer der Blende gibt keine Fläche einen Rand an; die Pupille ist bei jedem Feld voll</translation></message>
+<message><source>vignetting factors (up to {value:g}) are not needed: the rims of the surfaces cut the pencil themselves</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht nötig: Die Ränder der Flächen beschneiden das Bündel selbst</translation></message>
 <message><source>vignetting factors, all of them 0</source><translation>Vignettierungsfaktoren, alle 0</translation></message>
 <message><source>wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>wavelength number</source><translation>Nummer der Wellenlänge</translation></message>
@@ -1591,6 +1600,7 @@
 <message><source>{columns} × {rows} pixels of {pitch} µm</source><translation>{columns} × {rows} Pixel zu {pitch} µm</translation></message>
 <message><source>{command} refers to surface {number}, which does not exist yet</source><translation>{command} verweist auf Fläche {number}, die es noch nicht gibt</translation></message>
 <message><source>{command} stands before any surface; put it after one</source><translation>{command} steht vor jeder Fläche; hinter eine Fläche stellen</translation></message>
+<message><source>{command}: a number is missing; complete the command</source><translation>{command}: Es fehlt eine Zahl; bitte den Befehl ergänzen</translation></message>
 <message><source>{command}: {what} is missing; complete the command</source><translation>{command}: {what} fehlt; den Befehl ergänzen</translation></message>
 <message><source>{contrast} (at {f:.3g}/mm)</source><translation>{contrast} (bei {f:.3g}/mm)</translation></message>
 <message><source>{count:.3g} PSF samples exceed {most:.3g}; ask for fewer pixels or fewer PSFs</source><translation>{count:.3g} PSF-Proben sind mehr als {most:.3g}; weniger Pixel oder weniger PSFs verlangen</translation></message>
@@ -1755,10 +1765,14 @@
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>
+<message><source>{surface} diffracts ({kind}); only refracting and reflecting surfaces are read</source><translation>{surface} beugt ({kind}); nur brechende und spiegelnde Flächen werden gelesen</translation></message>
 <message><source>{surface} has a rim decentred by ({x:g}, {y:g}); only centred lenses are read</source><translation>{surface} hat einen um ({x:g}, {y:g}) dezentrierten Rand; nur zentrierte Objektive werden gelesen</translation></message>
+<message><source>{surface} has a shape ({kind}) that is not round or not known; only {known} are read</source><translation>{surface} hat eine Form ({kind}), die nicht rund oder nicht bekannt ist; nur {known} werden gelesen</translation></message>
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
 <message><source>{surface} has type {kind}, {description}; only STANDARD and EVENASPH surfaces are read</source><translation>{surface} hat den Typ {kind}, {description}; nur Flächen STANDARD und EVENASPH werden gelesen</translation></message>
 <message><source>{surface} is a coordinate break (tilt or decentre); only centred lenses are read</source><translation>{surface} ist ein Koordinatenbruch (Kippung oder Dezentrierung); nur zentrierte Objektive werden gelesen</translation></message>
+<message><source>{surface} is an ideal lens made by a hologram, which has no prescription; put a real lens in its place</source><translation>{surface} ist eine ideale Linse aus einem Hologramm, ohne Konstruktionsdaten; bitte eine wirkliche Linse einsetzen</translation></message>
+<message><source>{surface} is tilted or decentred; only centred lenses are read</source><translation>{surface} ist gekippt oder dezentriert; nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>{surface} {reason} ({command}); only centred systems are read</source><translation>{surface} {reason} ({command}); nur zentrierte Systeme werden gelesen</translation></message>
 <message><source>{surface}: glass "{name}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it</source><translation>{surface}: das Glas "{name}" ist weder ein Name noch ein sechsstelliger Code wie 517642 oder 517.642; berichtigen</translation></message>
 <message><source>{surface}: radius {radius:g} differs from the lens data's; correct one</source><translation>{surface}: der Radius {radius:g} weicht von dem der Linsendaten ab; einen berichtigen</translation></message>

@@ -1,0 +1,154 @@
+"""The .roa files of the Python package ray-optics: its model of a lens as JSON.
+
+Every object is ``{"__instance_type__": [module, class], "attributes": {…}}``. Interfaces and gaps alternate, the first
+interface is the object and the last the image; profiles stand in a table of their own or in the interface.
+"""
+
+import json
+from math import inf
+from typing import Any
+
+from p2sf.conventions import NM_PER_UM
+from p2sf.errors import P2SFError
+from p2sf.glass.media import MIRROR
+from p2sf.lens.lens import Lens
+from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.conjugates import FAR
+from p2sf.lensfile.glass_lookup import GlassSources
+from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.report import Notebook
+from p2sf.lensfile.source_text import LensText
+
+UNITS_MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inches": 25.4, "inch": 25.4, "in": 25.4}
+APERTURES: dict[tuple[str, str], RawApertureKind] = {
+    ("object", "epd"): "entrance_pupil_diameter",
+    ("object", "pupil"): "entrance_pupil_diameter",
+    ("image", "f/#"): "image_f_number",
+    ("object", "NA"): "object_na",
+    ("image", "NA"): "image_na",
+}
+FIELDS: dict[tuple[str, str], RawFieldKind] = {
+    ("object", "angle"): "angle",
+    ("object", "height"): "object_height",
+    ("image", "height"): "image_height",
+    ("image", "real height"): "real_image_height",
+}
+PROFILES = ("Spherical", "Conic", "EvenPolynomial", "RadialPolynomial")
+DAMAGED = (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError)
+
+
+def read_ray_optics(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
+    """Return the lens of a .roa file; LensFileError for damage, tilts, gratings and shapes that are not round."""
+    try:
+        model = _inside(json.loads(source.text)["optical_model"])
+        raw = _raw_lens(model, source)
+    except DAMAGED as failure:
+        if isinstance(failure, P2SFError):
+            raise
+        raise source.error(
+            "the file's model is incomplete ({reason}); save it again", 1, reason=repr(failure)
+        ) from None
+    return assemble(raw, sources, notes, source)
+
+
+def _inside(value: Any) -> dict[str, Any]:
+    """Return the attributes of an object."""
+    found: dict[str, Any] = value.get("attributes", value)
+    return found
+
+
+def _kind(value: Any) -> str:
+    return str(value["__instance_type__"][1])
+
+
+def _raw_lens(model: dict[str, Any], source: LensText) -> RawLens:
+    sequence, system = _inside(model["seq_model"]), _inside(model["system_spec"])
+    unit = str(system.get("_dimensions", system.get("dimensions", "mm"))).lower()
+    if unit not in UNITS_MM:
+        raise source.error(
+            'lens unit "{unit}" is none of {units}; correct it', 1, unit=unit[:20], units=tuple(UNITS_MM)
+        )
+    raw = RawLens(unit_mm=UNITS_MM[unit], title=" ".join(str(system.get("title", "")).split())[:200])
+    interfaces, gaps = sequence["ifcs"], [_inside(gap) for gap in sequence["gaps"]]
+    raw.object_distance = float(gaps[0]["thi"])
+    if not abs(raw.object_distance) < FAR:
+        raw.object_distance = inf
+    raw.object_glass = _glass(gaps[0]["medium"])
+    for number, (interface, gap) in enumerate(zip(interfaces[1:-1], gaps[1:], strict=True), 1):
+        raw.surfaces.append(_surface(number, interface, gap, model, source))
+    stop = sequence.get("stop_surface")
+    raw.stop = int(stop) if stop else None
+    _conditions(raw, _inside(model["optical_spec"]))
+    return raw
+
+
+def _surface(number: int, interface: Any, gap: dict[str, Any], model: dict[str, Any], source: LensText) -> RawSurface:
+    values = _inside(interface)
+    surface = RawSurface(number, 1, str(values.get("label", ""))[:60], thickness=float(gap["thi"]))
+    if values.get("decenter"):
+        raise source.error("{surface} is tilted or decentred; only centred lenses are read", 1, surface=surface.name)
+    if _kind(interface) == "ThinLens":
+        raise source.error(
+            "{surface} is an ideal lens made by a hologram, which has no prescription; put a real lens in its place",
+            1,
+            surface=surface.name,
+        )
+    if values.get("phase_element"):
+        raise source.error(
+            "{surface} diffracts ({kind}); only refracting and reflecting surfaces are read",
+            1,
+            surface=surface.name,
+            kind=_kind(values["phase_element"]),
+        )
+    profile = values.get("profile") or model.get("profile_dict", {}).get(str(values.get("profile_id")))
+    _shape(surface, profile, source)
+    reflects = values.get("interact_mode") == "reflect"
+    surface.glass = RawGlass(medium=MIRROR, line=1) if reflects else _glass(gap["medium"])
+    rim = values.get("max_aperture") or inf
+    for aperture in values.get("clear_apertures", ()):
+        rim = float(_inside(aperture).get("radius", rim))
+    surface.semi_diameter = float(rim)
+    return surface
+
+
+def _shape(surface: RawSurface, profile: Any, source: LensText) -> None:
+    """Give a surface its profile; ``ec`` is 1 + K, ``coefs`` those of r, r², … or of r², r⁴, …."""
+    kind, values = _kind(profile), _inside(profile)
+    if kind not in PROFILES:
+        raise source.error(
+            "{surface} has a shape ({kind}) that is not round or not known; only {known} are read",
+            1,
+            surface=surface.name,
+            kind=kind,
+            known=PROFILES,
+        )
+    surface.curvature = float(values["cv"])
+    surface.conic = float(values["ec"]) - 1 if "ec" in values else float(values.get("cc", 0.0))
+    step = 2 if kind == "EvenPolynomial" else 1
+    terms = enumerate(map(float, values.get("coefs", ())), 1)
+    surface.aspheric = {step * place: value for place, value in terms if value}
+
+
+def _glass(medium: Any) -> RawGlass | None:
+    """Return a medium: air, a constant index, nd and vd, or a maker's glass by the class that holds it."""
+    kind, values = _kind(medium), _inside(medium)
+    if kind == "Air":
+        return None
+    if "v" in values and "n" in values:
+        return RawGlass(model=(float(values["n"]), float(values["v"])), line=1)
+    if "n" in values or "nd" in values:
+        return RawGlass(index=float(values["n"] if "n" in values else values["nd"]), line=1)
+    return RawGlass(str(values["gname"]), (kind.removesuffix("Glass").upper(),), line=1)
+
+
+def _conditions(raw: RawLens, conditions: dict[str, Any]) -> None:
+    """Read aperture, fields and wavelengths; fields may be stated as fractions of the largest."""
+    pupil, view, light = (_inside(conditions[name]) for name in ("pupil", "field_of_view", "spectral_region"))
+    *_, side, name = pupil["_key"] if "_key" in pupil else pupil["key"]
+    raw.aperture = (APERTURES[side, name], abs(float(pupil["value"])))
+    *_, side, name = view["key"] if "key" in view else view["_key"]
+    raw.field_kind = FIELDS[side, name]
+    scale = float(view["value"]) if view.get("is_relative") else 1.0
+    raw.fields = [(scale * float(_inside(f)["x"]), scale * float(_inside(f)["y"])) for f in view["fields"]]
+    raw.wavelengths_um = [float(nm) / NM_PER_UM for nm in light["wavelengths"]]
+    raw.primary = int(light["reference_wvl"])

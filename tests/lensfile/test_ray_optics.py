@@ -1,0 +1,97 @@
+"""The .roa files of ray-optics: its model as JSON, and what is refused by surface and name."""
+
+import json
+
+import numpy as np
+import pytest
+
+from p2sf.errors import LensFileError
+from p2sf.lens.lens import indices
+from p2sf.lensfile import load_lens
+from p2sf.lensfile.glass_lookup import GlassSources
+from p2sf.lensfile.importing import import_text
+from p2sf.lensfile.source_text import LensText
+from p2sf.paraxial.first_order import cardinal_points, image_distance
+from tests.support.lens_files import FOLDER, text_of
+from tests.support.paraxial_by_hand import first_order
+
+MIRRORS = "mirrors.roa"
+CURVATURES, GAPS = (-0.00125, -0.004, 0.01, 0.008), (-300.0, 280.0, 6.0, 90.0)
+
+
+def changed(change) -> LensText:
+    """Return the test file after ``change`` of its model, a tree of dicts without the wrappers of classes' names."""
+    model = json.loads(text_of(MIRRORS))
+    change(model["optical_model"]["attributes"])
+    return LensText(MIRRORS, "utf-8", json.dumps(model))
+
+
+def lens_of(change):
+    return import_text(changed(change), GlassSources()).lens
+
+
+def surface(model, number):
+    return model["seq_model"]["attributes"]["ifcs"][number]["attributes"]
+
+
+def test_the_prescription_is_read_as_it_stands():
+    lens = load_lens(FOLDER / MIRRORS)
+    first, second, third, fourth = lens.surfaces
+    assert lens.title == "Two mirrors and a corrector"
+    assert [s.radius for s in lens.surfaces] == [1 / c for c in CURVATURES]
+    assert tuple(s.thickness for s in lens.surfaces) == GAPS
+    assert first.reflects and second.reflects and third.medium.label == "SCHOTT N-BK7" and fourth.medium.label == "1.0"
+    assert [s.conic for s in lens.surfaces] == [-1.0, -2.5, -0.5, 0.0]  # ec = 1 + K
+    assert second.aspheric == (1e-9, 0.0, -2e-15) and third.aspheric == (3e-8,)
+    assert [s.semi_diameter for s in lens.surfaces] == [50.0, 15.0, 12.0, 12.0]
+    assert (lens.stop_surface, lens.aperture.kind, lens.aperture.value) == (1, "entrance_pupil_diameter", 100.0)
+    assert lens.fields_deg == (0.0, 0.5)  # fractions of 0.5°
+    assert lens.wavelengths_nm[1] == 587.5618
+
+
+def test_first_order_data_are_those_of_the_numbers():
+    """1e-12: rounding of a dozen operations, a thousand times over."""
+    lens = load_lens(FOLDER / MIRRORS)
+    glass = float(indices(lens, 0.5875618)[3])
+    by_hand = first_order(CURVATURES, GAPS, [1.0, -1.0, 1.0, glass, 1.0])
+    assert float(cardinal_points(lens, 0.5875618).effective_focal_length) == pytest.approx(by_hand[0], rel=1e-12)
+    assert float(image_distance(lens, np.inf, 0.5875618)) == pytest.approx(by_hand[1], rel=1e-12)
+
+
+def test_media_by_numbers():
+    def glass(model, **attributes):
+        model["seq_model"]["attributes"]["gaps"][3]["attributes"]["medium"] = {
+            "__instance_type__": ["m", "ModelGlass"],
+            "attributes": attributes,
+        }
+
+    pair = lens_of(lambda model: glass(model, n=1.6, v=40.0)).surfaces[2].medium
+    assert (pair.nd, pair.vd) == (1.6, 40.0)
+    assert lens_of(lambda model: glass(model, n=1.33)).surfaces[2].medium.label == "1.33"
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda m: surface(m, 2).update(decenter={"attributes": {"alpha": 1.0}}), "surface 2 is tilted or decentred"),
+        (
+            lambda m: surface(m, 3).update(phase_element={"__instance_type__": ["m", "DiffractiveElement"]}),
+            r"surface 3 \(corrector\) diffracts \(DiffractiveElement\)",
+        ),
+        (
+            lambda m: m["profile_dict"]["12"].update(__instance_type__=["m", "YToroid"]),
+            r"surface 1 \(primary\) has a shape \(YToroid\)",
+        ),
+        (
+            lambda m: m["seq_model"]["attributes"]["ifcs"][1].update(__instance_type__=["m", "ThinLens"]),
+            r"surface 1 \(primary\) is an ideal lens",
+        ),
+        (lambda m: m["system_spec"]["attributes"].update(_dimensions="furlong"), 'lens unit "furlong"'),
+        (lambda m: m.pop("optical_spec"), "the file's model is incomplete"),
+        (lambda m: surface(m, 1).pop("profile_id"), "the file's model is incomplete"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_by_surface(change, said):
+    with pytest.raises(LensFileError, match=said) as caught:
+        lens_of(change)
+    assert caught.value.line
