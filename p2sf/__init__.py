@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from p2sf.io.psf_plot import draw_psf
     from p2sf.lens.lens import Lens
     from p2sf.lens.source import Source
+    from p2sf.paraxial.positions import lens_at
     from p2sf.psf.from_opd import psf_of_opd
     from p2sf.psf.result import Psf
     from p2sf.scene.scene import Scene
@@ -49,6 +50,7 @@ __all__ = [
     "draw_psf",
     "encircled_energy",
     "form_image",
+    "lens_at",
     "line_spread",
     "load_lens",
     "mtf",
@@ -66,6 +68,7 @@ _ELSEWHERE = {
     "Scene": "p2sf.scene.scene",
     "Sensor": "p2sf.scene.sensor",
     "Source": "p2sf.lens.source",
+    "lens_at": "p2sf.paraxial.positions",
     "draw_psf": "p2sf.io.psf_plot",
     "psf_of_opd": "p2sf.psf.from_opd",
 }

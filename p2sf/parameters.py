@@ -24,6 +24,8 @@ PARAMETERS = {
     parameter.name: parameter
     for parameter in (
         Parameter("depth_mm", "Depth", "mm"),
+        Parameter("zoom", "Zoom"),
+        Parameter("focus_position", "Focus"),
         Parameter("focus_mm", "Focus distance", "mm"),
         Parameter("sensor_shift_um", "Sensor shift", "µm"),
         Parameter("field_deg", "Field", "°"),

@@ -16,6 +16,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message, ParameterName
 from p2sf.parameters import check_angle, check_finite, check_positive, unit_behind
 from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.positions import focused_inside, lens_at
 from p2sf.paraxial.pupils import (
     Stop,
     field_from_image_height,
@@ -47,8 +48,13 @@ class Request:
         Height of the paraxial chief ray on the sensor instead of an angle, mm.
     wavelength_nm
         Wavelength, nm; the file's middle one when not given.
+    zoom
+        Of a lens that zooms: where its ring stands, a number on its own scale or the name of a column of its file.
+    focus_position
+        Of a lens that focuses inside: where the ring of its focus stands, as for zoom.
     focus_mm
-        Put the sensor at the paraxial image of this distance, mm; inf is allowed.
+        Put the sensor at the paraxial image of this distance, mm; inf is allowed. A lens that focuses inside moves its
+        ring instead, and its sensor only for what lies beyond an end of the ring.
     sensor_shift_um
         Move the sensor on top of that, µm, away from the lens.
     f_number
@@ -64,6 +70,8 @@ class Request:
     object_height_mm: float | None = None
     image_height_mm: float | None = None
     wavelength_nm: float | None = None
+    zoom: float | str | None = None
+    focus_position: float | str | None = None
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
     f_number: float | None = None
@@ -79,6 +87,7 @@ class Request:
             check_finite(name, getattr(self, name))
         check_angle("field_deg", self.field_deg)
         _check_one_field(self)
+        _check_one_focus(self)
         _check_stop(self.stop)
         check_aim(self.aim)
 
@@ -87,7 +96,7 @@ class Request:
 class Setup:
     """A request made concrete: the lens with its sensor, aperture, stop and aim as asked, and the source.
 
-    ``prescription`` is the lens as its file has it.
+    ``prescription`` is the lens as its file has it, with its rings where it stands.
     """
 
     lens: Lens
@@ -108,6 +117,7 @@ def set_up(lens: Lens, request: Request) -> Setup:
     GlassError for a wavelength outside its glasses.
     """
     check_lens(lens)
+    lens = at_position(lens, request)
     wavelength = wavelength_um(lens, request)
     try:
         indices(lens, wavelength)
@@ -176,6 +186,14 @@ def wavelength_um(lens: Lens, request: Request) -> float:
     if request.wavelength_nm is None:
         return lens.reference_wavelength_um
     return request.wavelength_nm / NM_PER_UM
+
+
+def at_position(lens: Lens, request: Request) -> Lens:
+    """Return the lens with its rings turned as asked; RequestError for a ring it lacks, or a place not on one."""
+    if lens.positions is None and request.zoom is None and request.focus_position is None:
+        return lens
+    turned = lens_at(lens, request.zoom, request.focus_position)
+    return turned if request.focus_mm is None else focused_inside(turned, request.focus_mm)
 
 
 def sensor_position(lens: Lens, request: Request) -> float:
@@ -276,6 +294,15 @@ def _check_one_field(request: Request) -> None:
             parameter="object_height_mm",
             value=request.object_height_mm,
             depth=ParameterName("depth_mm"),
+        )
+
+
+def _check_one_focus(request: Request) -> None:
+    if request.focus_mm is not None and request.focus_position is not None:
+        raise RequestError(
+            "the focus is stated twice, by {first} and {second}; keep one",
+            first=ParameterName("focus_mm"),
+            second=ParameterName("focus_position"),
         )
 
 

@@ -62,4 +62,5 @@ def heading(setup: Setup) -> str:
     lens, source = setup.prescription, setup.source
     depth = f"{text(source.depth_mm)} mm" if not isinf(source.depth_mm) else "∞"
     place = f"object at {depth}, field {setup.field_deg:.6g}°, {source.wavelength_um * 1000:.7g} nm"
-    return f"{lens.title or lens.name}: {place}"
+    turned = f", {text(lens.positions.words)}" if lens.positions else ""
+    return f"{lens.title or lens.name}{turned}: {place}"

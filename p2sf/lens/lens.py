@@ -5,7 +5,7 @@ from functools import cached_property
 from itertools import accumulate
 from math import inf, isfinite
 from operator import mul
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +16,9 @@ from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.messages import Message
 from p2sf.notebook import html_table
 from p2sf.pupil.mask import CLEAR, PupilMask
+
+if TYPE_CHECKING:
+    from p2sf.lens.positions import Positions
 
 # Far below any atom, and far above where the cube of a curvature overflows.
 SMALLEST_RADIUS_MM = 1e-30
@@ -100,6 +103,9 @@ class Lens:
         paraxial entrance pupil.
     mask : PupilMask
         What stands in the stop: an obscuration, vanes, blades, an apodisation, a phase; the clear disc if not given.
+    positions : Positions, optional
+        For a lens that zooms or focuses inside: all of its columns, and where between them this lens is
+        (`p2sf.lens_at` moves it).
 
     Raises
     ------
@@ -120,6 +126,7 @@ class Lens:
     object_medium: Medium = AIR
     aim: Aim = USUAL_AIM
     mask: PupilMask = CLEAR
+    positions: "Positions | None" = None
 
     def __post_init__(self) -> None:
         _check_surfaces(self.surfaces)
@@ -142,7 +149,8 @@ class Lens:
 
     def __repr__(self) -> str:
         opened = f"{self.aperture.kind} {self.aperture.value:g}"
-        return f"<Lens {self.name}: {len(self.surfaces)} surfaces, {opened}, aim {self.aim}>"
+        moved = f", {self.positions.words}" if self.positions else ""
+        return f"<Lens {self.name}: {len(self.surfaces)} surfaces, {opened}, aim {self.aim}{moved}>"
 
     def _repr_html_(self) -> str:
         columns = ("surface", "radius, mm", "thickness, mm", "medium", "conic", "semi-diameter, mm")

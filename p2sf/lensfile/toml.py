@@ -26,13 +26,15 @@ glass = "SCHOTT N-BK7"           # or 1.5168, or { nd = 1.5168, vd = 64.17 }, or
 semi_diameter = 10.0             # clear rim; left out: unlimited
 conic = -1.0
 aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
+
+A lens that zooms, or focuses inside, has a table of columns, and entries with a value for each (`columns`).
 """
 
 import os
 import re
 import tomllib
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from json import dumps
 from math import inf, isfinite
 from pathlib import Path
@@ -42,11 +44,15 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, Mirror, ModelGlass, TabulatedIndex
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_mask
+from p2sf.lens.positions import Axis, alone
 from p2sf.lensfile.agf import FormulaGlass
+from p2sf.lensfile.columns import KINDS as RINGS
+from p2sf.lensfile.columns import axis_text, columns_of, joined, read_columns
 from p2sf.lensfile.source_text import read_text, write_text
 from p2sf.lensfile.toml_mask import mask_lines, read_mask
 from p2sf.lensfile.toml_table import Constraint, Table, find_line, shown
 from p2sf.messages import Message
+from p2sf.paraxial.positions import as_in_columns
 from p2sf.pupil.mask import PupilMask
 
 
@@ -63,9 +69,29 @@ class _Line:
 
 
 def lens_to_toml(lens: Lens) -> str:
-    """Return the lens as TOML; reading it gives an equal lens. LensFileError for a medium that no file can hold."""
+    """Return the lens as TOML; reading it gives an equal lens, of a zoom its first column.
+
+    A lens that is not what its columns say for its position is written as it is, without them. LensFileError for a
+    medium that no file can hold, and for columns with different stops or kinds of aperture.
+    """
+    lens = lens if as_in_columns(lens) else alone(lens)
+    columns, axes = columns_of(lens), lens.positions.axes if lens.positions else ()
+    head = _joined(axes, [_head(replace(column, **_texts_of(lens))) for column in columns])
+    rings = "".join(axis_text(axis, _text, _list) for axis in axes)
+    opening = joined(axes, [_number(column.aperture.value) for column in columns])
+    aperture = f"\n[aperture]\n{lens.aperture.kind} = {opening}\n"
+    surfaces = [_surface_text(lens, columns, number) for number in range(1, len(lens.surfaces) + 1)]
+    pupil = "".join(str(_Line(*line)) for line in mask_lines(lens.mask))
+    return head + rings + aperture + (f"\n[pupil]\n{pupil}" if pupil else "") + "".join(surfaces)
+
+
+def _texts_of(lens: Lens) -> dict[str, Any]:
+    return {key: getattr(lens, key) for key in TEXTS}
+
+
+def _head(lens: Lens) -> tuple[_Line, ...]:
     stop = "" if lens.stop_surface is None else str(lens.stop_surface)
-    head = (
+    return (
         _Line("title", _text(lens.title), '""'),
         _Line("name", _text(lens.name)),
         _Line("character", _text(lens.character), '""'),
@@ -77,15 +103,22 @@ def lens_to_toml(lens: Lens) -> str:
         _Line("wavelengths_nm", _list(lens.wavelengths_nm)),
         _Line("object_medium", _medium(lens.object_medium), '"air"'),
     )
-    aperture = f"\n[aperture]\n{lens.aperture.kind} = {_number(lens.aperture.value)}\n"
-    surfaces = [_surface_text(surface, number, lens) for number, surface in enumerate(lens.surfaces, 1)]
-    pupil = "".join(str(_Line(*line)) for line in mask_lines(lens.mask))
-    return "".join(map(str, head)) + aperture + (f"\n[pupil]\n{pupil}" if pupil else "") + "".join(surfaces)
 
 
-def _surface_text(surface: Surface, number: int, lens: Lens) -> str:
+def _joined(axes: tuple[Axis, ...], columns: list[tuple[_Line, ...]]) -> str:
+    """Return the text of lines that every column has, each with its value, or with one for each column."""
+    rows = zip(*columns, strict=True)
+    return "".join(str(replace(row[0], value=joined(axes, [line.value for line in row]))) for row in rows)
+
+
+def _surface_text(lens: Lens, columns: tuple[Lens, ...], number: int) -> str:
     note = " the stop" if number == lens.stop_surface else " the sensor follows" if number == len(lens.surfaces) else ""
-    lines = (
+    axes = lens.positions.axes if lens.positions else ()
+    return f"\n[[surface]]  # {number}{note}\n" + _joined(axes, [_lines(c.surfaces[number - 1]) for c in columns])
+
+
+def _lines(surface: Surface) -> tuple[_Line, ...]:
+    return (
         _Line("radius", _number(surface.radius)),
         _Line("thickness", _number(surface.thickness)),
         _Line("glass", _medium(surface.medium), '"air"'),
@@ -93,7 +126,6 @@ def _surface_text(surface: Surface, number: int, lens: Lens) -> str:
         _Line("conic", _number(surface.conic), "0.0"),
         _Line("aspheric", _list(surface.aspheric), "[]"),
     )
-    return f"\n[[surface]]  # {number}{note}\n" + "".join(map(str, lines))
 
 
 def _number(x: float) -> str:
@@ -163,11 +195,16 @@ def parse_toml(text: str, path: str | os.PathLike = "lens.toml") -> Lens:
     ``path`` stands in errors, and its stem is the name of a lens that has none.
     """
     top = Table(str(path), text, _values(text, str(path)))
-    top.check_keys(TOP)
+    top.check_keys((*TOP, *RINGS))
+    return read_columns(top, _plain)
+
+
+def _plain(top: Table) -> Lens:
+    """Return the lens of a file's values, or of one of its columns."""
     scale = _scale(top)
     surfaces = tuple(_surface(table, scale) for table in _surface_tables(top))
     texts = {key: top.string(key) for key in TEXTS}
-    texts["name"] = texts["name"] or Path(path).stem.encode("utf-8", "replace").decode("utf-8")
+    texts["name"] = texts["name"] or Path(top.path).stem.encode("utf-8", "replace").decode("utf-8")
     lens = with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top))
     _check_wavelengths(top, lens)
     return lens

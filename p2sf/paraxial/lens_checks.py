@@ -7,6 +7,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.lens.positions import steps_between
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import named_stop, stop_rim
 
@@ -16,11 +17,13 @@ AIR_LIKE = 1.01  # an index up to which a medium is a gas
 def lens_checks(lens: Lens) -> tuple[Message, ...]:
     """Return a warning for each rim that its surface cannot have, for glass inside out, and if no surface bends light.
 
+    Of a zoom between its columns also for each medium, and whatever else is not interpolated.
+
     Raises GlassError for a reference wavelength outside a glass's data.
     """
     rims = (_rim_beyond_its_sphere(number, surface) for number, surface in enumerate(lens.surfaces, 1))
     found = (*rims, _stop_beyond_its_sphere(lens), *_negative_glass(lens), _nothing_bends(lens))
-    return tuple(warning for warning in found if warning)
+    return (*(warning for warning in found if warning), *steps_between(lens))
 
 
 def edge(surface: Surface) -> float:

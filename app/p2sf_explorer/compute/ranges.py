@@ -8,7 +8,8 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.glass.media import Medium
 from p2sf.lens.lens import Lens
-from p2sf.paraxial.first_order import basis_rays, cardinal_points
+from p2sf.paraxial.first_order import cardinal_points
+from p2sf.paraxial.positions import focused_vergence
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf_explorer.state.scales import nice
@@ -60,17 +61,6 @@ def file_focus(lens: Lens) -> float:
     """Return `focused_distance`, but negative for a sensor nearer to the lens than the image of infinity is, mm."""
     vergence = focused_vergence(lens)
     return 1 / vergence if abs(vergence) > 1 / AS_GOOD_AS_INFINITE_MM else inf
-
-
-def focused_vergence(lens: Lens) -> float:
-    """Return the vergence in 1/mm of the object whose paraxial image lies on the file's sensor; 0 at infinity.
-
-    Solves the height of the axial ray on the sensor, linear in the vergence, for zero.
-    """
-    rays = basis_rays(lens, lens.reference_wavelength_um)
-    reach = lens.sensor_mm / rays.image_index
-    parallel, divergent = rays.a[-1] + reach * rays.c[-1], rays.b[-1] + reach * rays.d[-1]
-    return -float(parallel / (divergent * rays.object_index)) if divergent else 0.0
 
 
 @lru_cache(maxsize=32)

@@ -203,6 +203,7 @@
 <message><source>First-order data</source><translation>Daten erster Ordnung</translation></message>
 <message><source>First-order data: everything that follows from paraxial rays alone; hover over a row for its definition.</source><translation>Daten erster Ordnung: alles, was allein aus paraxialen Strahlen folgt; über einer Zeile steht ihre Definition.</translation></message>
 <message><source>Focal length f′</source><translation>Brennweite f′</translation></message>
+<message><source>Focus</source><translation>Fokus</translation></message>
 <message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
 <message><source>Focus distance</source><translation>Fokus auf</translation></message>
 <message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. beyond ∞: nearer to the lens than the image of infinity. ▾ is where the source is.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s. hinter ∞: näher am Objektiv als das Bild von Unendlich. ▾ zeigt, wo die Quelle steht.</translation></message>
@@ -690,6 +691,7 @@
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
+<message><source>Zoom</source><translation>Zoom</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
 <message><source>Zoom out</source><translation>Verkleinern</translation></message>
 <message><source>Z{number}: {waves} λ · {share}</source><translation>Z{number}: {waves} λ · {share}</translation></message>
@@ -840,7 +842,9 @@
 <message><source>colour {channel}</source><translation>Farbe {channel}</translation></message>
 <message><source>colour {short} − {long} nm</source><translation>Farbe {short} − {long} nm</translation></message>
 <message><source>column "{name}" is unknown</source><translation>die Spalte "{name}" ist unbekannt</translation></message>
+<message><source>column {column}</source><translation>Spalte {column}</translation></message>
 <message><source>column {name} is missing</source><translation>die Spalte {name} fehlt</translation></message>
+<message><source>columns is {found}; write at least two names, as in ["wide", "tele"]</source><translation>columns ist {found}; mindestens zwei Namen schreiben, etwa ["wide", "tele"]</translation></message>
 <message><source>coma</source><translation>Koma</translation></message>
 <message><source>computing settings</source><translation>Recheneinstellungen</translation></message>
 <message><source>configuration</source><translation>Konfiguration</translation></message>
@@ -936,6 +940,7 @@
 <message><source>fitted: {numbers} numbers from {rays} rays, predicted R² ≥ {r_squared}; the six Seidel coefficients would miss {tolerance:g}</source><translation>fitted: {numbers} Zahlen aus {rays} Strahlen, vorhergesagt R² ≥ {r_squared}; die sechs Seidel-Koeffizienten verfehlten {tolerance:g}</translation></message>
 <message><source>focus behind the sensor, mm</source><translation>Fokus hinter dem Sensor, mm</translation></message>
 <message><source>focus distance</source><translation>Fokusabstand</translation></message>
+<message><source>focus {place}</source><translation>Fokus {place}</translation></message>
 <message><source>focus, µm</source><translation>Fokus, µm</translation></message>
 <message><source>formula number</source><translation>Formelnummer</translation></message>
 <message><source>formula {formula} of {name} gives no real index there; check its coefficients</source><translation>Formel {formula} von {name} ergibt dort keinen reellen Index; ihre Koeffizienten prüfen</translation></message>
@@ -1004,6 +1009,7 @@
 <message><source>key "{name}" is unknown; did you mean "{known}"?</source><translation>der Schlüssel "{name}" ist unbekannt; ist "{known}" gemeint?</translation></message>
 <message><source>key "{name}" is unknown; known here are {known}</source><translation>der Schlüssel "{name}" ist unbekannt; hier bekannt sind {known}</translation></message>
 <message><source>key {name}, which is not known to describe the lens</source><translation>Schlüssel {name}, von dem nicht bekannt ist, dass er das Objektiv beschreibt</translation></message>
+<message><source>kinds of aperture</source><translation>Arten der Öffnung</translation></message>
 <message><source>landing point, µm</source><translation>Landepunkt, µm</translation></message>
 <message><source>largest difference of contrast</source><translation>größter Unterschied des Kontrasts</translation></message>
 <message><source>largest error in {name}: exact {error} λ</source><translation>größter Fehler in {name}: exakt {error} λ</translation></message>
@@ -1081,6 +1087,7 @@
 <message><source>not converged: agrees to {reached:.1e} only</source><translation>nicht konvergiert: stimmt nur auf {reached:.1e} überein</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
 <message><source>nothing is pinned as B (Ctrl+B)</source><translation>nichts ist als B gemerkt (Strg+B)</translation></message>
+<message><source>nothing varies from column to column; list the values of what does</source><translation>nichts ändert sich von Spalte zu Spalte; die Werte dessen auflisten, was sich ändert</translation></message>
 <message><source>number of columns</source><translation>Anzahl der Spalten</translation></message>
 <message><source>number of fields</source><translation>Anzahl der Felder</translation></message>
 <message><source>number of rays drawn from a point</source><translation>Zahl der von einem Punkt gezeichneten Strahlen</translation></message>
@@ -1257,6 +1264,7 @@
 <message><source>stop ▪</source><translation>Blende ▪</translation></message>
 <message><source>stop, sensor</source><translation>Blende, Sensor</translation></message>
 <message><source>stop_surface is {number}; write a surface from 1 to {count}</source><translation>stop_surface ist {number}; eine Fläche von 1 bis {count} schreiben</translation></message>
+<message><source>stops</source><translation>Blenden</translation></message>
 <message><source>substituted</source><translation>ersetzt</translation></message>
 <message><source>sum</source><translation>Summe</translation></message>
 <message><source>sum = 1</source><translation>Summe = 1</translation></message>
@@ -1286,6 +1294,7 @@
 <message><source>surface {surface}: ior is no table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>surface {surface}: semi-diameter {semi_diameter} mm; give a positive number</source><translation>Fläche {surface}: Halbmesser {semi_diameter} mm; eine positive Zahl angeben</translation></message>
+<message><source>surface {surface}: the medium behind it is not one in all columns; it is that of the nearest, {near}</source><translation>Fläche {surface}: das Medium dahinter ist nicht in allen Spalten dasselbe; es ist das der nächsten, {near}</translation></message>
 <message><source>surface {surface}: the r² coefficient {value:g} beside a radius of curvature is not a conic with terms from r⁴ on; refit the surface without r²</source><translation>Fläche {surface}: der r²-Koeffizient {value:g} neben einem Krümmungsradius ist kein Kegelschnitt mit Gliedern ab r⁴; die Fläche ohne r² neu anpassen</translation></message>
 <message><source>surface {surface}: thickness {thickness} mm; give a finite number</source><translation>Fläche {surface}: Dicke {thickness} mm; eine endliche Zahl angeben</translation></message>
 <message><source>surface {surface}: {message}</source><translation>Fläche {surface}: {message}</translation></message>
@@ -1332,6 +1341,8 @@
 <message><source>the choice of a method</source><translation>die Wahl eines Verfahrens</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
 <message><source>the coefficients</source><translation>die Koeffizienten</translation></message>
+<message><source>the columns have {counts} surfaces; give every column the same surfaces</source><translation>die Spalten haben {counts} Flächen; jeder Spalte dieselben Flächen geben</translation></message>
+<message><source>the columns of the lens have different {what}, {stated}; a file holds one, so give all the same</source><translation>die Spalten des Objektivs haben verschiedene {what}, {stated}; eine Datei hat nur eine, allen dieselbe geben</translation></message>
 <message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
 <message><source>the decomposition of a wavefront</source><translation>die Zerlegung einer Wellenfront</translation></message>
@@ -1372,6 +1383,7 @@
 <message><source>the file's object is at {distance:.6g} mm; ask for this depth to see the file's image</source><translation>das Objekt der Datei liegt bei {distance:.6g} mm; mit diesem Objektabstand entsteht das Bild der Datei</translation></message>
 <message><source>the fill factor is {fill:g}; give a part above 0 and up to 1</source><translation>der Füllfaktor ist {fill:g}; einen Teil über 0 und bis 1 angeben</translation></message>
 <message><source>the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
+<message><source>the focus is stated twice, by {first} and {second}; keep one</source><translation>der Fokus ist zweimal angegeben, durch {first} und {second}; eines behalten</translation></message>
 <message><source>the forming of images</source><translation>die Bilderzeugung</translation></message>
 <message><source>the fourth column as the rim's diameter</source><translation>die vierte Spalte als Durchmesser des Rands</translation></message>
 <message><source>the free pupil has no lens</source><translation>die freie Pupille hat kein Objektiv</translation></message>
@@ -1476,6 +1488,7 @@
 <message><source>the {quantity} "{text}" has the unit "{unit}"; {remedy}</source><translation>"{text}" hat die Einheit "{unit}" bei: {quantity}; {remedy}</translation></message>
 <message><source>the {quantity} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {quantity}; eine wie 12,5 schreiben</translation></message>
 <message><source>their sum</source><translation>ihre Summe</translation></message>
+<message><source>there are {count} lenses for {due} columns; give one for each</source><translation>es gibt {count} Objektive für {due} Spalten; für jede eines angeben</translation></message>
 <message><source>there are {count} steps</source><translation>es gibt {count} Schritte</translation></message>
 <message><source>there are {count} workspaces already; delete one that is no longer needed</source><translation>es gibt schon {count} Arbeitsbereiche; löschen Sie einen, der nicht mehr gebraucht wird</translation></message>
 <message><source>there is 1 step</source><translation>es gibt 1 Schritt</translation></message>
@@ -1541,6 +1554,7 @@
 <message><source>wavelength {wavelength:g} nm is outside the data of {glass}, {low:g} to {high:g} nm; take it out or change the glass</source><translation>die Wellenlänge {wavelength:g} nm liegt außerhalb der Daten von {glass}, {low:g} bis {high:g} nm; herausnehmen oder das Glas wechseln</translation></message>
 <message><source>wavelength {wavelength:g} µm is not light; give micrometres</source><translation>die Wellenlänge {wavelength:g} µm ist kein Licht; Mikrometer angeben</translation></message>
 <message><source>wavelength, nm</source><translation>Wellenlänge, nm</translation></message>
+<message><source>wavelengths</source><translation>Wellenlängen</translation></message>
 <message><source>wavelengths are {wavelengths} nm; give positive numbers</source><translation>die Wellenlängen sind {wavelengths} nm; positive Zahlen angeben</translation></message>
 <message><source>waves</source><translation>Wellen</translation></message>
 <message><source>waves RMS</source><translation>Wellen RMS</translation></message>
@@ -1590,6 +1604,7 @@
 <message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
 <message><source>z, mm</source><translation>z, mm</translation></message>
+<message><source>zoom {place}</source><translation>Zoom {place}</translation></message>
 <message><source>zoom, pan or see the whole of the plot under the pointer; also + −, arrows, Home</source><translation>das Diagramm unter dem Zeiger vergrößern, verschieben, ganz zeigen; auch + −, Pfeile, Pos1</translation></message>
 <message><source>{axis} {value:.6g} {unit} is outside this database, which covers {low:.6g} to {high:.6g} {unit}; {remedy}</source><translation>{axis} {value:.6g} {unit} liegt außerhalb dieser Datenbank, die {low:.6g} bis {high:.6g} {unit} umfasst; {remedy}</translation></message>
 <message><source>{before} mm before surface {first}, {behind} mm behind {last}</source><translation>{before} mm vor Fläche {first}, {behind} mm hinter {last}</translation></message>
@@ -1634,6 +1649,9 @@
 <message><source>{key} is {given}; give a number, without quotes</source><translation>{key} ist {given}; eine Zahl angeben, ohne Anführungszeichen</translation></message>
 <message><source>{key} is {given}; give numbers in brackets, such as [530, 560]</source><translation>{key} ist {given}; Zahlen in Klammern angeben wie [530, 560]</translation></message>
 <message><source>{key} is {given}; write true or false, without quotes</source><translation>{key} ist {given}; true oder false schreiben, ohne Anführungszeichen</translation></message>
+<message><source>{kind} has its columns at {places}; give finite numbers that ascend</source><translation>{kind} hat seine Spalten bei {places}; endliche, aufsteigende Zahlen angeben</translation></message>
+<message><source>{kind} has two columns of one name: {names}; rename one</source><translation>{kind} hat zwei Spalten eines Namens: {names}; eine umbenennen</translation></message>
+<message><source>{kind} has {columns} columns at {places} places; give at least two, and one place for each</source><translation>{kind} hat {columns} Spalten an {places} Orten; mindestens zwei angeben, und für jede einen Ort</translation></message>
 <message><source>{lost} of {rays} rays are lost, and a smooth pupil does not describe that</source><translation>{lost} von {rays} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field</source><translation>{lost} von {total} Strahlen erreichen den Sensor nicht; abblenden oder das Feld verkleinern</translation></message>
 <message><source>{lost} rays lost</source><translation>{lost} Strahlen verloren</translation></message>
@@ -1654,6 +1672,7 @@
 <message><source>{name} cannot be read ({reason}); name a picture or a .npy file</source><translation>{name} lässt sich nicht lesen ({reason}); ein Bild oder eine .npy-Datei nennen</translation></message>
 <message><source>{name} has changed on disk and was read again</source><translation>{name} hat sich auf dem Datenträger geändert und wurde neu gelesen</translation></message>
 <message><source>{name} has changed on disk; your edits are kept, Back to file takes the new one</source><translation>{name} hat sich auf dem Datenträger geändert; Ihre Änderungen bleiben, „Zurück zur Datei“ nimmt die neue</translation></message>
+<message><source>{name} has one list, and the lens has two rings; write {{ zoom = […] }} or {{ focus = […] }}, or a list of lists</source><translation>{name} hat eine Liste, und das Objektiv zwei Ringe; {{ zoom = […] }} oder {{ focus = […] }} schreiben, oder eine Liste von Listen</translation></message>
 <message><source>{name} has the ending "{ending}"; give the scene a name in {names}</source><translation>{name} hat die Endung "{ending}"; der Szene einen Namen mit {names} geben</translation></message>
 <message><source>{name} is "{value}"; choose one of {choices}</source><translation>{name} ist "{value}"; eines von {choices} wählen</translation></message>
 <message><source>{name} is "{word}"; give a number</source><translation>{name} ist "{word}"; eine Zahl angeben</translation></message>
@@ -1661,8 +1680,10 @@
 <message><source>{name} is missing; {remedy}</source><translation>{name} fehlt; {remedy}</translation></message>
 <message><source>{name} is {found}; write a list of numbers as in [1.0, 2.0]</source><translation>{name} ist {found}; eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
 <message><source>{name} is {found}; write a square list of rows of numbers</source><translation>{name} ist {found}; eine quadratische Liste von Zeilen von Zahlen schreiben</translation></message>
+<message><source>{name} is {found}; write a table [{name}] with its columns</source><translation>{name} ist {found}; eine Tabelle [{name}] mit ihren Spalten schreiben</translation></message>
 <message><source>{name} is {found}; write a text in quotation marks</source><translation>{name} ist {found}; einen Text in Anführungszeichen schreiben</translation></message>
 <message><source>{name} is {found}; write a whole number</source><translation>{name} ist {found}; eine ganze Zahl schreiben</translation></message>
+<message><source>{name} is {found}; write one value for each of the {count} columns of {kind}</source><translation>{name} ist {found}; für jede der {count} Spalten von {kind} einen Wert schreiben</translation></message>
 <message><source>{name} is {found}; {remedy}</source><translation>{name} ist {found}; {remedy}</translation></message>
 <message><source>{name} is {value}; give {kind}</source><translation>{name} ist {value}; {kind} angeben</translation></message>
 <message><source>{name} is {value}; give {least} to {most} numbers, or none for those that the window chooses</source><translation>{name} ist {value}; {least} bis {most} Zahlen angeben, oder keine für die, die das Fenster wählt</translation></message>
@@ -1671,6 +1692,7 @@
 <message><source>{name} tangential</source><translation>{name} tangential</translation></message>
 <message><source>{name} third order</source><translation>{name} 3. Ordnung</translation></message>
 <message><source>{name} uses dispersion formula {formula}; only 1 to 13 exist, correct it</source><translation>{name} benutzt die Dispersionsformel {formula}; es gibt nur 1 bis 13, berichtigen</translation></message>
+<message><source>{name} varies with {kind}, of which there is no table; add [{kind}]</source><translation>{name} ändert sich mit {kind}, wofür es keine Tabelle gibt; [{kind}] ergänzen</translation></message>
 <message><source>{name}, which is not known to describe the lens</source><translation>{name}, wovon nicht bekannt ist, dass es das Objektiv beschreibt</translation></message>
 <message><source>{name}: {likeness}</source><translation>{name}: {likeness}</translation></message>
 <message><source>{nm:.1f} nm</source><translation>{nm:.1f} nm</translation></message>
@@ -1698,8 +1720,10 @@
 <message><source>{parameter} is {value:g}{unit}; give a positive finite number</source><translation>{parameter}: {value:g}{unit}; eine positive endliche Zahl angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a positive number, inf allowed</source><translation>{parameter}: {value:g}{unit}; eine positive Zahl angeben, ∞ erlaubt</translation></message>
 <message><source>{parameter} is {value:g}°, and no ray at 90° or more from the axis enters a lens; give an angle between −90 and 90°, both ends left out</source><translation>{parameter} ist {value:g}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein; einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>
+<message><source>{parameter} is {value}, but the lens has no such ring; leave it out</source><translation>{parameter} ist {value}, aber das Objektiv hat keinen solchen Ring; weglassen</translation></message>
 <message><source>{parameter} is {value}, which is for {method} seidel; leave it out</source><translation>{parameter} ist {value}, was für {method} seidel gilt; weglassen</translation></message>
 <message><source>{parameter} is {value}; give 0 for none, or a whole number from {low} to {high}</source><translation>{parameter} ist {value}; 0 für keine oder eine ganze Zahl von {low} bis {high} angeben</translation></message>
+<message><source>{parameter} is {value}; give a number from {low:g} to {high:g}{unit}, or a column of the lens: {columns}</source><translation>{parameter} ist {value}; eine Zahl von {low:g} bis {high:g}{unit} angeben, oder eine Spalte des Objektivs: {columns}</translation></message>
 <message><source>{parameter} is {value}; give a whole number from 1 on</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
@@ -1748,6 +1772,7 @@
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>
 <message><source>{psnr:.1f} dB, SSIM {ssim:.3f}</source><translation>{psnr:.1f} dB, SSIM {ssim:.3f}</translation></message>
 <message><source>{pupil_samples} pupil samples are too few for {pixels} PSF samples by FFT; give an even number of at least {least}</source><translation>{pupil_samples} Pupillenproben sind zu wenige für {pixels} PSF-Proben mit der FFT; eine gerade Zahl ab {least} angeben</translation></message>
+<message><source>{quantity} differ between columns and are those of the nearest, {near}</source><translation>{quantity} sind in den Spalten verschieden und sind die der nächsten, {near}</translation></message>
 <message><source>{quantity} is {value}{unit}; give a number from {low:g} to {high:g}{unit}</source><translation>{quantity} ist {value}{unit}; eine Zahl von {low:g} bis {high:g}{unit} angeben</translation></message>
 <message><source>{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; ask for a wavelength inside, or change the glass</source><translation>{quantity} {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
 <message><source>{radial} radii × {angular} directions; give at least 1 radius and an even count ≥ 2</source><translation>{radial} Radien × {angular} Richtungen; mindestens 1 Radius und eine gerade Anzahl ≥ 2 angeben</translation></message>

@@ -1,0 +1,136 @@
+"""A lens with its zoom and focus rings turned, and the distance that it is then focused on."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from itertools import pairwise
+from math import isfinite
+
+from p2sf.errors import RequestError
+from p2sf.lens.lens import Lens, with_sensor
+from p2sf.lens.positions import KEPT, PARAMETER, Axis, Kind, Positions, interpolated, shown
+from p2sf.paraxial.first_order import basis_rays
+
+RTOL = 1e-12  # of a ring's travel
+
+
+def lens_at(lens: Lens, zoom: float | str | None = None, focus_position: float | str | None = None) -> Lens:
+    """Return a lens with its rings turned.
+
+    Parameters
+    ----------
+    lens : Lens
+        A lens with positions; focus, f-number and edits that are not in its columns do not go along.
+    zoom, focus_position : float or str, optional
+        Where the ring stands, on its own scale, or the name of a column; where it is when not given.
+
+    Returns
+    -------
+    Lens
+        In a column exactly what the file states there. Between columns every number that varies is interpolated by
+        monotone cubics (Fritsch & Butland 1984), and the sensor follows the image of a lens that zooms, as the cams of
+        its groups would have it.
+
+    Raises
+    ------
+    RequestError
+        For a ring that the lens does not have, and for a position that is not on it.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> wide = p2sf.lens_at(p2sf.load_lens("my_zoom.toml"), zoom="wide")  # doctest: +SKIP
+    """
+    asked: dict[Kind, float | str | None] = {"zoom": zoom, "focus": focus_position}
+    positions = lens.positions
+    for kind, value in asked.items():
+        if value is not None and (positions is None or positions.axis(kind) is None):
+            raise RequestError(
+                "{parameter} is {value}, but the lens has no such ring; leave it out",
+                parameter=PARAMETER[kind],
+                value=shown(value),
+            )
+    if positions is None:
+        return lens
+    place = tuple(
+        there if (value := asked[axis.kind]) is None else axis.place(value)
+        for axis, there in zip(positions.axes, positions.place, strict=True)
+    )
+    return lens if place == positions.place else _called(lens, _placed(positions, place))
+
+
+def _called(lens: Lens, other: Lens) -> Lens:
+    """Return the other lens with what does not depend on the position as this one has it."""
+    return replace(other, **{name: getattr(lens, name) for name in KEPT})
+
+
+@lru_cache(maxsize=128)
+def _placed(positions: Positions, place: tuple[float, ...]) -> Lens:
+    """Return the lens with its rings at ``place``, one number for each axis, within its scale."""
+    lens, axis = interpolated(positions, place), positions.axes[0]
+    if axis.kind == "zoom" and place[0] not in axis.at:
+        lens = _refocused(lens, axis, place[0], [interpolated(positions, (at, *place[1:])) for at in axis.at])
+    return replace(lens, positions=replace(positions, place=place))
+
+
+def _refocused(lens: Lens, axis: Axis, place: float, columns: Sequence[Lens]) -> Lens:
+    """Return the lens between columns focused as these are: on a vergence that is a monotone cubic between theirs.
+
+    Cubics of the spaces alone do not keep the image where the cams of a zoom do. Where it has no image, as it is.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    vergence = float(PchipInterpolator(axis.at, [focused_vergence(column) for column in columns])(place))
+    rays = basis_rays(lens, lens.reference_wavelength_um)
+    start = vergence * float(rays.object_index)
+    height, angle = float(rays.a[-1] + start * rays.b[-1]), float(rays.c[-1] + start * rays.d[-1])
+    image = -float(rays.image_index) * height / angle if angle else 0.0
+    return with_sensor(lens, image) if isfinite(image) and image * lens.sensor_mm > 0 else lens
+
+
+@lru_cache(maxsize=128)
+def focused_vergence(lens: Lens) -> float:
+    """Return the vergence in 1/mm of the object whose paraxial image lies on the lens's sensor; 0 at infinity.
+
+    Solves the height of the axial ray on the sensor, linear in the vergence, for zero; at the reference wavelength.
+    """
+    rays = basis_rays(lens, lens.reference_wavelength_um)
+    reach = lens.sensor_mm / rays.image_index
+    parallel, divergent = rays.a[-1] + reach * rays.c[-1], rays.b[-1] + reach * rays.d[-1]
+    return -float(parallel / (divergent * rays.object_index)) if divergent else 0.0
+
+
+@lru_cache(maxsize=64)
+def focused_inside(lens: Lens, focus_mm: float) -> Lens:
+    """Return the lens with its focus ring where the paraxial image of an object at ``focus_mm`` lies on its sensor.
+
+    A lens without such a ring is returned as it is; beyond an end of its travel the ring stands at that end.
+    """
+    axis = lens.positions.axis("focus") if lens.positions else None
+    if axis is None:
+        return lens
+    asked = 1 / focus_mm
+
+    def off(place: float) -> float:
+        return focused_vergence(lens_at(lens, focus_position=place)) - asked
+
+    ends = [(place, off(place)) for place in axis.at]
+    for (low, before), (high, after) in pairwise(ends):
+        if before * after <= 0:
+            from scipy.optimize import brentq
+
+            return lens_at(lens, focus_position=float(brentq(off, low, high, xtol=RTOL * (axis.high - axis.low))))
+    return lens_at(lens, focus_position=min(ends, key=lambda end: abs(end[1]))[0])
+
+
+def as_in_columns(lens: Lens) -> bool:
+    """Return whether a lens is what its columns say for its position: not focused, opened or edited since then."""
+    return lens.positions is not None and _called(lens, _placed(lens.positions, lens.positions.place)) == lens
+
+
+def each_column(lens: Lens, edit: Callable[[Lens], Lens]) -> Lens:
+    """Return the lens with an edit made in all of its columns, its rings where they are."""
+    if lens.positions is None:
+        return edit(lens)
+    columns = tuple(edit(column) for column in lens.positions.lenses)
+    return _called(lens, _placed(replace(lens.positions, lenses=columns), lens.positions.place))
