@@ -198,6 +198,7 @@ def coefficients(
         lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim
     )
     place = source.depth_mm, source.field_slope, source.wavelength_um
+    seidel.check_seidel(setup.lens)
     return seidel.coefficients(setup.lens, *place, setup.stop)
 
 

@@ -164,11 +164,12 @@ def render(setup: Setup, picture: Picture) -> Psf:
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
-    from p2sf.paraxial.seidel import coefficients
+    from p2sf.paraxial.seidel import check_seidel, coefficients
     from p2sf.psf.pixel_integrals import critical_pixel_um, integrated
     from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
 
     source = setup.source
+    check_seidel(setup.lens)
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
     pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.pixels))
     finest = float(critical_pixel_um(six.wavelength_um, six.na))

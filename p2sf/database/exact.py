@@ -190,4 +190,5 @@ def rays_at(base: ParaxialRays, s: float | np.ndarray) -> ParaxialRays:
     """
     lift = s * base.invariant / base.index[0]
     y, nu, chief_y, chief_nu, index = (x[:, None] for x in (base.y, base.nu, base.chief_y, base.chief_nu, base.index))
-    return ParaxialRays(y + lift * chief_y, nu + lift * chief_nu, chief_y, chief_nu, index, base.invariant)
+    moved = y + lift * chief_y, nu + lift * chief_nu
+    return replace(base, y=moved[0], nu=moved[1], chief_y=chief_y, chief_nu=chief_nu, index=index)

@@ -1,11 +1,16 @@
 """The lens and the point source as plain frozen data: surfaces, media, sensor, aperture. Nothing here traces a ray."""
 
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, lens_range_um, with_f_number, with_mask, with_sensor
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.source import Source
 
 __all__ = [
     "Aperture",
+    "Diffraction",
     "Lens",
+    "Qbfs",
+    "Qcon",
+    "RadialPolynomial",
     "Source",
     "Surface",
     "indices",

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium
+from p2sf.lens.shapes import Diffraction, Qbfs, Shape
 from p2sf.messages import Message
 from p2sf.notebook import html_table
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -47,6 +48,10 @@ class Surface:
         A4, A6, …, in mm⁻³, mm⁻⁵, …
     semi_diameter : float
         Radius of the clear aperture, mm.
+    shape : RadialPolynomial, Qcon or Qbfs, optional
+        What is added to the sag of the conic and its aspheric terms.
+    diffraction : Diffraction, optional
+        The phase that a diffractive surface adds.
     """
 
     radius: float = inf
@@ -55,11 +60,30 @@ class Surface:
     conic: float = 0.0
     aspheric: tuple[float, ...] = ()
     semi_diameter: float = inf
+    shape: Shape | None = None
+    diffraction: Diffraction | None = None
 
     @property
     def curvature(self) -> float:
         """Return 1/radius, per mm."""
         return 1.0 / self.radius
+
+    @property
+    def vertex_curvature(self) -> float:
+        """Return the curvature at the vertex, per mm: 1/radius, and twice the r² term of a shape."""
+        if self.shape is None:
+            return self.curvature
+        return self.curvature + 2 * self.shape.series(self.curvature)[1]
+
+    @property
+    def flat(self) -> bool:
+        """Return whether the surface is a plane."""
+        return not self.curvature and not any(self.aspheric) and self.shape is None
+
+    @property
+    def bare(self) -> bool:
+        """Return whether the surface is a plane without diffraction: between equal media it does nothing."""
+        return self.flat and self.diffraction is None
 
     @property
     def reflects(self) -> bool:
@@ -244,6 +268,19 @@ def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:
     return rows
 
 
+def surface_power(
+    surface: Surface, before: FloatOrArray, after: FloatOrArray, wavelength_um: FloatOrArray
+) -> FloatOrArray:
+    """Return the power (n′ − n)c of a surface, and −2 times the r² term of the path that its diffraction adds, per mm.
+
+    ``before``, ``after``: the signed indices. Source: Welford 1986, ch. 3; Sweatt 1977.
+    """
+    power = surface.vertex_curvature * (after - before)
+    if surface.diffraction is None:
+        return power
+    return power - 2 * surface.diffraction.path_terms(wavelength_um)[0]
+
+
 def lens_range_um(lens: Lens) -> tuple[float, float] | None:
     """Return the wavelengths in µm at which every medium has an index; None where nothing limits them."""
     ranges = [medium.range_um for medium in lens.media if medium.range_um]
@@ -276,6 +313,31 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
             raise GeometryError(
                 "surface {surface}: conic or aspheric coefficient is not finite; correct it", surface=number
             )
+        _check_shape(surface, number)
+
+
+def _check_shape(surface: Surface, number: int) -> None:
+    """Raise GeometryError for numbers of a shape or of diffraction that cannot be."""
+    for part in (surface.shape, surface.diffraction):
+        if part is None:
+            continue
+        if not (isfinite(part.normalisation_mm) and part.normalisation_mm > 0):
+            raise GeometryError(
+                "surface {surface}: normalisation radius {radius} mm; give a positive number",
+                surface=number,
+                radius=part.normalisation_mm,
+            )
+        if not all(map(isfinite, part.numbers)):
+            raise GeometryError(
+                "surface {surface}: a coefficient of its shape or its phase is not finite; correct it", surface=number
+            )
+    if isinstance(surface.shape, Qbfs) and surface.conic:
+        raise GeometryError(
+            "surface {surface}: Qbfs departs from a sphere, and the conic constant is {conic:g}; set it to 0 or use "
+            "Qcon",
+            surface=number,
+            conic=surface.conic,
+        )
 
 
 def _check_stop(stop: int | None, count: int) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import asin, atan, degrees, hypot, inf, isfinite, radians, tan
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Aperture, Lens
+from p2sf.lens.lens import Aperture, Lens, surface_power
 from p2sf.lensfile.raw import RawApertureKind, RawLens
 from p2sf.messages import Message
 
@@ -49,7 +49,7 @@ class Paraxial:
 def trace(lens: Lens, stop: int, wavelength_um: float) -> Paraxial:
     """Return the basis rays at one wavelength; GlassError outside a glass's range."""
     index = _indices(lens, wavelength_um)
-    rows = _running_matrices(lens, index)
+    rows = _running_matrices(lens, index, wavelength_um)
     return Paraxial(rows[stop - 1][:2], rows[-1], index[0], index[-1])
 
 
@@ -58,12 +58,12 @@ def _indices(lens: Lens, wavelength_um: float) -> list[float]:
     return [direction * known[medium] for medium, direction in zip(lens.media, lens.directions, strict=True)]
 
 
-def _running_matrices(lens: Lens, index: list[float]) -> list[tuple[float, float, float, float]]:
+def _running_matrices(lens: Lens, index: list[float], wavelength_um: float) -> list[tuple[float, float, float, float]]:
     """Return heights (a, b) at and reduced angles (c, d) behind every surface of both basis rays."""
     a, b, c, d = 1.0, 0.0, 0.0, 1.0
     rows = []
     for number, surface in enumerate(lens.surfaces, 1):
-        power = surface.curvature * (index[number] - index[number - 1])
+        power = float(surface_power(surface, index[number - 1], index[number], wavelength_um))
         c, d = c - power * a, d - power * b
         rows.append((a, b, c, d))
         reduced = surface.thickness / index[number]
@@ -73,7 +73,7 @@ def _running_matrices(lens: Lens, index: list[float]) -> list[tuple[float, float
 
 def limiting_rim(lens: Lens, wavelength_um: float) -> tuple[int, float]:
     """Return the surface whose rim limits the cone from infinity, and that rim in mm (Pieroni et al. 2015, qSIF)."""
-    heights = [abs(row[0]) for row in _running_matrices(lens, _indices(lens, wavelength_um))]
+    heights = [abs(row[0]) for row in _running_matrices(lens, _indices(lens, wavelength_um), wavelength_um)]
     filled = [height / surface.semi_diameter for height, surface in zip(heights, lens.surfaces, strict=True)]
     if not any(isfinite(surface.semi_diameter) for surface in lens.surfaces):
         raise GeometryError("the file states no aperture, no stop and no semi-diameter; add one of them")

@@ -26,6 +26,8 @@ glass = "SCHOTT N-BK7"           # or 1.5168, or { nd = 1.5168, vd = 64.17 }, or
 semi_diameter = 10.0             # clear rim; left out: unlimited
 conic = -1.0
 aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
+shape = { type = "Qcon", normalisation_radius = 10.0, coefficients = [1e-3] }  # added to it, see SHAPES
+diffraction = { order = 1, normalisation_radius = 10.0, coefficients = [-300.0] }  # radians, of ρ², ρ⁴, …
 
 A lens that zooms, or focuses inside, has a table of columns, and entries with a value for each (`columns`).
 """
@@ -45,6 +47,7 @@ from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, Mirror, ModelGlass, TabulatedIndex
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_mask
 from p2sf.lens.positions import Axis, alone
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial, Shape
 from p2sf.lensfile.agf import FormulaGlass
 from p2sf.lensfile.columns import KINDS as RINGS
 from p2sf.lensfile.columns import axis_text, columns_of, joined, read_columns
@@ -125,7 +128,28 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
         _Line("semi_diameter", _number(surface.semi_diameter), "inf"),
         _Line("conic", _number(surface.conic), "0.0"),
         _Line("aspheric", _list(surface.aspheric), "[]"),
+        _Line("shape", _shape(surface.shape) if surface.shape else ""),
+        _Line("diffraction", _diffraction(surface.diffraction) if surface.diffraction else ""),
     )
+
+
+def _shape(shape: Shape) -> str:
+    numbers = shape.coefficients
+    if isinstance(shape, RadialPolynomial):
+        kind = "extended asphere" if shape.even else "extended odd asphere"
+        if shape.normalisation_mm == 1:
+            return f'{{ type = "odd asphere", coefficients = {_list(numbers)} }}'
+        numbers = numbers[1::2] if shape.even else numbers
+    else:
+        kind = type(shape).__name__
+    radius = _number(shape.normalisation_mm)
+    return f'{{ type = "{kind}", normalisation_radius = {radius}, coefficients = {_list(numbers)} }}'
+
+
+def _diffraction(diffraction: Diffraction) -> str:
+    order, radius = _number(diffraction.order), _number(diffraction.normalisation_mm)
+    numbers = _list(diffraction.coefficients)
+    return f"{{ order = {order}, normalisation_radius = {radius}, coefficients = {numbers} }}"
 
 
 def _number(x: float) -> str:
@@ -168,7 +192,11 @@ MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
 TEXTS = ("title", "name", "character", "source", "comment")
 TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "pupil", "surface")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
-SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric")
+SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric", "shape", "diffraction")
+# The names are OpticStudio's. Coefficients are of r, r², … (in units⁰, units⁻¹, …), of ρ = r/normalisation radius,
+# ρ², …, of ρ², ρ⁴, …, and of Forbes's polynomials Q₀, Q₁, … (all in units).
+SHAPES = ("odd asphere", "extended odd asphere", "extended asphere", "Qbfs", "Qcon")
+MOST_TERMS = 60
 
 RADIUS = Constraint(lambda x: x == x and x != 0, Message("write a number that is not 0, inf for a plane"))
 THICKNESS = Constraint(isfinite, Message("write the distance to the next surface as a number"))
@@ -264,7 +292,49 @@ def _surface(table: Table, scale: float) -> Surface:
         conic=table.number("conic", FINITE, 0.0),
         aspheric=tuple(a * scale ** -(2 * k + 3) for k, a in enumerate(aspheric)),
         semi_diameter=table.number("semi_diameter", RIM, inf) * scale,
+        shape=_read_shape(table, scale),
+        diffraction=_read_diffraction(table, scale),
     )
+
+
+def _read_shape(surface: Table, scale: float) -> Shape | None:
+    table = surface.inline("shape")
+    if table is None:
+        return None
+    table.check_keys(("type", "normalisation_radius", "coefficients"))
+    kind = table.string("type")
+    if kind not in SHAPES:
+        table.fail('type "{kind}" of a shape is unknown; write one of {kinds}', kind=kind, kinds=SHAPES)
+    if kind == "odd asphere" and "normalisation_radius" in table.values:
+        table.fail('an odd asphere has no normalisation radius; write type = "extended odd asphere"')
+    numbers = _terms(table)
+    radius = 1.0 if kind == "odd asphere" else table.number("normalisation_radius", OPENING)
+    if kind == "odd asphere":
+        return RadialPolynomial(tuple(a * scale ** (1 - k) for k, a in enumerate(numbers, 1)))
+    if kind == "Qbfs":
+        return Qbfs(numbers, radius).scaled(scale)
+    if kind == "Qcon":
+        return Qcon(numbers, radius).scaled(scale)
+    if kind == "extended asphere":
+        numbers = tuple(x for number in numbers for x in (0.0, number))
+    return RadialPolynomial(numbers, radius).scaled(scale)
+
+
+def _read_diffraction(surface: Table, scale: float) -> Diffraction | None:
+    table = surface.inline("diffraction")
+    if table is None:
+        return None
+    table.check_keys(("order", "normalisation_radius", "coefficients"))
+    radius = table.number("normalisation_radius", OPENING) * scale
+    return Diffraction(_terms(table), radius, table.number("order", FINITE, 1.0))
+
+
+def _terms(table: Table) -> tuple[float, ...]:
+    """Return the coefficients of a shape or a phase, at least one."""
+    numbers = table.numbers("coefficients", FINITE, ())
+    if not 1 <= len(numbers) <= MOST_TERMS:
+        table.fail("coefficients are {count} numbers; write 1 to {most}", count=len(numbers), most=MOST_TERMS)
+    return numbers
 
 
 def _aperture(top: Table, scale: float) -> Aperture:

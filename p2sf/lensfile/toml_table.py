@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from math import nan
 from typing import Any, NoReturn, TypeGuard
@@ -64,20 +64,33 @@ class Constraint:
 
 @dataclass(frozen=True)
 class Table:
-    """The values under one heading of a lens file; ``surface`` (from 1) is set for a [[surface]]."""
+    """The values under one heading of a lens file; ``surface`` (from 1) is set for a [[surface]].
+
+    ``within`` names the key of an inline table, { … }, whose values these are.
+    """
 
     path: str
     text: str
     values: dict[str, Any]
     heading: str = ""
     surface: int | None = None
+    within: str = ""
 
     def fail(self, template: str | Message, /, key: str = "", **values: object) -> NoReturn:
         """Raise LensFileError at the line of ``key``, or of this table's heading, with its template's values."""
         message = template if isinstance(template, Message) else Message(template, **values)
         if self.surface:
             message = Message("surface {surface}: {message}", surface=self.surface, message=message)
-        raise LensFileError(message, self.path, find_line(self.text, self.heading, self.surface, key))
+        raise LensFileError(message, self.path, find_line(self.text, self.heading, self.surface, self.within or key))
+
+    def inline(self, key: str) -> "Table | None":
+        """Return the inline table of a key, None where it is absent."""
+        value = self.values.get(key)
+        if value is None:
+            return None
+        if not isinstance(value, dict):
+            self.fail("{name} is {found}; write {{ key = value, … }}", key, name=key, found=shown(value))
+        return replace(self, values=value, within=key)
 
     def check_keys(self, known: Iterable[str], elsewhere: Iterable[str] = ()) -> None:
         """Raise LensFileError for the first key that is not ``known``."""

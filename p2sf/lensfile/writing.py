@@ -54,6 +54,7 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
 
 def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
     """Return the lens as a Zemax prescription, object at infinity; LensFileError for what such a file cannot hold."""
+    _check_plain(lens, "Zemax")
     stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
     lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", "  DISZ INFINITY"]
     if lens.object_medium != AIR:
@@ -157,12 +158,13 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
         raise LensFileError("the object stands in a medium, which an ISET file cannot say; save as TOML")
     if any(surface.reflects for surface in lens.surfaces):
         raise LensFileError("the lens has mirrors, which an ISET file cannot say; save as TOML")
+    _check_plain(lens, "ISET")
     wave = lens.reference_wavelength_um
     stop = lens.stop_surface or limiting_rim(lens, wave)[0]
     rows = []
     for number, surface in enumerate(lens.surfaces, 1):
         row = _iset_row(surface, _iset_index(surface.medium, wave, spectral))
-        plain = isfinite(surface.radius) or surface.aspheric or surface.medium != lens.media[number - 1]
+        plain = not surface.bare or surface.medium != lens.media[number - 1]
         if number == stop:
             opening = {"radius": 0, "thickness": 0.0, "ior": 0, "semi_aperture": _stop_rim(lens, stop, wave)}
             rows += [opening] if plain else [opening | {"thickness": surface.thickness}]
@@ -178,6 +180,18 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     if isfinite(focal):
         top["metadata"] = {"focalLength": focal / 1000}  # ISET keeps it in metres
     return json.dumps(top, indent=1) + "\n"
+
+
+def _check_plain(lens: Lens, program: str) -> None:
+    """Raise LensFileError for a surface that the files of a program cannot hold."""
+    for number, surface in enumerate(lens.surfaces, 1):
+        if surface.shape is not None or surface.diffraction is not None:
+            raise LensFileError(
+                "surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save "
+                "as TOML",
+                surface=number,
+                program=program,
+            )
 
 
 def _iset_row(surface: Surface, ior: float | list[list[float]]) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
 from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
-from p2sf.paraxial.seidel import coefficients
+from p2sf.paraxial.seidel import check_seidel, coefficients
 from p2sf.psf.methods import choose
 from p2sf.psf.polychromatic import chief_shifts_um
 from p2sf.psf.seidel import check_image
@@ -134,6 +134,7 @@ def pupil_of(lens: Lens, source: Source, method: str = "traced", clip: bool = Fa
     if method == "auto":
         method = choose(lens, source, clip=clip).method
     if method == "seidel":
+        check_seidel(lens)
         six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         check_image(six)
         return pupil_of_coefficients(six), method

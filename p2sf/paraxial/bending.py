@@ -13,7 +13,7 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.lens.lens import Lens, Surface, indices, surface_power
 
 IMMERSED = 1.0001  # of the refractive index: less than this is air
 FLAT = 1e-12  # of the larger curvature: a smaller difference is rounding
@@ -43,9 +43,11 @@ def element_of(lens: Lens, surface: int) -> tuple[int, int] | None:
 
 def thin_power(lens: Lens, first: int, last: int, wavelength_um: FloatOrArray | None = None) -> FloatOrArray:
     """Return the sum of the surfaces' powers (n′ − n)c from surface ``first`` to ``last`` (from 1), per mm."""
-    index = indices(lens, lens.reference_wavelength_um if wavelength_um is None else wavelength_um)
+    wave = lens.reference_wavelength_um if wavelength_um is None else wavelength_um
+    index = indices(lens, wave)
     power: FloatOrArray = sum(
-        (index[number] - index[number - 1]) * lens.curvatures[number - 1] for number in range(first, last + 1)
+        surface_power(lens.surfaces[number - 1], index[number - 1], index[number], wave)
+        for number in range(first, last + 1)
     )
     return power
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray, anywhere, is_number, protected, vergence
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, indices
+from p2sf.lens.lens import Lens, indices, surface_power
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,8 +21,8 @@ class BasisRays:
 
     A ray (y1, nu1) has height a·y1 + b·nu1 at surface j and reduced angle c·y1 + d·nu1 behind it.
     ``a``, ``b``, ``c``, ``d``: (surfaces, *wavelength.shape), mm where they carry a unit;
-    ``index``: (surfaces + 1, *wavelength.shape). ``power`` of every surface (1/mm) and ``gap``, the reduced
-    thickness behind it (mm), are what the rays were traced with: numbers for one wavelength, else arrays.
+    ``index``: (surfaces + 1, *wavelength.shape), at ``wavelength_um``. ``power`` of every surface (1/mm) and ``gap``,
+    the reduced thickness behind it (mm), are what the rays were traced with: numbers for one wavelength, else arrays.
     """
 
     a: np.ndarray
@@ -32,6 +32,7 @@ class BasisRays:
     index: np.ndarray
     power: tuple
     gap: tuple
+    wavelength_um: FloatOrArray
 
     @property
     def object_index(self) -> np.ndarray:
@@ -83,11 +84,12 @@ def _basis_at(lens: Lens, wavelength_um: float) -> BasisRays:
 def _basis(lens: Lens, wavelength: np.ndarray) -> BasisRays:
     index = indices(lens, wavelength)
     layers = index.tolist() if index.ndim == 1 else list(index)  # plain floats make one wavelength 10× faster
+    wave = wavelength if index.ndim > 1 else float(wavelength)
     steps = zip(lens.surfaces, layers, layers[1:], strict=False)
-    power, gap = zip(*((s.curvature * (after - n), s.thickness / after) for s, n, after in steps), strict=True)
+    power, gap = zip(*((surface_power(s, n, after, wave), s.thickness / after) for s, n, after in steps), strict=True)
     rows = zip(march(power, gap, 1.0, 0.0), march(power, gap, 0.0, 1.0), strict=True)
     a, b, c, d = columns_of([(a, b, c, d) for (a, c), (b, d) in rows], index.shape[1:])
-    return BasisRays(a, b, c, d, index, power, gap)
+    return BasisRays(a, b, c, d, index, power, gap, wave)
 
 
 def march(power: Iterable, gap: Iterable, y: FloatOrArray, nu: FloatOrArray) -> list[tuple]:

@@ -76,6 +76,7 @@ class ParaxialRays:
 
     ``y``, ``chief_y``: heights (surfaces, …), mm. ``nu``, ``chief_nu``: reduced angles (surfaces + 1, …).
     ``invariant``: the Lagrange invariant, n·(entrance-pupil radius) for a chief ray of unit slope.
+    ``wavelength_um``: shaped as one row of ``index``.
     """
 
     y: np.ndarray
@@ -84,6 +85,7 @@ class ParaxialRays:
     chief_nu: np.ndarray
     index: np.ndarray
     invariant: np.ndarray
+    wavelength_um: FloatOrArray
 
 
 def find_stop(
@@ -199,7 +201,7 @@ def paraxial_rays(
     y, nu = _combine(rays, side * rim / reach, n * close * side * rim / reach)
     nu[-1] = settled_angle(rays.power, rays.gap, y, nu[1:])
     scale = n / a if field == "slope" else n * close / reach
-    return ParaxialRays(y, nu, centre_y * scale, centre_nu * scale, rays.index, side * rim * scale)
+    return ParaxialRays(y, nu, centre_y * scale, centre_nu * scale, rays.index, side * rim * scale, rays.wavelength_um)
 
 
 def _check_field(field: str, a: np.ndarray, close: np.ndarray) -> None:

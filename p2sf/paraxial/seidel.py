@@ -6,13 +6,16 @@ work on (depth, wavelength) only and gives exactly zero for a zero field.
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import nan
 from operator import add
 from typing import Literal
 
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray
-from p2sf.lens.lens import Lens, indices
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.lens.shapes import Diffraction
 from p2sf.notebook import cell, html_table
 from p2sf.paraxial.first_order import crossing
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
@@ -75,8 +78,10 @@ class Coefficients:
 def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope: FloatOrArray = 1.0) -> SeidelSums:
     """Return the five sums per surface at these field slopes (Welford 1986, eqs 8.24 and 8.40 ff.).
 
-    ``field_slope`` broadcasts against the rays' (depth, wavelength); the surface stays the first axis.
+    ``field_slope`` broadcasts against the rays' (depth, wavelength); the surface stays the first axis. Raises
+    GeometryError for a surface with a term in r or r³.
     """
+    check_seidel(lens)
     missing = (1,) * max(0, np.ndim(field_slope) + 1 - rays.y.ndim)
     unit = SeidelSums(*(x.reshape(len(x), *missing, *x.shape[1:]) for x in _unit_sums(lens, rays).columns()))
     powers = (1.0, field_slope, np.square(field_slope), np.square(field_slope), np.power(field_slope, 3))
@@ -101,24 +106,60 @@ def chromatic_sums(
     """Return both sums per surface for the rays of one source, C_I = ΣAyΔ(δn/n) and C_II = ΣĀyΔ(δn/n), mm.
 
     δn is the index at ``shorter_um`` less that at ``longer_um``, both in vacuum; everything else is of the rays' own
-    wavelength. Exact to first order in δn. Raises GlassError. Source: Welford 1986, §10.3.
+    wavelength. Exact to first order in δn. Raises GlassError. Source: Welford 1986, §10.3. A diffractive surface has
+    different A before and behind it, and adds −2yδ(path of r²)·y: the limit of a thin lens of infinite index that is
+    proportional to the wavelength (Sweatt 1977).
     """
     c, _ = _shape_terms(lens)
-    n, _, nu, _, y, chief_nu, chief_y = _layers(rays)
+    n, after, nu, nu_after, y, chief_nu, chief_y = _layers(rays)
     relative = (indices(lens, shorter_um) - indices(lens, longer_um)) / rays.index
     bend = y * np.diff(relative, axis=0)  # yΔ(δn/n)
     snell, chief_snell = nu + n * y * c, chief_nu + n * chief_y * c  # A and Ā
-    return ChromaticSums(snell * bend, chief_snell * bend * field_slope)
+    axial, lateral = snell * bend, chief_snell * bend
+    for at, diffraction in _diffractive(lens):
+        jump = -2 * diffraction.path_terms(shorter_um - longer_um)[0] * y[at] * y[at]
+        behind = nu_after[at] + after[at] * y[at] * c[at], rays.chief_nu[at + 1] + after[at] * chief_y[at] * c[at]
+        axial[at] = y[at] * (behind[0] * relative[at + 1] - snell[at] * relative[at]) + jump
+        chief_jump = -2 * diffraction.path_terms(shorter_um - longer_um)[0] * y[at] * chief_y[at]
+        lateral[at] = y[at] * (behind[1] * relative[at + 1] - chief_snell[at] * relative[at]) + chief_jump
+    return ChromaticSums(axial, lateral * field_slope)
+
+
+def check_seidel(lens: Lens) -> None:
+    """Raise GeometryError for a surface with a term in r or r³, which no wavefront of fourth order describes."""
+    for number, surface in enumerate(lens.surfaces, 1):
+        first, _, third, _ = surface.shape.series(surface.curvature) if surface.shape else (0.0,) * 4
+        if first or third:
+            raise GeometryError(
+                "surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; "
+                "choose the method fitted, traced or huygens",
+                surface=number,
+                term="r" if first else "r³",
+            )
 
 
 def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
     c, figure = (_per_surface(x, rays.y.ndim) for x in _shape_terms(lens))
-    return SeidelSums(*surface_sums(rays.invariant, c, figure if np.count_nonzero(figure) else 0.0, *_layers(rays)))
+    layers = _layers(rays)
+    sums = surface_sums(rays.invariant, c, figure if np.count_nonzero(figure) else 0.0, *layers)
+    for at, diffraction in _diffractive(lens):
+        sides = [layer[at] for layer in (*layers, rays.chief_nu[1:])]
+        paths = diffraction.path_terms(rays.wavelength_um)
+        here = diffractive_sums(rays.invariant, float(c.flat[at]), float(figure.flat[at]), paths, *sides)
+        sums = tuple(_with_row(column, at, value) for column, value in zip(sums, here, strict=True))
+    return SeidelSums(*sums)
+
+
+def _with_row(column: np.ndarray, at: int, value: np.ndarray) -> np.ndarray:
+    """Return a column of sums with one surface's replaced."""
+    changed = column.copy()
+    changed[at] = value
+    return changed
 
 
 def _unit_totals(lens: Lens, rays: ParaxialRays) -> tuple:
     """Return the five sums over all surfaces; for one source in plain numbers, three times faster."""
-    if rays.y.ndim > 1:
+    if rays.y.ndim > 1 or _diffractive(lens):
         return tuple(map(np.add.reduce, _unit_sums(lens, rays).columns()))
     columns = (column.tolist() for column in (*_shape_terms(lens), *_layers(rays)))
     invariant = float(rays.invariant)
@@ -164,6 +205,58 @@ def surface_sums(
     return tuple(map(add, sums, _figuring(figure * (after - n), y, chief)))
 
 
+def diffractive_sums(
+    invariant: FloatOrArray,
+    c: float,
+    figure: float,
+    paths: tuple[FloatOrArray, FloatOrArray],
+    n: FloatOrArray,
+    after: FloatOrArray,
+    nu: FloatOrArray,
+    nu_after: FloatOrArray,
+    y: FloatOrArray,
+    chief_nu: FloatOrArray,
+    chief: FloatOrArray,
+    chief_nu_after: FloatOrArray,
+) -> tuple:
+    """Return the five sums of a diffractive surface that adds the ``paths`` (p, q): p·r² + q·r⁴.
+
+    It is a thin lens of index N → ∞ whose second surface has N times as little between it and the first as the path
+    that is added (Sweatt 1977). The sums of its two surfaces in `surface_sums` tend to those of either side, with
+    u/n = 0 within, and what the second is figured by to −(8q − 2pc²)y⁴: along the normal the path is p·r², along the
+    axis p·r²(1 + c²r²/2), and the sphere of its curvature, c + 2p/N, takes 3c²p·r⁴/4 of that.
+    """
+    before = _side_sums(invariant, c, n, nu, y, chief_nu, chief)
+    behind = _side_sums(invariant, c, after, nu_after, y, chief_nu_after, chief)
+    second, fourth = paths
+    figured = _figuring(figure * (after - n) - (8 * fourth - 2 * second * c * c), y, chief)
+    return tuple(out - into + more for into, out, more in zip(before, behind, figured, strict=True))
+
+
+def _side_sums(
+    invariant: FloatOrArray,
+    c: float,
+    n: FloatOrArray,
+    nu: FloatOrArray,
+    y: FloatOrArray,
+    chief_nu: FloatOrArray,
+    chief: FloatOrArray,
+) -> tuple[FloatOrArray, ...]:
+    """Return what the five sums are the differences of across a surface (Welford 1986, ch. 8)."""
+    inverse = 1 / n
+    square = inverse * inverse
+    snell, chief_snell = nu + n * y * c, chief_nu + n * chief * c
+    bend, petzval = -y * nu * square, c * inverse
+    distortion = (invariant + chief_snell * y) * chief * petzval - chief_snell * chief_snell * y * square
+    return (
+        snell * snell * bend,
+        snell * chief_snell * bend,
+        chief_snell * chief_snell * bend,
+        -(invariant * invariant) * petzval,
+        chief_snell * distortion,
+    )
+
+
 def _figuring(figure: FloatOrArray, y: FloatOrArray, chief: FloatOrArray) -> tuple[FloatOrArray, ...]:
     """Return what an asphere, (Kc³ + 8A₄)Δn, adds to the five sums, without division by y (Welford 1986, ch. 8)."""
     square, cross = figure * y * y, chief * chief
@@ -172,10 +265,31 @@ def _figuring(figure: FloatOrArray, y: FloatOrArray, chief: FloatOrArray) -> tup
 
 @lru_cache(maxsize=64)
 def _shape_terms(lens: Lens) -> tuple[np.ndarray, np.ndarray]:
-    """Return curvature c and fourth-order figure Kc³ + 8A₄ of every surface, each (surfaces,)."""
-    rows = ((s.curvature, s.conic, s.aspheric[0] if s.aspheric else 0.0) for s in lens.surfaces)
-    c, figure = zip(*((c, conic * c**3 + 8 * a4) for c, conic, a4 in rows), strict=True)
+    """Return the curvature c at the vertex and the fourth-order figure Kc³ + 8A₄ of every surface, each (surfaces,).
+
+    The figure is NaN for a term in r or r³.
+    """
+    c, figure = zip(*map(_shape_of, lens.surfaces), strict=True)
     return np.array(c), np.array(figure)
+
+
+def _shape_of(surface: Surface) -> tuple[float, float]:
+    """Return the curvature at the vertex, and 8 times what the r⁴ term exceeds that of its sphere, c³/8, by."""
+    c, a4 = surface.curvature, surface.aspheric[0] if surface.aspheric else 0.0
+    figure = surface.conic * c**3 + 8 * a4
+    if surface.shape is None:
+        return c, figure
+    first, second, third, fourth = surface.shape.series(c)
+    if first or third:
+        return c + 2 * second, nan
+    # (c + 2s)³ − c³ without the difference of large numbers
+    return c + 2 * second, figure + 8 * fourth - 2 * second * (3 * c * c + 6 * c * second + 4 * second * second)
+
+
+@lru_cache(maxsize=64)
+def _diffractive(lens: Lens) -> tuple[tuple[int, Diffraction], ...]:
+    """Return the diffractive surfaces: their places from 0, and what they add."""
+    return tuple((at, s.diffraction) for at, s in enumerate(lens.surfaces) if s.diffraction is not None)
 
 
 def _per_surface(column: np.ndarray, ndim: int) -> np.ndarray:
@@ -194,7 +308,8 @@ def coefficients(
 
     ``depth_mm`` from the first vertex, ``inf`` allowed; ``field_slope`` the tangent at the entrance
     pupil, or with ``field="height"`` the mm the object stands below the axis; the sensor is where the lens
-    puts it (`with_sensor` moves it). Raises GeometryError and GlassError.
+    puts it (`with_sensor` moves it). W40 to W11 are NaN for a surface with a term in r or r³ (`check_seidel`). Raises
+    GeometryError and GlassError.
     Source: Pieroni et al. 2015; Welford 1986, ch. 8.
     """
     # [()] turns arrays without axes into numbers, on which numpy is five times faster.

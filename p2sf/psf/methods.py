@@ -9,26 +9,36 @@ from time import perf_counter
 
 import numpy as np
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
-from p2sf.paraxial.seidel import Coefficients, coefficients
+from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import check_quality, check_samples, seidel_psf, suitable_pixel_um
+from p2sf.psf.seidel import (
+    AIRY_RADIUS,
+    WINDOW_AIRY_RADII,
+    check_focus,
+    check_quality,
+    check_samples,
+    seidel_psf,
+    suitable_pixel_um,
+)
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays, levels
-from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.ray_field import ray_data, steepness
 from p2sf.threads import one_blas_thread
 
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be asked of a choice
 METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
+PITCH_RINGS = 8  # of rays, to see how far light reaches
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
 
 
@@ -109,7 +119,9 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     data = ray_data(rays)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     steep = steepness(data, xi, eta)
-    seidel = predicted_error(seidel_sigma(c, data, (xi, eta, weight), steep.light_um), "seidel")
+    seidel = inf
+    if np.isfinite(c.w40):
+        seidel = predicted_error(seidel_sigma(c, data, (xi, eta, weight), steep.light_um), "seidel")
     tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
     if seidel <= allowed:
         return tried
@@ -170,8 +182,7 @@ def render(
     check_quality(quality)
     _check_tolerance(tolerance)
     if pixel_um is None:
-        c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-        pixel_um = float(suitable_pixel_um(c, pixels))
+        pixel_um = whole_pixel_um(lens, source, pixels)
     window = pixels, pixel_um
     if method != "auto":
         return _by_method(lens, source, (method, None), window, quality, tolerance, clip)
@@ -182,6 +193,17 @@ def render(
         if choice.method == "huygens":
             raise
         return _by_tracing(lens, source, "huygens", window, quality, clip)
+
+
+def whole_pixel_um(lens: Lens, source: Source, pixels: int) -> float:
+    """Return the pitch at which the window shows the whole PSF, µm, by six coefficients or, without them, by rays."""
+    c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+    if np.isfinite(c.w40):
+        return float(suitable_pixel_um(c, pixels))
+    check_focus(c)
+    rays = pencil(lens, source, *hexapolar(PITCH_RINGS))
+    reach = float(np.nanmax(np.hypot(rays.dx, rays.dy), initial=0.0)) * UM_PER_MM
+    return 2 * (reach + WINDOW_AIRY_RADII * float(AIRY_RADIUS * c.wavelength_um / c.na)) / max(1, pixels)
 
 
 def _by_method(
@@ -199,6 +221,7 @@ def _by_method(
         _check_unclipped(lens, source, method)
     if method == "seidel":
         check_unmasked(lens, Message("the method seidel"))
+        check_seidel(lens)
         c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         return replace(seidel_psf(c, *window, quality), predicted_error=seidel_error(lens, source, c))
     if method == "fitted":

@@ -14,9 +14,9 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.gaussian_fit import gaussian_psf
-from p2sf.psf.methods import render
+from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import check_samples, suitable_pixel_um
+from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import binned
 
 LARGEST = 2048  # fine samples a side: beyond, sums take minutes
@@ -99,6 +99,6 @@ def render_integrated(
     return integrated(
         lambda count, pitch: render(lens, source, method, count, pitch, tolerance=tolerance),
         pixels,
-        pixel_um or float(suitable_pixel_um(c, pixels)),
+        pixel_um or whole_pixel_um(lens, source, pixels),
         float(critical_pixel_um(c.wavelength_um, c.na)),
     )

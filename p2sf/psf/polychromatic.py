@@ -16,9 +16,9 @@ from p2sf.lens.lens import Lens, lens_range_um
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.methods import render
+from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import check_image, suitable_pixel_um
+from p2sf.psf.seidel import check_focus, suitable_pixel_um
 from p2sf.raytrace.pencil import pencil
 from p2sf.threads import one_blas_thread
 
@@ -96,8 +96,12 @@ def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: in
 
     Raises GeometryError where the image of the source's own colour lies at infinity.
     """
-    check_image(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop))
+    own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
+    check_focus(own)
     waves, _ = bands(spectrum, TRIED, *_limits(lens))
+    if not np.isfinite(own.w40):
+        each = [whole_pixel_um(lens, replace(source, wavelength_um=float(wave)), pixels) for wave in waves]
+        return float(np.max(each + 2 * np.abs(chief_shifts_um(lens, source, waves)) / pixels))
     c = coefficients(lens, source.depth_mm, source.field_slope, waves, stop)
     shift = np.abs(chief_shifts_um(lens, source, waves))
     return float(np.max(suitable_pixel_um(c, pixels) + 2 * shift / pixels))

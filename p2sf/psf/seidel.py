@@ -162,16 +162,21 @@ def suitable_pixel_um(coefficients: Coefficients, pixels: int = 64) -> np.ndarra
 def check_image(coefficients: Coefficients) -> None:
     """Raise GeometryError where there is no image at a finite distance, or a coefficient is not a number."""
     c = coefficients
-    if anywhere(np.equal(c.reduced_slope, 0)):
-        raise GeometryError(
-            "the image of this object lies at infinity (NA 0), so the sensor holds no PSF; move the object or refocus"
-        )
+    check_focus(c)
     if anywhere(~np.isfinite(c.w40 + c.w31 + c.w22 + c.w20 + c.wd + c.reduced_slope)):
         names = ("w40", "w31", "w22", "w20", "wd", "reduced_slope")
         bad = next((name for name in names if not np.isfinite(getattr(c, name)).all()), Message("their sum"))
         raise GeometryError(
             "{coefficient} is not finite, so there is no wavefront; choose a depth, field or lens with one",
             coefficient=bad,
+        )
+
+
+def check_focus(coefficients: Coefficients) -> None:
+    """Raise GeometryError where there is no image at a finite distance."""
+    if anywhere(np.equal(coefficients.reduced_slope, 0)):
+        raise GeometryError(
+            "the image of this object lies at infinity (NA 0), so the sensor holds no PSF; move the object or refocus"
         )
 
 

@@ -57,7 +57,8 @@ class PupilRays:
 
     ``x``, ``y``: (…, ray) mm in that plane, which lies ``plane`` mm behind the first vertex. ``slope_x``, ``slope_y``:
     dx/dz, dy/dz. ``path``: optical path from the source, mm, less that to the pupil's centre; for a source at
-    infinity, from the plane wavefront through that centre. ``index``: per medium, object space first.
+    infinity, from the plane wavefront through that centre. ``index``: per medium, object space first, at
+    ``wavelength_um``, (…, 1) or a number.
     ``weight``: the light sent through unit area about (ξ, η), over that of the paraxial pupil's: the solid angle times
     the square of the distance, for a source at infinity an area; 1 for the paraxial pupil itself. ``stop_surface``: the
     stop at which rays were aimed, 0 if they were not; a ray that could not be aimed is NaN.
@@ -70,6 +71,7 @@ class PupilRays:
     path: np.ndarray
     plane: np.ndarray
     index: Index
+    wavelength_um: FloatOrArray
     weight: FloatOrArray = 1.0
     stop_surface: int = 0
 
@@ -92,7 +94,7 @@ class Entrance:
 
     ``plane`` mm from the first vertex, ``radius`` mm, ``reach`` = 1/(object to entrance pupil) per mm, ``slope`` of the
     chief ray, ``exit_plane`` mm from the last vertex, ``index`` per medium, object space first; ``upright`` is −1
-    where the pupil is an inverted image of the stop, else 1.
+    where the pupil is an inverted image of the stop, else 1. A single ``wavelength_um`` is a number.
     """
 
     plane: np.ndarray
@@ -103,6 +105,7 @@ class Entrance:
     index: Index
     stop: Stop
     upright: np.ndarray
+    wavelength_um: FloatOrArray
 
 
 def entrance(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> Entrance:
@@ -121,7 +124,9 @@ def entrance(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> 
     radius = np.asarray(pupil.entrance_diameter) / 2
     values = (plane, radius, nearness / gap, np.asarray(source.field_slope), np.asarray(pupil.exit_from_last))
     plane, radius, reach, slope, exit_plane = (value[..., None] for value in values)
-    return Entrance(plane, radius, reach, slope, exit_plane, index, stop, np.asarray(pupil.upright)[..., None])
+    upright, wave = np.asarray(pupil.upright)[..., None], source.wavelength_um
+    waves = wave if isinstance(wave, float) else np.asarray(wave)[..., None]
+    return Entrance(plane, radius, reach, slope, exit_plane, index, stop, upright, waves)
 
 
 def _first_order(lens: Lens, wavelength_um: FloatOrArray, stop: Stop | None) -> tuple[Pupils, Index, Stop]:
@@ -205,13 +210,14 @@ def _through(enter: Entrance, x: np.ndarray, y: np.ndarray, slope: FloatOrArray 
     slope_x, slope_y = enter.reach * x, enter.reach * y + s
     length = np.sqrt(1 + slope_x * slope_x + slope_y * slope_y) + np.sqrt(1 + s * s)
     path = enter.index[0] * (enter.reach * (x * x + y * y) + 2 * s * y) / length
-    return PupilRays(x, y, slope_x, slope_y, path, enter.plane, enter.index)
+    return PupilRays(x, y, slope_x, slope_y, path, enter.plane, enter.index, enter.wavelength_um)
 
 
 def start(rays: PupilRays) -> Beam:
     """Return a new beam of these rays, positions from the first vertex."""
     scale = 1 / np.sqrt(1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
-    beam = launch(rays.index[0], rays.x, rays.y, rays.plane, rays.slope_x * scale, rays.slope_y * scale, scale)
+    along = rays.slope_x * scale, rays.slope_y * scale, scale
+    beam = launch(rays.index[0], rays.wavelength_um, rays.x, rays.y, rays.plane, *along)
     if rays.stop_surface:
         beam.fail(np.isnan(beam.x), Status.UNAIMED, rays.stop_surface)
     return beam
@@ -306,7 +312,8 @@ def _between(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
         between += here
         return between
 
-    out = Beam(*(moved(rows[:, 0], rows[:, 1], rows[:, 2]) for rows in (beam.place, beam.ray)))
+    place, ray = (moved(rows[:, 0], rows[:, 1], rows[:, 2]) for rows in (beam.place, beam.ray))
+    out = Beam(place, ray, beam.wavelength_um)
     out.path = moved(*beam.path)
     if beam.status.any():
         for status, surface in zip(beam.status, beam.failed_surface, strict=True):

@@ -14,6 +14,7 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray
 from p2sf.lens.lens import Surface
+from p2sf.lens.shapes import WAVES_MM, Diffraction
 
 NEWTON_STEPS = 40
 # A root is found when the sag differs from the ray's height by no more than the rounding of their sum.
@@ -29,16 +30,17 @@ class Status(IntEnum):
     CLIPPED = 3
     REFUSED = 4
     UNAIMED = 5
+    EVANESCENT = 6
 
 
 class Beam:
     """Rays being traced: position from the current vertex (mm), optical cosines, optical path (mm), status.
 
     ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that an operation on all
-    components is one call. The last ``exempt`` rays pass every rim.
+    components is one call. The last ``exempt`` rays pass every rim. ``wavelength_um`` broadcasts against (…, ray).
     """
 
-    def __init__(self, place: np.ndarray, ray: np.ndarray):
+    def __init__(self, place: np.ndarray, ray: np.ndarray, wavelength_um: FloatOrArray):
         self.place, self.ray = place, ray
         self.x, self.y, self.z = place
         self.p, self.q, self.r = ray
@@ -46,6 +48,7 @@ class Beam:
         self.status = np.zeros(place.shape[1:], np.int8)
         self.failed_surface = np.zeros(place.shape[1:], np.int16)
         self.exempt = 0
+        self.wavelength_um = wavelength_um
 
     def advance(self, step: np.ndarray, index: FloatOrArray) -> None:
         """Move every ray by the ray parameter ``step`` in a medium of this index."""
@@ -84,7 +87,7 @@ def to_plane(beam: Beam, index: FloatOrArray) -> None:
 
 def meet(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal | None:
     """Carry every ray to the surface and return its normal there; None for a plane."""
-    if any(surface.aspheric):
+    if surface.shape is not None or any(surface.aspheric):
         return _meet_asphere(beam, surface, index, number)
     if surface.curvature:
         return _meet_conic(beam, surface, index, number)
@@ -132,7 +135,7 @@ def _meet_conic(beam: Beam, surface: Surface, index: FloatOrArray, number: int) 
 
 
 def sag_and_slope(surface: Surface, square: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
-    """Return sag z and dz/d(r²) of an even asphere at squared radius ``square`` mm² (NaN beyond the conic's edge)."""
+    """Return sag z and dz/d(r²) of an asphere at squared radius ``square`` mm² (NaN beyond the conic's edge)."""
     c, k = surface.curvature, surface.conic
     root = np.sqrt(1 - (1 + k) * (c * c) * square)
     sag, slope = c * square / (1 + root), c / (2 * root)
@@ -141,7 +144,10 @@ def sag_and_slope(surface: Surface, square: FloatOrArray) -> tuple[np.ndarray, n
         slope = slope + order * coefficient * power
         power = power * square
         sag = sag + coefficient * power
-    return sag, slope
+    if surface.shape is None:
+        return sag, slope
+    more, steeper = surface.shape.sag_and_slope(square, c)
+    return sag + more, slope + steeper
 
 
 def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal:
@@ -188,6 +194,35 @@ def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: Floa
         beam.ray[:2] -= push * beam.place[:2]
 
 
+def diffract(beam: Beam, normal: Normal | None, diffraction: Diffraction, after: FloatOrArray, number: int) -> None:
+    """Bend every ray by n'K' = nK + (λ/2π)∇φ + Γ·normal, and add λφ/2π to its path (Welford 1975).
+
+    φ is a function of x and y. The normal's multiple Γ follows from |n'K'| = n'; where there is none, the order is
+    evanescent.
+    """
+    square = beam.x * beam.x + beam.y * beam.y
+    phase, slope = diffraction.phase_and_slope(square)
+    unit = WAVES_MM * beam.wavelength_um
+    beam.path += unit * phase
+    beam.ray[:2] += (2 * unit * slope) * beam.place[:2]
+    tilt, axial, length_square = _whole(beam, normal)
+    along = beam.r * axial - tilt * (beam.x * beam.p + beam.y * beam.q)
+    gain = after * after - (beam.ray * beam.ray).sum(0)
+    length = np.sqrt(length_square)
+    root = _root(beam, along * along / length_square, gain, number, why=Status.EVANESCENT)
+    push = (_along(root, after) - along / length) / length
+    beam.r += push * axial
+    beam.ray[:2] -= (push * tilt) * beam.place[:2]
+
+
+def _whole(beam: Beam, normal: Normal | None) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
+    """Return slope, axial part and squared length of a normal, with what a plane's and a sphere's leave out."""
+    if normal is None:
+        return 0.0, 1.0, 1.0
+    axial = 1 - normal.slope * beam.z if normal.axial is None else normal.axial
+    return normal.slope, axial, 1.0 if normal.square is None else normal.square
+
+
 def _along(values: np.ndarray, index: FloatOrArray) -> np.ndarray:
     """Return ``values``, changed in sign in place where light runs to the left."""
     return values if _forwards(index) else np.negative(values, out=values)
@@ -198,12 +233,17 @@ def _forwards(index: FloatOrArray) -> bool:
 
 
 def _root(
-    beam: Beam, cosine_square: np.ndarray, gain: FloatOrArray, number: int, out: np.ndarray | None = None
+    beam: Beam,
+    cosine_square: np.ndarray,
+    gain: FloatOrArray,
+    number: int,
+    out: np.ndarray | None = None,
+    why: Status = Status.REFLECTED,
 ) -> np.ndarray:
-    """Return n'cosI' = √(n²cos²I + n'² − n²); where that is not real the ray is totally reflected."""
+    """Return n'cosI' = √(n²cos²I + n'² − n²); where that is not real the ray fails, and ``why`` says how."""
     square: np.ndarray = cosine_square + gain
     if not square.min() >= 0:
-        beam.fail(square < 0, Status.REFLECTED, number)
+        beam.fail(square < 0, why, number)
     root: np.ndarray = np.sqrt(square, out=square if out is None else out)
     return root
 

@@ -13,7 +13,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
-from p2sf.raytrace.surface import Beam, Status, clip, meet, refract, to_plane
+from p2sf.raytrace.surface import Beam, Status, clip, diffract, meet, refract, to_plane
 
 Index: TypeAlias = np.ndarray | list[float]  # per medium, object space first; floats for one wavelength
 
@@ -23,6 +23,7 @@ _OUTCOMES = {
     Status.REFLECTED: "is totally reflected at surface {surface}",
     Status.CLIPPED: "is stopped by the rim of surface {surface}",
     Status.REFUSED: "meets the asphere on surface {surface} where no safe intersection was found",
+    Status.EVANESCENT: "has no diffracted direction behind surface {surface}, whose phase is too steep there",
     Status.UNAIMED: "could not be aimed at its place in the stop, surface {surface}",
 }
 
@@ -61,7 +62,8 @@ def trace(
     with np.errstate(invalid="ignore", divide="ignore"):
         unit = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     index = per_ray(indices(lens, wavelength_um))
-    beam = launch(index[0], *np.moveaxis(origins, -1, 0), *np.moveaxis(unit, -1, 0))
+    waves = wavelength_um if np.ndim(wavelength_um) == 0 else np.asarray(wavelength_um)[..., None]
+    beam = launch(index[0], waves, *np.moveaxis(origins, -1, 0), *np.moveaxis(unit, -1, 0))
     beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # an origin or direction that is not finite
     points = [origins]
     rims = lens_rims(lens) if clip else None
@@ -96,6 +98,7 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
 
 def launch(
     index: FloatOrArray,
+    wavelength_um: FloatOrArray,
     x: FloatOrArray,
     y: FloatOrArray,
     z: FloatOrArray,
@@ -109,7 +112,7 @@ def launch(
     for row, value in zip((*place, *ray), (x, y, z, cosine_x, cosine_y, cosine_z), strict=True):
         row[...] = value
     ray *= index
-    return Beam(place, ray)
+    return Beam(place, ray, wavelength_um)
 
 
 def run(
@@ -132,7 +135,7 @@ def run(
         if first > 1:
             beam.z -= lens.surfaces[first - 2].thickness
         for number, surface in enumerate(lens.surfaces[first - 1 : last], first):
-            idle = not surface.curvature and not any(surface.aspheric) and rims is None and visit is None
+            idle = surface.bare and rims is None and visit is None
             if number == last or not (idle and _same(index[number - 1], index[number])):
                 _cross(beam, surface, index, number, rims, partial(visit, vertex) if visit else None)
             if number != last:
@@ -160,7 +163,9 @@ def _cross(
         arrived()
     if rims is not None:
         clip(beam, rims[number - 1], number)
-    if not _same(before, after):
+    if surface.diffraction is not None:
+        diffract(beam, normal, surface.diffraction, after, number)
+    elif not _same(before, after):
         refract(beam, normal, before, after, number)
 
 

@@ -33,6 +33,7 @@ from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
 from tests.long.method_choice import summary, trials
 from tests.support.pencils import double_gauss
 from tests.support.reference import case, huygens_rows
+from tests.support.shaped_lenses import ODD, singlet
 from tests.support.waves import waves
 
 
@@ -222,3 +223,18 @@ def test_the_trade_is_one_table_one_picture_and_one_json():
     best = front(rows)
     assert [r.seconds for r in best] == sorted(r.seconds for r in best)
     assert np.all(np.diff([error(r) for r in best]) < 0)
+
+
+def test_a_lens_without_seidel_sums_is_rendered_by_rays_and_refused_by_the_six_coefficients():
+    """A term in r³: `auto` fits or traces, the window is found from rays, and *seidel* names surface and term."""
+    lens = singlet({"shape": ODD})
+    lens = with_sensor(lens, float(image_distance(lens, np.inf, 0.55)))
+    source = Source(field_slope=0.03, wavelength_um=0.55)
+    choice = choose(lens, source)
+    assert choice.method in ("fitted", "traced") and choice.seidel_error == np.inf
+    true, quick = (render(lens, source, method, pixels=32) for method in ("huygens", "auto"))
+    inside = true.values[2:-2, 2:-2].sum() / true.values.sum()
+    assert true.pixel_um == quick.pixel_um and inside > 0.99, "no light at the edge of the window"
+    assert r_squared(true.values, quick.values) > 0.99
+    with pytest.raises(GeometryError, match="surface 2 has a term in r³"):
+        render(lens, source, "seidel", pixels=32)

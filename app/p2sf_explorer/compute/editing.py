@@ -183,7 +183,7 @@ def stop_gap(lens: Lens) -> tuple[float, float] | None:
     if number is None:
         return None
     stop, index = lens.surfaces[number - 1], indices(lens, lens.reference_wavelength_um)
-    if isfinite(stop.radius) or stop.aspheric or index[number - 1] != index[number]:
+    if not stop.bare or index[number - 1] != index[number]:
         return None
     return (lens.surfaces[number - 2].thickness if number > 1 else 0.0), stop.thickness
 
@@ -220,6 +220,8 @@ def radius_through(surface: Surface, height_mm: float, sag_mm: float) -> float:
     """
     square = height_mm**2
     sag = sag_mm - sum(term * square**power for power, term in enumerate(surface.aspheric, 2))
+    if surface.shape is not None:  # that of Qbfs follows the radius a little, which a second drag makes up for
+        sag -= float(surface.shape.sag_and_slope(square, surface.curvature)[0])
     bulge = 1 + surface.conic
     if bulge > 0:
         steepest = STEEPEST * abs(height_mm) / sqrt(bulge)

@@ -109,7 +109,8 @@ def widest_exit(lens: Lens) -> tuple[float, float]:
     slope = float(np.tan(np.deg2rad(max(abs(angle) for angle in lens.fields_deg))))
     rays = pupil_rays(lens, Source(np.inf, slope, lens.reference_wavelength_um), np.zeros(1), np.zeros(1))
     start, direction = (a.reshape(-1, 3)[0, :0:-1].tolist() for a in (rays.origins, rays.directions))
-    z, y, passed = path(lens, indices(lens, lens.reference_wavelength_um).tolist(), start, direction)
+    wave = lens.reference_wavelength_um
+    z, y, passed = path(lens, indices(lens, wave).tolist(), wave, start, direction)
     if not passed:
         return 0.0, 0.0
     turned = (y[-1] - y[-2]) / (z[-1] - z[-2])
@@ -170,20 +171,19 @@ def _inside_surface(surface: Surface, rim: float) -> float:
 
 def profile(surface: Surface, vertex: float, rim: float) -> Profile:
     """Return z and y of a surface's meridional section from −rim to rim."""
-    flat = surface.curvature == 0 and not surface.aspheric
-    y = np.linspace(-rim, rim, 2 if flat else PROFILE_POINTS)
+    y = np.linspace(-rim, rim, 2 if surface.flat else PROFILE_POINTS)
     return vertex + sag(surface, y), y
 
 
 def sag(surface: Surface, y: np.ndarray) -> np.ndarray:
-    """Sag of a conic with even polynomial terms (ISO 10110-12), mm."""
+    """Return the sag of a conic with even polynomial terms (ISO 10110-12) and what its shape adds, mm."""
     square = np.square(y)
     c = surface.curvature
     root = np.sqrt(np.maximum(0.0, 1 - (1 + surface.conic) * c * c * square))
     depth = c * square / (1 + root)
     for power, term in enumerate(surface.aspheric, 2):
         depth = depth + term * square**power
-    return depth
+    return depth if surface.shape is None else depth + surface.shape.sag_and_slope(square, c)[0]
 
 
 def element_outline(front: Profile, back: Profile, index: float, surfaces: tuple[int, int]) -> Outline:

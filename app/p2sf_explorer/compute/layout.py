@@ -206,7 +206,7 @@ def _paths(setup: ParaxialSetup, drawn: Drawing, source: Source, etas: list[floa
         kind = "rim" if eta else "chief"
         height = entry.height(eta) if source.field_slope else _axial_height(entry, eta)
         start, direction = entry.ray(height, front)
-        z, y, passed = path(lens, index, start, direction, rims if eta else None)
+        z, y, passed = path(lens, index, source.wavelength_um, start, direction, rims if eta else None)
         clipped = bool(rims and y and not passed and abs(y[-1]) > rims[len(y) - 1])
         places = np.array([[start[0], *z], [start[1], *y]])
         if clipped:
@@ -256,7 +256,8 @@ class _Entry:
         return float(pupil_rays(self.lens, self.source, np.zeros(1), np.array([eta])).y.item())
 
     def _landing(self, y: float) -> float | None:
-        _, heights, met = path(self.lens, self.index, *self.ray(y, self.plane), last=self.stop)
+        start, direction = self.ray(y, self.plane)
+        _, heights, met = path(self.lens, self.index, self.source.wavelength_um, start, direction, last=self.stop)
         return heights[-1] if met else None
 
 

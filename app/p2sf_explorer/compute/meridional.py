@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from math import copysign, hypot, sqrt
 
 from p2sf.lens.lens import Lens, Surface
+from p2sf.lens.shapes import WAVES_MM
 from p2sf.raytrace.surface import sag_and_slope
 
 NEWTON_STEPS = 20
@@ -20,6 +21,7 @@ Meeting = tuple[float, float, float]
 def path(
     lens: Lens,
     index: Sequence[float],
+    wavelength_um: float,
     start: Sequence[float],
     direction: Sequence[float],
     rims: Sequence[float] | None = None,
@@ -28,8 +30,9 @@ def path(
     """Return z and y of a ray on every surface and on the sensor, and whether it got there.
 
     With ``last`` it ends on that surface, counted from 1.
-    ``index``: per space; ``start`` and ``direction`` are (z, y) from the first vertex. A ray that misses a surface
-    or is totally reflected ends where it last was; one outside ``rims``, mm per surface, on the surface of that rim.
+    ``index``: per space, at ``wavelength_um``; ``start`` and ``direction`` are (z, y) from the first vertex. A ray that
+    misses a surface or is totally reflected ends where it last was; one outside ``rims``, mm per surface, on the
+    surface of that rim.
     """
     (z, y), length, vertex = start, hypot(*direction), 0.0
     cz, cy = direction[0] / length, direction[1] / length
@@ -45,7 +48,8 @@ def path(
             return *places, False
         if number + 1 == last:
             return *places, True
-        turned = refracted(met[2], cz, cy, index[number], index[number + 1])
+        kick = steered(surface, y, wavelength_um)
+        turned = refracted(met[2], cz, cy, index[number], index[number + 1], kick)
         if turned is None:
             return *places, False
         cz, cy = turned
@@ -91,7 +95,7 @@ def meet(surface: Surface, z: float, y: float, cz: float, cy: float) -> Meeting 
     z, y = step * cz, y + step * cy
     if c * (1 + k) * z >= 1:
         return None
-    if not any(surface.aspheric):
+    if surface.shape is None and not any(surface.aspheric):
         return z, y, c * y / (1 - c * (1 + k) * z)
     return _on_asphere(surface, z, y, cz, cy)
 
@@ -110,16 +114,26 @@ def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float) -> M
     return None
 
 
-def refracted(slope: float, cz: float, cy: float, before: float, after: float) -> tuple[float, float] | None:
+def steered(surface: Surface, y: float, wavelength_um: float) -> float:
+    """Return what a diffractive surface adds to the optical cosine along y, (λ/2π)dφ/dy."""
+    if surface.diffraction is None:
+        return 0.0
+    return 2 * y * WAVES_MM * wavelength_um * float(surface.diffraction.phase_and_slope(y * y)[1])
+
+
+def refracted(
+    slope: float, cz: float, cy: float, before: float, after: float, kick: float = 0.0
+) -> tuple[float, float] | None:
     """Return the direction behind a surface of slope dz/dy, Snell's law as a vector; None where totally reflected.
 
-    As in `p2sf.raytrace.surface` an index is negative where light runs to the left.
+    ``kick`` is added to the optical cosine along y before. As in `p2sf.raytrace.surface` an index is negative where
+    light runs to the left.
     """
     length = hypot(1.0, slope)
     nz, ny = 1 / length, -slope / length
-    optical_z, optical_y = abs(before) * cz, abs(before) * cy
+    optical_z, optical_y = abs(before) * cz, abs(before) * cy + kick
     incident = optical_z * nz + optical_y * ny
-    root = incident**2 + after**2 - before**2
+    root = incident**2 + after**2 - (optical_z**2 + optical_y**2 if kick else before**2)
     if not root >= 0:  # nor where the ray is NaN, having no way to its place in the stop
         return None
     push = copysign(sqrt(root), after) - incident

@@ -9,9 +9,10 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.messages import Message, Number
+from p2sf.paraxial.seidel import check_seidel
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import AIRY_RADIUS, check_image, seidel_psf
+from p2sf.psf.seidel import AIRY_RADIUS, check_focus, check_image, seidel_psf
 from p2sf.psf.traced import in_rows
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Pencil, pencil
@@ -184,12 +185,15 @@ def rendered(
     coefficients make its picture. A sum too slow for a frame is taken from ``cache`` or left pending; without
     ``cache`` it is waited for. Raises GeometryError for an image at infinity.
     """
-    check_image(setup.coefficients)
+    check_focus(setup.coefficients)
     if setup.altered:
         method = "seidel"
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
     else:
         method, why = (kept_method, NO_REASON) if kept_method else chosen(state, setup)
+    if method == "seidel":
+        check_seidel(setup.lens)
+        check_image(setup.coefficients)
     task = Task(state, setup, method, why, least, cache)
     return moving(task, quality) if quality == "preview" else resting(task)
 

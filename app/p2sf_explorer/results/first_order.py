@@ -211,7 +211,7 @@ def source_rows(live: Live) -> tuple[Row, ...]:
 def petzval_radius(setup: ParaxialSetup) -> float:
     """Return the Petzval radius in mm, negative when it bends towards the lens (Welford 1986, eq. 8.47)."""
     index = setup.rays.index
-    curvature = np.array([surface.curvature for surface in setup.lens.surfaces])
+    curvature = np.array([surface.vertex_curvature for surface in setup.lens.surfaces])
     total = float((curvature * (1 / index[1:] - 1 / index[:-1])).sum()) * float(index[-1])
     return 1 / total if total else inf
 

@@ -30,7 +30,7 @@ def test_plain_numbers_meet_every_surface_where_the_arrays_do(name, part, aim):
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     for k in range(5):
         start, direction = (a[k, :0:-1].tolist() for a in (origins, directions))
-        z, y, passed = path(lens, index, start, direction)
+        z, y, passed = path(lens, index, wavelength, start, direction)
         assert passed == (exact.status[k] == Status.PASSED)
         if passed:
             # Two orders of operations in float64 over some 20 surfaces of 100 mm.
@@ -46,7 +46,7 @@ def test_plain_numbers_are_reflected_where_the_arrays_are(lens):
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     for k in range(5):
         start, direction = (a[k, :0:-1].tolist() for a in (origins, directions))
-        z, y, passed = path(lens, index, start, direction)
+        z, y, passed = path(lens, index, wavelength, start, direction)
         assert passed and np.allclose(np.stack([z, y]), exact.points[1:, k, :0:-1].T, rtol=0, atol=1e-11 * size)
 
 
@@ -61,14 +61,14 @@ def test_mirrors_are_drawn_and_glass_that_light_crosses_twice_is_drawn_once():
 
 def test_a_ray_that_misses_ends_before_the_surface_it_misses():
     lens = find_lens("plano_convex")
-    z, y, passed = path(lens, indices(lens, 0.55).tolist(), (-10.0, 1e4), (1.0, 0.0))
+    z, y, passed = path(lens, indices(lens, 0.55).tolist(), 0.55, (-10.0, 1e4), (1.0, 0.0))
     assert not passed
     assert len(z) == len(y) < len(lens.surfaces)
 
 
 def test_a_ray_along_the_axis_stays_there():
     lens = find_lens("asphere")
-    _, y, passed = path(lens, indices(lens, 0.55).tolist(), (-10.0, 0.0), (1.0, 0.0))
+    _, y, passed = path(lens, indices(lens, 0.55).tolist(), 0.55, (-10.0, 0.0), (1.0, 0.0))
     assert passed
     assert not any(y)
 

@@ -774,6 +774,7 @@
 <message><source>an ideal lens without a prescription</source><translation>eine ideale Linse ohne Rezept</translation></message>
 <message><source>an object at infinity has no height; give the field as an angle or an image height</source><translation>ein Objekt im Unendlichen hat keine Höhe; das Feld als Winkel oder Bildhöhe angeben</translation></message>
 <message><source>an object at infinity has no numerical aperture; state the pupil's diameter or f-number</source><translation>ein Objekt im Unendlichen hat keine numerische Apertur; Pupillendurchmesser oder Blendenzahl angeben</translation></message>
+<message><source>an odd asphere has no normalisation radius; write type = "extended odd asphere"</source><translation>eine ungerade Asphäre hat keinen Normierungsradius; type = "extended odd asphere" schreiben</translation></message>
 <message><source>aperture</source><translation>Öffnung</translation></message>
 <message><source>aperture is {found}; write [aperture] and one of {names}</source><translation>aperture ist {found}; [aperture] und eines von {names} schreiben</translation></message>
 <message><source>aperture {kind} is {value}; give a positive number</source><translation>die Öffnung {kind} ist {value}; eine positive Zahl angeben</translation></message>
@@ -838,6 +839,7 @@
 <message><source>coatings, polarisation, scatter</source><translation>Beschichtungen, Polarisation, Streuung</translation></message>
 <message><source>coefficient</source><translation>Koeffizient</translation></message>
 <message><source>coefficient, waves</source><translation>Koeffizient, Wellen</translation></message>
+<message><source>coefficients are {count} numbers; write 1 to {most}</source><translation>coefficients sind {count} Zahlen; 1 bis {most} schreiben</translation></message>
 <message><source>coefficients of {name} are not up to {count} numbers; correct them</source><translation>die Koeffizienten von {name} sind nicht bis zu {count} Zahlen; berichtigen</translation></message>
 <message><source>colour {channel}</source><translation>Farbe {channel}</translation></message>
 <message><source>colour {short} − {long} nm</source><translation>Farbe {short} − {long} nm</translation></message>
@@ -973,6 +975,7 @@
 <message><source>glass's nd or vd</source><translation>nd oder vd des Glases</translation></message>
 <message><source>green</source><translation>Grün</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an even asphere</source><translation>hat eine Form, die weder Kugel noch Kegelschnitt noch gerade Asphäre ist</translation></message>
+<message><source>has no diffracted direction behind surface {surface}, whose phase is too steep there</source><translation>hat hinter Fläche {surface} keine gebeugte Richtung, deren Phase dort zu steil ist</translation></message>
 <message><source>heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them</source><translation>Höhen × Abstände × Wellenlängen: {heights} × {depths} × {waves}; alle übrigen liegen auf Polynomen durch diese</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
 <message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
@@ -1283,15 +1286,20 @@
 <message><source>surface {surface}</source><translation>Fläche {surface}</translation></message>
 <message><source>surface {surface} ({label})</source><translation>Fläche {surface} ({label})</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
+<message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface} has aspheric terms above r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat asphärische Glieder über r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
+<message><source>surface {surface}: Qbfs departs from a sphere, and the conic constant is {conic:g}; set it to 0 or use Qcon</source><translation>Fläche {surface}: Qbfs weicht von einer Kugel ab, und die Kegelschnittkonstante ist {conic:g}; auf 0 setzen oder Qcon verwenden</translation></message>
+<message><source>surface {surface}: a coefficient of its shape or its phase is not finite; correct it</source><translation>Fläche {surface}: ein Koeffizient ihrer Form oder ihrer Phase ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: aspheric term r^{power} is not even from r⁴ on; refit the surface</source><translation>Fläche {surface}: das asphärische Glied r^{power} ist nicht gerade ab r⁴; die Fläche neu anpassen</translation></message>
 <message><source>surface {surface}: aspheric_coefficients is not a list of up to 20 numbers; correct it</source><translation>Fläche {surface}: aspheric_coefficients ist keine Liste von bis zu 20 Zahlen; berichtigen</translation></message>
 <message><source>surface {surface}: conic or aspheric coefficient is not finite; correct it</source><translation>Fläche {surface}: der Kegelschnitt oder ein asphärischer Koeffizient ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: ior is neither a number nor [[nm …], [n …]]; correct it</source><translation>Fläche {surface}: ior ist weder eine Zahl noch [[nm …], [n …]]; berichtigen</translation></message>
 <message><source>surface {surface}: ior is no table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
+<message><source>surface {surface}: normalisation radius {radius} mm; give a positive number</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine positive Zahl angeben</translation></message>
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>surface {surface}: semi-diameter {semi_diameter} mm; give a positive number</source><translation>Fläche {surface}: Halbmesser {semi_diameter} mm; eine positive Zahl angeben</translation></message>
 <message><source>surface {surface}: the medium behind it is not one in all columns; it is that of the nearest, {near}</source><translation>Fläche {surface}: das Medium dahinter ist nicht in allen Spalten dasselbe; es ist das der nächsten, {near}</translation></message>
@@ -1538,6 +1546,7 @@
 <message><source>tungsten 2856 K</source><translation>Glühlampe 2856 K</translation></message>
 <message><source>turn of the 3D view</source><translation>Drehung der 3D-Ansicht</translation></message>
 <message><source>turn of the wavefront's surface</source><translation>Drehung der Wellenfrontfläche</translation></message>
+<message><source>type "{kind}" of a shape is unknown; write one of {kinds}</source><translation>type "{kind}" einer Form ist unbekannt; eine von {kinds} schreiben</translation></message>
 <message><source>typed</source><translation>getippt</translation></message>
 <message><source>unit "{unit}" is none of {units}; correct it</source><translation>die Einheit "{unit}" ist keine von {units}; berichtigen</translation></message>
 <message><source>unit is "{unit}"; write one of {units}</source><translation>die Einheit ist "{unit}"; eines von {units} schreiben</translation></message>
@@ -1684,6 +1693,7 @@
 <message><source>{name} is {found}; write a text in quotation marks</source><translation>{name} ist {found}; einen Text in Anführungszeichen schreiben</translation></message>
 <message><source>{name} is {found}; write a whole number</source><translation>{name} ist {found}; eine ganze Zahl schreiben</translation></message>
 <message><source>{name} is {found}; write one value for each of the {count} columns of {kind}</source><translation>{name} ist {found}; für jede der {count} Spalten von {kind} einen Wert schreiben</translation></message>
+<message><source>{name} is {found}; write {{ key = value, … }}</source><translation>{name} ist {found}; {{ key = value, … }} schreiben</translation></message>
 <message><source>{name} is {found}; {remedy}</source><translation>{name} ist {found}; {remedy}</translation></message>
 <message><source>{name} is {value}; give {kind}</source><translation>{name} ist {value}; {kind} angeben</translation></message>
 <message><source>{name} is {value}; give {least} to {most} numbers, or none for those that the window chooses</source><translation>{name} ist {value}; {least} bis {most} Zahlen angeben, oder keine für die, die das Fenster wählt</translation></message>
