@@ -251,6 +251,8 @@ def _inputs(t: Tokens) -> str:
     QToolButton#play {{ background: transparent; border: 1px solid transparent; padding: 0; font-size: 11px;
         color: {t.muted}; min-width: 17px; min-height: 17px; }}
     QToolButton#play:hover, QToolButton#play:focus {{ border: 1px solid {t.accent}; color: {t.text}; }}
+    QToolButton#heading {{ background: transparent; border: 1px solid transparent; padding: 0 2px 0 0; }}
+    QToolButton#heading:hover, QToolButton#heading:focus {{ border: 1px solid {t.accent}; }}
     QToolButton#flat {{ background: transparent; border: 1px solid transparent; padding: 0; min-height: 18px;
         font-size: 11px; color: {t.muted}; }}
     QToolButton#flat:hover, QToolButton#flat:focus {{ border: 1px solid {t.accent}; color: {t.text}; }}

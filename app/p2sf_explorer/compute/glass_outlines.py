@@ -6,9 +6,10 @@ from math import isfinite
 
 import numpy as np
 
-from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_sensor
+from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_mask, with_sensor
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import find_stop, paraxial_rays
+from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.pencil import pupil_rays
 from p2sf_explorer.compute.meridional import path
 
@@ -56,8 +57,8 @@ class MirrorProfile:
 
 @lru_cache(maxsize=8)
 def still(lens: Lens) -> Lens:
-    """Return the lens without what sliders change: its sensor at 1 mm, and at one aperture where rims are known."""
-    placed = with_sensor(lens, 1.0)
+    """Return the lens without what sliders change: sensor at 1 mm, no mask, and one aperture where rims are known."""
+    placed = with_mask(with_sensor(lens, 1.0), CLEAR)
     if not all(isfinite(surface.semi_diameter) for surface in lens.surfaces):
         return placed
     return replace(placed, aperture=Aperture("stop_semi_diameter", 1.0))

@@ -1,14 +1,17 @@
-"""The six quantities a person sets: their scale, how they are written and read, and what they mean. No Qt in here."""
+"""The quantities a person sets: their scale, how they are written and read, and what they mean. No Qt in here."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
 
+from p2sf.pupil.mask import FEWEST_BLADES, LARGEST_OBSCURATION, MOST_POWER, MOST_VANES
 from p2sf_explorer.compute.setup import Ranges
 from p2sf_explorer.state.scales import (
+    INFINITE,
     Linear,
     Logarithmic,
+    Stepped,
     Vergence,
     distance_ticks,
     read_distance,
@@ -21,7 +24,7 @@ from p2sf_explorer.state.scales import (
 )
 from p2sf_explorer.state.state import State, entry
 
-Scale = Linear | Logarithmic | Vergence
+Scale = Linear | Logarithmic | Vergence | Stepped
 BEYOND = "beyond ∞"  # where a file's sensor stands that no object is sharp on
 F_NM, D_NM, C_NM = 486.1327, 587.5618, 656.2725  # Fraunhofer lines
 
@@ -141,7 +144,161 @@ F_NUMBER = Quantity(
     buttons=(("file", None, "Open the lens as its file has it"),),
     ticks=lambda ranges: F_STOPS,
 )
-QUANTITIES = (DEPTH, FIELD, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
+
+
+def _in_the_stop(
+    key: str,
+    title: str,
+    tip: str,
+    scale: Scale,
+    write: Callable[[float], str],
+    read: Callable[[str], float],
+    ticks: tuple[tuple[float, str], ...],
+    none: tuple[tuple[str, float | None, str], ...] = (),
+) -> Quantity:
+    """Return a quantity of the mask in the stop, whose key is its field of `PupilMask`."""
+
+    def shown(state: State, ranges: Ranges) -> float:
+        given: float | None = entry(state, key)
+        return float(getattr(ranges.mask, key)) if given is None else given
+
+    return Quantity(key, title, tip, lambda ranges: scale, write, read, shown, none, lambda ranges: ticks)
+
+
+def _whole(words: str) -> Callable[[str], float]:
+    """Return a reader of whole numbers; others are returned as they are, and the state says that they cannot be."""
+
+    def read(text: str) -> float:
+        number = read_number(text, words)
+        return int(number) if number == round(number) else number
+
+    return read
+
+
+def _ratio(words: str) -> Callable[[str], float]:
+    return _reader(words, **{"%": 0.01})
+
+
+def _width(text: str) -> float:
+    return inf if text.strip().lower() in INFINITE else _ratio("apodisation")(text)
+
+
+def _labels(*values: float) -> tuple[tuple[float, str], ...]:
+    return tuple((value, f"{value:g}") for value in values)
+
+
+def _degrees(value: float) -> str:
+    return f"{signed(value, 1)}°"
+
+
+def _angles(*values: float) -> tuple[tuple[float, str], ...]:
+    return tuple((value, f"{signed(value, 0)}°") for value in values)
+
+
+READ_ANGLE = {"°": 1.0, "deg": 1.0}
+COMMON_BLADES, WIDE_VANE, NARROW_APODISATION, LARGE_CUBIC_UM = 16, 0.2, 0.3, 10.0
+OBSCURATION = _in_the_stop(
+    "obscuration",
+    "Obscuration",
+    "Obscuration ε: radius of the dark disc in the middle of the stop over the rim's radius. It takes ε² of the light, "
+    "narrows the core and feeds the rings.",
+    Linear(0.0, LARGEST_OBSCURATION),
+    lambda value: f"{value:.2f}",
+    _ratio("obscuration"),
+    _labels(0, 0.5, 0.25, 0.75),
+)
+BLADES = _in_the_stop(
+    "blades",
+    "Blades",
+    "Blades of the iris, their corners on the rim's circle; 0: round. The PSF has as many spikes where their number "
+    "is even, twice as many where it is odd.",
+    Stepped((0, *range(FEWEST_BLADES, COMMON_BLADES + 1))),
+    lambda value: f"{value:.0f}",
+    _whole("number of blades"),
+    _labels(0, 5, 10, 16),
+)
+ROUNDNESS = _in_the_stop(
+    "roundness",
+    "Roundness",
+    "Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.",
+    Linear(0.0, 1.0),
+    lambda value: f"{value:.2f}",
+    _ratio("roundness"),
+    _labels(0, 1, 0.5),
+)
+BLADE_ANGLE = _in_the_stop(
+    "blade_angle_deg",
+    "Blade angle",
+    "Blade angle: direction of the first corner, from the direction of the field (+η) towards +ξ.",
+    Linear(-60.0, 60.0),
+    _degrees,
+    _reader("blade angle", **READ_ANGLE),
+    _angles(0, -60, 60, -30, 30),
+)
+VANES = _in_the_stop(
+    "vanes",
+    "Vanes",
+    "Vanes of the spider that holds what obscures, from the middle to the rim and evenly around; 0: none. Each throws "
+    "a spike across itself.",
+    Stepped(tuple(range(MOST_VANES + 1))),
+    lambda value: f"{value:.0f}",
+    _whole("number of vanes"),
+    _labels(0, 3, 6, 12),
+)
+VANE_WIDTH = _in_the_stop(
+    "vane_width",
+    "Vane width",
+    "Vane width over the rim's diameter.",
+    Linear(0.0, WIDE_VANE),
+    lambda value: f"{value:.3f}",
+    _ratio("vane width"),
+    _labels(0, 0.1, 0.2),
+)
+VANE_ANGLE = _in_the_stop(
+    "vane_angle_deg",
+    "Vane angle",
+    "Vane angle: direction of the first vane, from the direction of the field (+η) towards +ξ.",
+    Linear(-180.0, 180.0),
+    _degrees,
+    _reader("vane angle", **READ_ANGLE),
+    _angles(0, -180, 180, -90, 90),
+)
+APODISATION = _in_the_stop(
+    "apodisation",
+    "Apodisation",
+    "Apodisation: where the amplitude has fallen to 1/e and the intensity to 1/e², over the rim's radius; "
+    "∞: even light. It dims the rings and widens the core.",
+    Vergence(NARROW_APODISATION, 1.0),
+    lambda value: "∞" if value == inf else significant(value, 3),
+    _width,
+    ((inf, "∞"), *_labels(1, 0.5, 2)),
+    (("∞", inf, "Let light through evenly"),),
+)
+APODISATION_POWER = _in_the_stop(
+    "apodisation_power",
+    "Apodisation power",
+    "Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 a Gaussian, larger even numbers a super-Gaussian.",
+    Stepped(tuple(range(2, MOST_POWER + 1, 2))),
+    lambda value: f"{value:.0f}",
+    _whole("apodisation power"),
+    _labels(2, 20, 10),
+)
+CUBIC = _in_the_stop(
+    "cubic_um",
+    "Cubic phase",
+    "Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, which one "
+    "deconvolution takes away.",
+    Linear(-LARGE_CUBIC_UM, LARGE_CUBIC_UM),
+    lambda value: f"{signed(value, 2)} µm",
+    _reader("cubic phase", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
+    tuple((value, f"{signed(value, 0)} µm") for value in (0.0, -LARGE_CUBIC_UM, LARGE_CUBIC_UM)),
+)
+OF_THE_SOURCE = (DEPTH, FIELD, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
+OF_THE_MASK = (
+    *(OBSCURATION, BLADES, ROUNDNESS, BLADE_ANGLE, VANES, VANE_WIDTH, VANE_ANGLE),
+    *(APODISATION, APODISATION_POWER, CUBIC),
+)
+QUANTITIES = (*OF_THE_SOURCE, *OF_THE_MASK)
 
 
 def visible_colour(wavelength_nm: float) -> str:

@@ -2,7 +2,7 @@
 
 import os
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, isfinite
 from pathlib import Path
@@ -10,12 +10,13 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens, check_unmasked, with_mask
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
 from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
+from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.request import Request, Setup, set_up, with_field
 from p2sf_explorer.compute.ranges import (
     closest_distance,
@@ -25,6 +26,7 @@ from p2sf_explorer.compute.ranges import (
     telling_field,
     wavelength_range,
 )
+from p2sf_explorer.state.limits import MASK
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.state.what_if import altered
@@ -60,6 +62,7 @@ class ParaxialSetup:
 class Ranges:
     """Where each slider of this lens begins and ends, and the fields that its file states.
 
+    ``mask``: what stands in the stop as the file has it.
     ``middle_mm``: the distance in the middle of a slider of distance, None where the lens says nothing about it.
     """
 
@@ -72,6 +75,7 @@ class Ranges:
     focused_mm: float
     shift_um: float
     stated_deg: tuple[float, ...] = ()
+    mask: PupilMask = CLEAR
 
 
 def load(name: str) -> Lens:
@@ -125,12 +129,13 @@ def paraxial_setup(state: State) -> ParaxialSetup:
     file_lens = prescription(state)
     axial = _axial(file_lens, _request(state, None))
     setup = with_field(axial.setup, _request(state, state.optics.field_deg))
-    source, stop = setup.source, setup.stop
-    own = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
+    lens, source, stop = masked(setup.lens, state), setup.source, setup.stop
+    check_unmasked(lens, Message("the window"))
+    own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     gap = source.depth_mm + float(axial.pupils.entrance_from_first)
     return ParaxialSetup(
         prescription=file_lens,
-        lens=setup.lens,
+        lens=lens,
         source=source,
         stop=stop,
         pupils=axial.pupils,
@@ -146,7 +151,18 @@ def paraxial_setup(state: State) -> ParaxialSetup:
 def request_setup(state: State) -> Setup:
     """Return the state as the library's own setup, which is also what a file says about where it comes from."""
     axial = _axial(prescription(state), _request(state, None))
-    return with_field(axial.setup, _request(state, state.optics.field_deg))
+    setup = with_field(axial.setup, _request(state, state.optics.field_deg))
+    return replace(setup, lens=masked(setup.lens, state))
+
+
+def masked(lens: Lens, state: State) -> Lens:
+    """Return the lens with the mask in its stop that the state asks for; the lens's own where it asks for none."""
+    return _masked(lens, tuple(state.optics.mask.items())) if state.optics.mask else lens
+
+
+@lru_cache(maxsize=16)
+def _masked(lens: Lens, mask: tuple[tuple[str, float], ...]) -> Lens:
+    return with_mask(lens, replace(lens.mask, **dict(mask)))  # type: ignore[arg-type]  # each of its field's own type
 
 
 @dataclass(frozen=True)
@@ -161,7 +177,6 @@ class _Axial:
 
 @lru_cache(maxsize=16)
 def _axial(prescription: Lens, request: Request) -> _Axial:
-    check_unmasked(prescription, Message("the window"))
     setup = set_up(prescription, request)
     lens, wavelength, stop = setup.lens, setup.source.wavelength_um, setup.stop
     return _Axial(
@@ -204,6 +219,7 @@ def ranges(lens: Lens) -> Ranges:
         focused_mm=file_focus(lens),
         shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,
         stated_deg=lens.fields_deg,
+        mask=lens.mask,
     )
 
 
@@ -234,4 +250,5 @@ def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
         focus_mm=None,
         sensor_shift_um=0.0,
         f_number=None,
+        **dict.fromkeys(MASK),
     )

@@ -7,7 +7,7 @@ from typing import Any
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import with_lens
-from p2sf_explorer.state.limits import ADDED
+from p2sf_explorer.state.limits import ADDED, PLAIN
 from p2sf_explorer.state.state import ENTRIES, State, changed, entry
 from p2sf_explorer.state.state_files import present_name
 from p2sf_explorer.state.terms import TERMS
@@ -60,7 +60,7 @@ def _value(name: str, word: str) -> object:
     if isinstance(known[name], str) or name == "lens_text":
         return word
     try:
-        return NUMBERS[word] if word in NUMBERS else float(word)
+        return NUMBERS[word] if word in NUMBERS else (int if PLAIN.get(name) is int else float)(word)
     except ValueError:
         raise P2SFError('{name} is "{word}"; give a number', name=name, word=word) from None
 

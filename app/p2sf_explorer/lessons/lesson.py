@@ -15,7 +15,7 @@ from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.lessons.changes import Changes, LessonError, applied, beside, fault, read_changes
 from p2sf_explorer.lessons.claims import Claim, parse_claim
-from p2sf_explorer.state.limits import DRAGGED
+from p2sf_explorer.state.limits import SLIDERS
 from p2sf_explorer.state.state import State, changed, entry
 from p2sf_explorer.state.workspaces import TEACH, WORKSPACES, with_workspace
 
@@ -253,8 +253,8 @@ def _step(lines: Lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
 
 def _move(found: Sequence[tuple[int, str]], where: str) -> str:
     for number, value in found:
-        if value not in DRAGGED:
-            raise fault(where, number, '"{name}" is no slider; move one of {names}', name=value, names=DRAGGED)
+        if value not in SLIDERS:
+            raise fault(where, number, '"{name}" is no slider; move one of {names}', name=value, names=SLIDERS)
     return found[-1][1] if found else ""
 
 

@@ -14,7 +14,7 @@ from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import NAMES, TERMS
 from p2sf_explorer.state.what_if import with_added
 
-RATIOS, VERGENCES = ("f_number",), ("depth_mm", "focus_mm")
+RATIOS, VERGENCES = ("f_number",), ("depth_mm", "focus_mm", "apodisation")
 USUAL_WAVES = (-2.0, 2.0)
 TITLES = {key: LINK_WORDS[key] for key in DRAGGED} | {ADDED + term: f"{NAMES[term]} added" for term in TERMS}
 

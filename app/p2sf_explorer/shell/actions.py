@@ -27,6 +27,7 @@ from p2sf_explorer.shell.bars import TopBar
 from p2sf_explorer.shell.choices import choices, fill
 from p2sf_explorer.shell.command_palette import Palette
 from p2sf_explorer.shell.help import HelpPage, help_text
+from p2sf_explorer.state.limits import CLEAR_PUPIL, MASK
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.command import Command
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from p2sf_explorer.exporting.set_dialog import SetDialog
 
 COPIED, NO_DATA = Message("The panel's data are on the clipboard"), Message("This panel has no numbers")
+NO_MASK = "Clear pupil: no obscuration, blades, vanes, apodisation or cubic phase"
 STATE_FILES = "Explorer states (*.json)"
 SNAPSHOT_FILES = (
     "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as FITS (*.fits);;PSF as CSV (*.csv);;"
@@ -95,6 +97,8 @@ class Actions(QObject):
             Command("Snapshot: PSF data or picture, with the state…", self.ask_snapshot, ("Ctrl+E",), "Files"),
             Command("Export a set of PSFs…", self.ask_set, ("Ctrl+Alt+E",), "Files"),
             Command("Autofocus: best RMS wavefront", self.autofocus, ("Ctrl+F",), "Lens"),
+            Command(NO_MASK, lambda: store.update(**CLEAR_PUPIL), (), "Lens"),
+            Command("Pupil as the lens file has it", lambda: store.update(**dict.fromkeys(MASK)), (), "Lens"),
             Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+D",), "Files"),
             Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
             Command("Report: one page as PDF…", self.ask_report, ("Ctrl+P",), "Files"),

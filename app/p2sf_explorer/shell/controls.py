@@ -11,24 +11,22 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compare.contrasts import AIM_WORDS
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.quantities import FIELD, QUANTITIES, WAVELENGTH, Quantity, Scale, visible_colour
-from p2sf_explorer.compute.setup import Ranges, default_state, prescription, ranges
+from p2sf_explorer.compute.quantities import OF_THE_SOURCE
+from p2sf_explorer.compute.setup import prescription, ranges
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.first_order import OF_A, rows
 from p2sf_explorer.shell.no_answer import UNKNOWN
+from p2sf_explorer.shell.quantity_rows import PupilShape, QuantityRow
 from p2sf_explorer.state.scales import signed
-from p2sf_explorer.state.state import State, entry
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
-from p2sf_explorer.widgets.readout import FactTable, Readout, Sentence, scrolled
-from p2sf_explorer.widgets.slider import STEPS, Slider
-from p2sf_explorer.widgets.value_edit import PlayButton, ValueEdit
+from p2sf_explorer.widgets.readout import FactTable, Sentence, scrolled
 
 STOP_TIP = "Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|."
 AIM_TIP = (
@@ -90,137 +88,6 @@ class AimRow(QWidget):
 WIDTH = 292  # pixels of the column at scale 1
 
 
-class QuantityRow(QWidget):
-    """One quantity: name and number above, slider below; it updates the store and follows the state."""
-
-    swept, grasped = Signal(str), Signal(str)
-
-    def __init__(self, quantity: Quantity, store: Store, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.quantity, self._store = quantity, store
-        self.setToolTip(tr(quantity.tip))
-        self.slider, self.edit, self.note = Slider(self), ValueEdit(self), Readout(self)
-        self.slider.setAccessibleName(tr(quantity.title))
-        self.edit.setAccessibleName(tr(quantity.title))
-        self.play = PlayButton(self)
-        self.buttons = [self._button(*button) for button in quantity.buttons]
-        self._scale: Scale | None = None
-        self._limits: Ranges | None = None
-        self._shown: tuple[float, Scale] | None = None
-        self._before = 0.0
-        self._lay_out()
-        self._connect()
-
-    def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(SPACE // 2)
-        head.addWidget(QLabel(tr(self.quantity.title)))
-        head.addStretch(1)
-        for button in self.buttons:
-            head.addWidget(button)
-        head.addWidget(self.edit)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addLayout(head)
-        line = QHBoxLayout()
-        line.setSpacing(0)
-        line.addWidget(self.slider, 1)
-        line.addWidget(self.play, 0, Qt.AlignmentFlag.AlignTop)
-        column.addLayout(line)
-        column.addWidget(self.note)
-        self.note.setVisible(self.quantity is FIELD)
-
-    def _connect(self) -> None:
-        self.slider.sliderPressed.connect(lambda: self.grasped.emit(self.quantity.key))  # first: it may end a drag
-        self.slider.sliderPressed.connect(self._store.begin)
-        self.slider.sliderReleased.connect(self._store.end)
-        self.slider.valueChanged.connect(self._on_slider)
-        self.slider.reset.connect(self.reset)
-        self.slider.swept.connect(lambda: self.swept.emit(self.quantity.key))
-        self.play.clicked.connect(lambda: self.swept.emit(self.quantity.key))
-        self.edit.committed.connect(self._on_text)
-        self.edit.reset.connect(self.reset)
-        self.slider.cancelled.connect(self._store.cancel)
-        scrub = self.edit.let_scrub()
-        scrub.begun.connect(self._grasp)
-        scrub.moved.connect(self._on_scrub)
-        scrub.ended.connect(self._store.end)
-        scrub.cancelled.connect(self._store.cancel)
-
-    def _grasp(self) -> None:
-        self.grasped.emit(self.quantity.key)  # first: it may end a drag
-        self._store.begin()
-        self._before = self._shown[0] if self._shown else 0.0
-
-    def _on_scrub(self, by: float) -> None:
-        """Move the value from where it was when the hand took hold of the number."""
-        if self._scale:
-            self._store.update(**{self.quantity.key: self._scale.moved(self._before, by)})
-
-    def _button(self, label: str, value: float | None, tip: str) -> QPushButton:
-        button = QPushButton(tr(label), self)
-        button.setObjectName("small")
-        button.setToolTip(tr(tip))
-        button.clicked.connect(lambda: self._store.update(**{self.quantity.key: value}))
-        return button
-
-    def reset(self) -> None:
-        """Go back to the lens's own value."""
-        fresh = default_state(self._store.state.optics.lens, self._store.state.optics.lens_text)
-        self._store.update(**{self.quantity.key: entry(fresh, self.quantity.key)})
-
-    def show_state(self, state: State, limits: Ranges) -> None:
-        """Follow a state: slider, number, ticks; no signal goes back."""
-        if limits is not self._limits or self._scale is None:
-            self._limits, before, self._scale = limits, self._scale, self.quantity.scale(limits)
-            if self._scale != before:
-                self._set_ticks(self._scale, limits)
-        scale = self._scale
-        self.slider.fine_arrows = self.edit.fine_arrows = not state.lesson.name
-        marks = self.quantity.marks(state, limits)
-        self.slider.set_marks(tuple(scale.travel(value) for value in marks if scale.low <= value <= scale.high))
-        value = self.quantity.shown(state, limits)
-        if (value, scale) == self._shown and self.edit.text() == self.edit.last:
-            return
-        self._shown = value, scale
-        self.slider.blockSignals(True)
-        self.slider.setValue(round(STEPS * scale.travel(value)))
-        self.slider.blockSignals(False)
-        self.edit.set_text(tr(self.quantity.write(value)) if value < 0 else self.quantity.write(value))
-
-    def _set_ticks(self, scale: Scale, limits: Ranges) -> None:
-        inside = [(v, name) for v, name in self.quantity.ticks(limits) if scale.low <= v <= scale.high]
-        self.slider.set_ticks(tuple((scale.travel(v), name) for v, name in inside))
-        if self.quantity is WAVELENGTH:
-            steps = [k / 24 for k in range(25)]
-            self.slider.set_spectrum(tuple((t, visible_colour(scale.value(t))) for t in steps))
-
-    def show_note(self, text: str) -> None:
-        """Show what follows from the value, in a line under the slider."""
-        self.note.set_text(text)
-
-    def restyle(self, theme: Tokens) -> None:
-        """Take the colours of a theme."""
-        self.slider.restyle(theme)
-        self.note.restyle(theme)
-
-    def _on_slider(self, step: int) -> None:
-        if self._scale:
-            self._store.update(**{self.quantity.key: self._scale.value(step / STEPS)})
-
-    def _on_text(self, text: str) -> None:
-        try:
-            value = self.quantity.read(text)
-        except P2SFError as error:
-            self._store.refused.emit(error)
-            self.edit.set_text(self.edit.last)
-        else:
-            self._store.update(**{self.quantity.key: value})
-            if entry(self._store.state, self.quantity.key) != value:
-                self.edit.set_text(self.edit.last)  # refused: the number stays that of the picture
-
-
 class Controls(QWidget):
     """All rows, the autofocus button, and the sentence that names the dominant term."""
 
@@ -231,7 +98,8 @@ class Controls(QWidget):
         super().__init__(parent)
         self.setObjectName("controls")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in QUANTITIES}
+        self.shape = PupilShape(store, self)
+        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in OF_THE_SOURCE} | self.shape.rows
         for row in self.rows.values():
             row.swept.connect(self.swept)
             row.grasped.connect(self.grasped)
@@ -246,8 +114,9 @@ class Controls(QWidget):
         self.sentence.setObjectName("sentence")
         self.detail.setObjectName("muted")
         column = self._column()
-        for row in self.rows.values():
-            column.addWidget(row)
+        for quantity in OF_THE_SOURCE:
+            column.addWidget(self.rows[quantity.key])
+        column.addWidget(self.shape)
         column.addWidget(self.stopping)
         column.addWidget(self.aiming)
         column.addWidget(self.focus_button)
@@ -290,8 +159,9 @@ class Controls(QWidget):
     def show_state(self, state: State) -> None:
         """Follow a state."""
         limits = ranges(prescription(state))
-        for row in self.rows.values():
-            row.show_state(state, limits)
+        for quantity in OF_THE_SOURCE:
+            self.rows[quantity.key].show_state(state, limits)
+        self.shape.show_state(state, limits)
         self.stopping.show_state(state)
         self.aiming.show_state(state)
 
@@ -319,5 +189,6 @@ class Controls(QWidget):
         self._rows.setContentsMargins(*(theme.px(margin) for margin in (12, 10, 12, 12)))
         self._rows.setSpacing(theme.px(SPACE - 1))
         self.facts.restyle(theme)
-        for row in self.rows.values():
-            row.restyle(theme)
+        for quantity in OF_THE_SOURCE:
+            self.rows[quantity.key].restyle(theme)
+        self.shape.restyle(theme)

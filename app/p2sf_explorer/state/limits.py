@@ -4,6 +4,7 @@ from math import inf
 
 from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
+from p2sf.pupil.mask import LARGEST_OBSCURATION, MOST_BLADES, MOST_POWER, MOST_VANES, NARROWEST_APODISATION, WIDEST_VANE
 from p2sf_explorer.state.terms import TERMS
 
 CHOICES = {
@@ -34,6 +35,16 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "field_deg": (-89.0, 89.0, Message("field angle"), "°"),
     "wavelength_nm": (100.0, 20000.0, Message("wavelength"), "nm"),
     "f_number": (0.2, 1000.0, Message("f-number"), ""),
+    "obscuration": (0.0, LARGEST_OBSCURATION, Message("obscuration"), ""),
+    "vanes": (0, MOST_VANES, Message("number of vanes"), ""),
+    "vane_width": (0.0, WIDEST_VANE, Message("vane width"), ""),
+    "vane_angle_deg": (-360.0, 360.0, Message("vane angle"), "°"),
+    "blades": (0, MOST_BLADES, Message("number of blades"), ""),
+    "roundness": (0.0, 1.0, Message("roundness"), ""),
+    "blade_angle_deg": (-360.0, 360.0, Message("blade angle"), "°"),
+    "apodisation": (NARROWEST_APODISATION, inf, Message("apodisation"), ""),
+    "apodisation_power": (2, MOST_POWER, Message("apodisation power"), ""),
+    "cubic_um": (-1000.0, 1000.0, Message("cubic phase"), "µm"),
     "tolerance": (0.0, 1.0, Message("tolerance R²"), ""),
     "stage_share": (0.1, 0.95, Message("share of the stage"), ""),
     "scale_percent": (50.0, 300.0, Message("size of type"), "%"),
@@ -62,14 +73,27 @@ LISTED = {
     "curves_frequencies_per_mm": "frequency_per_mm",
 }
 MOST_WAVES = 1000.0
-DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
-LINKABLE = (*DRAGGED, "method", "added_waves")
+SMOOTH_MASK = (
+    *("obscuration", "roundness", "blade_angle_deg", "vane_width", "vane_angle_deg"),
+    *("apodisation", "cubic_um"),
+)
+COUNTS = ("blades", "vanes", "apodisation_power")
+MASK = (*SMOOTH_MASK, *COUNTS)
+"""Entries named as the fields of `p2sf.pupil.mask.PupilMask`; None: as the lens file has it."""
+CLEAR_PUPIL = {"obscuration": 0.0, "blades": 0, "vanes": 0, "apodisation": inf, "cubic_um": 0.0}
+DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number", *SMOOTH_MASK)
+SLIDERS = (*DRAGGED, *COUNTS)
+LINKABLE = (*SLIDERS, "method", "added_waves")
 ADDED = "added_"  # before a term's name: the slider that adds waves to it
 PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
 KINDS = {str: Message("a text"), bool: Message("true or false"), int: Message("a whole number")}
-OPTIONAL = ("focus_mm", "f_number", "photo_pixel_um", "scale_percent")
+OPTIONAL = ("focus_mm", "f_number", *MASK, "photo_pixel_um", "scale_percent")
 PLAIN: dict[str, type] = {
     "clip": bool,
+    "vanes": int,
+    "blades": int,
+    "apodisation_power": int,
+    "show_pupil_shape": bool,
     "tab": str,
     "stage": str,
     "workspace": str,

@@ -87,6 +87,36 @@ class Vergence:
         return self.value(_inside(self.travel(value) + by))
 
 
+@dataclass(frozen=True)
+class Stepped:
+    """Some whole numbers in ascending order, evenly along the travel."""
+
+    values: tuple[int, ...]
+
+    @property
+    def low(self) -> int:
+        """Return the first number."""
+        return self.values[0]
+
+    @property
+    def high(self) -> int:
+        """Return the last number."""
+        return self.values[-1]
+
+    def value(self, travel: float) -> int:
+        """Return the number nearest to this travel."""
+        return self.values[round(_inside(travel) * (len(self.values) - 1))]
+
+    def travel(self, value: float) -> float:
+        """Return the travel of the first number that is not below this one."""
+        at = next((k for k, number in enumerate(self.values) if number >= value), len(self.values) - 1)
+        return at / (len(self.values) - 1)
+
+    def moved(self, value: float, by: float) -> int:
+        """Return the number ``by`` so much travel farther."""
+        return self.value(self.travel(value) + by)
+
+
 def _inside(travel: float) -> float:
     return min(1.0, max(0.0, travel))
 

@@ -12,11 +12,13 @@ from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import USUAL_AIM
 from p2sf.messages import Message
+from p2sf.pupil.mask import PupilMask
 from p2sf_explorer.state.limits import (
     CHOICES,
     KINDS,
     LINKABLE,
     LISTED,
+    MASK,
     MOST_LISTED,
     MOST_WAVES,
     OPTIONAL,
@@ -54,7 +56,7 @@ def _check_entries(group: Any) -> None:
                 value=str(value),
                 choices=CHOICES[name],
             )
-        if name in PLAIN and type(value) is not PLAIN[name]:
+        if name in PLAIN and type(value) is not PLAIN[name] and not (value is None and name in OPTIONAL):
             raise P2SFError(
                 "{name} is {value}; give {kind}",
                 name=name,
@@ -102,7 +104,8 @@ class Optics:
     """The lens, how it is set, the source, and the method; with `WhatIf` all that makes the picture.
 
     ``lens_text`` is the TOML text of a lens edited in the window, None while the lens is as ``lens`` names it.
-    ``focus_mm`` and ``f_number`` are None where the lens file's value holds. ``aim`` is that of `p2sf.lens.lens.Lens`.
+    ``focus_mm``, ``f_number`` and what stands in the stop, ``obscuration`` to ``cubic_um`` as in `PupilMask`, are None
+    where the lens file's value holds. ``aim`` is that of `p2sf.lens.lens.Lens`.
     """
 
     lens: str = "double_gauss_28"
@@ -118,15 +121,32 @@ class Optics:
     clip: bool = False
     method: str = "auto"
     tolerance: float = 0.99
+    obscuration: float | None = None
+    vanes: int | None = None
+    vane_width: float | None = None
+    vane_angle_deg: float | None = None
+    blades: int | None = None
+    roundness: float | None = None
+    blade_angle_deg: float | None = None
+    apodisation: float | None = None
+    apodisation_power: int | None = None
+    cubic_um: float | None = None
 
     def __post_init__(self) -> None:
         _check_entries(self)
+        if self.mask:
+            PupilMask(**self.mask)  # which raises for two blades, and for an odd power
         if not isinstance(self.lens, str) or not self.lens:
             raise P2SFError("the state names no lens; give the name of a shipped lens or a path")
         if not isinstance(self.lens_text, str | None):
             raise P2SFError(
                 "the state's edited lens is not text; leave lens_text out to take the lens as its file has it"
             )
+
+    @property
+    def mask(self) -> dict[str, Any]:
+        """Return what of the mask in the stop is not as the lens file has it, by its field of `PupilMask`."""
+        return {name: value for name in MASK if (value := getattr(self, name)) is not None}
 
 
 @dataclass(frozen=True)
@@ -177,6 +197,7 @@ class Display:
     ``pixel_um`` is the pixel of a sensor, ``blur_um`` the diameter of blur that still counts as sharp, ``spectrum`` the
     light of the colour PSF (`p2sf.colour.spectrum`). ``language`` is a file of ``i18n/languages``, "en", or "system";
     ``colours`` are those of the heat maps.
+    ``show_pupil_shape``: the controls of what stands in the stop are unfolded.
     ``rays_coloured`` and ``rays_count`` are of the layout (`p2sf_explorer.compute.layout.layout`); ``keep_focus`` says
     what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off".
     """
@@ -195,6 +216,7 @@ class Display:
     stage_share: float = 0.56
     show_rail: bool = True
     show_controls: bool = True
+    show_pupil_shape: bool = False
     tab: str = "profiles"
     windows: tuple[str, ...] = ()
     scale_percent: float | None = None

@@ -91,6 +91,8 @@ UNLIKE = {
     **{"field_deg": 5.0001, "wavelength_nm": 500.0, "f_number": 8.0, "stop": "auto", "clip": True, "method": "traced"},
     **{"aim": next(aim for aim in AIMS if aim != A.optics.aim)},
     **{"tolerance": 0.9, "added_waves": (0.5, *(0.0,) * 5), "muted": ("w40",), "solo": ("w31",), "free_pupil": True},
+    **{"obscuration": 0.3, "vanes": 4, "vane_width": 0.01, "vane_angle_deg": 45.0, "blades": 6, "roundness": 0.5},
+    **{"blade_angle_deg": 10.0, "apodisation": 0.8, "apodisation_power": 4, "cubic_um": 1.0},
 }
 
 

@@ -1,10 +1,15 @@
 """The state's setup is the library's own, by one road, and dragging the field makes no new lens."""
 
+from dataclasses import replace
+
 import pytest
 
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import with_mask
+from p2sf.lensfile.toml import lens_to_toml
+from p2sf.pupil.mask import PupilMask
 from p2sf.request import Request, set_up
-from p2sf_explorer.compute.setup import paraxial_setup, prescription, request_setup, with_lens
+from p2sf_explorer.compute.setup import masked, paraxial_setup, prescription, ranges, request_setup, with_lens
 from p2sf_explorer.state.state import State, changed, entry, new_state
 
 STATES = [
@@ -34,3 +39,33 @@ def test_dragging_the_field_makes_no_new_lens():
 def test_a_field_that_cannot_be_is_the_librarys_refusal():
     with pytest.raises(P2SFError, match="90°"):
         paraxial_setup(new_state(field_deg=90.0))
+
+
+FILED = PupilMask(obscuration=0.3, vanes=4, zernike_um=(0.0, 0.0, 0.0, 0.1))
+
+
+def with_filed_mask(**entries):
+    """Return a state whose lens file has a mask in its stop."""
+    lens = with_mask(prescription(State()), FILED)
+    return new_state(lens_text=lens_to_toml(lens), **entries)
+
+
+def test_the_mask_is_the_files_but_for_what_the_state_says_of_it():
+    state = with_filed_mask()
+    assert prescription(state).mask == FILED == ranges(prescription(state)).mask
+    assert masked(prescription(state), state).mask == FILED
+    told = changed(state, obscuration=0.5, blades=6)
+    assert masked(prescription(told), told).mask == replace(FILED, obscuration=0.5, blades=6)
+    cleared = changed(state, obscuration=0.0, vanes=0)
+    assert masked(prescription(cleared), cleared).mask == replace(FILED, obscuration=0.0, vanes=0)
+
+
+def test_a_mask_moves_with_every_lens_that_the_state_makes_and_leaves_with_the_lens():
+    state = new_state(obscuration=0.4, f_number=5.6, focus_mm=900.0)
+    assert request_setup(state).lens.mask == PupilMask(obscuration=0.4)
+    assert not with_lens(state, "cooke_triplet").optics.mask
+
+
+def test_dragging_the_field_behind_a_mask_makes_no_new_lens():
+    near, far = (request_setup(new_state(blades=6, field_deg=field)) for field in (1.0, 2.0))
+    assert near.lens is far.lens

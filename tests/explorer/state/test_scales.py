@@ -8,13 +8,30 @@ from hypothesis import strategies as st
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.compute.quantities import QUANTITIES
-from p2sf_explorer.state.scales import Linear, Logarithmic, Vergence, nice, read_distance, ticks, written_distance
+from p2sf_explorer.state.scales import (
+    Linear,
+    Logarithmic,
+    Stepped,
+    Vergence,
+    nice,
+    read_distance,
+    ticks,
+    written_distance,
+)
 
 
 @pytest.mark.parametrize("scale", [Linear(-2.0, 5.0), Logarithmic(1.4, 32.0), Vergence(60.0)])
 @given(travel=st.floats(0, 1))
 def test_travel_and_value_invert_each_other(scale, travel):
     assert scale.travel(scale.value(travel)) == pytest.approx(travel, abs=1e-12)  # round-off of two divisions
+
+
+def test_whole_numbers_stand_evenly_along_the_travel_and_nothing_stands_between():
+    scale = Stepped((0, 3, 4, 5, 6))
+    assert [scale.value(scale.travel(number)) for number in scale.values] == list(scale.values)
+    assert [scale.travel(number) for number in scale.values] == [0, 0.25, 0.5, 0.75, 1]
+    assert (scale.value(0.3), scale.value(0.4), scale.travel(9)) == (3, 4, 1)
+    assert (scale.moved(5, 0.3), scale.moved(5, -2), scale.moved(5, 2)) == (6, 0, 6)
 
 
 READERS = {quantity.key: quantity.read for quantity in QUANTITIES}
@@ -49,6 +66,13 @@ def test_what_is_written_can_be_read(mm):
         ("field_deg", "12 deg", 12),
         ("field_deg", "12deg", 12),
         ("field_deg", "1.2e1 deg", 12),
+        ("obscuration", "0,3", 0.3),
+        ("obscuration", "30 %", 0.3),
+        ("blades", "6", 6),
+        ("apodisation", "∞", inf),
+        ("apodisation", "0.8", 0.8),
+        ("cubic_um", "−0.002 mm", -2),
+        ("vane_angle_deg", "45°", 45),
     ],
 )
 def test_numbers_with_units(key, text, value):
@@ -63,6 +87,8 @@ def test_numbers_with_units(key, text, value):
         ("field_deg", "2 m"),
         ("f_number", "550 nm"),
         ("depth_mm", "10°"),
+        ("blades", "6 mm"),
+        ("obscuration", "3 mm"),
     ],
 )
 def test_a_foreign_unit_is_refused_and_never_dropped(key, text):

@@ -35,6 +35,13 @@ ALONE = dict(
     f_number=st.none() | st.floats(0.2, 1000, **finite),
     clip=st.booleans(),
     tolerance=st.floats(0, 1, **finite),
+    obscuration=st.none() | st.floats(0, 0.99),
+    vanes=st.none() | st.integers(0, 12),
+    blades=st.none() | st.just(0) | st.integers(3, 32),
+    blade_angle_deg=st.none() | st.floats(-360, 360),
+    apodisation=st.none() | st.just(inf) | st.floats(0.1, 10),
+    apodisation_power=st.none() | st.integers(1, 10).map(lambda half: 2 * half),
+    cubic_um=st.none() | st.floats(-1000, 1000),
     added_waves=st.tuples(*[WAVES] * len(TERMS)),
     muted=some_of(TERMS),
     solo=some_of(TERMS),
@@ -69,6 +76,13 @@ def test_a_state_without_aim_fills_the_paraxial_pupil_as_before_there_was_one(ve
         assert state.compare.pinned is None or state.compare.pinned.optics.aim == "paraxial"
 
 
+@pytest.mark.parametrize("version", [1, 2, 3, 4])
+def test_a_state_from_before_masks_leaves_the_stop_as_the_lens_file_has_it(version):
+    values = {"field_deg": 3.0} if version == 1 else {"optics": {"field_deg": 3.0}}
+    state = state_from_json(json.dumps({"schema": SCHEMA, "version": version, "state": values}))
+    assert state.optics.field_deg == 3.0 and not state.optics.mask
+
+
 @pytest.mark.parametrize("aim", AIMS)
 def test_every_file_and_link_says_how_rays_fill_the_pupil(aim):
     state = new_state(aim=aim, pinned=new_state(aim=aim))
@@ -95,6 +109,13 @@ def test_infinity_is_plain_json():
         ({"lens": ""}, "names no lens"),
         ({"lens_text": 3}, "edited lens is not text"),
         ({"clip": "yes"}, "clip is 'yes'; give true or false"),
+        ({"obscuration": 1.0}, "obscuration is 1; give a number from 0 to 0.99"),
+        ({"apodisation": float("nan")}, "apodisation is nan"),
+        ({"blades": 2}, "a whole number from 3 to 32"),
+        ({"blades": 5.5}, "blades is 5.5; give a whole number"),
+        ({"vanes": 13}, "number of vanes is 13"),
+        ({"apodisation_power": 3}, "give an even number from 2 to 20"),
+        ({"blade_angle_deg": "up"}, "blade angle is 'up'"),
         ({"added_waves": (1.0,)}, "give 6 numbers, for w40"),
         ({"added_waves": (float("nan"), 0.0, 0.0, 0.0, 0.0, 0.0)}, "added to w40 is nan λ"),
         ({"muted": ("w31", "w40")}, "each once and in this order"),

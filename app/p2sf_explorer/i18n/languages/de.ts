@@ -62,6 +62,8 @@
 <message><source>Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)</source><translation>Animiertes GIF (*.gif);;MP4-Film (*.mp4);;Nummerierte PNG-Bilder (*.png)</translation></message>
 <message><source>Apodisation</source><translation>Apodisation</translation></message>
 <message><source>Apodisation power</source><translation>Potenz der Apodisation</translation></message>
+<message><source>Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 a Gaussian, larger even numbers a super-Gaussian.</source><translation>Potenz p der Amplitude exp(−(ρ/Breite)ᵖ): 2 eine Gauß-Funktion, größere gerade Zahlen eine Super-Gauß-Funktion.</translation></message>
+<message><source>Apodisation: where the amplitude has fallen to 1/e and the intensity to 1/e², over the rim's radius; ∞: even light. It dims the rings and widens the core.</source><translation>Apodisation: wo die Amplitude auf 1/e und die Intensität auf 1/e² gefallen ist, über dem Radius des Randes; ∞: gleichmäßiges Licht. Sie schwächt die Ringe und verbreitert den Kern.</translation></message>
 <message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
 <message><source>As the system</source><translation>Wie das System</translation></message>
 <message><source>Aspheric plano-convex condenser, f/2 (synthetic)</source><translation>Asphärischer plankonvexer Kondensor, f/2 (synthetisch)</translation></message>
@@ -86,7 +88,9 @@
 <message><source>Bending: the shape factor X = (c₁ + c₂)/(c₁ − c₂) of the selected element; its thin-lens power stays. 0 is equiconvex or equiconcave, ±1 has one plane side. Select an element in the layout or in the table.</source><translation>Durchbiegung: der Formfaktor X = (c₁ + c₂)/(c₁ − c₂) des gewählten Elements; seine Brechkraft als dünne Linse bleibt. 0 ist gleichseitig bikonvex oder bikonkav, bei ±1 ist eine Seite eben. Wählen Sie ein Element im Schnittbild oder in der Tabelle.</translation></message>
 <message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
 <message><source>Blade angle</source><translation>Lamellenwinkel</translation></message>
+<message><source>Blade angle: direction of the first corner, from the direction of the field (+η) towards +ξ.</source><translation>Lamellenwinkel: Richtung der ersten Ecke, von der Richtung des Feldes (+η) nach +ξ.</translation></message>
 <message><source>Blades</source><translation>Lamellen</translation></message>
+<message><source>Blades of the iris, their corners on the rim's circle; 0: round. The PSF has as many spikes where their number is even, twice as many where it is odd.</source><translation>Lamellen der Irisblende, ihre Ecken auf dem Kreis des Randes; 0: rund. Die PSF hat ebenso viele Strahlen, wo ihre Zahl gerade ist, doppelt so viele, wo sie ungerade ist.</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
 <message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
@@ -102,6 +106,7 @@
 <message><source>Choose a shipped lens…</source><translation>Mitgeliefertes Objektiv wählen …</translation></message>
 <message><source>Chromatic shift</source><translation>Farblängsfehler</translation></message>
 <message><source>Cividis</source><translation>Cividis</translation></message>
+<message><source>Clear pupil: no obscuration, blades, vanes, apodisation or cubic phase</source><translation>Freie Pupille: keine Abschattung, Lamellen, Streben, Apodisation oder kubische Phase</translation></message>
 <message><source>Clear rim, mm; ∞ is unlimited. On the stop it is the aperture.</source><translation>Freier Rand, mm; ∞ ist unbegrenzt. An der Blende ist er die Öffnung.</translation></message>
 <message><source>Click or press Enter to make this surface the stop; the f-number stays.</source><translation>Klicken oder Enter macht diese Fläche zur Blende; die Blendenzahl bleibt.</translation></message>
 <message><source>Click to select this element, then drag it, its edges and its vertices.</source><translation>Ein Klick wählt dieses Element; dann lässt sich an ihm, seinen Rändern und Scheiteln ziehen.</translation></message>
@@ -133,6 +138,7 @@
 <message><source>Copy the panel's picture</source><translation>Bild der Ansicht kopieren</translation></message>
 <message><source>Crown and flint cemented: colour and spherical aberration corrected, field curvature not</source><translation>Kron und Flint verkittet: Farbe und sphärische Aberration korrigiert, Bildfeldwölbung nicht</translation></message>
 <message><source>Cubic phase</source><translation>Kubische Phase</translation></message>
+<message><source>Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, which one deconvolution takes away.</source><translation>Kubische Phasenplatte: α des optischen Weges α(ξ³ + η³), den sie hinzufügt. Sie verwischt alle Abstände fast gleich, was eine einzige Entfaltung behebt.</translation></message>
 <message><source>Dark</source><translation>Dunkel</translation></message>
 <message><source>Database</source><translation>Datenbank</translation></message>
 <message><source>Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; drag on a map or the atlas, or use the arrow keys and Enter, to set the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas, oder Pfeiltasten und Enter, setzen die Quelle.</translation></message>
@@ -207,6 +213,7 @@
 <message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
 <message><source>Focus distance</source><translation>Fokus auf</translation></message>
 <message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. beyond ∞: nearer to the lens than the image of infinity. ▾ is where the source is.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s. hinter ∞: näher am Objektiv als das Bild von Unendlich. ▾ zeigt, wo die Quelle steht.</translation></message>
+<message><source>Fold or unfold the pupil shape</source><translation>Pupillenform ein- oder ausklappen</translation></message>
 <message><source>Frame</source><translation>Ausschnitt</translation></message>
 <message><source>Free pupil</source><translation>Freie Pupille</translation></message>
 <message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
@@ -258,6 +265,7 @@
 <message><source>Lens…</source><translation>Objektiv …</translation></message>
 <message><source>Lesson</source><translation>Lektion</translation></message>
 <message><source>Lessons</source><translation>Lernen</translation></message>
+<message><source>Let light through evenly</source><translation>Licht gleichmäßig durchlassen</translation></message>
 <message><source>Light</source><translation>Hell</translation></message>
 <message><source>Link</source><translation>Koppeln</translation></message>
 <message><source>Link all</source><translation>Alles koppeln</translation></message>
@@ -314,6 +322,7 @@
 <message><source>OPD, waves</source><translation>OPD, Wellen</translation></message>
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
 <message><source>Obscuration</source><translation>Abschattung</translation></message>
+<message><source>Obscuration ε: radius of the dark disc in the middle of the stop over the rim's radius. It takes ε² of the light, narrows the core and feeds the rings.</source><translation>Abschattung ε: Radius der dunklen Scheibe in der Mitte der Blende über dem Radius des Randes. Sie nimmt ε² des Lichtes, macht den Kern schmaler und die Ringe heller.</translation></message>
 <message><source>On the stage</source><translation>Auf die Bühne</translation></message>
 <message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>One scale</source><translation>Ein Maßstab</translation></message>
@@ -398,8 +407,11 @@
 <message><source>Print</source><translation>Druckseite</translation></message>
 <message><source>Profiles</source><translation>Profile</translation></message>
 <message><source>Pupil</source><translation>Pupille</translation></message>
+<message><source>Pupil as the lens file has it</source><translation>Pupille wie in der Objektivdatei</translation></message>
 <message><source>Pupil phase</source><translation>Pupillenphase</translation></message>
+<message><source>Pupil shape</source><translation>Pupillenform</translation></message>
 <message><source>Pupils</source><translation>Pupillen</translation></message>
+<message><source>Put into the stop what the lens file has in it</source><translation>In die Blende setzen, was die Objektivdatei dort hat</translation></message>
 <message><source>Put the sensor where the lens file has it</source><translation>Den Sensor dorthin setzen, wo ihn die Datei hat</translation></message>
 <message><source>Put the source at infinity</source><translation>Die Quelle ins Unendliche setzen</translation></message>
 <message><source>Put the sweep away</source><translation>Durchlauf wegräumen</translation></message>
@@ -441,6 +453,7 @@
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
 <message><source>Roundness</source><translation>Rundung</translation></message>
+<message><source>Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.</source><translation>Rundung der Lamellenkanten: ihre Krümmung mal dem Radius des Randes, 0 gerade, 1 ein Kreis.</translation></message>
 <message><source>R² not predicted</source><translation>R² nicht vorhergesagt</translation></message>
 <message><source>R² {r} vs Huygens</source><translation>R² {r} gegen Huygens</translation></message>
 <message><source>R² ≥ 0.9</source><translation>R² ≥ 0,9</translation></message>
@@ -628,8 +641,11 @@
 <message><source>Unpin</source><translation>B lösen</translation></message>
 <message><source>Values with semicolons between; empty: evenly spread by themselves</source><translation>Werte mit Strichpunkten dazwischen; leer: von selbst gleichmäßig verteilt</translation></message>
 <message><source>Vane angle</source><translation>Strebenwinkel</translation></message>
+<message><source>Vane angle: direction of the first vane, from the direction of the field (+η) towards +ξ.</source><translation>Strebenwinkel: Richtung der ersten Strebe, von der Richtung des Feldes (+η) nach +ξ.</translation></message>
 <message><source>Vane width</source><translation>Strebenbreite</translation></message>
+<message><source>Vane width over the rim's diameter.</source><translation>Breite der Streben über dem Durchmesser des Randes.</translation></message>
 <message><source>Vanes</source><translation>Streben</translation></message>
+<message><source>Vanes of the spider that holds what obscures, from the middle to the rim and evenly around; 0: none. Each throws a spike across itself.</source><translation>Streben der Spinne, die das Abschattende hält, von der Mitte zum Rand und gleichmäßig ringsum; 0: keine. Jede wirft einen Strahl quer zu sich.</translation></message>
 <message><source>View</source><translation>Darstellung</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
 <message><source>W modulo 1, waves</source><translation>W modulo 1, Wellen</translation></message>
@@ -666,6 +682,7 @@
 <message><source>What is selected: drag it along the axis. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen. Ein Klick hebt die Auswahl auf.</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
+<message><source>What stands in the stop: an obscuration, the blades of an iris, the vanes of a spider, a filter, a phase plate; phases and amplitudes of a lens file stay.</source><translation>Was in der Blende steht: eine Abschattung, die Lamellen einer Iris, die Streben einer Spinne, ein Filter, eine Phasenplatte; Phasen und Amplituden einer Objektivdatei bleiben.</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
 <message><source>What the pictures show</source><translation>Was die Bilder zeigen</translation></message>
 <message><source>What the plot at the right shows: every method at this point, or every representation of all the lens's PSFs</source><translation>Was das rechte Diagramm zeigt: alle Verfahren an diesem Punkt, oder alle Darstellungen aller PSFs des Objektivs</translation></message>
@@ -778,6 +795,9 @@
 <message><source>aperture</source><translation>Öffnung</translation></message>
 <message><source>aperture is {found}; write [aperture] and one of {names}</source><translation>aperture ist {found}; [aperture] und eines von {names} schreiben</translation></message>
 <message><source>aperture {kind} is {value}; give a positive number</source><translation>die Öffnung {kind} ist {value}; eine positive Zahl angeben</translation></message>
+<message><source>apodisation</source><translation>Apodisation</translation></message>
+<message><source>apodisation power</source><translation>Potenz der Apodisation</translation></message>
+<message><source>apodised</source><translation>apodisiert</translation></message>
 <message><source>as in the file</source><translation>laut Datei</translation></message>
 <message><source>as it is</source><translation>wie es ist</translation></message>
 <message><source>ask for {mirror:.6g} {unit}, whose PSF is the same upside down, or build one that reaches there</source><translation>{mirror:.6g} {unit} verlangen, wo die PSF dieselbe kopfüber ist, oder eine bauen, die dorthin reicht</translation></message>
@@ -798,6 +818,7 @@
 <message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
 <message><source>beyond ∞</source><translation>hinter ∞</translation></message>
 <message><source>black body 5600 K</source><translation>Schwarzer Körper 5600 K</translation></message>
+<message><source>blade angle</source><translation>Lamellenwinkel</translation></message>
 <message><source>blink</source><translation>blinkend</translation></message>
 <message><source>blue</source><translation>Blau</translation></message>
 <message><source>blur to tolerate</source><translation>erlaubte Unschärfe</translation></message>
@@ -832,6 +853,7 @@
 <message><source>choose another place</source><translation>einen anderen Ort wählen</translation></message>
 <message><source>choose fewer pixels or another disk</source><translation>weniger Pixel oder einen anderen Datenträger wählen</translation></message>
 <message><source>choose {names}</source><translation>{names} wählen</translation></message>
+<message><source>clear</source><translation>frei</translation></message>
 <message><source>clear rim</source><translation>freier Rand</translation></message>
 <message><source>click or P, L</source><translation>Klick oder P, L</translation></message>
 <message><source>clipped by the clear semi-diameters</source><translation>an den freien Halbmessern beschnitten</translation></message>
@@ -859,6 +881,7 @@
 <message><source>correct the line</source><translation>die Zeile berichtigen</translation></message>
 <message><source>cos⁴ of a pinhole</source><translation>cos⁴ einer Lochkamera</translation></message>
 <message><source>could not be aimed at its place in the stop, surface {surface}</source><translation>ließ sich nicht auf seinen Ort in der Blende richten, Fläche {surface}</translation></message>
+<message><source>cubic phase</source><translation>kubische Phase</translation></message>
 <message><source>curvature</source><translation>Krümmung</translation></message>
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
 <message><source>decimal separator</source><translation>,</translation></message>
@@ -1091,10 +1114,12 @@
 <message><source>nothing</source><translation>nichts</translation></message>
 <message><source>nothing is pinned as B (Ctrl+B)</source><translation>nichts ist als B gemerkt (Strg+B)</translation></message>
 <message><source>nothing varies from column to column; list the values of what does</source><translation>nichts ändert sich von Spalte zu Spalte; die Werte dessen auflisten, was sich ändert</translation></message>
+<message><source>number of blades</source><translation>Zahl der Lamellen</translation></message>
 <message><source>number of columns</source><translation>Anzahl der Spalten</translation></message>
 <message><source>number of fields</source><translation>Anzahl der Felder</translation></message>
 <message><source>number of rays drawn from a point</source><translation>Zahl der von einem Punkt gezeichneten Strahlen</translation></message>
 <message><source>number of rows</source><translation>Anzahl der Zeilen</translation></message>
+<message><source>number of vanes</source><translation>Zahl der Streben</translation></message>
 <message><source>number of wavelengths</source><translation>Anzahl der Wellenlängen</translation></message>
 <message><source>numerical aperture {value:g} is impossible in index {index:g}; correct it</source><translation>die numerische Apertur {value:g} ist im Index {index:g} unmöglich; berichtigen</translation></message>
 <message><source>object at infinity</source><translation>Objekt im Unendlichen</translation></message>
@@ -1103,6 +1128,7 @@
 <message><source>object na</source><translation>objektseitige NA</translation></message>
 <message><source>object space</source><translation>Objektraum</translation></message>
 <message><source>object {h} mm</source><translation>Objekt {h} mm</translation></message>
+<message><source>obscuration</source><translation>Abschattung</translation></message>
 <message><source>of light</source><translation>des Lichts</translation></message>
 <message><source>of peak</source><translation>der Spitze</translation></message>
 <message><source>off</source><translation>aus</translation></message>
@@ -1128,6 +1154,7 @@
 <message><source>per pixel</source><translation>je Pixel</translation></message>
 <message><source>perfect lens</source><translation>ideale Linse</translation></message>
 <message><source>perfect lens, µm</source><translation>ideale Linse, µm</translation></message>
+<message><source>phase</source><translation>Phase</translation></message>
 <message><source>picture encoding "{encoding}" is unknown; choose {choices}</source><translation>die Bildkodierung "{encoding}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
 <message><source>pictures of {one} and {two}; compare two of one shape, at least {least} pixels a side</source><translation>Bilder von {one} und {two}; zwei von einer Form vergleichen, mit mindestens {least} Pixeln je Seite</translation></message>
@@ -1196,6 +1223,7 @@
 <message><source>rims clip</source><translation>mit Rändern</translation></message>
 <message><source>rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or leave {parameter} off</source><translation>Ränder nehmen {lost} von {rays} Strahlen weg, und {method} beschreibt die ganze Pupille; traced oder huygens wählen oder {parameter} auslassen</translation></message>
 <message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
+<message><source>roundness</source><translation>Rundung</translation></message>
 <message><source>sagittal</source><translation>sagittal</translation></message>
 <message><source>sagittal S</source><translation>sagittal S</translation></message>
 <message><source>sagittal S, third order</source><translation>sagittal S, dritte Ordnung</translation></message>
@@ -1552,6 +1580,8 @@
 <message><source>unit is "{unit}"; write one of {units}</source><translation>die Einheit ist "{unit}"; eines von {units} schreiben</translation></message>
 <message><source>up to {nodes}, {precision}</source><translation>bis zu {nodes}, {precision}</translation></message>
 <message><source>value</source><translation>Wert</translation></message>
+<message><source>vane angle</source><translation>Strebenwinkel</translation></message>
+<message><source>vane width</source><translation>Strebenbreite</translation></message>
 <message><source>variables, pickups and solves, whose stored values are read</source><translation>Variable, Übernahme- und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 <message><source>vd is {value}; give an Abbe number between 10 and 120</source><translation>vd ist {value}; eine Abbe-Zahl zwischen 10 und 120 angeben</translation></message>
 <message><source>vignetting factors (up to {value:g}) are not applied, and no surface but the stop states a rim; the pupil is full at every field</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht angewandt, und außer der Blende gibt keine Fläche einen Rand an; die Pupille ist bei jedem Feld voll</translation></message>
@@ -1630,6 +1660,7 @@
 <message><source>{count:.3g} PSF samples exceed {most:.3g}; ask for fewer pixels or fewer PSFs</source><translation>{count:.3g} PSF-Proben sind mehr als {most:.3g}; weniger Pixel oder weniger PSFs verlangen</translation></message>
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
 <message><source>{count} PSFs of {pixels}² pixels are {size:.1f} GiB; ask for fewer, or for fewer pixels a side</source><translation>{count} PSFs von {pixels}² Pixeln sind {size:.1f} GiB; weniger verlangen, oder weniger Pixel je Seite</translation></message>
+<message><source>{count} blades</source><translation>{count} Lamellen</translation></message>
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
 <message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
@@ -1638,6 +1669,7 @@
 <message><source>{count} samples {pixel_um:.3g} µm apart hold no contrast of a PSF of aperture {na:.3g}: λ/(4 NA) is {critical:.3g} µm; sample it so closely, or take the MTF of the lens</source><translation>{count} Proben im Abstand {pixel_um:.3g} µm halten keinen Kontrast einer PSF der Apertur {na:.3g}: λ/(4 NA) sind {critical:.3g} µm; so dicht abtasten oder die MTF des Objektivs nehmen</translation></message>
 <message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
 <message><source>{count} surfaces, {stop}, {aperture}; {wavelengths:g} nm; fields {angles:.4g}°</source><translation>{count} Flächen, {stop}, {aperture}; {wavelengths:g} nm; Felder {angles:.4g}°</translation></message>
+<message><source>{count} vanes</source><translation>{count} Streben</translation></message>
 <message><source>{count} wavelengths</source><translation>{count} Wellenlängen</translation></message>
 <message><source>{count} wavelengths for a colour PSF; give a whole number from 1 to {most}</source><translation>{count} Wellenlängen für eine farbige PSF; eine ganze Zahl von 1 bis {most} angeben</translation></message>
 <message><source>{depth:.4g} mm</source><translation>{depth:.4g} mm</translation></message>
