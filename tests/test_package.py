@@ -21,7 +21,7 @@ LAYERS = (
     "p2sf.metrics",
     "p2sf.database p2sf.io p2sf.scene",
     "p2sf.database_files p2sf.image p2sf.representations",
-    "p2sf.interchange p2sf.studies",
+    "p2sf.interchange p2sf.measure p2sf.studies",
     "p2sf.api",
     "p2sf_explorer.i18n p2sf_explorer.state",
     "p2sf_explorer.compute p2sf_explorer.store",

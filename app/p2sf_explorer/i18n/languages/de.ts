@@ -739,6 +739,7 @@
 <message><source>a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
+<message><source>a model with a pupil map needs the field along +y; turn the picture first</source><translation>ein Modell mit Pupillenabbildung braucht das Feld entlang +y; das Bild vorher drehen</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
 <message><source>a number is too long or lists are nested too deep; this is no lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
@@ -1097,6 +1098,7 @@
 <message><source>no glass (NM and CD lines) is in this file; give an AGF catalogue</source><translation>in dieser Datei ist kein Glas (Zeilen NM und CD); einen AGF-Katalog angeben</translation></message>
 <message><source>no nodes</source><translation>keine Knoten</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
+<message><source>no point stands out of the noise in a window of {shape} pixels; expose longer, or choose another point</source><translation>in einem Fenster von {shape} Pixeln hebt sich kein Punkt vom Rauschen ab; länger belichten oder einen anderen Punkt wählen</translation></message>
 <message><source>no polynomial follows the rays of this pupil; stop the lens down or reduce the field</source><translation>kein Polynom folgt den Strahlen dieser Pupille; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no polynomials through a few of them give the others</source><translation>keine Polynome durch wenige von ihnen ergeben die übrigen</translation></message>
 <message><source>no ray but the chief ray reaches the sensor; stop the lens down or reduce the field</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor; abblenden oder das Feld verkleinern</translation></message>
@@ -1135,11 +1137,14 @@
 <message><source>on</source><translation>an</translation></message>
 <message><source>on screen: {method}, {ms} ms, {error}</source><translation>auf dem Bildschirm: {method}, {ms} ms, {error}</translation></message>
 <message><source>on the pixels, µm</source><translation>auf den Pixeln, µm</translation></message>
+<message><source>one focus leaves the common sign of all even terms open; a second, known focus decides</source><translation>ein Fokus lässt das gemeinsame Vorzeichen aller geraden Terme offen; ein zweiter, bekannter Fokus entscheidet</translation></message>
 <message><source>one pass in float32</source><translation>ein Durchgang in float32</translation></message>
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
+<message><source>only {share:.0%} of the light lies in the window; take a larger one</source><translation>nur {share:.0%} des Lichts liegen im Fenster; ein größeres nehmen</translation></message>
 <message><source>open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>or</source><translation>oder</translation></message>
+<message><source>other wavefronts explain the pictures as well: {count}; add a focus</source><translation>andere Wellenfronten erklären die Bilder ebenso gut: {count}; einen Fokus hinzufügen</translation></message>
 <message><source>outer radius</source><translation>Außenradius</translation></message>
 <message><source>parameter</source><translation>Parameter</translation></message>
 <message><source>parameter number</source><translation>Parameternummer</translation></message>
@@ -1458,6 +1463,7 @@
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
 <message><source>the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %</source><translation>das mittlere Pixel hält {real} % des Lichts, von dem einer idealen Linse {perfect} %</translation></message>
 <message><source>the model glass's deviation in partial dispersion is left out; n changes by less than 1e-4</source><translation>die Abweichung der Teildispersion des Modellglases ist weggelassen; n ändert sich um weniger als 1e-4</translation></message>
+<message><source>the model leaves {ratio:.2g} times the noise, and errors are enlarged by that; try more numbers, and check the numerical aperture, the pixel and the noise</source><translation>das Modell lässt das {ratio:.2g}-Fache des Rauschens übrig, um das die Fehler vergrößert sind; mehr Zahlen versuchen, und numerische Apertur, Pixel und Rauschen prüfen</translation></message>
 <message><source>the noise is {noise:g}; give the standard deviation of the picture's noise, above 0</source><translation>das Rauschen ist {noise:g}; die Standardabweichung des Bildrauschens angeben, über 0</translation></message>
 <message><source>the object height</source><translation>die Objekthöhe</translation></message>
 <message><source>the object lies in the entrance pupil, so no cone of light is defined; move the object</source><translation>das Objekt liegt in der Eintrittspupille, also ist kein Lichtkegel festgelegt; das Objekt verschieben</translation></message>
@@ -1531,6 +1537,7 @@
 <message><source>there is no display to open the window on; start it from a desktop session, or under xvfb-run</source><translation>es gibt keinen Bildschirm, auf dem sich das Fenster öffnen ließe; aus einer Desktop-Sitzung oder unter xvfb-run starten</translation></message>
 <message><source>there is no frame to write; choose a longer sweep</source><translation>es gibt kein Bild zu schreiben; einen längeren Durchlauf wählen</translation></message>
 <message><source>there is no link to paste; copy one that begins with p2sf:</source><translation>kein Link zum Einfügen da; einen kopieren, der mit p2sf: beginnt</translation></message>
+<message><source>there is no picture to fit; give at least one</source><translation>es gibt kein Bild zum Anpassen; mindestens eines angeben</translation></message>
 <message><source>there is no picture yet; save it when it is on screen</source><translation>es gibt noch kein Bild; speichern, wenn es zu sehen ist</translation></message>
 <message><source>there is no readable state in this picture or PSF; open a snapshot, written by the window with Ctrl+E, or with the Image panel open drop a photo</source><translation>in diesem Bild oder dieser PSF ist kein lesbarer Zustand; einen Schnappschuss öffnen, den das Fenster mit Strg+E schreibt, oder bei offener Ansicht „Bild“ ein Foto ablegen</translation></message>
 <message><source>there is no step; begin one with a line such as ## A point becomes a patch</source><translation>es gibt keinen Schritt; einen mit einer Zeile beginnen wie ## Aus einem Punkt wird ein Fleck</translation></message>
@@ -1709,6 +1716,7 @@
 <message><source>{method}; {note}</source><translation>{method}; {note}</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
+<message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
 <message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
 <message><source>{name} cannot be read ({reason}); name a picture or a .npy file</source><translation>{name} lässt sich nicht lesen ({reason}); ein Bild oder eine .npy-Datei nennen</translation></message>
 <message><source>{name} has changed on disk and was read again</source><translation>{name} hat sich auf dem Datenträger geändert und wurde neu gelesen</translation></message>
@@ -1809,6 +1817,7 @@
 <message><source>{percent} % of the pupil</source><translation>{percent} % der Pupille</translation></message>
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
 <message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
+<message><source>{pixels} usable pixels for {unknowns} unknowns; take a larger window, or fit fewer numbers</source><translation>{pixels} brauchbare Pixel für {unknowns} Unbekannte; ein größeres Fenster nehmen oder weniger Zahlen anpassen</translation></message>
 <message><source>{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene anew</source><translation>{place:.6g} liegt außerhalb der Pupillen, die von {low:.6g} bis {high:.6g} angepasst sind; die Szene neu planen</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>

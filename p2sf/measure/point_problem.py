@@ -1,0 +1,179 @@
+"""Pictures of one point, and what a model leaves of them: residuals over the noise, with derivatives."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.measure.point_model import Optics, PixelSum, PupilRows, counts_for, mapped_rows, paraxial_rows
+from p2sf.measure.pupil_model import PupilModel
+
+PER_FRAME = 4  # x and y of the point, all of its light, background
+# A map that moves pupil points along the rim's inside, areas unchanged, leaves every PSF as it is; what is known of
+# maps decides: they differ from the paraxial one by a few per cent of the NA.
+MAP_DEVIATION = 0.05
+FOLDED = 1e6  # standard deviations
+WAVES_SCALE = 0.3  # how far a step may go at first
+MARGIN = 1.15  # of the wavefront's slope, which a fit may raise
+
+
+@dataclass(frozen=True, eq=False)
+class PointPicture:
+    """A window (y, x) around one point, rows towards +y, and the variance of each pixel's noise.
+
+    ``defocus_waves``: what is known to be added to W20 + Wd here, as by a second focus: NA²Δz/(2n'λ), Δz away from
+    the lens. ``good``: pixels that count, all when None.
+    """
+
+    values: np.ndarray
+    variance: float | np.ndarray = 1.0
+    defocus_waves: float = 0.0
+    good: np.ndarray | None = None
+
+    @property
+    def usable(self) -> np.ndarray:
+        """Return which pixels count."""
+        finite = np.isfinite(self.values)
+        good: np.ndarray = finite if self.good is None else finite & self.good
+        return good
+
+
+class Problem:
+    """Residuals over the noise of all pictures and their derivatives, as functions of one vector of unknowns.
+
+    Unknowns: the model's numbers, then x, y (µm), all light and background of every picture.
+    """
+
+    def __init__(
+        self,
+        pictures: Sequence[PointPicture],
+        optics: Optics,
+        model: PupilModel,
+        azimuth: float,
+        coarse: bool = False,
+    ):
+        self.pictures, self.optics, self.model, self.azimuth = pictures, optics, model, azimuth
+        self.parts = optics.coarse_parts if coarse else optics.parts
+        self.numbers = len(model.even)
+        self.good = [picture.usable for picture in pictures]
+        self.data = [np.where(good, p.values, 0.0) for p, good in zip(pictures, self.good, strict=True)]
+        self.root = [
+            np.where(good, 1 / np.sqrt(np.broadcast_to(p.variance, p.values.shape)), 0.0)
+            for p, good in zip(pictures, self.good, strict=True)
+        ]
+        self.half_um = max(max(p.values.shape) for p in pictures) / 2 * optics.pixel_um
+        self.counts, self._at = (0, 0), np.empty(0)
+        self._found = np.empty(0), np.empty(0)
+
+    def frame(self, unknowns: np.ndarray, number: int) -> np.ndarray:
+        """Return x, y, flux and background of a picture."""
+        start = self.numbers + PER_FRAME * number
+        return unknowns[start : start + PER_FRAME]
+
+    @property
+    def freedom(self) -> int:
+        """Return how many more pixels count than there are unknowns."""
+        pixels = sum(int(good.sum()) for good in self.good)
+        return max(1, pixels - self.numbers - PER_FRAME * len(self.pictures))
+
+    def scales(self, unknowns: np.ndarray) -> np.ndarray:
+        """Return a step of every unknown that changes a picture clearly."""
+        out = np.full(unknowns.size, WAVES_SCALE)
+        out[len(self.model.wave_names) : self.numbers] = MAP_DEVIATION
+        for number, root in enumerate(self.root):
+            place = WAVES_SCALE / self.optics.cycles
+            start = self.numbers + PER_FRAME * number
+            noise = 1 / max(float(root.max()), 1e-300)
+            out[start : start + PER_FRAME] = place, place, max(abs(unknowns[start + 2]), noise), noise
+        return out
+
+    def modelled(self, unknowns: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Return the windows (y, x) as the model has them."""
+        self.evaluate(unknowns)
+        lights = [self.light(unknowns, number)[0] for number in range(len(self.pictures))]
+        frames = [self.frame(unknowns, number) for number in range(len(self.pictures))]
+        return tuple(frame[2] * light + frame[3] for frame, light in zip(frames, lights, strict=True))
+
+    def r2(self, modelled: Sequence[np.ndarray]) -> np.ndarray:
+        """Return 1 − Σ(picture − model)²/Σ(picture − mean)² over the pixels that count, (pictures,)."""
+        out = []
+        for data, good, model in zip(self.data, self.good, modelled, strict=True):
+            inside = data[good]
+            out.append(1 - np.sum((inside - model[good]) ** 2) / np.sum((inside - inside.mean()) ** 2))
+        return np.array(out)
+
+    def prepare(self, unknowns: np.ndarray) -> None:
+        """Take as many nodes as the wavefront at these unknowns needs, and light all over the windows."""
+        slope = max(self._slope(unknowns), 0.5 * self.optics.cycles * self.half_um)
+        self.counts, self._at = counts_for(MARGIN * slope, self.optics.cycles, self.half_um), np.empty(0)
+        if not self.model.mapped:
+            self._take(paraxial_rows(self.counts, self.optics.cycles))
+
+    def needs_more(self, unknowns: np.ndarray) -> bool:
+        """Return whether the wavefront has become too steep for its nodes."""
+        return counts_for(self._slope(unknowns), self.optics.cycles, self.half_um)[0] > self.counts[0]
+
+    def _slope(self, unknowns: np.ndarray) -> float:
+        """Return about the steepest slope of the wavefront over the pupil, waves per unit radius."""
+        line = np.linspace(-1, 1, 33)
+        eta, xi = np.meshgrid(line, line, indexing="ij")
+        waves, _, _ = self.model.split(unknowns[: self.numbers])
+        down, across = np.gradient(np.tensordot(waves, self.model.waves(xi, eta, self.azimuth), 1), line, line)
+        known = max(abs(p.defocus_waves) for p in self.pictures)
+        return float(np.hypot(down, across)[np.hypot(xi, eta) <= 1.0].max()) + 2 * known
+
+    def _take(self, rows: PupilRows) -> None:
+        """Compute what does not change while the nodes stay."""
+        self.rows = rows
+        self.sums = [PixelSum(rows, p.values.shape, self.optics, self.parts) for p in self.pictures]
+        self.terms = self.model.waves(rows.xi, rows.eta, self.azimuth)
+        self.square = rows.xi**2 + rows.eta**2
+        self.fy = np.broadcast_to(rows.fy[:, None], rows.fx.shape)
+        maps = self.model.maps(rows.xi, rows.eta) if self.model.mapped else ()
+        scaled = [self.optics.cycles * part for part in maps]
+        self.columns = np.concatenate([-rows.fx[None], -self.fy[None], self.terms, *scaled]).astype(np.float32)
+
+    def light(self, unknowns: np.ndarray, number: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return the share of all light on each pixel of a picture, (y, x), and its derivatives by x, y and numbers."""
+        waves, across, along = self.model.split(unknowns[: self.numbers])
+        x, y = self.frame(unknowns, number)[:2]
+        phase = np.tensordot(waves, self.terms, 1) + self.pictures[number].defocus_waves * self.square
+        phase -= self.rows.fx * x + self.fy * y
+        return self.sums[number].light_and_slopes(phase, self.columns, (len(across), len(along)), (x, y))
+
+    def evaluate(self, unknowns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return residuals, (pixels,), and their derivatives, (pixels, unknowns)."""
+        if np.array_equal(unknowns, self._at):
+            return self._found
+        if self.model.mapped:
+            rows = mapped_rows(self.model, unknowns[: self.numbers], self.counts, self.optics.cycles)
+            if rows is None:  # a step that no pupil follows: refused, as it makes all worse
+                return np.full_like(self._found[0], FOLDED), self._found[1]
+            self._take(rows)
+        rest, slopes = [], []
+        for number, (data, root) in enumerate(zip(self.data, self.root, strict=True)):
+            _, _, flux, background = self.frame(unknowns, number)
+            light, found = self.light(unknowns, number)
+            rest.append(((flux * light + background - data) * root).ravel())
+            block = np.zeros((data.size, unknowns.size))
+            start = self.numbers + PER_FRAME * number
+            block[:, : self.numbers] = (flux * found[2:] * root).reshape(self.numbers, -1).T
+            block[:, start : start + 2] = (flux * found[:2] * root).reshape(2, -1).T
+            block[:, start + 2], block[:, start + 3] = (light * root).ravel(), root.ravel()
+            slopes.append(block)
+        if self.model.mapped:
+            maps = slice(len(self.model.wave_names), self.numbers)
+            block = np.zeros((self.numbers - maps.start, unknowns.size))
+            block[:, maps] = np.eye(len(block)) / MAP_DEVIATION
+            rest.append((unknowns[maps] - self.model.paraxial_map) / MAP_DEVIATION)
+            slopes.append(block)
+        self._at, self._found = unknowns.copy(), (np.concatenate(rest), np.concatenate(slopes))
+        return self._found
+
+    def residuals(self, unknowns: np.ndarray) -> np.ndarray:
+        """Return (model − picture)/noise, (pixels,); 0 where a pixel does not count."""
+        return self.evaluate(unknowns)[0]
+
+    def slopes(self, unknowns: np.ndarray) -> np.ndarray:
+        """Return the derivatives of the residuals, (pixels, unknowns)."""
+        return self.evaluate(unknowns)[1]

@@ -1,0 +1,185 @@
+"""Wavefronts to start a fit from: many candidates of the right width, the most alike of them first (handbook 11.2).
+
+The sum of squares has many minima, of which only the deepest is the answer. The mean square of |∇W| over the pupil is
+the mean square distance at which rays land, in units of λ/NA. So candidates are random directions in the space of
+coefficients, scaled to the width of the pictures seen; their PSFs, all sums over the same waves, are compared with the
+pictures, both a little blurred.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.conventions import protected
+from p2sf.errors import RequestError
+from p2sf.measure.point_model import Optics, PixelSum, PupilRows, counts_for, paraxial_rows, wave
+from p2sf.measure.point_problem import PointPicture
+from p2sf.measure.pupil_model import SIX, pupil_model
+from p2sf.pupil.quadrature import disc_nodes
+
+CANDIDATES = 1024
+GENERAL_GOLDEN = 1.1673039782614187
+TOGETHER = 128  # candidates summed at a time
+BLUR_PIXELS = 1.0
+SIGNIFICANT = 3.0  # standard deviations of noise that light exceeds
+SPIKE, SPIKE_SIGMA = 4.0, 10.0  # times its highest neighbour, and standard deviations of noise
+NARROWEST = 0.2  # least scale of a candidate, waves of RMS slope: a point without aberration has no direction
+
+
+@dataclass(frozen=True)
+class Seen:
+    """Where the light of one picture is: centroid in µm from the middle pixel, all light, background, width² in µm²."""
+
+    x: float
+    y: float
+    flux: float
+    background: float
+    square_um2: float
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Starting values: the six model's numbers, and x, y, flux and background of every picture, (pictures, 4)."""
+
+    waves: np.ndarray
+    frames: np.ndarray
+
+
+def seen(picture: PointPicture, optics: Optics) -> Seen:
+    """Return where a picture's light is. Raises RequestError where nothing exceeds the noise."""
+    good = without_spikes(picture)
+    border = np.zeros(good.shape, bool)
+    border[[0, -1]] = border[:, [0, -1]] = True
+    edge = picture.values[border & good]
+    background = float(np.median(edge if edge.size else picture.values[good]))
+    values = np.where(good, picture.values - background, 0.0)
+    noise = np.sqrt(np.broadcast_to(picture.variance, values.shape))
+    kernel = blurring(values.shape[0], BLUR_PIXELS), blurring(values.shape[1], BLUR_PIXELS)
+    # Averaging over a Gaussian of this width leaves 1/(2√π·width) of white noise.
+    smooth = kernel[0] @ values @ kernel[1].T
+    light = np.where(smooth > SIGNIFICANT * noise / (2 * np.sqrt(np.pi) * BLUR_PIXELS), values, 0.0)
+    flux = light.sum()
+    if not flux > SIGNIFICANT * np.sqrt(np.sum(noise[light != 0] ** 2)):
+        raise RequestError(
+            "no point stands out of the noise in a window of {shape} pixels; expose longer, or choose another point",
+            shape=" × ".join(map(str, values.shape[::-1])),
+        )
+    y, x = ((np.arange(count) - count // 2) * optics.pixel_um for count in values.shape)
+    at_x, at_y = (light.sum(0) @ x) / flux, (light.sum(1) @ y) / flux
+    square = (light.sum(0) @ (x - at_x) ** 2 + light.sum(1) @ (y - at_y) ** 2) / flux
+    return Seen(float(at_x), float(at_y), float(flux), background, float(max(square, 0.0)))
+
+
+def without_spikes(picture: PointPicture) -> np.ndarray:
+    """Return the usable pixels but those that stand alone, far above all their neighbours: no point is so narrow."""
+    good = picture.usable
+    values = np.where(good, picture.values, -np.inf)
+    around = np.pad(values, 1, constant_values=-np.inf)
+    rows, columns = values.shape
+    moves = [(i, j) for i in range(3) for j in range(3) if (i, j) != (1, 1)]
+    neighbours = np.max([around[i : i + rows, j : j + columns] for i, j in moves], axis=0)
+    base = float(np.median(values[good]))
+    noise = np.sqrt(np.broadcast_to(picture.variance, values.shape))
+    lone: np.ndarray = values - base > SPIKE * np.maximum(neighbours - base, 0.0) + SPIKE_SIGMA * noise
+    kept: np.ndarray = good & ~lone
+    return kept
+
+
+def blurring(count: int, width: float) -> np.ndarray:
+    """Return the matrix of a Gaussian blur along an axis, (count, count), of rows of unit sum."""
+    place = np.arange(count)
+    kernel = np.exp(-0.5 * ((place[:, None] - place) / width) ** 2)
+    blur: np.ndarray = (kernel / kernel.sum(1, keepdims=True)).astype(np.float32)
+    return blur
+
+
+def starts(pictures: Sequence[PointPicture], optics: Optics, azimuth: float, keep: int) -> list[Start]:
+    """Return the ``keep`` candidates whose pictures are most like those given, the best first. Raises RequestError."""
+    found = [seen(picture, optics) for picture in pictures]
+    waves = candidates(found, pictures, optics.cycles, azimuth)
+    mean, _ = slope_moments(azimuth)
+    offset = waves @ mean.T / optics.cycles  # the centroid of light is −⟨∇W⟩·λ/NA
+    places = [np.stack([one.x + offset[:, 0], one.y + offset[:, 1]], 1) for one in found]
+    unlike = _unlikeness(pictures, found, optics, azimuth, waves, places)
+    frames = np.stack(
+        [
+            np.column_stack([place, np.tile([one.flux, one.background], (len(place), 1))])
+            for one, place in zip(found, places, strict=True)
+        ],
+        1,
+    )
+    return [Start(waves[k], frames[k]) for k in np.argsort(unlike)[:keep]]
+
+
+def candidates(found: Sequence[Seen], pictures: Sequence[PointPicture], cycles: float, azimuth: float) -> np.ndarray:
+    """Return wavefronts of the six model, (candidates, 4), as wide as all pictures together were seen to be."""
+    from scipy.special import ndtri
+
+    _, square = slope_moments(azimuth)
+    known = np.array([picture.defocus_waves for picture in pictures])
+    # Directions from an additive recurrence of low discrepancy: powers of the root of x⁵ = x + 1 (Roberts 2018).
+    step = GENERAL_GOLDEN ** -np.arange(1.0, 5.0)
+    direction = ndtri((0.5 + np.arange(1, CANDIDATES + 1)[:, None] * step) % 1)
+    direction /= np.sqrt(np.einsum("ck,kl,cl->c", direction, square, direction))[:, None]
+    # Σ over pictures of the mean square slope of t·direction + known·ρ² is that seen: a quadratic equation in t.
+    linear = known.sum() * direction @ square[:, 3]
+    constant = square[3, 3] * float(known @ known) - cycles**2 * sum(one.square_um2 for one in found)
+    root = np.sqrt(np.maximum(linear**2 - known.size * constant, 0.0))
+    waves: np.ndarray = direction * np.maximum((root - linear) / known.size, NARROWEST)[:, None]
+    return waves
+
+
+@lru_cache(maxsize=64)
+def slope_moments(azimuth: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return ⟨∇b⟩ of the six model's terms, (2, terms) across and up, and ⟨∇b·∇b⟩ without them, (terms, terms)."""
+    nodes = disc_nodes(8, 24)
+    xi, eta, weight = np.append(nodes.xi, -nodes.xi), np.append(nodes.eta, nodes.eta), np.tile(nodes.weight / 2, 2)
+    model, step = pupil_model(SIX), 1e-4
+    slopes = np.stack(
+        [
+            (model.waves(xi + dx, eta + dy, azimuth) - model.waves(xi - dx, eta - dy, azimuth)) / (2 * step)
+            for dx, dy in ((step, 0.0), (0.0, step))
+        ]
+    )
+    mean = slopes @ weight
+    rest = slopes - mean[..., None]
+    return protected(mean), protected(np.einsum("akp,alp,p->kl", rest, rest, weight))
+
+
+def _unlikeness(
+    pictures: Sequence[PointPicture],
+    found: Sequence[Seen],
+    optics: Optics,
+    azimuth: float,
+    waves: np.ndarray,
+    places: Sequence[np.ndarray],
+) -> np.ndarray:
+    """Return what each candidate leaves of the blurred pictures' squares, summed over pictures, (candidates,)."""
+    rows = _coarse_rows(pictures, optics)
+    basis = pupil_model(SIX).waves(rows.xi, rows.eta, azimuth)
+    fy = np.broadcast_to(rows.fy[:, None], rows.fx.shape)
+    every = np.stack([*basis, -rows.fx, -fy]).astype(np.float32)
+    out = np.zeros(len(waves))
+    for picture, one, place in zip(pictures, found, places, strict=True):
+        total = PixelSum(rows, picture.values.shape, optics, optics.coarse_parts)
+        known = picture.defocus_waves * (rows.xi**2 + rows.eta**2)
+        down, across = (blurring(count, BLUR_PIXELS) for count in picture.values.shape)
+        good = without_spikes(picture)
+        data = down @ np.where(good, picture.values - one.background, 0.0).astype(np.float32) @ across.T
+        square = float(np.sum(data * data))
+        numbers = np.concatenate([waves, place], 1).astype(np.float32)
+        for start in range(0, len(waves), TOGETHER):
+            some = slice(start, start + TOGETHER)
+            light = total.many(wave(np.tensordot(numbers[some], every, 1) + known.astype(np.float32)))
+            blurred = down @ (light * good) @ across.T
+            overlap = np.einsum("cyx,yx->c", blurred, data)
+            out[some] += 1 - overlap**2 / (np.einsum("cyx,cyx->c", blurred, blurred) * square)
+    return out
+
+
+def _coarse_rows(pictures: Sequence[PointPicture], optics: Optics) -> PupilRows:
+    """Return nodes that carry what lands in the windows, to some per cent."""
+    half = max(max(picture.values.shape) for picture in pictures) / 2 * optics.pixel_um
+    return paraxial_rows(counts_for(0.8 * optics.cycles * half, optics.cycles, half / 2), optics.cycles)
