@@ -11,6 +11,7 @@ from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.lens.lens import Lens, indices
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
+from p2sf.pupil.mask_outline import dark_heights
 from p2sf.raytrace.aiming import entrance, pupil_rays
 from p2sf.raytrace.surface import sag_and_slope
 from p2sf_explorer.compute.glass_outlines import Glass, Outline, filling, glass_of, still, vertices, widest_exit
@@ -28,6 +29,7 @@ REACH = 3.0  # rays from infinity begin this many lens lengths before the lens, 
 class Drawing:
     """The glass, which only another lens changes, and stop and sensor; mm.
 
+    ``dark``: from which to which y the mask in the stop covers it, vanes left out.
     ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in the eye. ``left`` and
     ``right``: the ends of glass, mirrors and the way to the sensor.
     """
@@ -40,6 +42,7 @@ class Drawing:
     half_height: float
     left: float
     right: float
+    dark: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -139,6 +142,7 @@ def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
         half_height=max(glass.half_height, stop_rim),
         left=min(glass.left, z[-1]),
         right=max(*z, glass.right),
+        dark=tuple((low * stop_rim, high * stop_rim) for low, high in dark_heights(lens.mask)),
     )
 
 

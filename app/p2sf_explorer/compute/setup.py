@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM
-from p2sf.lens.lens import Lens, check_unmasked, with_mask
+from p2sf.lens.lens import Lens, with_mask
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
 from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
@@ -130,7 +129,6 @@ def paraxial_setup(state: State) -> ParaxialSetup:
     axial = _axial(file_lens, _request(state, None))
     setup = with_field(axial.setup, _request(state, state.optics.field_deg))
     lens, source, stop = masked(setup.lens, state), setup.source, setup.stop
-    check_unmasked(lens, Message("the window"))
     own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     gap = source.depth_mm + float(axial.pupils.entrance_from_first)
     return ParaxialSetup(

@@ -210,6 +210,8 @@ class LayoutChart(Chart):
         wedge = 0.18 * d.half_height + 0.25 * d.stop_rim
         for side in (-1, 1):
             self._bar(painter, 3, d.stop_z, side * d.stop_rim, side * (d.stop_rim + wedge))
+        for low, high in d.dark:
+            self._bar(painter, 3, d.stop_z, low, high)
         self._bar(painter, 2, d.sensor_z, -half, half)
 
     def _paint_ends(self, painter: QPainter) -> None:

@@ -1,15 +1,19 @@
 """Triangle meshes: elements of revolution with a quarter cut away, stop, sensor. No Qt and no pyvista in here."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.mask_outline import opening_radius, vane
 from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, clear_rims, crossed_before, sag, vertices
 
 CUT = (np.pi, 2.5 * np.pi)  # the sweep that remains, from −x over −y and +x to +y: a quarter is cut away
 STEPS = 48  # of the sweep
+IRIS_STEPS = 270  # of the sweep along an iris's edge: one a degree
 RINGS = 12  # of a surface, from axis to rim
 
 SHELL, SHELL_INDEX = 0.04, 2.0  # of its rim: the thickness of a mirror; its look, that of a dense glass
@@ -84,8 +88,11 @@ def _heights(side: Side, radii: np.ndarray) -> np.ndarray:
 def revolved(
     radii: np.ndarray, front: np.ndarray, back: np.ndarray, sweep: tuple[float, float] = CUT, steps: int = STEPS
 ) -> Mesh:
-    """Return the solid swept by the strip between two profiles z(r); ``radii`` (r,) rise from 0 or an inner rim."""
-    count, turns = radii.size, steps + 1
+    """Return the solid swept by the strip between two profiles z(r); ``radii`` rise from 0 or an inner rim.
+
+    They are (r,), or (steps + 1, r) where they change along the sweep.
+    """
+    count, turns = radii.shape[-1], steps + 1
     front_ids = np.arange(count * turns).reshape(turns, count)
     back_ids = front_ids + count * turns
     parts = [
@@ -95,7 +102,7 @@ def revolved(
         _wall(back_ids[0], front_ids[0]),
         _wall(front_ids[-1], back_ids[-1]),
     ]
-    if radii[0] > 0:
+    if np.min(radii) > 0:
         parts.append(_wall(front_ids[:, 0], back_ids[:, 0]))
     sheets = [_sheet(radii, z, sweep, steps) for z in (front, back)]
     return Mesh(np.concatenate(sheets), np.concatenate(parts))
@@ -118,14 +125,41 @@ def _wall(first: np.ndarray, second: np.ndarray) -> np.ndarray:
 
 
 def ring(inner: float, outer: float, z: float, thick: float) -> Mesh:
-    """Return a flat ring about the axis, a quarter cut away: the stop."""
+    """Return a flat ring about the axis, a quarter cut away: the stop; a disc where ``inner`` is 0."""
     radii = np.array([inner, outer])
     return revolved(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2))
 
 
+def masked_stop(mask: PupilMask, rim: float, outer: float, z: float, thick: float) -> Mesh:
+    """Return the stop with what stands in it: the blades of an iris, an obscuration, vanes; mm, ``outer`` its edge."""
+    if not mask.edged:
+        return ring(rim, outer, z, thick)
+    steps = IRIS_STEPS if mask.iris else STEPS
+    inner = rim * opening_radius(mask, np.pi / 2 - np.linspace(*CUT, steps + 1))  # turns go from +x to +y
+    radii = np.stack([inner, np.full(inner.size, outer)], axis=1)
+    parts = [revolved(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2), steps=steps)]
+    if mask.obscuration:
+        parts.append(ring(0.0, mask.obscuration * rim, z, thick))
+    for angle in mask.vane_angles:
+        corners = vane(angle, mask.vane_width)[:, 3::-1].T  # counter-clockwise
+        parts.append(slab(rim * corners, z - thick / 2, thick))
+    return joined(parts)
+
+
+def joined(meshes: Sequence[Mesh]) -> Mesh:
+    """Return several meshes as one."""
+    starts = np.cumsum([0, *(len(mesh.points) for mesh in meshes[:-1])])
+    faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]
+    return Mesh(np.concatenate([mesh.points for mesh in meshes]), np.concatenate(faces))
+
+
 def plate(half: float, z: float, thick: float) -> Mesh:
     """Return a square plate whose front lies at z: the sensor."""
-    corners = half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    return slab(half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]), z, thick)
+
+
+def slab(corners: np.ndarray, z: float, thick: float) -> Mesh:
+    """Return a slab over a quadrangle, ``corners`` (4, 2) counter-clockwise, whose front lies at z."""
     points = np.concatenate([np.c_[corners, np.full(4, depth)] for depth in (z, z + thick)])
     sides = [_wall(np.array([k, (k + 1) % 4]), np.array([k + 4, (k + 1) % 4 + 4])) for k in range(4)]
     faces = [np.array([[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7]]), *(side[:, ::-1] for side in sides)]

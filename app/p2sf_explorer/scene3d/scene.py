@@ -8,7 +8,7 @@ from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.compute.glass_outlines import still
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import visible_colour
-from p2sf_explorer.scene3d.meshes import Element, Mesh, elements, filling, plate, ring
+from p2sf_explorer.scene3d.meshes import Element, Mesh, elements, filling, masked_stop, plate
 from p2sf_explorer.scene3d.ray_bundle import Front, PsfSurface, front, psf_surface, ray_bundle
 
 THICKNESS = 0.012  # of stop and sensor, of the lens's half height
@@ -36,7 +36,7 @@ def scene(live: Live) -> Scene3D:
     half = live.layout.sensor_half
     return Scene3D(
         glass=elements(standing) + filling(standing, drawn.sensor_z),
-        stop=ring(drawn.stop_rim, drawn.stop_rim + wedge, drawn.stop_z, thick),
+        stop=masked_stop(setup.lens.mask, drawn.stop_rim, drawn.stop_rim + wedge, drawn.stop_z, thick),
         sensor=plate(half, drawn.sensor_z, thick),
         rays=rays,
         colour=visible_colour(live.state.optics.wavelength_nm),

@@ -9,6 +9,7 @@ from p2sf.lens.lens import with_mask
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.pupil.mask import PupilMask
 from p2sf.request import Request, set_up
+from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import masked, paraxial_setup, prescription, ranges, request_setup, with_lens
 from p2sf_explorer.state.state import State, changed, entry, new_state
 
@@ -69,3 +70,10 @@ def test_a_mask_moves_with_every_lens_that_the_state_makes_and_leaves_with_the_l
 def test_dragging_the_field_behind_a_mask_makes_no_new_lens():
     near, far = (request_setup(new_state(blades=6, field_deg=field)) for field in (1.0, 2.0))
     assert near.lens is far.lens
+
+
+def test_the_layout_draws_what_the_mask_covers_at_the_stop():
+    state = new_state(obscuration=0.4)
+    shown = layout(paraxial_setup(state)).drawing
+    assert shown.dark == ((pytest.approx(-0.4 * shown.stop_rim), pytest.approx(0.4 * shown.stop_rim)),)
+    assert not layout(paraxial_setup(new_state())).drawing.dark

@@ -6,10 +6,22 @@ import pytest
 from p2sf.lens.lens import Surface, with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import lens_to_toml
+from p2sf.pupil.mask import PupilMask
 from p2sf_explorer.compute.glass_outlines import clear_rims, sag, still, vertices
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.scene3d.meshes import RINGS, STEPS, area, element, elements, plate, revolved, ring, volume
+from p2sf_explorer.scene3d.meshes import (
+    RINGS,
+    STEPS,
+    area,
+    element,
+    elements,
+    masked_stop,
+    plate,
+    revolved,
+    ring,
+    volume,
+)
 from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.state import changed, new_state
 from tests.support.interpreter import loaded_by
@@ -45,7 +57,21 @@ def test_a_ring_and_a_plate_have_their_volume():
     assert volume(plate(4.0, 1.0, 0.5)) == pytest.approx(64 * 0.5)
 
 
-@pytest.mark.parametrize("mesh", [ring(3.0, 5.0, 1.0, 0.5), plate(4.0, 1.0, 0.5)], ids=["ring", "plate"])
+def test_a_masked_stop_has_the_volume_of_its_parts():
+    """Three quarters of the polygon's opening are left, to what the sweep's steps of a degree make of its corners."""
+    iris = masked_stop(PupilMask(blades=4), 3.0, 5.0, 1.0, 0.5)
+    assert volume(iris) == pytest.approx(0.75 * (np.pi * 25 - 2 * 9) * 0.5, rel=2e-3)
+    spider = masked_stop(PupilMask(obscuration=0.4, vanes=3, vane_width=0.05), 3.0, 5.0, 1.0, 0.5)
+    bare = masked_stop(PupilMask(), 3.0, 5.0, 1.0, 0.5)
+    disc, vanes = 0.75 * SIDES * np.pi * 1.2**2 * 0.5, 3 * 3.0 * 0.3 * 0.5
+    assert volume(spider) == pytest.approx(volume(bare) + disc + vanes)
+
+
+MASKS = PupilMask(blades=5, roundness=0.3), PupilMask(vanes=1, vane_width=0.02)
+SOLIDS = ring(3.0, 5.0, 1.0, 0.5), plate(4.0, 1.0, 0.5), *(masked_stop(mask, 3.0, 5.0, 1.0, 0.5) for mask in MASKS)
+
+
+@pytest.mark.parametrize("mesh", SOLIDS, ids=["ring", "plate", "iris", "spider"])
 def test_a_solid_is_closed_and_faces_outwards(mesh):
     """Every edge is shared by two triangles that run along it in opposite directions."""
     _, same = np.unique(mesh.points.round(9), axis=0, return_inverse=True)
