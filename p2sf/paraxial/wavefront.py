@@ -30,6 +30,12 @@ def wavefront(coefficients: Coefficients, xi: FloatOrArray, eta: FloatOrArray, t
     return blur + w11 * eta if tilt else blur
 
 
+def shapes(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    """Return what W40, W31, W22 and W20 + Wd are the coefficients of, at pupil points, (4, points)."""
+    square = xi * xi + eta * eta
+    return np.stack([square**2, square * eta, eta**2, square])
+
+
 def shape_coefficients(
     coefficients: Coefficients, tilt: bool = False
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, FloatOrArray]:
@@ -68,8 +74,14 @@ def steepest_of(shape: np.ndarray) -> np.ndarray:
 
 def steepest_polar(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
     """Return the largest |∂W/∂ρ| and |∂W/∂θ|, waves, within 1 %: what radial and angular sampling must resolve."""
-    steepest = np.sqrt(_slopes(spread(*shape_coefficients(coefficients)[:4]), _polar_basis()).max(-1))
+    steepest = polar_of(spread(*shape_coefficients(coefficients)[:4]))
     return steepest[..., 0], steepest[..., 1]
+
+
+def polar_of(shape: np.ndarray) -> np.ndarray:
+    """Return `steepest_polar`, (…, 2), of W40, W31, W22, W20 + Wd in the last axis."""
+    steepest: np.ndarray = np.sqrt(_slopes(shape, _polar_basis()).max(-1))
+    return steepest
 
 
 def steepest_chords(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:

@@ -11,14 +11,18 @@ from p2sf.conventions import centred_axis
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.psf.disc_rows import discs, edges_of_fit, intensity_over, of_fit, takes_rows
 from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.psf.prediction import predicted_error
 from p2sf.psf.result import Psf
-from p2sf.psf.separable_sum import rows_for, too_many
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
+from p2sf.psf.separable_sum import too_many
+from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.vignetting import masked_blur
 from p2sf.threads import one_blas_thread
 
 __all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "psf_of_fit", "summed"]
@@ -55,47 +59,48 @@ def psf_of_fit(
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     error = predicted_error(found.error_waves, "fitted")
     made = Origin("fitted", found.numbers, found.rays, sampling, started, tolerance, error)
-    blur = found.blur_um2 if resolved(found.steepness.spread, window[1]) else None
+    blur = masked_blur(found) if resolved(found.steepness.spread, window[1]) else None
     return psf_from_intensity(intensity, window[1], wavelength_um, blur, made)
 
 
 def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
     """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and the nodes it took."""
-    nodes = rows_for(found, pixels, pixel_um, quality)
     dtype = np.float64 if quality == "settled" else np.float32
-    if nodes is None:
+    parts = discs(found, pixels, pixel_um, quality) if takes_rows(found.mask) else None
+    if parts is None:
         counts = counts_for(found.steepness, pixels, pixel_um)
         if counts[0] * counts[1] > MOST_NODES:
             raise too_many(*counts, pixels, pixel_um)
-        intensity = fitted_intensity(found, counts, pixels, pixel_um, dtype)
-        return intensity, Message("{nodes}, {precision}", nodes=disc_words(counts), precision=intensity.dtype.name)
-    phase, fx = found.at_points(nodes.xi, nodes.eta)
-    intensity = nodes.intensity(phase, fx, pixels, pixel_um, dtype)
-    return intensity, Message("{nodes}, {precision}", nodes=nodes.words, precision=intensity.dtype.name)
+        intensity, words = fitted_intensity(found, counts, pixels, pixel_um, dtype), disc_words(counts)
+    else:
+        edges = edges_of_fit(found, pixels, pixel_um, dtype)
+        intensity, words = intensity_over(parts, of_fit, edges, pixels, pixel_um, dtype), parts[0].rows.words
+    return intensity, Message("{nodes}, {precision}", nodes=words, precision=intensity.dtype.name)
 
 
 def fitted_intensity(
     found: FittedPencil, counts: tuple[int, int], pixels: int, pixel_um: float, dtype: DTypeLike = np.float64
 ) -> np.ndarray:
-    """Return |Σ weight·exp(2πi(w + f·x))|² of a fit over disc nodes, (pixels, pixels): the plain sum."""
-    nodes, axis = disc_nodes(*counts), centred_axis(pixels, pixel_um)
-    weight = nodes.weight * found.weight_at(nodes.xi, nodes.eta)
+    """Return |Σ weight·exp(2πi(w + f·x))|² of a fit over its open pupil, (pixels, pixels): the plain sum."""
+    nodes, axis = mask_nodes(found.mask, *counts), centred_axis(pixels, pixel_um)
+    weight = nodes.weight * nodes.amplitude * found.weight_at(nodes.xi, nodes.eta)
     weight /= weight.sum() / nodes.weight.sum()
     field = np.zeros((pixels, pixels), np.result_type(dtype, np.complex64))
-    for some, (phase, fx, fy) in _at_nodes(found, counts):
+    for some, (phase, fx, fy) in _at_nodes(found, nodes, counts):
+        phase = phase + nodes.part(some).path_um / found.wavelength_um if found.mask.phased else phase
         amplitude = pupil_amplitude(weight[some], phase, dtype)
-        field += sum_plane_waves(amplitude, fx.astype(dtype), fy.astype(dtype), axis, axis)
+        field += sum_plane_waves(amplitude, fx.astype(dtype), fy.astype(dtype), axis, axis, nodes.even)
     intensity: np.ndarray = field.real**2 + field.imag**2
     return intensity
 
 
-def _at_nodes(found: FittedPencil, counts: tuple[int, int]) -> Iterator[tuple[slice, Values]]:
-    """Yield phase, fx and fy of a fit at disc nodes, in blocks: of millions of nodes a basis takes gigabytes."""
+def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: tuple[int, int]) -> Iterator[tuple[slice, Values]]:
+    """Yield phase, fx and fy of a fit at its nodes, in blocks: of millions of nodes a basis takes gigabytes."""
     orders = max(found.level.wave_order, found.level.map_order), found.level.map_order
-    if counts[0] * counts[1] <= MOST_KEPT:
-        yield slice(None), found.on(_kept_basis(orders[0], *counts, False), _kept_basis(orders[1], *counts, True))
+    if nodes.xi.size <= MOST_KEPT // 2:
+        even, odd = (_kept_basis(orders[flag], *counts, flag, found.mask) for flag in (False, True))
+        yield slice(0, nodes.xi.size), found.on(even, odd)
         return
-    nodes = disc_nodes(*counts)
     for begin in range(0, nodes.xi.size, MOST_KEPT):
         some = slice(begin, begin + MOST_KEPT)
         at = nodes.xi[some], nodes.eta[some]
@@ -103,6 +108,6 @@ def _at_nodes(found: FittedPencil, counts: tuple[int, int]) -> Iterator[tuple[sl
 
 
 @lru_cache(maxsize=8)
-def _kept_basis(order: int, radial: int, angular: int, odd: bool) -> np.ndarray:
-    nodes = disc_nodes(radial, angular)
+def _kept_basis(order: int, radial: int, angular: int, odd: bool, mask: PupilMask) -> np.ndarray:
+    nodes = mask_nodes(mask, radial, angular)
     return basis(order, nodes.xi, nodes.eta, odd)

@@ -22,12 +22,14 @@ from p2sf.messages import Message
 from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
 from p2sf.psf.prediction import EDGE_ERROR
 from p2sf.psf.result import Psf
+from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import Pencil, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
-from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, pencil_blur, radiometric, whole_nodes
+from p2sf.raytrace.seen_mask import with_slopes
+from p2sf.raytrace.vignetting import clear_nodes, pencil_blur, pupil_nodes, radiometric
 from p2sf.threads import for_each, one_blas_thread
 
 BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
@@ -79,7 +81,6 @@ def huygens_psf(
     GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there, and the
     radiometric amplitude is refused.
     """
-    check_unmasked(lens, Message("the method huygens"))
     started = perf_counter()
     window = pixels, pixel_um
     pupil = fit(lens, source) if amplitude == "radiometric" else None
@@ -156,7 +157,8 @@ def first_counts(lens: Lens, source: Source, window: Window, clip: bool) -> Coun
     rays = _probing(lens, source)
     if not rays.passed.any():
         raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
-    counts = counts_for(steepness(ray_data(rays), xi, eta), *window)
+    steep = with_slopes(steepness(ray_data(rays), xi, eta), lens.mask, source.wavelength_um)
+    counts = counts_for(steep, *window)
     if _nodes(counts) > MOST_NODES:
         raise SamplingError(
             "this blur over {pixels} pixels of {pixel_um:g} µm needs {rays} rays; bring the sensor nearer to the "
@@ -198,15 +200,16 @@ def huygens_field(
     def waves() -> Iterator[PlaneWaves]:
         nonlocal lost, spread, area, light
         for first in range(0, nodes.xi.size, BLOCK):
-            part = slice(first, first + BLOCK)
-            data, share = _block(lens, source, nodes, part)
-            weight = share * data.weight
+            some = nodes.part(slice(first, first + BLOCK))
+            data, share = _block(lens, source, some)
+            weight = share * some.amplitude * data.weight
             if pupil is not None:
-                weight = share * radiometric(data.weight, pupil.jacobian(nodes.xi[part], nodes.eta[part]))
+                weight = share * some.amplitude * radiometric(data.weight, pupil.jacobian(some.xi, some.eta))
             area, light = area + share.sum(), light + weight.sum()
             lost += int((share == 0).sum())
             spread = max(spread, float(np.hypot(data.fx, data.fy).max(initial=0)))
-            columns = pupil_amplitude(weight, data.phase, dtype), data.fx.astype(dtype), data.fy.astype(dtype)
+            phase = data.phase + some.path_um / source.wavelength_um
+            columns = pupil_amplitude(weight, phase, dtype), data.fx.astype(dtype), data.fy.astype(dtype)
             for start in range(0, weight.size, TOGETHER):
                 amplitude, fx, fy = (column[start : start + TOGETHER] for column in columns)
                 yield amplitude, fx, fy
@@ -217,7 +220,7 @@ def huygens_field(
         watch.advance(summed[1])
 
     # Rays are traced here, in turn; the products, nearly all of the work, by threads.
-    for_each(lambda some: (sum_plane_waves(*some, axis, axis), some[0].size), waves(), take)
+    for_each(lambda some: (sum_plane_waves(*some, axis, axis, nodes.even), some[0].size), waves(), take)
     # Light over area is the mean weight, exactly 1 for an evenly filled pupil.
     return Field(np.asarray(total) / (light / area), blur if resolved(spread, window[1]) else None, lost)
 
@@ -225,8 +228,9 @@ def huygens_field(
 def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNodes:
     """Return nodes up to where rays end: at the pupil's rim, at clear apertures, or where they miss a surface."""
     if clip or not all_reach(lens, source):
+        check_unmasked(lens, Message("a pupil that ends at rims or where rays are lost"))
         return clear_nodes(lens, source, counts, clip)
-    return whole_nodes(counts)
+    return pupil_nodes(lens, source, counts)
 
 
 @lru_cache(maxsize=16)
@@ -241,9 +245,9 @@ def _probing(lens: Lens, source: Source) -> Pencil:
     return pencil(lens, source, *_probe())
 
 
-def _block(lens: Lens, source: Source, nodes: ClearNodes, part: slice) -> tuple[RayData, np.ndarray]:
-    rays = pencil(lens, source, nodes.xi[part], nodes.eta[part])
-    data, weight = ray_data(rays), nodes.weight[part]
+def _block(lens: Lens, source: Source, nodes: ClearNodes) -> tuple[RayData, np.ndarray]:
+    rays = pencil(lens, source, nodes.xi, nodes.eta)
+    data, weight = ray_data(rays), nodes.weight
     if rays.passed.all():
         return data, weight
     columns = (np.where(rays.passed, column, 0.0) for column in vars(data).values())

@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, RequestError, SamplingError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
@@ -30,10 +30,12 @@ from p2sf.psf.seidel import (
     suitable_pixel_um,
 )
 from p2sf.psf.traced import traced_psf
+from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, fit, fit_rays, level_rays, levels
+from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, Judges, behind, fit, fit_rays, judging_rays, level_rays, levels
 from p2sf.raytrace.pencil import hexapolar, pencil
-from p2sf.raytrace.ray_field import ray_data, steepness
+from p2sf.raytrace.ray_field import RayData, ray_data, steepness
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be asked of a choice
@@ -107,7 +109,6 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
     Raises GeometryError where the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
     """
-    check_unmasked(lens, Message("the choice of a method"))
     _check_tolerance(tolerance, BELOW_ONE)
     allowed = 1 - tolerance
     xi, eta, weight = level_rays(QUICK_LEVELS[0])
@@ -118,15 +119,15 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
         return _by_rays(Choice("traced", EDGE_ERROR, 0, lost, xi.size, allowed), EDGE_ERROR)
     data = ray_data(rays)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    steep = steepness(data, xi, eta)
-    seidel = inf
-    if np.isfinite(c.w40):
-        seidel = predicted_error(seidel_sigma(c, data, (xi, eta, weight), steep.light_um), "seidel")
+    steep, mask = steepness(data, xi, eta), mask_seen(lens, source)
+    judges = None if mask.clear else judging_rays(lens, source, mask)
+    seidel = _seidel_error(c, (xi, eta, weight), data, judges, mask) if np.isfinite(c.w40) else inf
     tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
     if seidel <= allowed:
         return tried
     for level in levels(lens.aim)[: len(QUICK_LEVELS)]:
         found = fit_rays(data, level, level.rays, steep)
+        found = found if judges is None else behind(found, judges)
         fitted = predicted_error(found.error_waves, "fitted")
         if fitted <= allowed:
             return replace(tried, method="fitted", predicted_error=fitted, numbers=level.numbers, fitted_error=fitted)
@@ -154,9 +155,24 @@ def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
         return inf
     if not rays.passed.all():
         return inf
-    data = ray_data(rays)
-    spread = steepness(data, xi, eta).light_um
-    return predicted_error(seidel_sigma(c, data, (xi, eta, weight), spread), "seidel")
+    mask = mask_seen(lens, source)
+    judges = None if mask.clear else judging_rays(lens, source, mask)
+    return _seidel_error(c, (xi, eta, weight), ray_data(rays), judges, mask)
+
+
+def _seidel_error(
+    c: Coefficients,
+    points: tuple[np.ndarray, np.ndarray, np.ndarray],
+    data: RayData,
+    judges: Judges | None,
+    mask: PupilMask,
+) -> float:
+    """Return the predicted 1 − R² of six coefficients from rays, where there is a mask from those that pass it."""
+    # A narrow ring spreads its light so much more.
+    spread = steepness(data, *points[:2]).light_um / (1 - mask.obscuration)
+    if judges is not None:
+        points, data = (judges.xi, judges.eta, judges.share), judges.data
+    return predicted_error(seidel_sigma(c, data, points, spread), "seidel")
 
 
 @one_blas_thread
@@ -220,10 +236,10 @@ def _by_method(
     if clip and method in ("seidel", "fitted"):
         _check_unclipped(lens, source, method)
     if method == "seidel":
-        check_unmasked(lens, Message("the method seidel"))
         check_seidel(lens)
         c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-        return replace(seidel_psf(c, *window, quality), predicted_error=seidel_error(lens, source, c))
+        psf = seidel_psf(c, *window, quality, mask=mask_seen(lens, source))
+        return replace(psf, predicted_error=seidel_error(lens, source, c))
     if method == "fitted":
         started = perf_counter()
         found = fit(lens, source, numbers, residual_waves=residual_for(tolerance))

@@ -14,6 +14,8 @@ from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf._seidel_sum import wave_number
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, corner_reach, stack_of
+from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
 from p2sf.pupil.transform import check_fft, padded_fft, sum_plane_waves
 from p2sf.threads import one_blas_thread
@@ -34,8 +36,12 @@ def seidel_psf(
     sampling: str = "mdft",
     dtype: DTypeLike | None = None,
     threads: int | None = None,
+    mask: PupilMask = CLEAR,
 ) -> Psf:
     """Return the PSF of the six coefficients over a uniform circular pupil, |FT{exp(i2πW)}|² (Pieroni et al. 2015).
+
+    ``mask``: what else stands in the pupil, in the coordinates of the source (`raytrace.seen_mask`); ``sampling`` "fft"
+    knows none.
 
     Coefficients of any shape give a stack (…, pixels, pixels) at one pitch; without ``pixel_um`` the one that
     shows the widest of them. ``quality``: "settled" keeps a relative L2 error of 1e-4, "preview" is a 128² grid
@@ -49,12 +55,14 @@ def seidel_psf(
     check_image(coefficients)
     pixel_um = check_window(coefficients, pixels, pixel_um)
     if sampling == "fft":
+        if not mask.clear:
+            raise SamplingError("an FFT of square samples shows no edges of a mask; use mdft")
         stack = _by_fft(coefficients, pixels, pixel_um, quality)
     else:
         dtype = dtype or (np.float32 if quality == "preview" else np.float64)
-        stack = stack_of(coefficients, pixels, pixel_um, quality, dtype, threads)
+        stack = stack_of(coefficients, pixels, pixel_um, quality, dtype, threads, mask)
     tolerance = SETTLED_TOLERANCE if (quality, sampling) == ("settled", "mdft") else None
-    return _result(coefficients, stack, pixel_um, tolerance, start)
+    return _result(coefficients, stack, pixel_um, tolerance, start, mask)
 
 
 def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) -> np.ndarray:
@@ -115,10 +123,15 @@ def fft_intensity(coefficients: Coefficients, pixels: int, pixel_um: float, pupi
 
 
 def _result(
-    coefficients: Coefficients, stack: SummedStack, pixel_um: float, tolerance: float | None, start: float
+    coefficients: Coefficients,
+    stack: SummedStack,
+    pixel_um: float,
+    tolerance: float | None,
+    start: float,
+    mask: PupilMask,
 ) -> Psf:
     wavelength, single = coefficients.wavelength_um, stack.values.ndim == 2
-    energy = energy_fraction(coefficients, stack.total, pixel_um)
+    energy = energy_fraction(coefficients, stack.total, pixel_um, throughput(mask).spreading)
     return Psf(
         values=stack.values,
         pixel_um=pixel_um,
@@ -134,17 +147,20 @@ def _result(
     )
 
 
-def energy_fraction(coefficients: Coefficients, total: float | np.ndarray, pixel_um: float) -> np.ndarray | None:
+def energy_fraction(
+    coefficients: Coefficients, total: float | np.ndarray, pixel_um: float, spreading: float = 1.0
+) -> np.ndarray | None:
     """Return the fraction of all light in a window whose samples, in units of the unaberrated peak, sum to ``total``.
 
     The field is the transform of a disc of radius NA/λ and amplitude 1/(π(NA/λ)²), so by Parseval all the light is
     1/(π(NA/λ)²), whatever W: a sample of 1 is π(NA·pixel/λ)² of it. None where the pitch is above λ/(2 NA), since
-    the sum of samples is then no integral.
+    the sum of samples is then no integral. ``spreading``: how much larger all the light of a mask is
+    (`mask_nodes.Throughput`).
     """
     cycles = np.abs(wave_number(coefficients)) * pixel_um
     if anywhere(cycles > 0.5):
         return None
-    fraction: np.ndarray = total * (np.pi * cycles**2)
+    fraction: np.ndarray = total * (np.pi * cycles**2) / spreading
     return fraction
 
 

@@ -6,18 +6,34 @@ much as several PSFs, so smaller batches would save less than they cost.
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import ceil, sqrt
 
 import numpy as np
 from numpy.typing import DTypeLike
 
+from p2sf.conventions import centred_axis, protected
 from p2sf.errors import SamplingError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.paraxial.wavefront import bound_of, chords_of, steepest_of
-from p2sf.psf._seidel_sum import BATCH, batch_intensities, groups, shape_terms
-from p2sf.pupil.quadrature import RowNodes, chord_rows, chords_for, even_count, grid_rows
+from p2sf.paraxial.wavefront import bound_of, chords_of, polar_of, shapes, steepest_of, steepest_polar, wavefront
+from p2sf.psf._seidel_sum import (
+    BATCH,
+    annulus_fields,
+    batch_intensities,
+    groups,
+    scaled_shape,
+    shape_terms,
+    unfolded,
+    wave_number,
+    whole_fields,
+)
+from p2sf.psf.plane_waves import disc_words, pupil_amplitude
+from p2sf.pupil.mask import CLEAR, EDGE_HARMONICS, PupilMask, mask_slopes
+from p2sf.pupil.mask_nodes import edge_nodes, mask_nodes
+from p2sf.pupil.quadrature import RowNodes, chord_rows, chords_for, even_count, grid_rows, nodes_for
+from p2sf.pupil.transform import sum_plane_waves
 from p2sf.threads import mapped, one_blas_thread, threads_or_default
 
 PREVIEW_GRID = 128
@@ -46,24 +62,34 @@ def stack_of(
     quality: str,
     dtype: DTypeLike,
     threads: int | None = None,
+    mask: PupilMask = CLEAR,
 ) -> SummedStack:
     """Return the PSFs of broadcast coefficients by `_seidel_sum`; SamplingError for too many pupil samples.
 
-    ``threads`` as in `p2sf.threads`; the PSFs are the same on any number of them.
+    ``threads`` as in `p2sf.threads`; the PSFs are the same on any number of them. Of a ``mask`` without maps and phases
+    the disc and the obscuration are summed in rows, and what vanes and blades cover node by node, else all. A preview
+    of one takes settled nodes in ``dtype``, for the edge of an obscuration shows the cells of a grid.
     """
+    if mask.phased or mask.amplitude_map is not None:
+        return _node_by_node(coefficients, pixels, pixel_um, dtype, mask)
     terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
     values = np.empty((len(terms), pixels, pixels), dtype)
     total, peak = np.empty(len(terms)), np.empty(len(terms))
 
     def fill(parts: list[Part]) -> RowNodes:
+        taken = []
         for some, rows in parts:
-            found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
+            if mask.clear:
+                found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
+            else:
+                found, rows = _masked_batch(terms[some], pixels, pixel_um, mask, dtype)
             flat = found.reshape(len(found), -1)
             total[some], peak[some] = np.add.reduce(flat, 1, float), np.maximum.reduce(flat, 1)
             flat /= total[some, None].astype(dtype)
             values[some] = found
-        return max((rows for _, rows in parts), key=_size)
+            taken.append(rows)
+        return max(taken, key=_size)
 
     parts = stack_parts(terms, pixels, pixel_um, quality)
     if len(terms) == 1:  # sharing it out would take a tenth of its time
@@ -79,6 +105,90 @@ def stack_of(
         precision=values.dtype.type.__name__,
     )
     return SummedStack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), sampling)
+
+
+def _masked_batch(
+    terms: np.ndarray, pixels: int, pixel_um: float, mask: PupilMask, dtype: DTypeLike
+) -> tuple[np.ndarray, RowNodes]:
+    """Return the PSFs of `shape_terms` of one n'u'/λ behind a mask, in units of the unaberrated peak, and the rows."""
+    pieces = _pieces(terms, pixels, pixel_um, mask)
+    even, odd, amplitude = annulus_fields(terms, pixels, pixel_um, pieces, dtype)
+    reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)
+    slope, twist = (polar_of(terms[:, :4]).max(0) + EDGE_HARMONICS * mask_slopes(mask).amplitude).tolist()
+    nodes = edge_nodes(mask, *nodes_for(slope, reach, twist))
+    if nodes is None:
+        return unfolded(even / amplitude, odd / amplitude, pixels), pieces[0][1]
+    weight = nodes.weight * nodes.amplitude
+    waves = terms[:, :4] @ shapes(nodes.xi, nodes.eta)
+    kx, ky = ((terms[0, 4] * x).astype(dtype) for x in (nodes.xi, nodes.eta))
+    axis = centred_axis(pixels, pixel_um)
+    fields = sum_plane_waves(pupil_amplitude(weight, waves, dtype), kx, ky, axis, axis, nodes.even)
+    fields += whole_fields(even, odd, pixels)
+    fields /= amplitude + float(weight.sum())
+    return fields.real**2 + fields.imag**2, pieces[0][1]
+
+
+def _pieces(terms: np.ndarray, pixels: int, pixel_um: float, mask: PupilMask) -> tuple[tuple[float, RowNodes], ...]:
+    """Return the radii of the disc and of the obscuration in it, and the rows that carry each."""
+    made = []
+    for radius in (1.0, mask.obscuration) if mask.obscuration else (1.0,):
+        reach = corner_reach(radius * abs(float(terms[0, 4])), pixels, pixel_um)
+        slopes = chords_of(terms[:, :4] * scaled_shape(radius)).max(0)
+        slopes += EDGE_HARMONICS * mask_slopes(mask).amplitude * mask.shaded
+        made.append((radius, shaded_rows(_rows(slopes, reach, "settled"), mask, radius)))
+    return tuple(made)
+
+
+@lru_cache(maxsize=32)
+def shaded_rows(rows: RowNodes, mask: PupilMask, radius: float) -> RowNodes:
+    """Return rows over a disc of this radius with the mask's amplitude in their weights, which then sum to its mean."""
+    if not mask.shaded:
+        return rows
+    xi, eta = radius * (rows.xi + 0 * rows.weight), radius * rows.eta[:, None]
+    return replace(rows, weight=protected(rows.weight * mask.amplitude(xi, eta)))
+
+
+def _node_by_node(
+    coefficients: Coefficients, pixels: int, pixel_um: float, dtype: DTypeLike, mask: PupilMask
+) -> SummedStack:
+    """Return the PSFs over what a mask leaves open, one after the other."""
+    columns = [np.asarray(x, float) for x in vars(coefficients).values()]
+    shape = np.broadcast_shapes(*(x.shape for x in columns))
+    flat = zip(*(np.broadcast_to(x, shape).ravel() for x in columns), strict=True)
+    planes, counts = [], (0, 0)
+    for one in flat:
+        plane, counts = masked_intensity(Coefficients(*one), pixels, pixel_um, mask, dtype)
+        planes.append(plane)
+    values = np.reshape(planes, (*shape, pixels, pixels)).astype(dtype)
+    total, peak = values.sum((-2, -1), dtype=float), values.max((-2, -1))
+    sampling = Message("{nodes}, {precision}", nodes=disc_words(counts), precision=values.dtype.type.__name__)
+    return SummedStack(values / total[..., None, None].astype(dtype), total, peak, sampling)
+
+
+def masked_intensity(
+    coefficients: Coefficients, pixels: int, pixel_um: float, mask: PupilMask, dtype: DTypeLike = np.float64
+) -> tuple[np.ndarray, tuple[int, int]]:
+    """Return one PSF over what a mask leaves open, in units of the unaberrated peak, and its (radial, angular) nodes.
+
+    The path of the mask delays the wave, so it counts with a negative sign in W. Raises SamplingError.
+    """
+    slope, twist = (float(x) for x in steepest_polar(coefficients))
+    scale, wavelength = float(wave_number(coefficients)), float(coefficients.wavelength_um)
+    slopes, reach = mask_slopes(mask), corner_reach(abs(scale), pixels, pixel_um)
+    edges = EDGE_HARMONICS * slopes.amplitude
+    counts = nodes_for(
+        slope + slopes.path_radial_um / wavelength + edges, reach, twist + slopes.path_angular_um / wavelength + edges
+    )
+    if counts[0] * counts[1] > 4 * LARGEST_NODES:
+        raise _too_many(slope, reach, *counts)
+    nodes, axis = mask_nodes(mask, *counts), centred_axis(pixels, pixel_um)
+    waves = wavefront(coefficients, nodes.xi, nodes.eta) - nodes.path_um / wavelength
+    weight = nodes.weight * nodes.amplitude
+    pupil = pupil_amplitude(weight / weight.sum(), waves, dtype)
+    kx, ky = ((scale * x).astype(dtype) for x in (nodes.xi, nodes.eta))
+    field = sum_plane_waves(pupil, kx, ky, axis, axis, nodes.even)
+    intensity: np.ndarray = field.real**2 + field.imag**2
+    return intensity, counts
 
 
 def _size(rows: RowNodes) -> int:
@@ -146,12 +256,16 @@ def _rows(slopes: np.ndarray, reach: float, quality: str) -> RowNodes:
     else:
         rows = columns = max(PREVIEW_GRID, even_count(_grid_samples(float(slopes[0]), reach)))
     if rows * columns > 4 * LARGEST_NODES:
-        raise SamplingError(
-            "a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil "
-            "samples; bring the sensor nearer to the image, stop down, or show a smaller window",
-            slope=float(slopes.max()),
-            cycles=reach,
-            rows=rows,
-            columns=columns,
-        )
+        raise _too_many(float(slopes.max()), reach, rows, columns)
     return chord_rows(rows, columns) if quality == "settled" else grid_rows(rows)
+
+
+def _too_many(slope: float, reach: float, rows: int, columns: int) -> SamplingError:
+    return SamplingError(
+        "a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil "
+        "samples; bring the sensor nearer to the image, stop down, or show a smaller window",
+        slope=slope,
+        cycles=reach,
+        rows=rows,
+        columns=columns,
+    )

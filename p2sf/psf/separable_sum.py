@@ -40,7 +40,7 @@ SETTLED = 1e-5  # a last step this small leaves its square, 1e-10 of the pupil: 
 class FrequencyRows:
     """Nodes on ξ > 0, with weights that count the mirror images too: ``fy`` (rows,), the rest (rows, nodes).
 
-    The weights are areas times the light of unit area there, and sum to 1.
+    The weights are areas times the light of unit area there, and sum to 1; ``light`` is the mean of that light.
     The sum takes ``columns`` columns, those at ξ < 0 included. Functions along a row are smooth and even in ξ, so
     where a row has fewer nodes the polynomial through them gives the values at the other columns.
     """
@@ -50,11 +50,13 @@ class FrequencyRows:
     eta: np.ndarray
     weight: np.ndarray
     columns: int
+    light: float = 1.0
 
     def lit(self, light: np.ndarray) -> "FrequencyRows":
         """Return the same nodes with weights times ``light``, (rows, nodes), again of unit sum."""
         weight = self.weight * light
-        return replace(self, weight=weight / (weight.sum() / self.weight.sum()))
+        mean = float(weight.sum() / self.weight.sum())
+        return replace(self, weight=weight / mean, light=self.light * mean)
 
     @property
     def words(self) -> Message:
@@ -67,6 +69,12 @@ class FrequencyRows:
         self, phase: np.ndarray, fx: np.ndarray, pixels: int, pixel_um: float, dtype: DTypeLike = np.float64
     ) -> np.ndarray:
         """Return the intensity (y, x) of phases in waves and fx in cycles/µm, (rows, nodes), on a centred grid."""
+        return mirrored_intensity(self.field(phase, fx, pixels, pixel_um, dtype), pixels)
+
+    def field(
+        self, phase: np.ndarray, fx: np.ndarray, pixels: int, pixel_um: float, dtype: DTypeLike = np.float64
+    ) -> np.ndarray:
+        """Return the field at x ≥ 0, (pixels, pixels//2 + 1): that at −x is the same."""
         together = max(1, IN_MEMORY // self.columns)
         field = np.zeros((pixels, pixels // 2 + 1), np.result_type(dtype, np.complex64))
         for first in range(0, len(self.fy), together):
@@ -74,8 +82,7 @@ class FrequencyRows:
             part = FrequencyRows(self.fy[some], self.xi[some], self.eta[some], self.weight[some], self.columns)
             weight, waves, cycles = part.on_columns(phase[some], fx[some])
             field += sum_rows(pupil_amplitude(weight, waves, dtype), cycles, part.fy, pixels, pixel_um)
-        intensity: np.ndarray = field.real**2 + field.imag**2
-        return intensity[:, np.abs(np.arange(pixels) - pixels // 2)]
+        return field
 
     def on_columns(self, phase: np.ndarray, fx: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return weights, phases and fx at all columns, (rows, columns/2), from those at the nodes."""
@@ -86,6 +93,12 @@ class FrequencyRows:
         refine = _refining(few, self.columns)
         weight = (self.weight / share) @ refine
         return weight * wanted_share, phase @ refine, (fx / place) @ refine * wanted
+
+
+def mirrored_intensity(field: np.ndarray, pixels: int) -> np.ndarray:
+    """Return |field|² on a centred grid, (pixels, pixels), from the field at x ≥ 0."""
+    intensity: np.ndarray = field.real**2 + field.imag**2
+    return intensity[:, np.abs(np.arange(pixels) - pixels // 2)]
 
 
 def rows_for(

@@ -12,21 +12,26 @@ from functools import lru_cache
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.psf.disc_rows import Disc, EdgeField, discs, edge_field, intensity_over, takes_rows
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.plane_waves import Origin, psf_from_intensity, resolved
+from p2sf.psf.plane_waves import Origin, counts_for, psf_from_intensity, resolved
 from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
-from p2sf.psf.separable_sum import FrequencyRows, rows_for
+from p2sf.psf.separable_sum import FrequencyRows
+from p2sf.pupil.mask_nodes import edge_nodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.aiming import SUM_AIM_ERROR
 from p2sf.raytrace.fit import FittedPencil, fit, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.vignetting import masked_blur
 from p2sf.threads import one_blas_thread
 
 # A fifth-order pupil map at least: terms of second order in its error are then below 1e-5 of R² on every stored row.
@@ -51,34 +56,32 @@ def traced_psf(
     reference is, to FALLBACK_TOLERANCE, which takes long: ``cancelled`` is called between blocks of them (`Cancelled`).
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
-    check_unmasked(lens, Message("the method traced"))
     started = perf_counter()
-    rows = None if clip else _rows(lens, source, (pixels, pixel_um), quality)
-    if rows is None:
+    parts = None if clip else _parts(lens, source, (pixels, pixel_um), quality)
+    if parts is None:
         tolerance = FALLBACK_TOLERANCE if quality == "settled" else None
         one_by_one = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, clip)
         return replace(one_by_one, method="traced", predicted_error=EDGE_ERROR)
-    found, nodes = rows
-    nodes, phase, fx = exact_rows(lens, source, found, nodes)
-    intensity = nodes.intensity(phase, fx, pixels, pixel_um, np.float64 if quality == "settled" else np.float32)
+    dtype = np.float64 if quality == "settled" else np.float32
+    found, nodes = parts[0].found, parts[0].rows
+    edges = _edges(lens, source, found, (pixels, pixel_um), dtype)
+    intensity = intensity_over(parts, lambda disc: exact_rows(lens, source, disc), edges, pixels, pixel_um, dtype)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     sampling = Message("{nodes}, {precision}", nodes=nodes.words, precision=intensity.dtype.name)
-    made = Origin("traced", 0, found.rays + nodes.xi.size, sampling, started, tolerance, TRACED_ERROR)
-    blur = found.blur_um2 if resolved(found.steepness.spread, pixel_um) else None
+    rays = found.rays + sum(disc.rows.xi.size for disc in parts)
+    made = Origin("traced", 0, rays, sampling, started, tolerance, TRACED_ERROR)
+    blur = masked_blur(found) if resolved(found.steepness.spread, pixel_um) else None
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made)
 
 
 def in_rows(lens: Lens, source: Source) -> bool:
     """Return whether a fit puts the rays of the whole pupil in rows, so that `traced_psf` is fast."""
-    return _fit(lens, source) is not None
+    return takes_rows(mask_seen(lens, source)) and _fit(lens, source) is not None
 
 
-def _rows(
-    lens: Lens, source: Source, window: tuple[int, float], quality: str
-) -> tuple[FittedPencil, FrequencyRows] | None:
+def _parts(lens: Lens, source: Source, window: tuple[int, float], quality: str) -> tuple[Disc, ...] | None:
     found = _fit(lens, source)
-    nodes = None if found is None else rows_for(found, *window, quality)
-    return None if found is None or nodes is None else (found, nodes)
+    return None if found is None or not takes_rows(found.mask) else discs(found, *window, quality)
 
 
 @lru_cache(maxsize=2)
@@ -93,12 +96,23 @@ def _fit(lens: Lens, source: Source) -> FittedPencil | None:
     return None if found.error_waves > RESIDUAL_WAVES else found
 
 
-def exact_rows(
-    lens: Lens, source: Source, found: FittedPencil, nodes: FrequencyRows
-) -> tuple[FrequencyRows, np.ndarray, np.ndarray]:
-    """Return the rows of a fit with exact weights, and exact phase (waves) and fx (cycles/µm), (rows, nodes)."""
+def _edges(
+    lens: Lens, source: Source, found: FittedPencil, window: tuple[int, float], dtype: DTypeLike
+) -> EdgeField | None:
+    """Return the field of what vanes and blades cover, by exact rays; None where there are none."""
+    nodes = edge_nodes(found.mask, *counts_for(found.steepness, *window))
+    if nodes is None:
+        return None
+    rays = ray_data(pencil(lens, source, nodes.xi, nodes.eta, aim_error=SUM_AIM_ERROR))
+    return edge_field(nodes, rays.weight, (rays.phase, rays.fx, rays.fy), source.wavelength_um, window, dtype)
+
+
+def exact_rows(lens: Lens, source: Source, disc: Disc) -> tuple[FrequencyRows, np.ndarray, np.ndarray]:
+    """Return the rows of a disc with exact weights, and exact phase (waves) and fx (cycles/µm), (rows, nodes)."""
+    found, nodes = disc.found, disc.rows
     shape = nodes.xi.shape
-    rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel(), aim_error=SUM_AIM_ERROR))
+    xi, eta = (disc.radius * x.ravel() for x in (nodes.xi, nodes.eta))
+    rays = ray_data(pencil(lens, source, xi, eta, aim_error=SUM_AIM_ERROR))
     miss = np.repeat(nodes.fy, shape[1])
     miss -= rays.fy
     miss *= rays.y_um

@@ -28,6 +28,7 @@ FEWEST_BLADES, MOST_BLADES = 3, 32
 NARROWEST_APODISATION, MOST_POWER = 0.1, 20
 FEWEST_CELLS, MOST_CELLS, SAMPLED = 4, 1024, 129
 SAME_ANGLE_DEG = 1e-9
+EDGE_HARMONICS = 0.5  # waves of slope that an amplitude's slope of 1 per radius counts as
 PROBE = 65  # points across the pupil where slopes are looked for
 
 
@@ -223,6 +224,11 @@ class PupilMask:
             and all(upright and part.even for part in maps)
             and all(term.m == 0 or (upright and term.even) for term in terms)
         )
+
+    @cached_property
+    def smoothly_even(self) -> bool:
+        """Return whether the mask without its vanes and blades is even: what the disc in front of them lets through."""
+        return replace(self, vanes=0, blades=0).even
 
     @cached_property
     def round(self) -> bool:

@@ -34,8 +34,23 @@ def sum_plane_waves(
 
 
 def _plain_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    rows = amplitude[..., None, :] * _wave(y[:, None] * ky[..., None, :])
-    field: np.ndarray = rows @ _wave(kx[..., :, None] * x)
+    """Return the block's sum from one real product at |x|, |y|: a(c + is)(c' + is') with the signs of x and y."""
+    columns, from_column = np.unique(np.abs(x), return_inverse=True)
+    rows, from_row = np.unique(np.abs(y), return_inverse=True)
+    across = _radians(kx[..., :, None] * columns)
+    up = _radians(rows[:, None] * ky[..., None, :])
+    both = np.concatenate([np.cos(up), np.sin(up)], axis=-2)
+    waves = np.cos(across), np.sin(across)
+    parts = [part[..., None] * wave for wave in waves for part in (amplitude.real, amplitude.imag)]
+    product = both @ np.concatenate(parts, axis=-1)
+    high, wide = rows.size, columns.size
+    quarters = [product[..., start : start + wide] for start in range(0, 4 * wide, wide)]
+    cosine, sine = quarters[0] + 1j * quarters[1], quarters[2] + 1j * quarters[3]
+    right = (1j * np.sign(x)).astype(cosine.dtype)
+    above = (1j * np.sign(y)).astype(cosine.dtype)[:, None]
+    halves = cosine[..., from_column] + right * sine[..., from_column]
+    upper, lower = halves[..., :high, :], halves[..., high:, :]
+    field: np.ndarray = upper[..., from_row, :] + above * lower[..., from_row, :]
     return field
 
 

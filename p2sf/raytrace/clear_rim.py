@@ -12,9 +12,10 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.pencil import hexapolar, pencil
-from p2sf.raytrace.vignetting import CLIPPED, LOST, ClearNodes
+from p2sf.raytrace.vignetting import CLIPPED, LOST
 
 SEARCH_RINGS = 8
 SECTIONS = 16  # of each direction in each round: one trace of many rays costs less than many of few

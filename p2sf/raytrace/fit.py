@@ -15,14 +15,16 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import protected
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Aim, Lens, check_unmasked
+from p2sf.lens.lens import Aim, Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
+from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, columns, evaluate, gradient, terms
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import RayData, Steepness, ray_data, steepness
+from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 
 # Rays held out of the fit to test it, on the rim, where a polynomial deviates first: (ξ, η).
 HELD_OUT = np.array([[0.0, 0.0, 1.0, 0.6], [1.0, -1.0, 0.0, 0.8]])
@@ -30,6 +32,7 @@ HELD_OUT = np.array([[0.0, 0.0, 1.0, 0.6], [1.0, -1.0, 0.0, 0.8]])
 RESIDUAL_WAVES = 3.5e-3
 # Weight s^a·(1 − s)^b of a ray at s = ρ², beside its area: the centre makes the core of the PSF, and at the rim a
 # polynomial deviates first. Near Chebyshev's weight; chosen on the stored references among powers in steps of 1/4.
+JUDGES = 6, 20  # radii and directions of the rays by which a fit is judged where a mask is open
 CENTRE_POWER, RIM_POWER = -0.75, -0.5
 
 Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η of some terms, each (terms, points)
@@ -87,7 +90,8 @@ class FittedPencil:
 
     ``phase``, ``fy`` and ``weight`` belong to the even terms, ``fx`` to the odd. ``residual_waves`` is the RMS error of
     the phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm, ``weight_residual`` that of the
-    weight over its mean; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak.
+    weight over its mean; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak of
+    the clear disc. ``mask``: what stands in the pupil, as the source sees it; ``wavelength_um`` scales its phase.
     """
 
     level: Level
@@ -101,6 +105,8 @@ class FittedPencil:
     map_residual: float = np.nan
     weight: np.ndarray = field(default_factory=lambda: UNIFORM)
     weight_residual: float = 0.0
+    mask: PupilMask = CLEAR
+    wavelength_um: float = np.nan
 
     @property
     def numbers(self) -> int:
@@ -156,8 +162,9 @@ def fit(
     ``numbers``: those of a level, with or without those of its weight, so that one count serves every `Lens.aim`.
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
-    check_unmasked(lens, Message("a fit"))
-    traced, rays, sampling, found = 0, None, None, None
+    mask = mask_seen(lens, source)
+    judges = None if mask.clear else judging_rays(lens, source, mask, stop)
+    traced, rays, sampling, found = 0 if judges is None else judges.data.phase.size, None, None, None
     for level in levels(lens.aim)[first:]:
         if numbers not in (None, level.numbers, level.unweighted_numbers):
             continue
@@ -165,16 +172,65 @@ def fit(
             rays, sampling = _trace(lens, source, level, stop), (level.radii, level.directions)
             traced += level.rays
         found = fit_rays(rays, level, traced)
+        if judges is not None:
+            found = behind(found, judges)
         if numbers or found.error_waves < residual_waves:
-            return found
+            break
     if found is None:
         offered = tuple(level.numbers for level in levels(lens.aim))
         raise GeometryError("no fit has {numbers} numbers; choose one of {offered}", numbers=numbers, offered=offered)
     return found
 
 
+@dataclass(frozen=True)
+class Judges:
+    """Rays through what a mask leaves open, and the share of the light of each: errors count there too."""
+
+    mask: PupilMask
+    wavelength_um: float
+    xi: np.ndarray
+    eta: np.ndarray
+    share: np.ndarray
+    data: RayData
+
+
+def judging_rays(lens: Lens, source: Source, mask: PupilMask, stop: Stop | None = None) -> Judges:
+    """Return rays through the open part of the pupil; GeometryError where one does not reach the sensor."""
+    nodes = mask_nodes(replace(mask, vanes=0), *JUDGES)
+    share: np.ndarray = nodes.weight * np.square(nodes.amplitude)
+    data = _reaching(lens, source, nodes.xi, nodes.eta, stop)
+    return Judges(mask, float(source.wavelength_um), nodes.xi, nodes.eta, share / share.sum(), data)
+
+
+def behind(found: FittedPencil, judges: Judges) -> FittedPencil:
+    """Return the fit of the pupil behind a mask: steeper by its slopes, with residuals where it is open if larger."""
+    data, share = judges.data, judges.share
+    phase, fx, fy = found.at(judges.xi, judges.eta)
+    miss_x, miss_y = fx - data.fx, fy - data.fy
+    error = phase - data.phase + miss_x * data.x_um + miss_y * data.y_um
+    off = (found.weight_at(judges.xi, judges.eta) - data.weight) / float(share @ data.weight)
+    squares = (share @ error**2, share @ (miss_x**2 + miss_y**2), share @ off**2)
+    own = found.residual_waves, found.map_residual, found.weight_residual
+    residual, map_residual, weight_residual = (
+        max(known, float(np.sqrt(square))) for known, square in zip(own, squares, strict=True)
+    )
+    return replace(
+        found,
+        residual_waves=residual,
+        map_residual=map_residual,
+        weight_residual=weight_residual,
+        steepness=with_slopes(found.steepness, judges.mask, judges.wavelength_um),
+        mask=judges.mask,
+        wavelength_um=judges.wavelength_um,
+    )
+
+
 def _trace(lens: Lens, source: Source, level: Level, stop: Stop | None) -> RayData:
     xi, eta, _ = level_rays(level)
+    return _reaching(lens, source, xi, eta, stop)
+
+
+def _reaching(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray, stop: Stop | None) -> RayData:
     rays = pencil(lens, source, xi, eta, stop=stop)
     if not rays.passed.all():
         lost = int((~rays.passed).sum())

@@ -15,9 +15,11 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf.raytrace.seen_mask import mask_seen
 
 SEARCH_RINGS = 12
 SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/192 of the half circle may be missed
@@ -26,6 +28,7 @@ CORNER_BISECTIONS = 26  # a corner's direction to 2e-10
 FEWEST_PER_ARC = 6
 CLIPPED = "the rims clip every ray of this field; leave {parameter} off or reduce the field"
 LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduce the field"
+BLUR_NODES = 16, 40  # carry the weight and the area of a fit, which are smooth
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
 
@@ -37,20 +40,22 @@ class ClearPart:
     corners: tuple[float, ...]
 
 
-@dataclass(frozen=True)
-class ClearNodes:
-    """Half-disc nodes (ξ, η) with weights of unit sum, and the clear share of the pupil's area."""
-
-    xi: np.ndarray
-    eta: np.ndarray
-    weight: np.ndarray
-    share: float
-
-
 def whole_nodes(counts: tuple[int, int]) -> ClearNodes:
     """Return the nodes of (radial, angular) ``counts`` over the whole pupil."""
     nodes = disc_nodes(*counts)
     return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
+
+
+def pupil_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool = False) -> ClearNodes:
+    """Return nodes over what the mask in the stop, and where asked the rims, leave open; about as dense as ``counts``.
+
+    ``clip``: end the pupil at the rims, or where rays are lost, which needs rays. Raises GeometryError where nothing
+    is open.
+    """
+    mask = mask_seen(lens, source)
+    if mask.clear:
+        return clear_nodes(lens, source, counts, clip) if clip else whole_nodes(counts)
+    return mask_nodes(mask, *counts)
 
 
 def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool = True) -> ClearNodes:
@@ -143,11 +148,23 @@ def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, pupil: FittedPenc
         found = pupil or fit(lens, source)
     except GeometryError:
         return None
-    if nodes.share == 1.0 and pupil is None:
+    plain = pupil is None and isinstance(nodes.amplitude, float)
+    if nodes.share == 1.0 and plain:
         return found.blur_um2
+    return _blur(found, nodes, pupil is not None)
+
+
+def masked_blur(found: FittedPencil) -> float:
+    """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval."""
+    if found.mask.clear:
+        return found.blur_um2
+    return _blur(found, mask_nodes(found.mask, *BLUR_NODES))
+
+
+def _blur(found: FittedPencil, nodes: ClearNodes, radiometrically: bool = False) -> float:
     area = np.abs(found.jacobian(nodes.xi, nodes.eta))
     light = found.weight_at(nodes.xi, nodes.eta)
-    field = light if pupil is None else radiometric(light, area)
+    field = nodes.amplitude * (radiometric(light, area) if radiometrically else light)
     field = field / ((nodes.weight * field).sum() / nodes.weight.sum())
     return float(nodes.weight @ (field * field / area) / (np.pi * nodes.share))
 

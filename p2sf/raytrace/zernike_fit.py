@@ -12,9 +12,10 @@ import numpy as np
 from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
 from p2sf.raytrace.pencil import displayed_opd, pencil
-from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, whole_nodes
+from p2sf.raytrace.vignetting import clear_nodes, whole_nodes
 from p2sf.threads import one_blas_thread
 
 COUNTS = 24, 64  # radii and directions: exact for terms up to degree 20 and a wavefront of degree 40

@@ -9,11 +9,12 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels import SensorMap
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
+from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data, steepness
-from p2sf.raytrace.vignetting import ClearNodes, clear_nodes, whole_nodes
+from p2sf.raytrace.vignetting import clear_nodes, whole_nodes
 from p2sf.scene.scene import Channel
 
 PROBE = 12, 36

@@ -92,8 +92,7 @@ def test_traced_equals_the_witness(name):
 
 def test_a_map_too_curved_for_rows_is_summed_node_by_node(monkeypatch):
     lens, source, pixel, stored = list(cases("double_gauss_28"))[1]
-    monkeypatch.setattr("p2sf.psf.fitted.rows_for", lambda *a: None)
-    monkeypatch.setattr("p2sf.psf.traced.rows_for", lambda *a: None)
+    monkeypatch.setattr("p2sf.psf.disc_rows.rows_for", lambda *a: None)
     assert r_squared(fitted_psf(lens, source, 32, pixel, 46).values, stored) > 0.9999
     assert r_squared(traced_psf(lens, source, 32, pixel).values, stored) > 0.9999
 

@@ -16,12 +16,12 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import DiscNodes, disc_nodes
 from p2sf.pupil.zernike import basis, powers, terms
 from p2sf.pupil.zernike_terms import family, zernike_terms
 from p2sf.raytrace.clear_rim import ClearRim, clear_rim
 from p2sf.raytrace.pencil import displayed_opd, pencil
-from p2sf.raytrace.vignetting import ClearNodes
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, decomposed
 from p2sf_explorer.compute.setup import ParaxialSetup
 

@@ -724,7 +724,6 @@
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
 <message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
-<message><source>a fit</source><translation>eine Anpassung</translation></message>
 <message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
 <message><source>a glass needs a name and a formula number (NM name formula …); complete it</source><translation>ein Glas braucht Namen und Formelnummer (NM Name Formel …); ergänzen</translation></message>
 <message><source>a gradient index</source><translation>ein Gradientenindex</translation></message>
@@ -748,6 +747,7 @@
 <message><source>a pixel of {pixel_um} µm; give a positive number</source><translation>ein Pixel von {pixel_um} µm; eine positive Zahl angeben</translation></message>
 <message><source>a profile through "{place}" is unknown; choose "chief" or "peak"</source><translation>ein Profil durch "{place}" ist unbekannt; "chief" oder "peak" wählen</translation></message>
 <message><source>a pupil grid of {size} samples; give an even count of at least 2</source><translation>ein Pupillengitter aus {size} Proben; eine gerade Anzahl ab 2 angeben</translation></message>
+<message><source>a pupil that ends at rims or where rays are lost</source><translation>eine Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
 <message><source>a question and its answer go together; give both ask: and tell:</source><translation>eine Frage und ihre Antwort gehören zusammen; ask: und tell: angeben</translation></message>
 <message><source>a radius of 0 with an index is a plane</source><translation>ein Radius 0 mit einem Index ist eine Ebene</translation></message>
 <message><source>a row has {count} columns; write radius, thickness, index, diameter</source><translation>eine Zeile hat {count} Spalten; Radius, Dicke, Index, Durchmesser schreiben</translation></message>
@@ -780,6 +780,7 @@
 <message><source>along x</source><translation>längs x</translation></message>
 <message><source>along y</source><translation>längs y</translation></message>
 <message><source>an FFT needs an even number of PSF samples, not {pixels}; add one or use mdft</source><translation>eine FFT braucht eine gerade Anzahl von PSF-Proben, nicht {pixels}; eine hinzufügen oder mdft nehmen</translation></message>
+<message><source>an FFT of square samples shows no edges of a mask; use mdft</source><translation>eine FFT quadratischer Abtastwerte zeigt keine Kanten einer Maske; mdft verwenden</translation></message>
 <message><source>an FFT of {samples} × {samples} pupil samples is too large; use mdft or change the pixel</source><translation>eine FFT von {samples} × {samples} Pupillenproben ist zu groß; mdft nehmen oder das Pixel ändern</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende angeben</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende oder den Durchmesser der Pupille angeben</translation></message>
@@ -1379,7 +1380,6 @@
 <message><source>the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600</source><translation>der Schwarze Körper hat {given:g} K; eine Temperatur von {least:g} bis {most:g} K angeben, wie in planck:5600</translation></message>
 <message><source>the blur is too large for a reference here; {remedy}</source><translation>die Unschärfe ist hier zu groß für eine Referenz; {remedy}</translation></message>
 <message><source>the chief ray {outcome}; choose a smaller field</source><translation>der Hauptstrahl {outcome}; ein kleineres Feld wählen</translation></message>
-<message><source>the choice of a method</source><translation>die Wahl eines Verfahrens</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
 <message><source>the coefficients</source><translation>die Koeffizienten</translation></message>
 <message><source>the columns have {counts} surfaces; give every column the same surfaces</source><translation>die Spalten haben {counts} Flächen; jeder Spalte dieselben Flächen geben</translation></message>
@@ -1457,9 +1457,7 @@
 <message><source>the link</source><translation>der Link</translation></message>
 <message><source>the link holds no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
 <message><source>the link is cut off or changed; copy all of it again, from p2sf: to its last letter</source><translation>der Link ist abgeschnitten oder verändert; noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
-<message><source>the method huygens</source><translation>das Verfahren huygens</translation></message>
-<message><source>the method seidel</source><translation>das Verfahren seidel</translation></message>
-<message><source>the method traced</source><translation>das Verfahren traced</translation></message>
+<message><source>the mask in the stop leaves nothing open; make its obscuration or its vanes smaller</source><translation>die Maske in der Blende lässt nichts offen; ihre Abschattung oder ihre Streben kleiner machen</translation></message>
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
 <message><source>the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %</source><translation>das mittlere Pixel hält {real} % des Lichts, von dem einer idealen Linse {perfect} %</translation></message>
 <message><source>the model glass's deviation in partial dispersion is left out; n changes by less than 1e-4</source><translation>die Abweichung der Teildispersion des Modellglases ist weggelassen; n ändert sich um weniger als 1e-4</translation></message>

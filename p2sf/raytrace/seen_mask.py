@@ -1,0 +1,40 @@
+"""The mask in the stop as one source sees it through the lens."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import pupils
+from p2sf.pupil.mask import EDGE_HARMONICS, PupilMask, mask_slopes
+from p2sf.raytrace.ray_field import Steepness
+
+
+def mask_seen(lens: Lens, source: Source) -> PupilMask:
+    """Return the mask in the pupil coordinates of a source: turned with its azimuth, and where the pupil is inverted.
+
+    A source off the plane ξ = 0 is described as one in that plane (`Source.azimuth_deg`), from where the mask, which
+    stays, looks turned the other way.
+    """
+    if lens.mask.round:
+        return lens.mask
+    inverted = float(np.asarray(pupils(lens, source.wavelength_um).upright)) < 0
+    return lens.mask.turned(180.0 * inverted - source.azimuth_deg)
+
+
+def with_slopes(steep: Steepness, mask: PupilMask, wavelength_um: float) -> Steepness:
+    """Return how steep the phase is with that of the mask on top; changes of the amplitude count too."""
+    if not (mask.phased or mask.shaded):
+        return steep
+    slopes = mask_slopes(mask)
+    radial = slopes.path_radial_um / wavelength_um + EDGE_HARMONICS * slopes.amplitude
+    angular = slopes.path_angular_um / wavelength_um + EDGE_HARMONICS * slopes.amplitude * (not mask.round)
+    both = float(np.hypot(radial, angular))
+    return replace(
+        steep,
+        radial=steep.radial + radial,
+        angular=steep.angular + angular,
+        across=steep.across + both,
+        along=steep.along + both,
+    )
