@@ -9,8 +9,8 @@ from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import RULES, GridDatabase, traced_grid
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
-from p2sf.lens.lens import Lens
-from p2sf.messages import Alternatives
+from p2sf.lens.lens import Lens, check_aligned
+from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.threads import one_blas_thread
@@ -39,6 +39,7 @@ def build_database(
             interpolant=interpolant,
             interpolants=Alternatives(INTERPOLANTS),
         )
+    check_aligned(lens, Message("a database"))
     stop = stop or find_stop(lens)
     return build_exact(lens, space, stop) if interpolant == "exact" else _grid(lens, space, interpolant, stop)
 

@@ -1,6 +1,7 @@
 """The lens and the point source as plain frozen data: surfaces, media, sensor, aperture. Nothing here traces a ray."""
 
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, lens_range_um, with_f_number, with_mask, with_sensor
+from p2sf.lens.placement import Placement
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.source import Source
 
@@ -8,6 +9,7 @@ __all__ = [
     "Aperture",
     "Diffraction",
     "Lens",
+    "Placement",
     "Qbfs",
     "Qcon",
     "RadialPolynomial",

@@ -1,7 +1,7 @@
 """A lens as plain frozen data: surfaces, media, aperture, sensor."""
 
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, lru_cache, reduce
 from itertools import accumulate
 from math import inf, isfinite
 from operator import mul
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium
+from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.shapes import Diffraction, Qbfs, Shape
 from p2sf.messages import Message
 from p2sf.notebook import html_table
@@ -52,6 +53,9 @@ class Surface:
         What is added to the sag of the conic and its aspheric terms.
     diffraction : Diffraction, optional
         The phase that a diffractive surface adds.
+    before, after : tuple of Placement
+        How the axes of the surface stand in those before it, and how those behind it, along whose z the thickness
+        runs, stand in the surface's own: one break of the coordinates after the other.
     """
 
     radius: float = inf
@@ -62,6 +66,8 @@ class Surface:
     semi_diameter: float = inf
     shape: Shape | None = None
     diffraction: Diffraction | None = None
+    before: tuple[Placement, ...] = ()
+    after: tuple[Placement, ...] = ()
 
     @property
     def curvature(self) -> float:
@@ -104,7 +110,9 @@ class Aperture:
 
 @dataclass(frozen=True)
 class Lens:
-    """A rotationally symmetric system of lenses and mirrors and its sensor; `p2sf.load_lens` reads one.
+    """A system of lenses and mirrors and its sensor; `p2sf.load_lens` reads one.
+
+    It is rotationally symmetric unless surfaces or the sensor are tilted or decentred.
 
     Parameters
     ----------
@@ -130,6 +138,8 @@ class Lens:
     positions : Positions, optional
         For a lens that zooms or focuses inside: all of its columns, and where between them this lens is
         (`p2sf.lens_at` moves it).
+    sensor_before : tuple of Placement
+        How the sensor stands in the axes at its place behind the last surface: its tilt.
 
     Raises
     ------
@@ -151,9 +161,12 @@ class Lens:
     aim: Aim = USUAL_AIM
     mask: PupilMask = CLEAR
     positions: "Positions | None" = None
+    sensor_before: tuple[Placement, ...] = ()
 
     def __post_init__(self) -> None:
         _check_surfaces(self.surfaces)
+        for placement in self.sensor_before:
+            placement.check(len(self.surfaces) + 1)
         _check_stop(self.stop_surface, len(self.surfaces))
         if not (isfinite(self.aperture.value) and self.aperture.value > 0):
             raise GeometryError(
@@ -221,6 +234,31 @@ class Lens:
         """Return for every medium 1 where light runs to the right in it, −1 after an odd number of mirrors."""
         return tuple(accumulate((-1 if surface.reflects else 1 for surface in self.surfaces), mul, initial=1))
 
+    @cached_property
+    def misaligned(self) -> bool:
+        """Return whether anything is tilted or decentred, folding mirrors included."""
+        placements = *(p for s in self.surfaces for p in (*s.before, *s.after)), *self.sensor_before
+        return not all(placement.idle for placement in placements)
+
+    @cached_property
+    def motions(self) -> tuple[Motion, ...]:
+        """Return the axes of the first surface in those of the lens, of each next one in the last's, of the sensor."""
+        found = []
+        onward = along_z(0.0)
+        for surface in self.surfaces:
+            found.append(_chained(onward, surface.before))
+            onward = _chained(along_z(0.0), surface.after).then(along_z(surface.thickness))
+        return *found, _chained(onward, self.sensor_before)
+
+    @cached_property
+    def frames(self) -> tuple[Motion, ...]:
+        """Return the axes of every surface, and of the sensor, in those of the lens: z from the first vertex, mm."""
+        return tuple(accumulate(self.motions, Motion.then))
+
+
+def _chained(motion: Motion, placements: tuple[Placement, ...]) -> Motion:
+    return reduce(Motion.then, (placement.motion for placement in placements), motion)
+
 
 def with_sensor(lens: Lens, sensor_mm: float) -> Lens:
     """Return the same lens with its sensor ``sensor_mm`` behind the last vertex."""
@@ -251,6 +289,40 @@ def check_unmasked(lens: Lens, what: Message) -> None:
         raise GeometryError(
             "a mask stands in the stop, and {what} knows a clear round stop only; take the mask away", what=what
         )
+
+
+@lru_cache(maxsize=64)
+def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
+    """Return a lens as a source in this azimuth sees it that is described in the plane x = 0: turned about its axis.
+
+    Every break of the coordinates stands in axes that are turned with the source, so that the stop's and the sensor's
+    own are as well; the surfaces are round and do not notice. A lens that is not misaligned is returned as it is.
+    """
+    if not azimuth_deg or not lens.misaligned:
+        return lens
+    into, back = Placement(tilt_z_deg=azimuth_deg), Placement(tilt_z_deg=-azimuth_deg)
+
+    def turned(placements: tuple[Placement, ...]) -> tuple[Placement, ...]:
+        return (into, *placements, back) if placements else ()
+
+    surfaces = tuple(replace(s, before=turned(s.before), after=turned(s.after)) for s in lens.surfaces)
+    return replace(lens, surfaces=surfaces, sensor_before=turned(lens.sensor_before))
+
+
+def check_aligned(lens: Lens, what: Message) -> None:
+    """Raise GeometryError for ``what`` takes a lens of rotational symmetry, where parts are tilted or decentred."""
+    if lens.misaligned:
+        raise GeometryError(
+            "surface {surface} is tilted or decentred, and {what} knows rotational symmetry only; set it straight",
+            surface=_first_misaligned(lens),
+            what=what,
+        )
+
+
+def _first_misaligned(lens: Lens) -> int:
+    """Return the first surface, from 1, that a break stands before or behind; the sensor is that behind the last."""
+    placed = (any(not p.idle for p in (*s.before, *s.after)) for s in lens.surfaces)
+    return next((number for number, found in enumerate(placed, 1) if found), len(lens.surfaces) + 1)
 
 
 def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:
@@ -313,6 +385,8 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
             raise GeometryError(
                 "surface {surface}: conic or aspheric coefficient is not finite; correct it", surface=number
             )
+        for placement in (*surface.before, *surface.after):
+            placement.check(number)
         _check_shape(surface, number)
 
 

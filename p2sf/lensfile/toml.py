@@ -28,6 +28,14 @@ conic = -1.0
 aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
 shape = { type = "Qcon", normalisation_radius = 10.0, coefficients = [1e-3] }  # added to it, see SHAPES
 diffraction = { order = 1, normalisation_radius = 10.0, coefficients = [-300.0] }  # radians, of ρ², ρ⁴, …
+before = [{ decentre = [0, 0.1, 0], tilt_deg = [0.5, 0, 0] }]  # how its axes stand in those before it: moved, then
+after = [{ tilt_deg = [-0.5, 0, 0], tilt_first = true }]       # turned about x, y, z; tilt_first: z, y, x, then moved
+
+[[misaligned]]                   # a piece that is moved and nothing else; also tilt_first, and on the top of the
+surfaces = [2, 3]                # file sensor_before for the sensor
+decentre = [0.05, 0]             # x, y, z
+tilt_deg = [0, 0.2, 0]           # about x, y, z, right-handed
+pivot = [0, 0, 10]               # about this point, from the first one's vertex
 
 A lens that zooms, or focuses inside, has a table of columns, and entries with a value for each (`columns`).
 """
@@ -53,6 +61,7 @@ from p2sf.lensfile.columns import KINDS as RINGS
 from p2sf.lensfile.columns import axis_text, columns_of, joined, read_columns
 from p2sf.lensfile.source_text import read_text, write_text
 from p2sf.lensfile.toml_mask import mask_lines, read_mask
+from p2sf.lensfile.toml_placement import misaligned, placements_text, read_placements
 from p2sf.lensfile.toml_table import Constraint, Table, find_line, shown
 from p2sf.messages import Message
 from p2sf.paraxial.positions import as_in_columns
@@ -105,6 +114,7 @@ def _head(lens: Lens) -> tuple[_Line, ...]:
         _Line("fields_deg", _list(lens.fields_deg)),
         _Line("wavelengths_nm", _list(lens.wavelengths_nm)),
         _Line("object_medium", _medium(lens.object_medium), '"air"'),
+        _Line("sensor_before", placements_text(lens.sensor_before), "[]"),
     )
 
 
@@ -130,6 +140,8 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
         _Line("aspheric", _list(surface.aspheric), "[]"),
         _Line("shape", _shape(surface.shape) if surface.shape else ""),
         _Line("diffraction", _diffraction(surface.diffraction) if surface.diffraction else ""),
+        _Line("before", placements_text(surface.before), "[]"),
+        _Line("after", placements_text(surface.after), "[]"),
     )
 
 
@@ -191,8 +203,10 @@ def _medium(medium: Medium) -> str:
 MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
 TEXTS = ("title", "name", "character", "source", "comment")
 TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "pupil", "surface")
+TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
-SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric", "shape", "diffraction")
+SHAPED = ("shape", "diffraction", "before", "after")
+SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric", *SHAPED)
 # The names are OpticStudio's. Coefficients are of r, r², … (in units⁰, units⁻¹, …), of ρ = r/normalisation radius,
 # ρ², …, of ρ², ρ⁴, …, and of Forbes's polynomials Q₀, Q₁, … (all in units).
 SHAPES = ("odd asphere", "extended odd asphere", "extended asphere", "Qbfs", "Qcon")
@@ -223,7 +237,7 @@ def parse_toml(text: str, path: str | os.PathLike = "lens.toml") -> Lens:
     ``path`` stands in errors, and its stem is the name of a lens that has none.
     """
     top = Table(str(path), text, _values(text, str(path)))
-    top.check_keys((*TOP, *RINGS))
+    top.check_keys((*TOP, *TILTED, *RINGS))
     return read_columns(top, _plain)
 
 
@@ -234,6 +248,7 @@ def _plain(top: Table) -> Lens:
     texts = {key: top.string(key) for key in TEXTS}
     texts["name"] = texts["name"] or Path(top.path).stem.encode("utf-8", "replace").decode("utf-8")
     lens = with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top))
+    lens = _placed(top, lens, scale)
     _check_wavelengths(top, lens)
     return lens
 
@@ -294,6 +309,8 @@ def _surface(table: Table, scale: float) -> Surface:
         semi_diameter=table.number("semi_diameter", RIM, inf) * scale,
         shape=_read_shape(table, scale),
         diffraction=_read_diffraction(table, scale),
+        before=read_placements(table, "before", scale),
+        after=read_placements(table, "after", scale),
     )
 
 
@@ -380,6 +397,15 @@ def _lens(top: Table, surfaces: tuple[Surface, ...], aperture: Aperture, texts: 
         return Lens(surfaces, aperture, stop, **texts, fields_deg=fields, wavelengths_nm=waves, object_medium=medium)
     except GeometryError as error:
         raise LensFileError(error.message, top.path) from None
+
+
+def _placed(top: Table, lens: Lens, scale: float) -> Lens:
+    """Return the lens with its sensor and its pieces placed as the file says."""
+    sensor = read_placements(top, "sensor_before", scale)
+    try:
+        return misaligned(top, replace(lens, sensor_before=sensor) if sensor else lens, scale)
+    except GeometryError as error:
+        top.fail(error.message, "sensor_before")
 
 
 def _check_wavelengths(top: Table, lens: Lens) -> None:

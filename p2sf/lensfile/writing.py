@@ -10,13 +10,14 @@ from typing import Any
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
-from p2sf.lens.lens import Lens, Surface
+from p2sf.lens.lens import Lens, Surface, check_aligned
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
 from p2sf.lensfile.conjugates import limiting_rim, trace
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import write_text
 from p2sf.lensfile.toml import lens_to_toml
+from p2sf.messages import Message
 
 SILICA_LABEL = "main/SiO2/Malitson"
 ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
@@ -45,6 +46,8 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
             path,
             ending=ending,
         )
+    if ending != ".toml":
+        check_aligned(lens, Message("a file that ends in {ending}", ending=ending))
     text = writers[ending](lens)
     catalogue = lens_to_agf(lens) if ending == ".zmx" else ""
     if catalogue:

@@ -16,7 +16,7 @@ from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError, SamplingError
-from p2sf.lens.lens import Lens, check_unmasked, lens_range_um
+from p2sf.lens.lens import Lens, check_aligned, check_unmasked, lens_range_um
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
@@ -131,6 +131,7 @@ def pupil_of(lens: Lens, source: Source, method: str = "traced", clip: bool = Fa
             'method "{method}" describes no pupil; choose {methods}', method=method, methods=Alternatives(METHODS)
         )
     check_unmasked(lens, Message("a transfer function"))
+    check_aligned(lens, Message("a transfer function"))
     if method == "auto":
         method = choose(lens, source, clip=clip).method
     if method == "seidel":

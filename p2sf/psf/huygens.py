@@ -16,7 +16,7 @@ import numpy as np
 
 from p2sf.conventions import centred_axis
 from p2sf.errors import Cancelled, GeometryError, SamplingError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens, check_aligned, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
@@ -81,6 +81,7 @@ def huygens_psf(
     GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there, and the
     radiometric amplitude is refused.
     """
+    check_aligned(lens, Message("the method huygens"))
     started = perf_counter()
     window = pixels, pixel_um
     pupil = fit(lens, source) if amplitude == "radiometric" else None

@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, RequestError, SamplingError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
@@ -109,6 +109,7 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
     Raises GeometryError where the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
     """
+    check_aligned(lens, Message("the choice of a method"))
     _check_tolerance(tolerance, BELOW_ONE)
     allowed = 1 - tolerance
     xi, eta, weight = level_rays(QUICK_LEVELS[0])
@@ -239,7 +240,9 @@ def _by_method(
         check_seidel(lens)
         c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         psf = seidel_psf(c, *window, quality, mask=mask_seen(lens, source))
-        return replace(psf, predicted_error=seidel_error(lens, source, c))
+        psf = replace(psf, predicted_error=seidel_error(lens, source, c))
+        straight = Message("{sampling}; the lens set straight, without its tilts and decentres", sampling=psf.sampling)
+        return replace(psf, sampling=straight) if lens.misaligned else psf
     if method == "fitted":
         started = perf_counter()
         found = fit(lens, source, numbers, residual_waves=residual_for(tolerance))

@@ -12,8 +12,9 @@ from p2sf.colour.colorimetry import bands, displayable, linear_rgb
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, centred_axis
 from p2sf.errors import RequestError
-from p2sf.lens.lens import Lens, lens_range_um
+from p2sf.lens.lens import Lens, check_aligned, lens_range_um
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import render, whole_pixel_um
@@ -79,6 +80,7 @@ def colour_psf(
         raise RequestError(
             "{count} wavelengths for a colour PSF; give a whole number from 1 to {most}", count=count, most=MOST
         )
+    check_aligned(lens, Message("a colour PSF"))
     make = method if callable(method) else by_method(method)
     wavelengths, weights = bands(spectrum, count, *_limits(lens))
     shifts = chief_shifts_um(lens, source, wavelengths)

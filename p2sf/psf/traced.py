@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.disc_rows import Disc, EdgeField, discs, edge_field, intensity_over, takes_rows
@@ -56,6 +56,7 @@ def traced_psf(
     reference is, to FALLBACK_TOLERANCE, which takes long: ``cancelled`` is called between blocks of them (`Cancelled`).
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
+    check_aligned(lens, Message("the method traced"))
     started = perf_counter()
     parts = None if clip else _parts(lens, source, (pixels, pixel_um), quality)
     if parts is None:

@@ -73,6 +73,14 @@ def disc_nodes(radial: int, angular: int) -> DiscNodes:
     return DiscNodes(protected(xi.ravel()), protected(eta.ravel()), protected(share))
 
 
+@_Cached
+def whole_disc(radial: int, angular: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ξ, η and weights (sum 1) of the nodes of `disc_nodes` and their mirror images, each (radial·angular,)."""
+    half = disc_nodes(radial, angular)
+    xi, eta = np.append(half.xi, -half.xi), np.append(half.eta, half.eta)
+    return protected(xi), protected(eta), protected(np.append(half.weight, half.weight) / 2)
+
+
 @dataclass(frozen=True, eq=False)
 class RowNodes:
     """Nodes of the quarter disc ξ, η > 0 in rows of equal η, for sums that separate into two products.

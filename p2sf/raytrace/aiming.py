@@ -17,8 +17,9 @@ from p2sf.lens.lens import Lens, indices
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
-from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike import basis, basis_by_powers, gradient, powers, rising_powers
+from p2sf.pupil.quadrature import disc_nodes, whole_disc
+from p2sf.pupil.zernike import basis, basis_by_powers, gradient
+from p2sf.raytrace.stop_map import SkewStopMap, StopMap
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Index, launch, per_ray, run
 
@@ -34,6 +35,7 @@ FINE_ORDER, FINE_NODES = 15, (9, 34)
 WEIGHT_ERROR = 1e-5  # the most that a weight by a map may be off, on the rim
 RIM_RAYS = 9  # by which maps are judged
 LAST_MOVE = 0.3  # of the root of the error allowed: a Newton step leaves its square, times the map's curvature
+SEARCH_RADII, SEARCH_POINTS = 4.0, 33  # of the paraxial pupil, where the chief ray is looked for; points a side
 RIDGE = 1e-12  # added to the normal equations, so that they can be solved however the points lie
 FEW = 24  # rays, below which a map costs more than the steps of Newton's method it saves
 MANY = 512  # rays, from which on a map that need not be confirmed ray by ray costs less than a Newton step
@@ -153,8 +155,10 @@ def pupil_rays(
     """Return the rays of a source through points (ξ, η) of the pupil of unit radius, each (ray,).
 
     ``lens.aim`` "paraxial" fills the paraxial entrance pupil, "stop" sends every ray through (ξ, η) of the stop, to
-    ``aim_error`` of the pupil's radius. The axes of `Sources` come first. Raises GeometryError, GlassError.
+    ``aim_error`` of the pupil's radius. The axes of `Sources` come first. A misaligned lens is taken as it stands, so
+    that of a source with an azimuth has to be `seen_from` there. Raises GeometryError, GlassError.
     """
+    _check_aim(lens)
     enter = entrance(lens, source, stop)
     xi, eta = np.asarray(xi, dtype=float), np.asarray(eta, dtype=float)
     if lens.aim == "paraxial":
@@ -164,6 +168,15 @@ def pupil_rays(
         return _aimed(lens, source, enter, stop, xi, eta, aim_error)
     x, y, weight = found.at(xi, eta)
     return replace(_through(enter, x, y), weight=weight, stop_surface=int(np.max(enter.stop.surface)))
+
+
+def _check_aim(lens: Lens) -> None:
+    """Raise GeometryError for an aim that takes the pupil of a misaligned lens for a disc."""
+    if lens.misaligned and lens.aim == "paraxial":
+        raise GeometryError(
+            "parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop",
+            parameter="aim",
+        )
 
 
 def arriving(
@@ -179,6 +192,7 @@ def arriving(
 
     ``rims``, one per surface, mm, clip all but the last ray, the chief ray, from which differences are taken.
     """
+    _check_aim(lens)
     if lens.aim == "stop" and rims is None:
         found = None
         if aim_error > AIM_ERROR and xi.size >= FEW and stop is None and isinstance(source, Source):
@@ -235,7 +249,9 @@ def _aimed(
     """Solve for entrance points whose real rays meet the stop at (ξ, η) of its rim; wide fields by continuation."""
     goal = _goal(enter, xi, eta)
     found = _newton(lens, enter, goal, _guess(lens, source, enter, stop, xi, eta), _move_mm(enter, aim_error))
-    if found.missed.any():
+    if found.missed.any() and lens.misaligned:
+        found = _outwards(lens, enter, goal, _chief_aim(lens, source, enter, stop), found)
+    elif found.missed.any():
         found = _by_continuation(lens, enter, goal, _paraxial(enter, xi, eta), found)
         found.x[found.missed] = found.y[found.missed] = np.nan
     weight = _weight(enter, found.x, found.y, found.gain)
@@ -406,6 +422,8 @@ def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.n
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
     """Return entrance points from which Newton's method starts: by the pupil map, or for few rays the paraxial ones."""
+    if lens.misaligned:
+        return _skew_guess(lens, source, enter, stop, xi, eta)
     if xi.size < FEW:
         return _paraxial(enter, xi, eta)
     known = stop is None and isinstance(source, Source)
@@ -422,40 +440,16 @@ def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
     return x, y
 
 
-@dataclass(frozen=True, eq=False)
-class StopMap:
-    """Polynomials over the stop: ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ for entrance points x/ξ and y (mm), and weights.
-
-    The axes of `Sources` stand between the first axis, which tells these apart, and the powers.
-    """
-
-    table: np.ndarray
-
-    @classmethod
-    def of(cls, order: int, x: np.ndarray, *even: np.ndarray) -> "StopMap":
-        """Return the map of coefficients of `zernike`: of x those of the odd terms, of y and weights of the even."""
-        forms = powers(order, True), *(powers(order) for _ in even)
-        parts = [part @ form.reshape(len(form), -1) for part, form in zip((x, *even), forms, strict=True)]
-        return cls(np.stack(parts).reshape(len(parts), *x.shape[:-1], *forms[0].shape[1:]).swapaxes(-1, -2))
-
-    def at(self, xi: Nodes, eta: Nodes) -> np.ndarray:
-        """Return entrance points x and y, and weights where the map has them, at points of the stop."""
-        along, across = self.table.shape[-2:]
-        values: np.ndarray = np.einsum(
-            "...bn,bn->...n", self.table @ rising_powers(xi * xi, across), rising_powers(eta, along)
-        )
-        values[0] *= xi
-        return values
-
-
 @lru_cache(maxsize=64)
 def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
     return _rough_map(lens, entrance(lens, source))
 
 
 @lru_cache(maxsize=16)
-def _weighing_map(lens: Lens, source: Source) -> StopMap | None:
+def _weighing_map(lens: Lens, source: Source) -> StopMap | SkewStopMap | None:
     """Return the rough map, with weights by its own areas."""
+    if lens.misaligned:
+        return _skew_weighing_map(lens, source)
     found, enter = _cached_rough_map(lens, source), entrance(lens, source)
     if found is None:
         return None
@@ -493,8 +487,10 @@ def _rough_terms() -> tuple[np.ndarray, np.ndarray, Point, Point]:
 
 
 @lru_cache(maxsize=64)
-def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | None:
+def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | SkewStopMap | None:
     """Return the map through aimed rays that stands for aiming itself; None where rays on the rim disprove it."""
+    if lens.misaligned:
+        return _skew_stop_map(lens, source, aim_error)
     nodes, turn = disc_nodes(*FINE_NODES), np.linspace(0, np.pi, RIM_RAYS)
     held, enter, count = (np.sin(turn), np.cos(turn)), entrance(lens, source), nodes.xi.size
     xi, eta = np.append(nodes.xi, held[0]), np.append(nodes.eta, held[1])
@@ -523,3 +519,150 @@ def _least_squares(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
     np.einsum("...ii->...i", normal)[...] *= 1 + RIDGE  # a view of the diagonal
     solution: np.ndarray = np.linalg.solve(normal, rows @ values[..., None])[..., 0]
     return solution
+
+
+# Without symmetry. What is known of the pupil before rays are traced is that of the aligned lens, which may be far
+# from where light enters; so all starts at the chief ray, which a search finds if it must.
+
+
+@dataclass(frozen=True, eq=False)
+class _ChiefAim:
+    """Where the chief ray enters, mm, and ∂(stop point)/∂(entrance point) = ((a, b), (c, d)) there; (…, 1)."""
+
+    x: np.ndarray
+    y: np.ndarray
+    a: np.ndarray
+    b: np.ndarray
+    c: np.ndarray
+    d: np.ndarray
+
+
+def _chief_aim(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None) -> _ChiefAim:
+    """Return how the rays close to the chief ray, which goes through the stop's centre, enter; NaN if not found."""
+    if stop is None and isinstance(source, Source):
+        return _cached_chief_aim(lens, source)
+    return _found_chief_aim(lens, enter)
+
+
+@lru_cache(maxsize=64)
+def _cached_chief_aim(lens: Lens, source: Source) -> _ChiefAim:
+    return _found_chief_aim(lens, entrance(lens, source))
+
+
+def _found_chief_aim(lens: Lens, enter: Entrance) -> _ChiefAim:
+    centre = np.zeros(1), np.zeros(1)
+    guess, enough = _paraxial(enter, *centre), _move_mm(enter, AIM_ERROR)
+    found = _newton(lens, enter, centre, guess, enough)
+    if found.missed.any():
+        found = _newton(lens, enter, centre, _nearest(lens, enter), enough)
+    x, y = (np.where(found.missed, np.nan, part) for part in (found.x, found.y))
+    step = _difference_mm(enter)
+    beam = _at_stop(lens, enter, _beside(x, y, step))
+    a, c = (beam.x[1] - beam.x[0]) / step, (beam.y[1] - beam.y[0]) / step
+    b, d = (beam.x[2] - beam.x[0]) / step, (beam.y[2] - beam.y[0]) / step
+    return _ChiefAim(x, y, a, b, c, d)
+
+
+def _nearest(lens: Lens, enter: Entrance) -> Point:
+    """Return the entrance points, of a square of them, whose rays meet the stop closest to its centre."""
+    line = np.linspace(-SEARCH_RADII, SEARCH_RADII, SEARCH_POINTS)
+    x, y = _paraxial(enter, *(part.ravel() for part in np.meshgrid(line, line)))
+    beam = _at_stop(lens, enter, (x, y))
+    away = np.hypot(beam.x, beam.y)
+    best = np.where(np.isfinite(away), away, np.inf).argmin(-1)[..., None]
+    return np.take_along_axis(x, best, -1), np.take_along_axis(y, best, -1)
+
+
+def _about_chief(chief: _ChiefAim, goal: Point) -> Point:
+    """Return entrance points of rays that meet the stop at ``goal``, to first order about the chief ray."""
+    area = chief.a * chief.d - chief.b * chief.c
+    x: np.ndarray = chief.x + (chief.d * goal[0] - chief.b * goal[1]) / area
+    y: np.ndarray = chief.y + (chief.a * goal[1] - chief.c * goal[0]) / area
+    return x, y
+
+
+def _outwards(lens: Lens, enter: Entrance, goal: Point, chief: _ChiefAim, found: _Aim) -> _Aim:
+    """Return ``found`` with the rays that missed aimed anew, from the chief ray outwards."""
+    lost = np.flatnonzero(found.missed.any(tuple(range(found.missed.ndim - 1))))
+    some = goal[0][..., lost], goal[1][..., lost]
+    guess = _about_chief(chief, (CONTINUATION[0] * some[0], CONTINUATION[0] * some[1]))
+    for part, following in zip(CONTINUATION, (*CONTINUATION[1:], 1.0), strict=True):
+        again = _newton(lens, enter, (part * some[0], part * some[1]), guess, _move_mm(enter, AIM_ERROR))
+        guess = tuple(
+            at + (found_at - at) * (following / part)
+            for at, found_at in zip((chief.x, chief.y), (again.x, again.y), strict=True)
+        )
+    better = found.missed[..., lost] & ~again.missed
+    for old, new in zip(vars(found).values(), vars(again).values(), strict=True):
+        old[..., lost] = np.where(better, new, old[..., lost])
+    return found
+
+
+def _skew_guess(
+    lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes
+) -> Point:
+    """Return entrance points from which Newton's method starts in a lens without symmetry."""
+    chief = _chief_aim(lens, source, enter, stop)
+    if xi.size < FEW:
+        return _about_chief(chief, _goal(enter, xi, eta))
+    known = stop is None and isinstance(source, Source)
+    found = _cached_skew_map(lens, source) if known else _skew_map(lens, enter, chief)
+    if found is None:
+        return _about_chief(chief, _goal(enter, xi, eta))
+    x, y = SkewStopMap.of(ROUGH_ORDER, *found).at(xi, eta)
+    return x, y
+
+
+@lru_cache(maxsize=64)
+def _cached_skew_map(lens: Lens, source: Source) -> Point | None:
+    enter = entrance(lens, source)
+    return _skew_map(lens, enter, _cached_chief_aim(lens, source))
+
+
+def _skew_map(lens: Lens, enter: Entrance, chief: _ChiefAim) -> Point | None:
+    """Return coefficients as `_rough_map` does, of all terms, from rays around the chief ray."""
+    xi, eta, _ = whole_disc(*ROUGH_NODES)
+    x, y = _about_chief(chief, _goal(enter, xi, eta))
+    beam = _at_stop(lens, enter, (x, y))
+    met = np.isfinite(beam.x + beam.y).all(-1, keepdims=True)
+    if not met.any():
+        return None
+    scale = enter.upright / float(np.max(enter.stop.semi_diameter))
+    landed = np.where(met, scale * beam.x, xi), np.where(met, scale * beam.y, eta)
+    rows = np.concatenate(basis_by_powers(ROUGH_ORDER, *landed), axis=-2)
+    return _least_squares(rows, x), _least_squares(rows, y)
+
+
+@lru_cache(maxsize=2)
+def _skew_terms(order: int, nodes: tuple[int, int]) -> tuple[np.ndarray, Point]:
+    """Return all terms at nodes of the whole disc, the even ones first, (terms, nodes), and their gradients."""
+    xi, eta, _ = whole_disc(*nodes)
+    rows = np.concatenate([basis(order, xi, eta, odd) for odd in (False, True)])
+    slopes = [gradient(order, xi, eta, odd) for odd in (False, True)]
+    along_xi, along_eta = (np.concatenate([part[axis] for part in slopes]) for axis in (0, 1))
+    return rows, (along_xi, along_eta)
+
+
+def _skew_weighing_map(lens: Lens, source: Source) -> SkewStopMap | None:
+    found, enter = _cached_skew_map(lens, source), entrance(lens, source)
+    if found is None:
+        return None
+    (x, y), (rows, (along_xi, along_eta)) = found, _skew_terms(ROUGH_ORDER, ROUGH_NODES)
+    area = (x @ along_xi) * (y @ along_eta) - (x @ along_eta) * (y @ along_xi)
+    weight = area / enter.radius**2 * _oblique(enter, x @ rows, y @ rows)
+    return SkewStopMap.of(ROUGH_ORDER, x, y, rows @ (whole_disc(*ROUGH_NODES)[2] * weight))
+
+
+def _skew_stop_map(lens: Lens, source: Source, aim_error: float) -> SkewStopMap | None:
+    """Return what `_stop_map` does for a lens without symmetry."""
+    (xi, eta, area), turn = whole_disc(*FINE_NODES), np.arange(2 * RIM_RAYS) * (np.pi / RIM_RAYS)
+    held, enter, count = (np.sin(turn), np.cos(turn)), entrance(lens, source), xi.size
+    rays = _aimed(lens, source, enter, None, np.append(xi, held[0]), np.append(eta, held[1]), AIM_ERROR)
+    if not np.isfinite(rays.x).all():
+        return None
+    true = rays.x, rays.y, np.asarray(rays.weight)
+    rows = _skew_terms(FINE_ORDER, FINE_NODES)[0] * area
+    found = SkewStopMap.of(FINE_ORDER, *(rows @ column[:count] for column in true))
+    off_x, off_y, off = (mapped - column[count:] for mapped, column in zip(found.at(*held), true, strict=True))
+    exact = np.hypot(off_x, off_y).max() <= aim_error * enter.radius.item() and np.abs(off).max() <= WEIGHT_ERROR
+    return found if exact else None

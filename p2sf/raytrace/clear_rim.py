@@ -10,8 +10,9 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.pencil import hexapolar, pencil
@@ -62,6 +63,7 @@ def clear_rim(lens: Lens, source: Source, clip: bool, directions: int, rounds: i
 
     Raises GeometryError where no part is clear.
     """
+    check_aligned(lens, Message("the search for rims in the pupil"))
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():

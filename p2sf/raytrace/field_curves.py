@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import Coefficients, coefficients
@@ -62,6 +63,7 @@ def real_foci(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | N
     The sagittal focus is where a ray `NEAR` beside the chief ray crosses the plane of symmetry, the tangential one
     where two rays `NEAR` above and below it cross. ``field_slope`` replaces that of ``source``.
     """
+    check_aligned(lens, Message("a curve over the field"))
     slopes = np.asarray(field_slope, dtype=float)
     xi, eta = np.array([NEAR, 0.0, 0.0]), np.array([0.0, NEAR, -NEAR])
     rays = pupil_rays(lens, Sources(source.depth_mm, slopes, source.wavelength_um), xi, eta, stop=stop)
@@ -85,6 +87,7 @@ def heights(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | Non
 
     ``field_slope`` replaces that of ``source``.
     """
+    check_aligned(lens, Message("a curve over the field"))
     slopes = np.asarray(field_slope, dtype=float)
     sources = Sources(source.depth_mm, slopes, source.wavelength_um)
     rays = pupil_rays(lens, sources, np.zeros(1), np.zeros(1), stop=stop)
@@ -102,6 +105,7 @@ def colour_shift(
 
     Zone 0 is the paraxial image; another zone is an exact ray at that fraction of the pupil's radius, NaN if lost.
     """
+    check_aligned(lens, Message("the focus of each zone"))
     waves, zones = np.asarray(wavelength_um, dtype=float), np.asarray(zones, dtype=float)
     rays = pupil_rays(lens, Sources(depth_mm, 0.0, waves), np.zeros_like(zones), zones, stop=stop)
     beam = run(lens, start(rays), rays.index)

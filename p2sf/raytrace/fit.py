@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import protected
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Aim, Lens
+from p2sf.lens.lens import Aim, Lens, check_aligned
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import mask_nodes
@@ -162,6 +163,7 @@ def fit(
     ``numbers``: those of a level, with or without those of its weight, so that one count serves every `Lens.aim`.
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
+    check_aligned(lens, Message("a fit"))
     mask = mask_seen(lens, source)
     judges = None if mask.clear else judging_rays(lens, source, mask, stop)
     traced, rays, sampling, found = 0 if judges is None else judges.data.phase.size, None, None, None

@@ -1,6 +1,6 @@
 """The pencil of one source through the pupil by exact skew rays: path differences, spots and fans."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import sqrt
 
@@ -9,10 +9,11 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray, protected
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
 from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays
+from p2sf.raytrace.chief_ray import check_chief_ray, chief_ray_error
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Trace, lens_rims, status_message, trace
 
@@ -39,7 +40,8 @@ class Pencil:
     ``weight``: the light of unit pupil area about each ray, as in `PupilRays`; means over the pupil divide by its sum.
     ``dx``, ``dy``: mm from the chief ray's sensor point. ``kx``, ``ky``, ``kz``: direction cosines in image space.
     ``path``: optical path to the sensor less the chief ray's, mm. ``status``, ``failed_surface``: as in `Trace`.
-    Of the chief ray: ``chief_y`` mm on the sensor, ``chief_ky``, ``chief_kz``. ``index``: of image space.
+    Of the chief ray: ``chief_x``, ``chief_y`` mm on the sensor, ``chief_kx``, ``chief_ky``, ``chief_kz``. ``index``: of
+    image space. Of a misaligned lens all are in the sensor's own axes, turned with the source's azimuth.
     """
 
     xi: np.ndarray
@@ -58,6 +60,8 @@ class Pencil:
     chief_kz: np.ndarray
     index: FloatOrArray
     wavelength_um: np.ndarray
+    chief_x: FloatOrArray = 0.0
+    chief_kx: FloatOrArray = 0.0
 
     @property
     def passed(self) -> np.ndarray:
@@ -102,15 +106,26 @@ def pencil(
 
     ``clip`` applies the clear semi-diameters of every surface but the stop, whose rim the pupil already represents.
     ``aim_error``: as `pupil_rays` has it.
-    The axes of `Sources` come first. Raises GeometryError where the chief ray does not reach the sensor.
+    The axes of `Sources` come first. Raises GeometryError where the chief ray does not reach the sensor, and for a
+    misaligned lens where it runs beyond the rim of a surface.
     """
+    if lens.misaligned:
+        lens = seen_from(lens, getattr(source, "azimuth_deg", 0.0))
+        check_chief_ray(lens, source, stop)
     # The chief ray is traced as the last ray, together with the others.
     xi, eta = np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
     rims = lens_rims(lens, keep_stop=False) if clip else None
     beam, weight, index = arriving(lens, source, xi, eta, stop, rims, aim_error)
     if beam.status.any():
-        _blank(beam)
-    return _relative_to_chief(beam, weight, xi, eta, index[-1], source.wavelength_um)
+        _blank(beam, lens)
+    rays = _relative_to_chief(beam, weight, xi, eta, index[-1], source.wavelength_um)
+    return _beside_chief(rays, beam) if lens.misaligned else rays
+
+
+def _beside_chief(rays: Pencil, beam: Beam) -> Pencil:
+    """Return the pencil with x and its cosine from those of the chief ray, which need not lie in the plane x = 0."""
+    chief_x, chief_kx = beam.x[..., -1:], beam.p[..., -1:] / rays.index
+    return replace(rays, dx=rays.dx - chief_x, chief_x=chief_x, chief_kx=chief_kx)
 
 
 def _relative_to_chief(
@@ -143,12 +158,12 @@ def _relative_to_chief(
     )
 
 
-def _blank(beam: Beam) -> None:
+def _blank(beam: Beam, lens: Lens) -> None:
     """Make failed rays NaN throughout, and refuse a pencil whose chief ray failed."""
     bad = beam.status != Status.PASSED
     if bad[..., -1].any():
         status, surface = (int(a[..., -1][bad[..., -1]].ravel()[0]) for a in (beam.status, beam.failed_surface))
-        raise GeometryError("the chief ray {outcome}; choose a smaller field", outcome=status_message(status, surface))
+        raise chief_ray_error(lens, status_message(status, surface), surface)
     for column in (beam.x, beam.y, beam.p, beam.q, beam.r, beam.path):
         column[bad] = np.nan
 
@@ -195,7 +210,11 @@ def opd_on_sphere(rays: Pencil, radius: FloatOrArray) -> np.ndarray:
 
 def _exit_radius(lens: Lens, source: Source | Sources, rays: Pencil, stop: Stop | None = None) -> np.ndarray:
     """Return the sphere's radius: from the paraxial exit-pupil plane to the sensor along the chief ray, mm."""
-    radius: np.ndarray = (lens.sensor_mm - entrance(lens, source, stop).exit_plane) / rays.chief_kz
+    along = rays.chief_kz
+    if lens.misaligned:  # the cosine about the axis behind the last surface, which a tilted sensor does not share
+        turn = seen_from(lens, getattr(source, "azimuth_deg", 0.0)).motions[-1].rotation[2]
+        along = turn[0] * rays.chief_kx + turn[1] * rays.chief_ky + turn[2] * rays.chief_kz
+    radius: np.ndarray = (lens.sensor_mm - entrance(lens, source, stop).exit_plane) / along
     return radius
 
 
@@ -209,11 +228,17 @@ def pupil_grid(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def opd_map(lens: Lens, source: Source, count: int = 64) -> np.ndarray:
-    """Return the displayed OPD over the pupil, (count, count) waves, row = η, NaN outside; half the disc is traced."""
+    """Return the displayed OPD over the pupil, (count, count) waves, row = η, NaN outside.
+
+    Half the disc is traced, of a misaligned lens all of it.
+    """
     xi, eta, inside = pupil_grid(count)
+    values = np.full((count, count), np.nan)
+    if lens.misaligned:
+        values[inside] = displayed_opd(lens, source, xi[inside], eta[inside])
+        return values
     right = slice(None), slice(count // 2, None)
     half = inside[right]
-    values = np.full((count, count), np.nan)
     values[right][half] = displayed_opd(lens, source, xi[right][half], eta[right][half])
     values[:, : (count + 1) // 2] = values[:, : -((count + 1) // 2) - 1 : -1]
     return values

@@ -49,7 +49,7 @@ class Steepness:
 def ray_data(rays: Pencil) -> RayData:
     """Return phase, spatial frequencies, landing points and weights of a traced pencil."""
     scale = rays.index / rays.wavelength_um
-    fx, fy = rays.kx * scale, (rays.ky - rays.chief_ky) * scale
+    fx, fy = (rays.kx - rays.chief_kx) * scale, (rays.ky - rays.chief_ky) * scale
     return RayData(diffraction_phase(rays), fx, fy, rays.dx * UM_PER_MM, rays.dy * UM_PER_MM, rays.weight)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray
 from p2sf.lens.lens import Surface
+from p2sf.lens.placement import Motion
 from p2sf.lens.shapes import WAVES_MM, Diffraction
 
 NEWTON_STEPS = 40
@@ -83,6 +84,20 @@ def to_plane(beam: Beam, index: FloatOrArray) -> None:
     beam.z[...] = 0.0
     back *= index * index
     beam.path -= back
+
+
+def move(beam: Beam, motion: Motion, index: FloatOrArray, number: int) -> None:
+    """Give a beam in the axes of ``motion``, those of surface ``number``; a ray that runs away from it misses it."""
+    ahead = (3, *(1,) * (beam.place.ndim - 1))
+    beam.place -= motion.origin.reshape(ahead)
+    if not motion.turns:
+        return
+    back = motion.rotation.T
+    for vectors in (beam.place, beam.ray):
+        vectors[...] = (back @ vectors.reshape(3, -1)).reshape(vectors.shape)
+    away = beam.r * index <= 0
+    if away.any():
+        beam.fail(away, Status.MISSED, number)
 
 
 def meet(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal | None:

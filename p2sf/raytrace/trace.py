@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -13,7 +12,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
-from p2sf.raytrace.surface import Beam, Status, clip, diffract, meet, refract, to_plane
+from p2sf.raytrace.surface import Beam, Status, clip, diffract, meet, move, refract, to_plane
 
 Index: TypeAlias = np.ndarray | list[float]  # per medium, object space first; floats for one wavelength
 
@@ -33,7 +32,8 @@ class Trace:
     """Rays traced from their origins to the sensor.
 
     ``points``: (surfaces + 2, …, ray, 3) mm from the first vertex: the origin, every surface, the sensor; NaN from
-    where the ray failed. ``cosines``: (…, ray, 3) in image space, as the ray travels. ``path``: optical path from the
+    where the ray failed; in the axes of the lens, also where parts of it are tilted. ``cosines``: (…, ray, 3) in image
+    space, in the same axes, as the ray travels. ``path``: optical path from the
     origin to the sensor, mm. ``status``: `Status` per ray; ``failed_surface`` counts from 1, 0 where the ray passed.
     """
 
@@ -67,8 +67,10 @@ def trace(
     beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # an origin or direction that is not finite
     points = [origins]
     rims = lens_rims(lens) if clip else None
-    run(lens, beam, index, rims, visit=lambda vertex: points.append(_points(beam, vertex)))
+    run(lens, beam, index, rims, visit=lambda number: points.append(_points(beam, lens, number)))
     cosines = np.stack([beam.p, beam.q, beam.r], -1) / np.abs(np.asarray(index[-1]))[..., None]
+    if lens.misaligned:
+        cosines = cosines @ lens.frames[-1].rotation.T
     cosines[np.isnan(beam.path)] = np.nan
     return Trace(np.stack(points), cosines, beam.path, beam.status, beam.failed_surface)
 
@@ -78,8 +80,9 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
 
     ``z``: (surfaces, …) mm from the first vertex, NaN where the ray failed. A ray beyond the edge of the glass does so,
     where the surfaces it is traced to have crossed; a thickness against the light puts them in that order on purpose.
+    In a misaligned lens, whose light may go anywhere along z, nothing is looked at.
     """
-    if not len(z):
+    if not len(z) or lens.misaligned:
         return None
     along = lens.directions[1 : len(z)]
     behind = np.array([s.thickness * sign >= 0 for s, sign in zip(lens.surfaces, along, strict=False)], bool)
@@ -121,31 +124,38 @@ def run(
     index: Index,
     rims: np.ndarray | None = None,
     last: int | None = None,
-    visit: Callable[[float], None] | None = None,
+    visit: Callable[[int], None] | None = None,
     first: int = 1,
 ) -> Beam:
     """Carry a beam through the lens to the sensor plane, or onto and through surface ``last``, and return it.
 
     ``first`` > 1 goes on with a beam whose last surface was the one before it.
-    ``rims``, one per surface, mm, clip the beam. ``visit(vertex)`` is called on every surface and on the sensor with
-    the current vertex's distance from the first; without it, planes between equal media are skipped.
+    ``rims``, one per surface, mm, clip the beam. ``visit(number)`` is called on every surface and on the sensor, which
+    counts as the surface behind the last; without it, planes between equal media are skipped.
+    The beam is given in the axes of the lens, ends in those of its last surface or the sensor, and ``visit`` finds it
+    in those of the surface.
     """
-    vertex = 0.0
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        if first > 1:
-            beam.z -= lens.surfaces[first - 2].thickness
+        _onward(beam, lens, first - 1, index)
         for number, surface in enumerate(lens.surfaces[first - 1 : last], first):
             idle = surface.bare and rims is None and visit is None
             if number == last or not (idle and _same(index[number - 1], index[number])):
-                _cross(beam, surface, index, number, rims, partial(visit, vertex) if visit else None)
+                _cross(beam, surface, index, number, rims, visit)
             if number != last:
-                beam.z -= surface.thickness
-                vertex += surface.thickness
+                _onward(beam, lens, number, index)
         if last is None:
             to_plane(beam, index[-1])
             if visit:
-                visit(vertex)
+                visit(len(lens.surfaces) + 1)
     return beam
+
+
+def _onward(beam: Beam, lens: Lens, number: int, index: Index) -> None:
+    """Give a beam in the axes of surface ``number``, 0 for those of the lens, in those of the next, or the sensor."""
+    if lens.misaligned:
+        move(beam, lens.motions[number], index[number], number + 1)
+    elif number:
+        beam.z -= lens.surfaces[number - 1].thickness
 
 
 def _cross(
@@ -154,13 +164,13 @@ def _cross(
     index: Index,
     number: int,
     rims: np.ndarray | None,
-    arrived: Callable[[], None] | None,
+    visit: Callable[[int], None] | None,
 ) -> None:
     """Carry a beam to a surface, clip it there, and refract it."""
     before, after = index[number - 1], index[number]
     normal = meet(beam, surface, before, number)
-    if arrived:
-        arrived()
+    if visit:
+        visit(number)
     if rims is not None:
         clip(beam, rims[number - 1], number)
     if surface.diffraction is not None:
@@ -174,8 +184,14 @@ def _same(before: FloatOrArray, after: FloatOrArray) -> bool:
     return equal if isinstance(equal, bool) else bool(equal.all())
 
 
-def _points(beam: Beam, vertex: float) -> np.ndarray:
-    points = np.stack([beam.x, beam.y, beam.z + vertex], -1)
+def _points(beam: Beam, lens: Lens, number: int) -> np.ndarray:
+    """Return where rays are, in the axes of the lens, from where they are in those of a surface."""
+    if lens.misaligned:
+        rotation, origin = lens.frames[number - 1]
+        points: np.ndarray = np.moveaxis(beam.place, 0, -1) @ rotation.T + origin
+    else:
+        vertex = sum(surface.thickness for surface in lens.surfaces[: number - 1])
+        points = np.stack([beam.x, beam.y, beam.z + vertex], -1)
     points[beam.status != Status.PASSED] = np.nan
     return points
 

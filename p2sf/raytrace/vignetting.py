@@ -13,8 +13,9 @@ from itertools import pairwise
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.raytrace.fit import FittedPencil, fit
@@ -89,6 +90,7 @@ def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.
 @lru_cache(maxsize=16)
 def outline(lens: Lens, source: Source, clip: bool = True) -> ClearPart:
     """Return centre and corners of the clear part of the pupil. Raises GeometryError when no part is clear."""
+    check_aligned(lens, Message("the search for rims in the pupil"))
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens, check_aligned, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.pupil.mask_nodes import ClearNodes
@@ -64,6 +64,7 @@ def pupil_opd(
 ) -> tuple[ClearNodes, np.ndarray]:
     """Return nodes over the clear part of the half disc ξ > 0 and the displayed OPD there, waves, (nodes,)."""
     check_unmasked(lens, Message("the decomposition of a wavefront"))
+    check_aligned(lens, Message("the decomposition of a wavefront"))
     nodes = whole_nodes(counts)
     turn = np.linspace(0, np.pi, RIM_RAYS)
     tried = np.append(nodes.xi, np.sin(turn)), np.append(nodes.eta, np.cos(turn))

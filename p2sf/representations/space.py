@@ -10,7 +10,7 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, slope_from_degrees, vergence
 from p2sf.database.space import Space, depth_nodes
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_unmasked, with_f_number
+from p2sf.lens.lens import Lens, check_aligned, check_unmasked, with_f_number
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import cardinal_points
@@ -160,6 +160,7 @@ def _smaller(opened: Lens, lens: Lens) -> bool:
 def _depths(lens: Lens) -> tuple[float, float]:
     """Return the nearest and the farthest depth, mm."""
     check_unmasked(lens, Message("a comparison of descriptions"))
+    check_aligned(lens, Message("a comparison of descriptions"))
     far_waves = _defocus(lens, inf)
     if abs(far_waves) > USEFUL_WAVES:
         focus = _depth_at(lens, 0.0, (NEAREST_MM, LARGE_MM))

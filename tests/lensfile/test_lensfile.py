@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex, TabulatedIndex, catalogue_glass, model_glass
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml, write_toml
@@ -268,3 +270,56 @@ def test_other_formats_say_that_they_hold_no_mask(tmp_path):
     lens = with_mask(parse_toml(MASKED.format(entry="")), PupilMask(obscuration=0.2))
     with pytest.raises(LensFileError, match="mask"):
         write_lens(lens, tmp_path / "lens.zmx")
+
+
+TILTED = """
+unit = "cm"
+stop_surface = 1
+{sensor}
+[aperture]
+stop_semi_diameter = 0.5
+[[surface]]
+radius = 5.0
+thickness = 0.4
+glass = 1.5
+{before}
+[[surface]]
+radius = -5.0
+thickness = 4.8
+{piece}
+"""
+
+
+def test_tilts_and_decentres_are_read_and_written():
+    """Lengths are in the file's unit, and z may be left out; what is written reads as the same lens."""
+    before = (
+        "before = [{ decentre = [0.1, 0.2, 0.3], tilt_deg = [1, 2, 3], tilt_first = true, pivot = [0, 0, 2] }, { }]"
+    )
+    sensor, piece = "sensor_before = [{ tilt_deg = [5, 0] }]", "[[misaligned]]\nsurfaces = [1, 2]\ndecentre = [0, 0.01]"
+    lens = parse_toml(TILTED.format(before=before, sensor=sensor, piece=piece))
+    own = Placement(1.0, 2.0, 3.0, 1.0, 2.0, 3.0, True, (0.0, 0.0, 20.0))
+    assert lens.surfaces[0].before == (Placement(decentre_y=0.1), own, Placement())
+    assert lens.sensor_before == (Placement(tilt_x_deg=5.0),)
+    plain = parse_toml(TILTED.format(before=before, sensor=sensor, piece=""))
+    assert lens == displaced(plain, 1, 2, Placement(decentre_y=0.1))
+    assert parse_toml(lens_to_toml(lens)) == lens
+
+
+@pytest.mark.parametrize(
+    ("entries", "said", "line"),
+    [
+        ({"before": "before = [{ decentre = [0.1] }]"}, "surface 1: decentre are 1 numbers", 11),
+        ({"before": "before = [{ tilt_deg = [90, 0, 0] }]"}, "surface 1: a tilt of 90° about x", None),
+        ({"before": "before = { decentre = [0, 0] }"}, "surface 1: before is .* write a list", 11),
+        ({"before": "before = [{ tilt = [0, 0] }]"}, 'key "tilt" is unknown; did you mean "tilt_deg"', 11),
+        ({"before": "before = [{ tilt_first = 1 }]"}, "tilt_first is 1; write true or false", 11),
+        ({"sensor": "sensor_before = [{ tilt_deg = [0, -95] }]"}, "surface 3: a tilt of -95° about y", 4),
+        ({"piece": "[[misaligned]]\nsurfaces = [2, 3]"}, "surfaces 2 to 3 do not exist", 16),
+        ({"piece": "[[misaligned]]\ndecentre = [0, 1]"}, "surfaces is .*; write the first and the last", 15),
+        ({"piece": "[misaligned]\nsurfaces = [1, 1]"}, "head every piece with", None),
+    ],
+)
+def test_a_tilt_that_cannot_be_is_refused(entries, said, line):
+    with pytest.raises(LensFileError, match=said) as error:
+        parse_toml(TILTED.format(**({"before": "", "sensor": "", "piece": ""} | entries)))
+    assert line is None or error.value.line == line

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM
-from p2sf.lens.lens import Lens, with_mask
+from p2sf.lens.lens import Lens, check_aligned, with_mask
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
 from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
@@ -175,6 +176,7 @@ class _Axial:
 
 @lru_cache(maxsize=16)
 def _axial(prescription: Lens, request: Request) -> _Axial:
+    check_aligned(prescription, Message("the window"))
     setup = set_up(prescription, request)
     lens, wavelength, stop = setup.lens, setup.source.wavelength_um, setup.stop
     return _Axial(

@@ -720,10 +720,15 @@
 <message><source>a blur of {size} pixels with {samples} samples each needs a {side}² transform; bring the depths nearer to focus, stop down, or ask for larger pixels</source><translation>eine Unschärfe von {size} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²; die Abstände dem Fokus nähern, abblenden oder größere Pixel verlangen</translation></message>
 <message><source>a blur of {waves:.0f} waves per pupil radius needs {lines} × {samples} pupil samples; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius braucht {lines} × {samples} Pupillenproben; den Sensor dem Bild nähern oder abblenden</translation></message>
 <message><source>a chart of {columns} × {rows} pixels; give {least} to {most} each way</source><translation>eine Tafel von {columns} × {rows} Pixeln; {least} bis {most} je Richtung angeben</translation></message>
+<message><source>a colour PSF</source><translation>eine PSF in Farbe</translation></message>
 <message><source>a comparison of descriptions</source><translation>ein Vergleich von Beschreibungen</translation></message>
+<message><source>a curve over the field</source><translation>eine Kurve über das Feld</translation></message>
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
+<message><source>a database</source><translation>eine Datenbank</translation></message>
 <message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
+<message><source>a file that ends in {ending}</source><translation>eine Datei mit der Endung {ending}</translation></message>
+<message><source>a fit</source><translation>eine Anpassung</translation></message>
 <message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
 <message><source>a glass needs a name and a formula number (NM name formula …); complete it</source><translation>ein Glas braucht Namen und Formelnummer (NM Name Formel …); ergänzen</translation></message>
 <message><source>a gradient index</source><translation>ein Gradientenindex</translation></message>
@@ -1074,12 +1079,14 @@
 <message><source>measuring what each method takes here</source><translation>es wird gemessen, wie lange jedes Verfahren hier braucht</translation></message>
 <message><source>medium {name} cannot be written to a file; give an index, a glass name or nd and vd</source><translation>das Medium {name} lässt sich nicht in eine Datei schreiben; einen Index, einen Glasnamen oder nd und vd angeben</translation></message>
 <message><source>medium {name} has no line in a Zemax file; save as TOML, or give nd and vd</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei; als TOML speichern oder nd und vd angeben</translation></message>
+<message><source>meets surface {surface} {height:.4g} mm from its vertex, beyond its rim of {rim:g} mm</source><translation>trifft Fläche {surface} {height:.4g} mm neben ihrem Scheitel, außerhalb ihres Randes von {rim:g} mm</translation></message>
 <message><source>meets the asphere on surface {surface} where no safe intersection was found</source><translation>trifft die Asphäre auf Fläche {surface}, wo kein sicherer Schnittpunkt zu finden war</translation></message>
 <message><source>mercury g e</source><translation>Quecksilber g e</translation></message>
 <message><source>method</source><translation>Methode</translation></message>
 <message><source>method "{method}" describes no pupil; choose {methods}</source><translation>Verfahren "{method}" beschreibt keine Pupille; {methods} wählen</translation></message>
 <message><source>method "{method}" is unknown; choose {methods}</source><translation>die Methode "{method}" ist unbekannt; {methods} wählen</translation></message>
 <message><source>methods here</source><translation>Verfahren hier</translation></message>
+<message><source>misaligned is not a list of tables; head every piece with [[misaligned]]</source><translation>misaligned ist keine Liste von Tabellen; jedes Stück mit [[misaligned]] überschreiben</translation></message>
 <message><source>misses surface {surface}</source><translation>verfehlt Fläche {surface}</translation></message>
 <message><source>mm</source><translation>mm</translation></message>
 <message><source>mode {mode} is not sequential; export the sequential lens</source><translation>der Modus {mode} ist nicht sequentiell; das sequentielle Objektiv exportieren</translation></message>
@@ -1152,6 +1159,7 @@
 <message><source>paraxial</source><translation>paraxial</translation></message>
 <message><source>paraxial, axis</source><translation>paraxial, Achse</translation></message>
 <message><source>partial dispersion</source><translation>Teildispersion</translation></message>
+<message><source>parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop</source><translation>Teile des Objektivs sind gekippt oder dezentriert, und seine Pupille ist keine paraxiale Scheibe; {parameter} stop wählen</translation></message>
 <message><source>passes</source><translation>kommt durch</translation></message>
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
@@ -1325,9 +1333,12 @@
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
+<message><source>surface {surface} is tilted or decentred, and {what} knows rotational symmetry only; set it straight</source><translation>Fläche {surface} ist gekippt oder dezentriert, und {what} kennt nur Rotationssymmetrie; sie gerade stellen</translation></message>
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
 <message><source>surface {surface}: Qbfs departs from a sphere, and the conic constant is {conic:g}; set it to 0 or use Qcon</source><translation>Fläche {surface}: Qbfs weicht von einer Kugel ab, und die Kegelschnittkonstante ist {conic:g}; auf 0 setzen oder Qcon verwenden</translation></message>
 <message><source>surface {surface}: a coefficient of its shape or its phase is not finite; correct it</source><translation>Fläche {surface}: ein Koeffizient ihrer Form oder ihrer Phase ist nicht endlich; berichtigen</translation></message>
+<message><source>surface {surface}: a tilt of {tilt:g}° about {axis} turns it edge on or further; give less than 90°</source><translation>Fläche {surface}: eine Kippung von {tilt:g}° um {axis} stellt sie auf die Kante oder weiter; weniger als 90° angeben</translation></message>
+<message><source>surface {surface}: a tilt or decentre is not finite; give finite numbers</source><translation>Fläche {surface}: eine Kippung oder Dezentrierung ist nicht endlich; endliche Zahlen angeben</translation></message>
 <message><source>surface {surface}: aspheric term r^{power} is not even from r⁴ on; refit the surface</source><translation>Fläche {surface}: das asphärische Glied r^{power} ist nicht gerade ab r⁴; die Fläche neu anpassen</translation></message>
 <message><source>surface {surface}: aspheric_coefficients is not a list of up to 20 numbers; correct it</source><translation>Fläche {surface}: aspheric_coefficients ist keine Liste von bis zu 20 Zahlen; berichtigen</translation></message>
 <message><source>surface {surface}: conic or aspheric coefficient is not finite; correct it</source><translation>Fläche {surface}: der Kegelschnitt oder ein asphärischer Koeffizient ist nicht endlich; berichtigen</translation></message>
@@ -1343,10 +1354,12 @@
 <message><source>surface {surface}: {name} differs between x and y; only round lenses are read</source><translation>Fläche {surface}: {name} unterscheidet sich zwischen x und y; nur runde Objektive werden gelesen</translation></message>
 <message><source>surface {surface}: {name} is {found}; write a number</source><translation>Fläche {surface}: {name} ist {found}; eine Zahl schreiben</translation></message>
 <message><source>surfaces in the order of the light</source><translation>Flächen in der Reihenfolge des Lichts</translation></message>
+<message><source>surfaces is {found}; write the first and the last, as in [3, 4]</source><translation>surfaces ist {found}; die erste und die letzte schreiben, wie in [3, 4]</translation></message>
 <message><source>surfaces {first} and {last} are equally curved, so the element has no shape factor; change a radius first</source><translation>Die Flächen {first} und {last} sind gleich gekrümmt, daher hat das Element keinen Formfaktor; ändern Sie zuerst einen Radius</translation></message>
 <message><source>surfaces {first} and {second} both are stops; keep one</source><translation>die Flächen {first} und {second} sind beide Blenden; eine behalten</translation></message>
 <message><source>surfaces {first} and {second} both are the stop; keep one</source><translation>die Flächen {first} und {second} sind beide die Blende; eine behalten</translation></message>
 <message><source>surfaces {first} to {last} are no element with air on both sides; choose one that stands free</source><translation>Die Flächen {first} bis {last} sind kein Element mit Luft auf beiden Seiten; wählen Sie ein frei stehendes</translation></message>
+<message><source>surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}</source><translation>Flächen {first} bis {last} gibt es nicht; das Objektiv hat die Flächen 1 bis {count}</translation></message>
 <message><source>surfaces {first} to {last}, n = {index}</source><translation>Flächen {first} bis {last}, n = {index}</translation></message>
 <message><source>surround "{surround}" is unknown; choose {choices}</source><translation>das Umfeld "{surround}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>table 1 of the paper</source><translation>Tabelle 1 des Aufsatzes</translation></message>
@@ -1380,6 +1393,8 @@
 <message><source>the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600</source><translation>der Schwarze Körper hat {given:g} K; eine Temperatur von {least:g} bis {most:g} K angeben, wie in planck:5600</translation></message>
 <message><source>the blur is too large for a reference here; {remedy}</source><translation>die Unschärfe ist hier zu groß für eine Referenz; {remedy}</translation></message>
 <message><source>the chief ray {outcome}; choose a smaller field</source><translation>der Hauptstrahl {outcome}; ein kleineres Feld wählen</translation></message>
+<message><source>the chief ray {outcome}; surface {placed} is decentred by ({decentre:g}) mm and tilted by ({tilt:g})°: make that or the field smaller</source><translation>der Hauptstrahl {outcome}; Fläche {placed} ist um ({decentre:g}) mm dezentriert und um ({tilt:g})° gekippt: das oder das Feld verkleinern</translation></message>
+<message><source>the choice of a method</source><translation>die Wahl eines Verfahrens</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
 <message><source>the coefficients</source><translation>die Koeffizienten</translation></message>
 <message><source>the columns have {counts} surfaces; give every column the same surfaces</source><translation>die Spalten haben {counts} Flächen; jeder Spalte dieselben Flächen geben</translation></message>
@@ -1425,6 +1440,7 @@
 <message><source>the fill factor is {fill:g}; give a part above 0 and up to 1</source><translation>der Füllfaktor ist {fill:g}; einen Teil über 0 und bis 1 angeben</translation></message>
 <message><source>the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
 <message><source>the focus is stated twice, by {first} and {second}; keep one</source><translation>der Fokus ist zweimal angegeben, durch {first} und {second}; eines behalten</translation></message>
+<message><source>the focus of each zone</source><translation>der Fokus jeder Zone</translation></message>
 <message><source>the forming of images</source><translation>die Bilderzeugung</translation></message>
 <message><source>the fourth column as the rim's diameter</source><translation>die vierte Spalte als Durchmesser des Rands</translation></message>
 <message><source>the free pupil has no lens</source><translation>die freie Pupille hat kein Objektiv</translation></message>
@@ -1458,6 +1474,8 @@
 <message><source>the link holds no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
 <message><source>the link is cut off or changed; copy all of it again, from p2sf: to its last letter</source><translation>der Link ist abgeschnitten oder verändert; noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
 <message><source>the mask in the stop leaves nothing open; make its obscuration or its vanes smaller</source><translation>die Maske in der Blende lässt nichts offen; ihre Abschattung oder ihre Streben kleiner machen</translation></message>
+<message><source>the method huygens</source><translation>das Verfahren huygens</translation></message>
+<message><source>the method traced</source><translation>das Verfahren traced</translation></message>
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
 <message><source>the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %</source><translation>das mittlere Pixel hält {real} % des Lichts, von dem einer idealen Linse {perfect} %</translation></message>
 <message><source>the model glass's deviation in partial dispersion is left out; n changes by less than 1e-4</source><translation>die Abweichung der Teildispersion des Modellglases ist weggelassen; n ändert sich um weniger als 1e-4</translation></message>
@@ -1491,6 +1509,7 @@
 <message><source>the scene has no channel; give at least one</source><translation>die Szene hat keinen Kanal; mindestens einen angeben</translation></message>
 <message><source>the scene has one depth</source><translation>die Szene hat nur einen Abstand</translation></message>
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
+<message><source>the search for rims in the pupil</source><translation>die Suche nach Rändern in der Pupille</translation></message>
 <message><source>the shipped lenses are missing; install p2sf again</source><translation>die mitgelieferten Objektive fehlen; p2sf neu installieren</translation></message>
 <message><source>the six Seidel coefficients keep the pixels' error here</source><translation>die sechs Seidel-Koeffizienten halten hier den Fehler der Pixel ein</translation></message>
 <message><source>the source has values of shape {shape}, which are many sources; give one after the other</source><translation>die Quelle hat Werte der Form {shape}, das sind viele Quellen; eine nach der anderen angeben</translation></message>
@@ -1563,6 +1582,7 @@
 <message><source>tilt</source><translation>Verkippung</translation></message>
 <message><source>tilt of the 3D view</source><translation>Neigung der 3D-Ansicht</translation></message>
 <message><source>tilt of the wavefront's surface</source><translation>Neigung der Wellenfrontfläche</translation></message>
+<message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
 <message><source>time</source><translation>Zeit</translation></message>
 <message><source>time of a PSF among many, µs</source><translation>Zeit einer PSF unter vielen, µs</translation></message>
 <message><source>time of one PSF, ms</source><translation>Zeit einer PSF, ms</translation></message>
@@ -1627,6 +1647,7 @@
 <message><source>write a number that is not 0, inf for a plane</source><translation>eine Zahl schreiben, die nicht 0 ist, inf für eine Ebene</translation></message>
 <message><source>write a positive number</source><translation>eine positive Zahl schreiben</translation></message>
 <message><source>write a wavelength in nanometres, 50 to 50000</source><translation>eine Wellenlänge in Nanometern schreiben, 50 bis 50000</translation></message>
+<message><source>write an angle in degrees</source><translation>einen Winkel in Grad schreiben</translation></message>
 <message><source>write an angle in degrees below 90</source><translation>einen Winkel in Grad unter 90 schreiben</translation></message>
 <message><source>write maker and name as in "SCHOTT N-BK7", an index, or { nd = 1.5168, vd = 64.17 }</source><translation>Hersteller und Namen schreiben wie in "SCHOTT N-BK7", einen Index oder { nd = 1.5168, vd = 64.17 }</translation></message>
 <message><source>write the distance to the next surface as a number</source><translation>den Abstand zur nächsten Fläche als Zahl schreiben</translation></message>
@@ -1716,6 +1737,7 @@
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
 <message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
+<message><source>{name} are {count} numbers; write x, y and z</source><translation>{name} sind {count} Zahlen; x, y und z schreiben</translation></message>
 <message><source>{name} cannot be read ({reason}); name a picture or a .npy file</source><translation>{name} lässt sich nicht lesen ({reason}); ein Bild oder eine .npy-Datei nennen</translation></message>
 <message><source>{name} has changed on disk and was read again</source><translation>{name} hat sich auf dem Datenträger geändert und wurde neu gelesen</translation></message>
 <message><source>{name} has changed on disk; your edits are kept, Back to file takes the new one</source><translation>{name} hat sich auf dem Datenträger geändert; Ihre Änderungen bleiben, „Zurück zur Datei“ nimmt die neue</translation></message>
@@ -1726,6 +1748,7 @@
 <message><source>{name} is an empty list; write at least one number</source><translation>{name} ist eine leere Liste; mindestens eine Zahl schreiben</translation></message>
 <message><source>{name} is missing; {remedy}</source><translation>{name} fehlt; {remedy}</translation></message>
 <message><source>{name} is {found}; write a list of numbers as in [1.0, 2.0]</source><translation>{name} ist {found}; eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
+<message><source>{name} is {found}; write a list of tables, each with decentre or tilt_deg</source><translation>{name} ist {found}; eine Liste von Tabellen schreiben, jede mit decentre oder tilt_deg</translation></message>
 <message><source>{name} is {found}; write a square list of rows of numbers</source><translation>{name} ist {found}; eine quadratische Liste von Zeilen von Zahlen schreiben</translation></message>
 <message><source>{name} is {found}; write a table [{name}] with its columns</source><translation>{name} ist {found}; eine Tabelle [{name}] mit ihren Spalten schreiben</translation></message>
 <message><source>{name} is {found}; write a text in quotation marks</source><translation>{name} ist {found}; einen Text in Anführungszeichen schreiben</translation></message>
@@ -1835,6 +1858,7 @@
 <message><source>{rows} × {columns} places × {waves} wavelengths, mirror images for nothing</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
 <message><source>{r} λ left</source><translation>{r} λ Rest</translation></message>
 <message><source>{r} λ without tilt</source><translation>{r} λ ohne Verkippung</translation></message>
+<message><source>{sampling}; the lens set straight, without its tilts and decentres</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen und Dezentrierungen</translation></message>
 <message><source>{sampling}; {across} × {across} samples per pixel</source><translation>{sampling}; {across} × {across} Proben je Pixel</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>

@@ -1,0 +1,55 @@
+"""A lens with an element, a group, a mirror or the sensor tilted and decentred."""
+
+from dataclasses import replace
+from functools import reduce
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.placement import Motion, Placement, along_z, placement_of
+
+
+def displaced(lens: Lens, first: int, last: int, placement: Placement) -> Lens:
+    """Return the lens with its surfaces ``first`` to ``last``, from 1, moved as one piece, and nothing else.
+
+    ``placement`` stands in the axes before surface ``first``, and its pivot in mm from that vertex. Raises
+    GeometryError where there are no such surfaces.
+    """
+    if not 1 <= first <= last <= len(lens.surfaces):
+        raise GeometryError(
+            "surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}",
+            first=first,
+            last=last,
+            count=len(lens.surfaces),
+        )
+    if placement.idle:
+        return lens
+    surfaces = list(lens.surfaces)
+    back = _restoring(lens, first, last, placement)
+    front, rear = surfaces[first - 1], surfaces[last - 1]
+    surfaces[first - 1] = replace(front, before=(placement, *front.before))
+    rear = surfaces[last - 1]
+    surfaces[last - 1] = replace(rear, after=(*rear.after, back))
+    return replace(lens, surfaces=tuple(surfaces))
+
+
+def _restoring(lens: Lens, first: int, last: int, placement: Placement) -> Placement:
+    """Return the break behind surface ``last`` that gives back the axes as they are without ``placement``."""
+    inside = along_z(0.0)
+    for number, surface in enumerate(lens.surfaces[first - 1 : last], first):
+        breaks = (one.motion for one in (*surface.before, *surface.after))
+        inside = reduce(Motion.then, breaks, inside).then(along_z(surface.thickness if number < last else 0.0))
+    if not inside.turns and not np.any(inside.origin[:2]):
+        return placement.inverse.behind(float(inside.origin[2]))
+    return placement_of(inside.inverse.then(placement.motion.inverse).then(inside))
+
+
+def with_tilted_sensor(lens: Lens, placement: Placement) -> Lens:
+    """Return the lens with its sensor placed so, in the axes at its place behind the last surface."""
+    return replace(lens, sensor_before=() if placement.idle else (placement,))
+
+
+def folding(placement: Placement) -> dict[str, tuple[Placement, ...]]:
+    """Return ``before`` and ``after`` of a mirror that folds the axis: placed so, with the axes behind following it."""
+    return {"before": (placement,), "after": (placement.followed,)}

@@ -1,0 +1,91 @@
+"""Tilts and decentres in a lens file in TOML: ``before`` and ``after`` of a surface, [[misaligned]] pieces."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from math import isfinite
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
+from p2sf.lensfile.toml_table import Constraint, Table, shown
+from p2sf.messages import Message
+
+PLACEMENT = ("decentre", "tilt_deg", "tilt_first", "pivot")
+PIECE = ("surfaces", *PLACEMENT)
+FINITE = Constraint(isfinite, Message("write a finite number"))
+ANGLE = Constraint(isfinite, Message("write an angle in degrees"))
+NOWHERE = (0.0, 0.0, 0.0)
+
+
+def read_placements(table: Table, key: str, scale: float) -> tuple[Placement, ...]:
+    """Return the breaks under a key, a list of inline tables; LensFileError with the line of what cannot be."""
+    rows = table.values.get(key, [])
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        table.fail(
+            "{name} is {found}; write a list of tables, each with decentre or tilt_deg",
+            key,
+            name=key,
+            found=shown(rows),
+        )
+    return tuple(_placement(replace(table, values=row, within=key), scale, PLACEMENT) for row in rows)
+
+
+def misaligned(top: Table, lens: Lens, scale: float) -> Lens:
+    """Return the lens with the pieces of its [[misaligned]] tables moved, the later ones on top of the earlier."""
+    rows = top.values.get("misaligned", [])
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        top.fail("misaligned is not a list of tables; head every piece with [[misaligned]]", "misaligned")
+    for row in rows:
+        table = Table(top.path, top.text, row, "misaligned")
+        placement = _placement(table, scale, PIECE)
+        numbers = table.numbers("surfaces", FINITE, ())
+        if not 1 <= len(numbers) <= 2 or not all(number == int(number) for number in numbers):
+            table.fail(
+                "surfaces is {found}; write the first and the last, as in [3, 4]",
+                "surfaces",
+                found=shown(list(numbers)),
+            )
+        try:
+            lens = displaced(lens, int(numbers[0]), int(numbers[-1]), placement)
+        except GeometryError as error:
+            table.fail(error.message, "surfaces")
+    return lens
+
+
+def _placement(table: Table, scale: float, known: tuple[str, ...]) -> Placement:
+    table.check_keys(known)
+    x, y, z = (scale * value for value in _three(table, "decentre", FINITE))
+    across, up, along = (scale * value for value in _three(table, "pivot", FINITE))
+    first = table.values.get("tilt_first", False)
+    if not isinstance(first, bool):
+        table.fail("tilt_first is {found}; write true or false", "tilt_first", found=shown(first))
+    return Placement(x, y, z, *_three(table, "tilt_deg", ANGLE), first, (across, up, along))
+
+
+def _three(table: Table, key: str, rule: Constraint) -> tuple[float, float, float]:
+    """Return x, y and z under a key; z may be left out."""
+    numbers = table.numbers(key, rule, NOWHERE)
+    if len(numbers) not in (2, 3):
+        table.fail("{name} are {count} numbers; write x, y and z", key, name=key, count=len(numbers))
+    x, y, z = (*numbers, 0.0)[:3]
+    return x, y, z
+
+
+def placements_text(placements: Iterable[Placement]) -> str:
+    """Return breaks as `read_placements` reads them, in mm."""
+    return f"[{', '.join(map(_text, placements))}]"
+
+
+def _text(placement: Placement) -> str:
+    parts = [
+        f"{key} = [{', '.join(map(repr, map(float, numbers)))}]"
+        for key, numbers in (
+            ("decentre", placement.decentre),
+            ("tilt_deg", placement.tilt_deg),
+            ("pivot", placement.pivot),
+        )
+        if any(numbers)
+    ]
+    parts += ["tilt_first = true"] * placement.tilt_first
+    return f"{{ {', '.join(parts)} }}" if parts else "{ }"

@@ -1,0 +1,73 @@
+"""Where the chief ray of a misaligned lens runs, and what is wrong where it does not reach the sensor."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
+from p2sf.messages import Message
+from p2sf.paraxial.pupils import Stop
+from p2sf.raytrace.aiming import Sources, pupil_rays, start
+from p2sf.raytrace.surface import Status
+from p2sf.raytrace.trace import run, status_message
+
+
+def check_chief_ray(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> None:
+    """Raise GeometryError where the chief ray of a misaligned lens is lost, or meets a surface beyond its rim."""
+    if stop is None and isinstance(source, Source):
+        _check_cached(lens, source)
+    else:
+        _check(lens, source, stop)
+
+
+@lru_cache(maxsize=256)
+def _check_cached(lens: Lens, source: Source) -> None:
+    _check(lens, source, None)
+
+
+def _check(lens: Lens, source: Source | Sources, stop: Stop | None) -> None:
+    rays = pupil_rays(lens, source, np.zeros(1), np.zeros(1), stop)
+    beam, heights = start(rays), []
+    run(lens, beam, rays.index, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
+    lost = beam.status != Status.PASSED
+    if lost.any():
+        status, failed = (int(part[lost][0]) for part in (beam.status, beam.failed_surface))
+        raise chief_ray_error(lens, status_message(status, failed), failed)
+    for number, (surface, height) in enumerate(zip(lens.surfaces, heights, strict=False), 1):
+        far = float(np.max(height))
+        if far > surface.semi_diameter:
+            beyond = Message(
+                "meets surface {surface} {height:.4g} mm from its vertex, beyond its rim of {rim:g} mm",
+                surface=number,
+                height=far,
+                rim=surface.semi_diameter,
+            )
+            raise chief_ray_error(lens, beyond, number)
+
+
+def chief_ray_error(lens: Lens, outcome: Message, surface: int) -> GeometryError:
+    """Return the error that says what becomes of the chief ray at a surface, and which placement may be to blame."""
+    number, placement = _placed(lens, surface)
+    if placement is None:
+        return GeometryError("the chief ray {outcome}; choose a smaller field", outcome=outcome)
+    return GeometryError(
+        "the chief ray {outcome}; surface {placed} is decentred by ({decentre:g}) mm and tilted by ({tilt:g})°: "
+        "make that or the field smaller",
+        outcome=outcome,
+        placed=number,
+        decentre=placement.decentre,
+        tilt=placement.tilt_deg,
+    )
+
+
+def _placed(lens: Lens, surface: int) -> tuple[int, Placement | None]:
+    """Return the last surface up to this one that is placed or followed by a break, and its first break."""
+    for number in range(min(surface, len(lens.surfaces)), 0, -1):
+        behind = lens.surfaces[number - 1].after if number < surface else ()
+        for placement in (*lens.surfaces[number - 1].before, *behind):
+            if not placement.idle and (any(placement.decentre) or any(placement.tilt_deg[:2])):
+                return number, placement
+    return 0, None
