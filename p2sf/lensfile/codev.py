@@ -14,7 +14,7 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass.media import MIRROR, Medium, measured_index
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
@@ -133,6 +133,7 @@ class CodeVReading:
     private: dict[str, Medium] = field(default_factory=dict)
     private_nm: list[float] | None = None
     in_private: bool = False
+    position: str = ""  # the name of the zoom position
 
     def number(self, command: CodeVCommand, place: int, what: Message, default: float | None = None) -> float:
         """Return the number at a place of a command; LensFileError where it is missing without a ``default``."""
@@ -252,7 +253,8 @@ def _aperture(reading: CodeVReading, command: CodeVCommand) -> None:
 
 
 def _wavelengths(reading: CodeVReading, command: CodeVCommand) -> None:
-    values = reading.numbers(command, Message("wavelength"))
+    before = [wavelength * NM_PER_UM for wavelength in reading.raw.wavelengths_um]
+    values = _listed(reading, command, "W", before, Message("wavelength"))
     if not all(50 <= value <= 50_000 for value in values):
         raise reading.source.error("a wavelength is not light; give nanometres", command.line)
     reading.raw.wavelengths_um, reading.raw.wavelength_line = [value / NM_PER_UM for value in values], command.line
@@ -260,10 +262,6 @@ def _wavelengths(reading: CodeVReading, command: CodeVCommand) -> None:
 
 def _reference(reading: CodeVReading, command: CodeVCommand) -> None:
     reading.raw.primary = int(reading.number(command, 0, Message("reference wavelength"))) - 1
-
-
-def _zoom(reading: CodeVReading, command: CodeVCommand) -> None:
-    reading.notes.add("caution", "the file holds several zoom positions; the first, as its surfaces show it, is read")
 
 
 def _set(name: str, what: Message) -> Callable[[CodeVReading, CodeVCommand, RawSurface], None]:
@@ -325,7 +323,6 @@ IN_SYSTEM = {
     "DIM": _unit,
     "WL": _wavelengths,
     "REF": _reference,
-    "ZOO": _zoom,
     "PRV": _set_private,
     "END": _set_private,
     **dict.fromkeys(APERTURES, _aperture),
@@ -338,12 +335,61 @@ def read_codev(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
     Refused by surface number and name: tilts and decentres, diffractive, toric and other
     surfaces that are not spheres, conics or even aspheres.
     """
-    reading = CodeVReading(source, notes)
-    for command in commands(source):
-        _run(reading, command)
-    _finish(reading)
-    private = {**sources.private, **reading.private}
-    return assemble(reading.raw, GlassSources(sources.catalogues, private, sources.accept_substitutes), notes, source)
+    listed = list(commands(source))
+    count = max((int(number) for command in listed for number in _zoom_count(command)), default=1)
+    readings = []
+    for position in range(1, min(count, MOST_COLUMNS) + 1):
+        reading = CodeVReading(source, notes if position == 1 else Notebook())
+        for command in listed:
+            own = _at_position(reading, command, position, count)
+            if own:
+                _run(reading, own)
+        _finish(reading)
+        readings.append(reading)
+    private = {**sources.private, **readings[0].private}
+    glasses = GlassSources(sources.catalogues, private, sources.accept_substitutes)
+    return assemble_all([Configuration(reading.raw, reading.position) for reading in readings], glasses, notes, source)
+
+
+def _zoom_count(command: CodeVCommand) -> list[str]:
+    """Return the number of zoom positions that a command ZOO n states, nothing for another command."""
+    return [word for word in command.words[:1] if command.name[:3] == "ZOO" and re.fullmatch(r"\d{1,4}", word)]
+
+
+def _at_position(reading: CodeVReading, command: CodeVCommand, position: int, count: int) -> CodeVCommand | None:
+    """Return what a command means at one zoom position, None where it says nothing about it.
+
+    ZOO THI S5 a b c is THI S5 b at the second position, and so is THI S5 Z2 b.
+    """
+    if command.name[:3] == "ZOO" and command.words:
+        return _zoomed(reading, command, position, count)
+    where = next((k for k, word in enumerate(command.words[:2]) if re.fullmatch(r"Z\d+", word, re.I)), None)
+    if where is None or reading.in_private or count == 1:
+        return command
+    if int(command.words[where][1:]) != position:
+        return None
+    words = command.words[:where] + command.words[where + 1 :]
+    if command.name[:3] == "TIT":
+        reading.position = " ".join(words).strip()[:60]
+        return None
+    return CodeVCommand(command.name, words, command.line)
+
+
+def _zoomed(reading: CodeVReading, command: CodeVCommand, position: int, count: int) -> CodeVCommand | None:
+    name, *words = command.words
+    qualifiers = [word for word in words[:1] if re.fullmatch(r"[SFW](O|I|\d+)", word, re.I)]
+    values = words[len(qualifiers) :]
+    if _zoom_count(command) or not values:
+        return None
+    if len(values) not in (1, count):
+        raise reading.source.error(
+            "ZOO {name} has {values} values for {count} zoom positions; write one for each",
+            command.line,
+            name=name,
+            values=len(values),
+            count=count,
+        )
+    return CodeVCommand(name.upper(), (*qualifiers, values[position - 1 if len(values) > 1 else 0]), command.line)
 
 
 def _run(reading: CodeVReading, command: CodeVCommand) -> None:
@@ -368,10 +414,28 @@ def _dispatch(reading: CodeVReading, command: CodeVCommand, name: str) -> None:
     elif name in IN_SYSTEM:
         IN_SYSTEM[name](reading, command)
     elif name[:1] in "XY" and name[1:] in FIELD_KINDS:
-        reading.fields[name] = reading.numbers(command, Message("field"))
+        listed = reading.fields.setdefault(name, [])
+        listed[:] = _listed(reading, command, "F", listed, Message("field"))
         reading.raw.field_line = command.line
     else:
         note(reading.notes, reading.raw, name, command.words, surface.number if surface else None, command.line)
+
+
+def _listed(
+    reading: CodeVReading, command: CodeVCommand, letter: str, before: list[float], what: Message
+) -> list[float]:
+    """Return the numbers of a command, or those before it with another number for the one it names, as in YAN F2 5."""
+    if not command.words or not re.fullmatch(rf"{letter}\d+", command.words[0], re.I):
+        return reading.numbers(command, what)
+    place = int(command.words[0][1:])
+    if not 1 <= place <= len(before):
+        raise reading.source.error(
+            "{command} is of number {number}, which does not exist yet; put it behind the list of all",
+            command.line,
+            command=command.name,
+            number=place,
+        )
+    return [*before[: place - 1], reading.number(command, 1, what), *before[place:]]
 
 
 def _addressed(reading: CodeVReading, command: CodeVCommand) -> tuple[CodeVCommand, RawSurface | None]:

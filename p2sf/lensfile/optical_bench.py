@@ -1,8 +1,8 @@
 """Optical Bench text (photonstophotos.net): sections of tab-separated rows.
 
 [lens data] rows are number, radius (or AS, CG, FS), distance, nd, diameter, vd, glass, maker; distances may
-be names of [variable distances], whose first column is read; [aspherical data] rows are number, radius,
-conic constant, A4, A6, … (from A2 where [constants] says AsphericalA2).
+be names of [variable distances], which has a column for each zoom or focus position; [aspherical data] rows are
+number, radius, conic constant, A4, A6, … (from A2 where [constants] says AsphericalA2).
 """
 
 import re
@@ -11,7 +11,7 @@ from math import inf
 
 from p2sf.errors import GlassError
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.configurations import Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources, Resolution, resolve
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
@@ -25,21 +25,34 @@ FIELD_FRACTIONS = (0.0, 0.7, 1.0)
 
 @dataclass
 class BenchReading:
-    """What has been read so far; ``rows`` maps the file's own surface numbers to surfaces."""
+    """What has been read of one column; ``rows`` maps the file's own surface numbers to surfaces.
+
+    ``variables`` has the cells of every row of [variable distances], ``distances`` the names used in the lens data.
+    """
 
     source: LensText
     notes: Notebook
     sources: GlassSources
+    column: int = 0
     raw: RawLens = field(default_factory=RawLens)
     section: str = ""
     constants: set[str] = field(default_factory=set)
-    variables: dict[str, tuple[str, int]] = field(default_factory=dict)
+    variables: dict[str, tuple[list[str], int]] = field(default_factory=dict)
+    distances: set[str] = field(default_factory=lambda: {"d0", "bf"})
     rows: dict[str, RawSurface] = field(default_factory=dict)
 
 
 def read_optical_bench(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
-    """Return the lens of an Optical Bench text, of a zoom its first position; LensFileError with its line."""
-    reading = BenchReading(source, notes, sources)
+    """Return the lens of an Optical Bench text with all of its positions; LensFileError with its line."""
+    first = _read(source, sources, notes, 0)
+    count = _complete(first)
+    others = [_read(source, sources, Notebook(), column) for column in range(1, count)]
+    return assemble_all([_configuration(reading) for reading in (first, *others)], sources, notes, source)
+
+
+def _read(source: LensText, sources: GlassSources, notes: Notebook, column: int) -> BenchReading:
+    """Return what a text says of one column of its variable distances."""
+    reading = BenchReading(source, notes, sources, column)
     for line, text in enumerate(source.lines, 1):
         words = _cells(text)
         if words[0].startswith("["):
@@ -47,7 +60,35 @@ def read_optical_bench(source: LensText, sources: GlassSources, notes: Notebook)
         elif any(words) and not words[0].startswith("#"):
             READERS.get(reading.section, _skip)(reading, words, line)
     _finish(reading)
-    return assemble(reading.raw, sources, notes, source)
+    return reading
+
+
+def _complete(reading: BenchReading) -> int:
+    """Return how many columns have a value for every distance, from the first on; more are noted."""
+    rows = [reading.variables[name][0] for name in reading.distances & set(reading.variables)]
+    rows = [row for row in rows if len(row) > 1]
+    stated = max(map(len, rows), default=1)
+    whole = next((k for k in range(1, stated) if any(len(row) <= k or not _stated(row[k]) for row in rows)), stated)
+    if whole < stated:
+        reading.notes.add(
+            "caution",
+            "position {number} of {count} lacks a distance; those before it are read",
+            number=whole + 1,
+            count=stated,
+        )
+    return whole
+
+
+def _stated(cell: str) -> bool:
+    return bool(cell) and cell.lower() != "undefined"
+
+
+def _configuration(reading: BenchReading) -> Configuration:
+    cells, _ = reading.variables.get("f-number", ([], 0))
+    unstated = reading.column > 0 and not (
+        len(cells) == 1 or _stated("".join(cells[reading.column : reading.column + 1]))
+    )
+    return Configuration(reading.raw, focal_mm=_value(reading, "focal length"), keeps_stop=unstated)
 
 
 def _cells(text: str) -> list[str]:
@@ -75,16 +116,23 @@ def _constant(reading: BenchReading, words: list[str], line: int) -> None:
 
 
 def _variable(reading: BenchReading, words: list[str], line: int) -> None:
-    values = [word for word in words[1:] if word]
-    reading.variables[words[0].lower()] = (values[0] if values else "", line)
-    if len(set(values)) > 1:
-        reading.notes.add("caution", "the file holds several positions (zoom or focus); the first column is read")
+    cells = words[1:]
+    while cells and not cells[-1]:
+        cells.pop()
+    reading.variables[words[0].lower()] = (cells, line)
 
 
 def _value(reading: BenchReading, name: str) -> float | None:
-    """Return a variable's first value, None where there is none or it is infinite or undefined."""
-    word, line = reading.variables.get(name, ("", 0))
-    if not word or word.lower() in ("undefined", "infinity", "inf"):
+    """Return a variable's value, None where there is none or it is infinite or undefined.
+
+    A row of one cell holds for all columns; what a near distance leaves undefined is that of its zoom at infinity.
+    """
+    cells, line = reading.variables.get(name, ([], 0))
+    far, _ = reading.variables.get("d0", ([], 0))
+    zooms = next((k for k, cell in enumerate(far) if cell != far[0]), reading.column + 1)
+    own = cells[reading.column : reading.column + 1] if len(cells) > 1 else cells
+    word = own[0] if own and _stated(own[0]) else (cells[reading.column % zooms :] or [""])[0]
+    if not _stated(word) or word.lower() in ("infinity", "inf"):
         return None
     return number(word, name, reading.source, line)
 
@@ -119,6 +167,7 @@ def _surface(reading: BenchReading, words: list[str], line: int) -> None:
 def _distance(reading: BenchReading, word: str, line: int) -> float:
     if not re.match(r"[A-Za-z]", word):
         return number(word, Message("distance"), reading.source, line) if word else 0.0
+    reading.distances.add(word.lower())
     value = _value(reading, word.lower())
     if value is None:
         raise reading.source.error(

@@ -3,13 +3,16 @@
 Surface numbers are the file's: SURF 0 is the object, the last SURF the image, so SURF 1 is surface 1.
 """
 
-from dataclasses import dataclass, field
+import re
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import dataclass, field, replace
 from math import inf
 from typing import NoReturn
 
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
@@ -57,7 +60,7 @@ HARMLESS = (
     ),
     (
         Message("variables, pickups and solves, whose stored values are read"),
-        "VCON VDSZ VPAR PPAR PKUP PZUP MAZH EDGE VCUR SOLV",
+        "VCON VDSZ VPAR PPAR PKUP PZUP MAZH EDGE TCOM VCUR SOLV",
     ),
     (Message("weights of fields and wavelengths"), "FWGN FWGT WWGT WWGN WAVN"),
 )
@@ -97,6 +100,17 @@ FIELD_KINDS: tuple[RawFieldKind, ...] = ("angle", "object_height", "image_height
 PLACEHOLDERS = ((1.5, 40.0), (0.0, 0.0))
 
 
+@dataclass(frozen=True)
+class Operand:
+    """One line of the multi-configuration editor: what it sets, of which surface or number, where, and to what."""
+
+    name: str
+    number: int
+    configuration: int
+    word: str
+    line: int
+
+
 @dataclass
 class ZemaxReading:
     """What has been read so far; surface 0 is the object, the last one the image."""
@@ -112,6 +126,9 @@ class ZemaxReading:
     y_fields: list[float] = field(default_factory=list)
     field_count: int | None = None
     wavelength_count: int | None = None
+    configurations: int = 1
+    operands: list["Operand"] = field(default_factory=list)
+    solves: list["Operand"] = field(default_factory=list)
     line: int = 0
 
     @property
@@ -221,16 +238,19 @@ def _glass_catalogues(reading: ZemaxReading, words: list[str]) -> None:
 
 
 def _configurations(reading: ZemaxReading, words: list[str]) -> None:
-    count, current = (int(reading.number(words, place, Message("configuration"), 1.0)) for place in (1, 2))
-    if count > 1:
-        reading.notes.add(
-            "caution",
-            "the file holds {count} configurations; the one its surface lines show, number {current}, is read",
-            None,
-            reading.line,
-            count=count,
-            current=current,
-        )
+    reading.configurations = max(1, int(reading.number(words, 1, Message("number of configurations"), 1.0)))
+
+
+def _operand(reading: ZemaxReading, text: str) -> None:
+    """Read THIC 5 2 12.5 …: operand, surface or number, configuration, value; texts may be in quotation marks."""
+    words = re.findall(r'"[^"]*"|\S+', text)
+    if len(words) < 4:
+        raise reading.source.error("{keyword}: a value is missing; complete the line", reading.line, keyword=words[0])
+    place, configuration = (
+        whole(word, what, reading.source, reading.line)
+        for word, what in ((words[1], Message("surface or number")), (words[2], Message("configuration")))
+    )
+    reading.operands.append(Operand(words[0].upper(), place, configuration, words[3].strip('"'), reading.line))
 
 
 def begin_surface(reading: ZemaxReading, words: list[str]) -> None:
@@ -373,8 +393,152 @@ def read_zemax(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
         words = text.split()
         if words:
             _read_line(reading, words, text.strip())
-    _finish(reading)
-    return assemble(reading.raw, sources, notes, source)
+    _note_unread(reading)
+    count = min(reading.configurations, MOST_COLUMNS)
+    stated = [_configuration(reading, number) for number in range(1, count + 1)]
+    return assemble_all(stated, sources, notes, source)
+
+
+def _configuration(reading: ZemaxReading, number: int) -> Configuration:
+    """Return the lens of one configuration: what the surface lines say, with the operands' values in their place."""
+    own = replace(
+        reading,
+        notes=reading.notes if number == 1 else Notebook(),
+        raw=deepcopy(reading.raw),
+        surfaces=deepcopy(reading.surfaces),
+        x_fields=list(reading.x_fields),
+        y_fields=list(reading.y_fields),
+    )
+    mine = [operand for operand in reading.operands if operand.configuration == number]
+    for operand in mine:
+        if operand.name in OPERANDS:
+            own.line = operand.line
+            OPERANDS[operand.name](own, operand)
+    _solve(own, {operand.number for operand in mine if operand.name == "THIC"})
+    own.line = reading.line
+    _finish(own)
+    title = next((operand.word for operand in mine if operand.name == "LTTL"), "")
+    return Configuration(own.raw, title)
+
+
+def _solve(reading: ZemaxReading, stated: set[int]) -> None:
+    """Set the thicknesses that keep a sum: a file has them for the configuration that was shown when it was saved.
+
+    TCOM n s keeps the sum with the thickness of surface n, TOLE n s that of all from n on.
+    """
+    if reading.configurations == 1:
+        return
+    for solve in (each for each in reading.solves if each.number not in stated):
+        words = solve.word.split()
+        if solve.name in SUMS and len(words) > 1:
+            first = whole(words[0], Message("surface"), reading.source, solve.line)
+            if 0 < first < solve.number:
+                last = first + 1 if solve.name == "TCOM" else solve.number
+                others = sum(surface.thickness for surface in reading.surfaces[first:last])
+                total = number(words[1], Message("sum of thicknesses"), reading.source, solve.line)
+                reading.surfaces[solve.number].thickness = total - others
+                continue
+        words_said = "its thickness follows from others ({keyword}), and is here the same in all configurations"
+        reading.notes.add("caution", words_said, solve.number, solve.line, keyword=solve.name)
+
+
+def _note_unread(reading: ZemaxReading) -> None:
+    """Note what differs between configurations and is not read."""
+    unread: dict[tuple[str, int], set[str]] = {}
+    for operand in reading.operands:
+        if operand.name in UNREAD_OPERANDS:
+            unread.setdefault((operand.name, operand.number), set()).add(operand.word)
+    names = tuple(dict.fromkeys(name for (name, _), words in unread.items() if len(words) > 1))
+    if names:
+        reading.notes.add(
+            "caution",
+            "configurations differ in {names}, which are not read; all have those of the surfaces",
+            names=names,
+        )
+
+
+def _on_surface(name: str, what: Message) -> Callable[[ZemaxReading, Operand], None]:
+    """Return what sets one number of a surface in one configuration."""
+
+    def apply(reading: ZemaxReading, operand: Operand) -> None:
+        surface = _surface_of(reading, operand)
+        far = name == "thickness" and operand.number == 0 and operand.word.upper() in ("INFINITY", "INF")
+        value = inf if far else number(operand.word, what, reading.source, operand.line)
+        setattr(surface, name, inf if name == "semi_diameter" and value <= 0 else value)
+
+    return apply
+
+
+def _surface_of(reading: ZemaxReading, operand: Operand) -> RawSurface:
+    if not 0 <= operand.number < len(reading.surfaces):
+        raise reading.source.error(
+            "{keyword} is of surface {number}, which does not exist; correct it",
+            operand.line,
+            keyword=operand.name,
+            number=operand.number,
+        )
+    return reading.surfaces[operand.number]
+
+
+def _other_glass(reading: ZemaxReading, operand: Operand) -> None:
+    name = operand.word.upper()
+    glass = None if name in ("", "AIR") else RawGlass(operand.word, line=operand.line)
+    _surface_of(reading, operand).glass = RawGlass(medium=MIRROR, line=operand.line) if name == "MIRROR" else glass
+
+
+def _other_aperture(reading: ZemaxReading, operand: Operand) -> None:
+    value = number(operand.word, Message("aperture"), reading.source, operand.line)
+    if reading.raw.aperture and reading.raw.aperture[0] != "stop_semi_diameter":
+        reading.raw.aperture, reading.raw.aperture_line = (reading.raw.aperture[0], value), operand.line
+    elif reading.raw.stop is not None:
+        reading.surfaces[reading.raw.stop].semi_diameter = value if value > 0 else inf
+
+
+def _in_list(values: Callable[[ZemaxReading], list[float]], what: Message) -> Callable[[ZemaxReading, Operand], None]:
+    """Return what sets one number of a list, which counts from 1, in one configuration."""
+
+    def apply(reading: ZemaxReading, operand: Operand) -> None:
+        listed = values(reading)
+        if not 1 <= operand.number <= len(listed):
+            raise reading.source.error(
+                "{keyword} is of number {number}, which does not exist; correct it",
+                operand.line,
+                keyword=operand.name,
+                number=operand.number,
+            )
+        listed[operand.number - 1] = number(operand.word, what, reading.source, operand.line)
+
+    return apply
+
+
+def _other_stop(reading: ZemaxReading, operand: Operand) -> None:
+    reading.raw.stop = whole(operand.word, Message("stop surface"), reading.source, operand.line)
+
+
+def _other_primary(reading: ZemaxReading, operand: Operand) -> None:
+    reading.raw.primary = whole(operand.word, Message("primary wavelength"), reading.source, operand.line) - 1
+
+
+SUMS = ("TCOM", "TOLE")  # solves for a thickness that keep a sum
+SOLVES = ("PZUP", "MAZH", "EDGE")  # other solves for a thickness
+OPERANDS: dict[str, Callable[[ZemaxReading, Operand], None]] = {
+    "THIC": _on_surface("thickness", Message("thickness")),
+    "CRVT": _on_surface("curvature", Message("curvature")),
+    "CONN": _on_surface("conic", Message("conic constant")),
+    "SDIA": _on_surface("semi_diameter", Message("semi-diameter")),
+    "GLSS": _other_glass,
+    "APER": _other_aperture,
+    "STPS": _other_stop,
+    "XFIE": _in_list(lambda reading: reading.x_fields, Message("field")),
+    "YFIE": _in_list(lambda reading: reading.y_fields, Message("field")),
+    "WAVE": _in_list(lambda reading: reading.raw.wavelengths_um, Message("wavelength")),
+    "PRWV": _other_primary,
+}
+UNREAD_OPERANDS = (
+    "PRAM MCOM IGNR IGNM CROR COTN EDVA FLTP FLWT FVAN FVCX FVCY FVDX FVDY HOLD MABB MDPG MIND NPAR NPOS NPRO PRES "
+    "PAR1 PAR2 PAR3 PAR4 PAR5 PAR6 PAR7 PAR8 PXAR PYAR PZAR PUCN PUPR SATP SDRW SWCN TELE TEMP TSP1 TSP2 TSP3 UDAF "
+    "WLWT CADX CADY CATX CATY CATZ CBDX CBDY CBTX CBTY CBTZ CPCN"
+).split()
 
 
 def _read_line(reading: ZemaxReading, words: list[str], text: str) -> None:
@@ -383,8 +547,13 @@ def _read_line(reading: ZemaxReading, words: list[str], text: str) -> None:
         begin_surface(reading, words)
     elif reading.surfaces and keyword in ON_SURFACE:
         ON_SURFACE[keyword](reading, words)
+    elif reading.surfaces and reading.configurations == 1 and keyword in (*SUMS, *SOLVES):
+        reading.solves.append(Operand(keyword, reading.surface.number, 0, " ".join(words[1:]), reading.line))
+        note(reading.notes, reading.raw, words, reading.surface.number, reading.line)
     elif keyword in IN_SYSTEM:
         IN_SYSTEM[keyword](reading, words)
+    elif reading.configurations > 1 and keyword in (*OPERANDS, *UNREAD_OPERANDS, "LTTL"):
+        _operand(reading, text)
     elif keyword == "NAME":
         reading.raw.title = text[4:].strip().strip('"')
     elif keyword == "COMM" and reading.surfaces:

@@ -11,7 +11,7 @@ from tests.support.lens_files import FOLDER, read, refused_at, text_of
 BENCH, TABLE = "bench.txt", "singlet.csv"
 
 
-def test_the_bench_is_read_at_its_first_position():
+def test_the_bench_is_read_and_shown_at_its_first_position():
     found = read(BENCH)
     lens = found.lens
     assert lens.title == "Zoom-like test lens" and len(lens.surfaces) == 9
@@ -19,7 +19,7 @@ def test_the_bench_is_read_at_its_first_position():
     assert lens.surfaces[3].thickness == 5.0 and lens.sensor_mm == 41.0
     assert (lens.stop_surface, lens.aperture.kind, lens.aperture.value) == (5, "f_number", 4.0)
     assert lens.fields_deg == pytest.approx((0.0, 14.0, 20.0), rel=1e-10)
-    assert "several positions" in found.report.text
+    assert "focus positions ∞, 1 m" in found.report.text
 
 
 def test_bench_glasses_by_name_where_exact_else_by_their_own_nd_and_vd():

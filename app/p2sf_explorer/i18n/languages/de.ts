@@ -705,6 +705,7 @@
 <message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
 <message><source>Workspace</source><translation>Arbeitsbereich</translation></message>
 <message><source>Workspaces: save this one, delete it, or choose another</source><translation>Arbeitsbereiche: diesen speichern oder löschen, oder einen anderen wählen</translation></message>
+<message><source>ZOO {name} has {values} values for {count} zoom positions; write one for each</source><translation>ZOO {name} hat {values} Werte für {count} Zoomstellungen; für jede einen schreiben</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
@@ -879,6 +880,7 @@
 <message><source>coma</source><translation>Koma</translation></message>
 <message><source>computing settings</source><translation>Recheneinstellungen</translation></message>
 <message><source>configuration</source><translation>Konfiguration</translation></message>
+<message><source>configurations differ in {names}, which are not read; all have those of the surfaces</source><translation>Konfigurationen unterscheiden sich in {names}, was nicht gelesen wird; alle haben das der Flächen</translation></message>
 <message><source>conic constant</source><translation>Kegelschnittkonstante</translation></message>
 <message><source>contour</source><translation>Höhenlinien</translation></message>
 <message><source>contours</source><translation>Höhenlinien</translation></message>
@@ -972,6 +974,7 @@
 <message><source>fitted: {numbers} numbers from {rays} rays, predicted R² ≥ {r_squared}; the six Seidel coefficients would miss {tolerance:g}</source><translation>fitted: {numbers} Zahlen aus {rays} Strahlen, vorhergesagt R² ≥ {r_squared}; die sechs Seidel-Koeffizienten verfehlten {tolerance:g}</translation></message>
 <message><source>focus behind the sensor, mm</source><translation>Fokus hinter dem Sensor, mm</translation></message>
 <message><source>focus distance</source><translation>Fokusabstand</translation></message>
+<message><source>focus positions {columns}; between them the lens is interpolated</source><translation>Fokusstellungen {columns}; dazwischen wird das Objektiv interpoliert</translation></message>
 <message><source>focus {place}</source><translation>Fokus {place}</translation></message>
 <message><source>focus, µm</source><translation>Fokus, µm</translation></message>
 <message><source>formula number</source><translation>Formelnummer</translation></message>
@@ -1035,6 +1038,7 @@
 <message><source>its obscuration is left out, so the picture shows the full aperture</source><translation>ihre Abschattung ist weggelassen, das Bild zeigt also die volle Öffnung</translation></message>
 <message><source>its obscuration or hole is left out</source><translation>ihre Abschattung oder ihr Loch ist weggelassen</translation></message>
 <message><source>its rim ({keyword}) is not round; the round semi-diameter stands in</source><translation>ihr Rand ({keyword}) ist nicht rund; der runde Halbmesser tritt an seine Stelle</translation></message>
+<message><source>its thickness follows from others ({keyword}), and is here the same in all configurations</source><translation>ihre Dicke folgt aus anderen ({keyword}) und ist hier in allen Konfigurationen dieselbe</translation></message>
 <message><source>keep best focus</source><translation>besten Fokus halten</translation></message>
 <message><source>keep paraxial focus</source><translation>paraxialen Fokus halten</translation></message>
 <message><source>kernels in the middle of a cell are then the mean of its corners</source><translation>Kerne mitten in einer Zelle sind dann das Mittel ihrer Ecken</translation></message>
@@ -1126,6 +1130,7 @@
 <message><source>nothing varies from column to column; list the values of what does</source><translation>nichts ändert sich von Spalte zu Spalte; die Werte dessen auflisten, was sich ändert</translation></message>
 <message><source>number of blades</source><translation>Zahl der Lamellen</translation></message>
 <message><source>number of columns</source><translation>Anzahl der Spalten</translation></message>
+<message><source>number of configurations</source><translation>Zahl der Konfigurationen</translation></message>
 <message><source>number of fields</source><translation>Anzahl der Felder</translation></message>
 <message><source>number of rays drawn from a point</source><translation>Zahl der von einem Punkt gezeichneten Strahlen</translation></message>
 <message><source>number of rows</source><translation>Anzahl der Zeilen</translation></message>
@@ -1187,6 +1192,7 @@
 <message><source>planning</source><translation>Plan</translation></message>
 <message><source>play is "{name}"; name a slider: {sliders}</source><translation>play ist "{name}"; einen Regler nennen: {sliders}</translation></message>
 <message><source>points {depth} away blur over {size:.2g} mm, which takes {side}² samples of {most}² at most; bring the depths nearer to the focus or stop down</source><translation>Punkte in {depth} Entfernung verschwimmen über {size:.2g} mm, das braucht {side}² Proben von höchstens {most}²; die Abstände näher an den Fokus bringen oder abblenden</translation></message>
+<message><source>position {number} of {count} lacks a distance; those before it are read</source><translation>Stellung {number} von {count} fehlt ein Abstand; die davor werden gelesen</translation></message>
 <message><source>predicted 1 − R² ≤ {error}</source><translation>vorhergesagt 1 − R² ≤ {error}</translation></message>
 <message><source>predicted R² ≥ {r}</source><translation>vorhergesagt R² ≥ {r}</translation></message>
 <message><source>present field</source><translation>jetziges Feld</translation></message>
@@ -1304,6 +1310,7 @@
 <message><source>stop on surface {number}</source><translation>Blende auf Fläche {number}</translation></message>
 <message><source>stop semi diameter</source><translation>Halbmesser der Blende</translation></message>
 <message><source>stop semi diameter {value:.6g} mm</source><translation>Halbmesser der Blende {value:.6g} mm</translation></message>
+<message><source>stop surface</source><translation>Fläche der Blende</translation></message>
 <message><source>stop surface {stop} does not exist; the lens has surfaces 1 to {count}</source><translation>die Blendenfläche {stop} gibt es nicht; das Objektiv hat die Flächen 1 bis {count}</translation></message>
 <message><source>stop {gap} mm behind surface {number}</source><translation>Blende {gap} mm hinter Fläche {number}</translation></message>
 <message><source>stop ▪</source><translation>Blende ▪</translation></message>
@@ -1313,11 +1320,13 @@
 <message><source>substituted</source><translation>ersetzt</translation></message>
 <message><source>sum</source><translation>Summe</translation></message>
 <message><source>sum = 1</source><translation>Summe = 1</translation></message>
+<message><source>sum of thicknesses</source><translation>Summe der Dicken</translation></message>
 <message><source>sum {sum} λ</source><translation>Summe {sum} λ</translation></message>
 <message><source>summing the reference: {part} %</source><translation>die Referenz wird summiert: {part} %</translation></message>
 <message><source>surface</source><translation>Fläche</translation></message>
 <message><source>surface is not a list of tables; head every surface with [[surface]]</source><translation>surface ist keine Liste von Tabellen; jede Fläche mit [[surface]] überschreiben</translation></message>
 <message><source>surface number</source><translation>Flächennummer</translation></message>
+<message><source>surface or number</source><translation>Fläche oder Nummer</translation></message>
 <message><source>surface {number}</source><translation>Fläche {number}</translation></message>
 <message><source>surface {number} (auto)</source><translation>Fläche {number} (gefunden)</translation></message>
 <message><source>surface {number} (file)</source><translation>Fläche {number} (Datei)</translation></message>
@@ -1427,6 +1436,8 @@
 <message><source>the file holds several positions (zoom or focus); the first column is read</source><translation>die Datei enthält mehrere Stellungen (Zoom oder Fokus); die erste Spalte wird gelesen</translation></message>
 <message><source>the file holds several zoom positions; the first, as its surfaces show it, is read</source><translation>die Datei enthält mehrere Zoomstellungen; die erste, wie ihre Flächen sie zeigen, wird gelesen</translation></message>
 <message><source>the file holds {count} configurations; the one its surface lines show, number {current}, is read</source><translation>die Datei enthält {count} Konfigurationen; die ihrer Flächenzeilen, Nummer {current}, wird gelesen</translation></message>
+<message><source>the file holds {count} positions, of which {read} are so many zooms at every distance; these are read</source><translation>die Datei enthält {count} Stellungen, von denen {read} bei jedem Abstand gleich viele Zoomstellungen sind; diese werden gelesen</translation></message>
+<message><source>the file holds {count} positions; the first {most} are read</source><translation>die Datei enthält {count} Stellungen; die ersten {most} werden gelesen</translation></message>
 <message><source>the file holds {count} surfaces; at most {most} are read</source><translation>die Datei enthält {count} Flächen; höchstens {most} werden gelesen</translation></message>
 <message><source>the file is empty; write a lens into it</source><translation>die Datei ist leer; ein Objektiv hineinschreiben</translation></message>
 <message><source>the file is larger than {size} bytes; this is no lens file</source><translation>die Datei ist größer als {size} Byte; das ist keine Objektivdatei</translation></message>
@@ -1669,6 +1680,7 @@
 <message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
 <message><source>z, mm</source><translation>z, mm</translation></message>
+<message><source>zoom positions {columns}; between them the lens is interpolated</source><translation>Zoomstellungen {columns}; dazwischen wird das Objektiv interpoliert</translation></message>
 <message><source>zoom {place}</source><translation>Zoom {place}</translation></message>
 <message><source>zoom, pan or see the whole of the plot under the pointer; also + −, arrows, Home</source><translation>das Diagramm unter dem Zeiger vergrößern, verschieben, ganz zeigen; auch + −, Pfeile, Pos1</translation></message>
 <message><source>{axis} {value:.6g} {unit} is outside this database, which covers {low:.6g} to {high:.6g} {unit}; {remedy}</source><translation>{axis} {value:.6g} {unit} liegt außerhalb dieser Datenbank, die {low:.6g} bis {high:.6g} {unit} umfasst; {remedy}</translation></message>
@@ -1678,6 +1690,7 @@
 <message><source>{coefficient} is not finite, so there is no wavefront; choose a depth, field or lens with one</source><translation>{coefficient} ist nicht endlich, also gibt es keine Wellenfront; einen Abstand, ein Feld oder ein Objektiv mit einer wählen</translation></message>
 <message><source>{coefficient} is {error:.2g} waves off with {terms} terms in wavelength, so the glass data have a kink between the wavelengths asked; build with the linear interpolant, or narrow the wavelengths</source><translation>{coefficient} liegt mit {terms} Gliedern in der Wellenlänge um {error:.2g} Wellen daneben, die Glasdaten haben also einen Knick zwischen den verlangten Wellenlängen; mit der Interpolation linear bauen oder die Wellenlängen einengen</translation></message>
 <message><source>{columns} × {rows} pixels of {pitch} µm</source><translation>{columns} × {rows} Pixel zu {pitch} µm</translation></message>
+<message><source>{command} is of number {number}, which does not exist yet; put it behind the list of all</source><translation>{command} betrifft Nummer {number}, die es noch nicht gibt; hinter die Liste aller setzen</translation></message>
 <message><source>{command} refers to surface {number}, which does not exist yet</source><translation>{command} verweist auf Fläche {number}, die es noch nicht gibt</translation></message>
 <message><source>{command} stands before any surface; put it after one</source><translation>{command} steht vor jeder Fläche; hinter eine Fläche stellen</translation></message>
 <message><source>{command}: a number is missing; complete the command</source><translation>{command}: Es fehlt eine Zahl; bitte den Befehl ergänzen</translation></message>
@@ -1712,6 +1725,9 @@
 <message><source>{glass} is in no catalogue; give its AGF catalogue, or its index as nd and vd</source><translation>{glass} steht in keinem Katalog; seinen AGF-Katalog angeben oder seinen Index als nd und vd</translation></message>
 <message><source>{glass} replaced by {substitute}, {difference}</source><translation>{glass} ersetzt durch {substitute}, {difference}</translation></message>
 <message><source>{glass} shares its name with another maker's glass of this lens; save as TOML</source><translation>{glass} heißt wie das Glas eines anderen Herstellers in diesem Objektiv; als TOML speichern</translation></message>
+<message><source>{keyword} is of number {number}, which does not exist; correct it</source><translation>{keyword} betrifft Nummer {number}, die es nicht gibt; berichtigen</translation></message>
+<message><source>{keyword} is of surface {number}, which does not exist; correct it</source><translation>{keyword} betrifft Fläche {number}, die es nicht gibt; berichtigen</translation></message>
+<message><source>{keyword}: a value is missing; complete the line</source><translation>{keyword}: ein Wert fehlt; die Zeile ergänzen</translation></message>
 <message><source>{keyword}: {what} is missing; complete the line</source><translation>{keyword}: {what} fehlt; die Zeile ergänzen</translation></message>
 <message><source>{key} is {given}; give a number, without quotes</source><translation>{key} ist {given}; eine Zahl angeben, ohne Anführungszeichen</translation></message>
 <message><source>{key} is {given}; give numbers in brackets, such as [530, 560]</source><translation>{key} ist {given}; Zahlen in Klammern angeben wie [530, 560]</translation></message>
