@@ -292,9 +292,10 @@ def steps_between(lens: Lens) -> tuple[Message, ...]:
         column=tuple(axis.columns[axis.nearest(place)] for axis, place in _standing(lens.positions)),
     )
     found = []
-    for number in range(len(lens.surfaces)):
-        if len({column.surfaces[number].medium for column in columns}) > 1:
-            found.append(Message(MEDIUM_STEP, surface=number + 1, near=near))
+    for number, rows in enumerate(zip(*(column.surfaces for column in columns), strict=True), 1):
+        for name, words in STEPS.items():
+            if len({getattr(row, name) for row in rows}) > 1:
+                found.append(Message(STEP, surface=number, what=words, near=near))
     for name, words in DISCRETE.items():
         if len({getattr(column, name) for column in columns}) > 1:
             found.append(
@@ -305,7 +306,14 @@ def steps_between(lens: Lens) -> tuple[Message, ...]:
     return tuple(found)
 
 
-MEDIUM_STEP = "surface {surface}: the medium behind it is not one in all columns; it is that of the nearest, {near}"
+STEP = "surface {surface}: {what} is not one in all columns; it is that of the nearest, {near}"
+STEPS = {
+    "medium": Message("the medium behind it"),
+    "shape": Message("its shape"),
+    "diffraction": Message("its diffraction"),
+    "before": Message("its tilt or decentre"),
+    "after": Message("its tilt or decentre"),
+}
 DISCRETE = {"wavelengths_nm": Message("wavelengths"), "stop_surface": Message("stops")}
 
 

@@ -128,19 +128,30 @@ def axis_text(axis: Axis, quoted: Callable[[str], str], numbers: Callable[[Seque
     return f"\n[{axis.kind}]\ncolumns = [{names}]\nat = {numbers(axis.at)}\n{unit}"
 
 
-def joined(axes: tuple[Axis, ...], values: Sequence[str]) -> str:
-    """Return the TOML of one entry from its value in every combination of columns: itself where all are equal."""
+def joined(axes: tuple[Axis, ...], key: str, values: Sequence[str]) -> str:
+    """Return the TOML of one entry from its value in every combination of columns: itself where all are equal.
+
+    LensFileError for an entry that only some columns have.
+    """
     if len(set(values)) == 1:
         return values[0]
+    if not all(values):
+        raise LensFileError("only some columns of the lens have {name}; give it to all of them or to none", name=key)
     stride = prod(len(axis.columns) for axis in axes[1:])
     rows = [values[start : start + stride] for start in range(0, len(values), stride)]
     if len(axes) == 1:
-        return _listed(values)
+        return _listed(values) if key in DEPTH else _table(axes[0], values)
     if all(len(set(row)) == 1 for row in rows):
-        return f"{{ zoom = {_listed([row[0] for row in rows])} }}"
+        return _table(axes[0], [row[0] for row in rows])
     if len(set(map(tuple, rows))) == 1:
-        return f"{{ focus = {_listed(rows[0])} }}"
-    return _listed(list(map(_listed, rows)))
+        return _table(axes[1], rows[0])
+    if key in DEPTH:
+        return _listed(list(map(_listed, rows)))
+    return _table(axes[0], [_table(axes[1], row) for row in rows])
+
+
+def _table(axis: Axis, values: Sequence[str]) -> str:
+    return f"{{ {axis.kind} = {_listed(values)} }}"
 
 
 def _listed(values: Sequence[str]) -> str:

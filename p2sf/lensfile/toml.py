@@ -90,7 +90,7 @@ def lens_to_toml(lens: Lens) -> str:
     columns, axes = columns_of(lens), lens.positions.axes if lens.positions else ()
     head = _joined(axes, [_head(replace(column, **_texts_of(lens))) for column in columns])
     rings = "".join(axis_text(axis, _text, _list) for axis in axes)
-    opening = joined(axes, [_number(column.aperture.value) for column in columns])
+    opening = joined(axes, lens.aperture.kind, [_number(column.aperture.value) for column in columns])
     aperture = f"\n[aperture]\n{lens.aperture.kind} = {opening}\n"
     surfaces = [_surface_text(lens, columns, number) for number in range(1, len(lens.surfaces) + 1)]
     pupil = "".join(str(_Line(*line)) for line in mask_lines(lens.mask))
@@ -121,7 +121,7 @@ def _head(lens: Lens) -> tuple[_Line, ...]:
 def _joined(axes: tuple[Axis, ...], columns: list[tuple[_Line, ...]]) -> str:
     """Return the text of lines that every column has, each with its value, or with one for each column."""
     rows = zip(*columns, strict=True)
-    return "".join(str(replace(row[0], value=joined(axes, [line.value for line in row]))) for row in rows)
+    return "".join(str(replace(row[0], value=joined(axes, row[0].key, [line.value for line in row]))) for row in rows)
 
 
 def _surface_text(lens: Lens, columns: tuple[Lens, ...], number: int) -> str:

@@ -12,12 +12,14 @@ from p2sf.errors import LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
 from p2sf.lens.lens import Lens, Surface, check_aligned
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
-from p2sf.lensfile.conjugates import limiting_rim, trace
+from p2sf.lensfile.columns import columns_of
+from p2sf.lensfile.conjugates import FAR, limiting_rim, trace
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import write_text
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.messages import Message
+from p2sf.paraxial.positions import as_in_columns, focused_vergence
 
 SILICA_LABEL = "main/SiO2/Malitson"
 ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
@@ -56,8 +58,12 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
 
 
 def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
-    """Return the lens as a Zemax prescription, object at infinity; LensFileError for what such a file cannot hold."""
+    """Return the lens as a Zemax prescription, object at infinity; LensFileError for what such a file cannot hold.
+
+    The columns of a zoom are its configurations, the present position the one that its surfaces show if it is a column.
+    """
     _check_plain(lens, "Zemax")
+    _check_zemax_columns(lens)
     stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
     lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", "  DISZ INFINITY"]
     if lens.object_medium != AIR:
@@ -65,7 +71,64 @@ def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
     for number, surface in enumerate(lens.surfaces, 1):
         lines += _zemax_surface(lens, surface, number, stop)
     count = len(lens.surfaces) + 1
-    return "\n".join([*lines, f"SURF {count}", "  TYPE STANDARD", "  CURV 0.0", "  DISZ 0", ""])
+    lines += [f"SURF {count}", "  TYPE STANDARD", "  CURV 0.0", "  DISZ 0"]
+    return "\n".join([*lines, *_zemax_configurations(lens, stop), ""])
+
+
+def _zemax_configurations(lens: Lens, stop: int) -> list[str]:
+    """Return the lines of the multi-configuration editor: the titles, and every number that varies."""
+    if lens.positions is None or not as_in_columns(lens):
+        return []
+    (axis, *others), columns = lens.positions.axes, columns_of(lens)
+    if others:
+        raise LensFileError(
+            "the lens has a ring of zoom and one of focus, and a Zemax file one list of configurations; save as TOML"
+        )
+    lines = [f"MNUM {len(columns)} {(lens.positions.column or 0) + 1}"]
+    lines += [f'LTTL 0 {k} "{name}" 0 0 0 1 1 0 0.0 "" 0' for k, name in enumerate(axis.columns, 1)]
+    stated = [_zemax_numbers(column, stop) for column in columns]
+    if axis.kind == "focus":
+        for numbers, column in zip(stated, columns, strict=True):
+            vergence = focused_vergence(column)
+            numbers["THIC", 0] = 1 / vergence if vergence > 1 / FAR else FAR
+    for key in stated[0]:
+        values = [numbers.get(key) for numbers in stated]
+        if len(set(values)) > 1:
+            lines += [f'{key[0]} {key[1]} {k} {value} 0 0 0 1 1 1 0 0 "" 0' for k, value in enumerate(values, 1)]
+    return lines
+
+
+def _zemax_numbers(lens: Lens, stop: int) -> dict[tuple[str, int], float | str]:
+    """Return what an operand can set, by its name and its surface or number."""
+    found: dict[tuple[str, int], float | str] = {("APER", 0): lens.aperture.value}
+    for number, surface in enumerate(lens.surfaces, 1):
+        rim = surface.semi_diameter if isfinite(surface.semi_diameter) else 0.0
+        found |= {("CRVT", number): surface.curvature, ("THIC", number): surface.thickness}
+        found |= {("CONN", number): surface.conic, ("GLSS", number): _zemax_glass(surface.medium).split()[1]}
+        if number != stop or lens.aperture.kind != "stop_semi_diameter":
+            found["SDIA", number] = rim
+    found |= {("YFIE", k): float(field) for k, field in enumerate(lens.fields_deg, 1)}
+    return found | {("WAVE", k): wave / NM_PER_UM for k, wave in enumerate(lens.wavelengths_nm, 1)}
+
+
+def _check_zemax_columns(lens: Lens) -> None:
+    """Raise LensFileError for what differs between columns and no operand sets."""
+    if lens.positions is None:
+        return
+    for number, rows in enumerate(zip(*(column.surfaces for column in lens.positions.lenses), strict=True), 1):
+        unnamed = [row.medium for row in rows if not isinstance(row.medium, CatalogueGlass | FormulaGlass)]
+        different = len({row.medium for row in rows}) > 1
+        if len({row.aspheric for row in rows}) > 1 or (different and unnamed):
+            raise LensFileError(
+                "surface {surface} differs between columns in its aspheric terms or in a medium without a name, for "
+                "which a Zemax file has no line; save as TOML",
+                surface=number,
+            )
+    counts = {(len(column.fields_deg), len(column.wavelengths_nm)) for column in lens.positions.lenses}
+    if len(counts) > 1:
+        raise LensFileError(
+            "the columns have different numbers of fields or wavelengths, and a Zemax file one; save as TOML"
+        )
 
 
 def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
@@ -154,7 +217,8 @@ def _agf_entry(glass: FormulaGlass) -> str:
 def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     """Return the lens as ISET JSON, its indices at the reference wavelength, or over 400 to 700 nm if ``spectral``.
 
-    A stop on a refracting surface becomes a plane at its vertex, because ISET marks a stop by its index 0.
+    Of a zoom it is the present position, which the description names. A stop on a refracting surface becomes a plane
+    at its vertex, because ISET marks a stop by its index 0.
     Raises LensFileError where the object is not in air, and for mirrors.
     """
     if lens.object_medium != AIR:
@@ -174,9 +238,10 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
         if number != stop or plain:
             rows.append(row)
     focal = -1 / trace(lens, 1, wave).last[2] if trace(lens, 1, wave).last[2] else inf
+    turned = f", {lens.positions.words}" if lens.positions else ""
     top: dict[str, Any] = {
         "name": lens.name,
-        "description": " ".join(lens.title.split()),
+        "description": " ".join(f"{lens.title}{turned}".split()),
         "type": "multi element lens",
         "surfaces": rows,
     }

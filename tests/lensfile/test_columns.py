@@ -9,8 +9,9 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex
-from p2sf.lens.lens import Aperture, with_sensor
+from p2sf.lens.lens import Aperture, Lens, with_sensor
 from p2sf.lens.positions import Axis, with_positions
+from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml, write_toml
 from p2sf.paraxial.first_order import abcd
 from p2sf.paraxial.positions import lens_at
@@ -96,6 +97,20 @@ def test_glasses_and_rims_have_columns_too():
     )
     lens = with_positions([Axis("focus", ("dry", "wet"), (0.0, 1.0))], [zoom_lens_at(30.0), wet])
     assert parse_toml(lens_to_toml(lens)) == lens
+
+
+@pytest.mark.parametrize("lens", [two_group_zoom(), focusing_zoom()])
+def test_entries_that_are_tables_have_columns_in_tables(lens):
+    axes, columns = lens.positions.axes, lens.positions.lenses
+
+    def shaped(number: int) -> Lens:
+        first, *rest = columns[number].surfaces
+        return replace(columns[number], surfaces=(replace(first, shape=RadialPolynomial((0.0, 1e-6 * number))), *rest))
+
+    made = with_positions(axes, [shaped(number) for number in range(len(columns))])
+    assert parse_toml(lens_to_toml(made)) == made
+    with pytest.raises(LensFileError, match="only some columns of the lens have shape"):
+        lens_to_toml(with_positions(axes, [columns[0], *map(shaped, range(1, len(columns)))]))
 
 
 def test_a_lens_that_was_focused_or_opened_is_written_as_it_is():

@@ -7,14 +7,17 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import Lens
+from p2sf.lens.positions import with_positions
+from p2sf.lensfile import load_lens
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import Import, import_text
 from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import abcd, image_distance
 from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.pupils import stop_rim
-from tests.support.zooms import spaces
+from tests.support.zooms import focusing_zoom, spaces, two_group_zoom
 
 # Radius, thickness (or one for every zoom), index: two groups, the stop in front of the second.
 ROWS = (
@@ -243,3 +246,40 @@ def test_positions_in_which_the_lens_is_one_are_no_positions():
     lens = imported("zoom.zmx", text).lens
     assert lens.positions is None
     assert float(image_distance(lens, inf, 0.5876)) == pytest.approx(ROWS[-1][1][2], abs=1e-3)
+
+
+def test_a_zoom_is_written_as_zemax_configurations_and_read_back(tmp_path):
+    zoom = two_group_zoom()
+    write_lens(zoom, tmp_path / "zoom.zmx")
+    again = load_lens(tmp_path / "zoom.zmx")
+    assert again.positions.axes[0].columns == zoom.positions.axes[0].columns
+    for column, other in zip(zoom.positions.lenses, again.positions.lenses, strict=True):
+        assert [s.thickness for s in other.surfaces] == [s.thickness for s in column.surfaces]
+        # The file has curvatures, and 1/(1/r) is r to a rounding.
+        assert [s.radius for s in other.surfaces] == pytest.approx([s.radius for s in column.surfaces], rel=1e-15)
+        assert other.aperture == column.aperture and other.fields_deg == pytest.approx(column.fields_deg, rel=1e-12)
+
+
+def test_a_ring_of_focus_is_written_with_the_distances_it_is_focused_on(tmp_path):
+    lens = focusing_zoom().positions
+    columns = lens.lenses[:3]  # the wide one, whose front group moves out
+    write_lens(with_positions(lens.axes[1:], columns), tmp_path / "macro.zmx")
+    again = load_lens(tmp_path / "macro.zmx")
+    assert again.positions.axes[0].kind == "focus"
+    for column, there in zip(columns, again.positions.axes[0].at, strict=True):
+        distance = 1000 / there if there > 1e-6 else inf
+        assert float(image_distance(column, distance, 0.5875618)) == pytest.approx(column.sensor_mm, rel=1e-9)
+
+
+def test_what_other_files_cannot_hold_of_positions_is_refused(tmp_path):
+    with pytest.raises(LensFileError, match="a ring of zoom and one of focus"):
+        write_lens(focusing_zoom(), tmp_path / "lens.zmx")
+    assert not list(tmp_path.iterdir())
+
+
+def test_iset_holds_the_present_position(tmp_path):
+    write_lens(lens_at(two_group_zoom(), zoom=50.0), tmp_path / "lens.json")
+    assert '"description": ", zoom 50 mm"' in (tmp_path / "lens.json").read_text()
+    again = load_lens(tmp_path / "lens.json")
+    assert again.positions is None
+    assert again.sensor_mm == lens_at(two_group_zoom(), zoom=50.0).sensor_mm

@@ -1035,10 +1035,13 @@
 <message><source>is totally reflected at surface {surface}</source><translation>wird an Fläche {surface} total reflektiert</translation></message>
 <message><source>its PSFs, as a map</source><translation>seine PSFs als Karte</translation></message>
 <message><source>its central hole is open here</source><translation>ihr Loch in der Mitte ist hier offen</translation></message>
+<message><source>its diffraction</source><translation>ihre Beugung</translation></message>
 <message><source>its obscuration is left out, so the picture shows the full aperture</source><translation>ihre Abschattung ist weggelassen, das Bild zeigt also die volle Öffnung</translation></message>
 <message><source>its obscuration or hole is left out</source><translation>ihre Abschattung oder ihr Loch ist weggelassen</translation></message>
 <message><source>its rim ({keyword}) is not round; the round semi-diameter stands in</source><translation>ihr Rand ({keyword}) ist nicht rund; der runde Halbmesser tritt an seine Stelle</translation></message>
+<message><source>its shape</source><translation>ihre Form</translation></message>
 <message><source>its thickness follows from others ({keyword}), and is here the same in all configurations</source><translation>ihre Dicke folgt aus anderen ({keyword}) und ist hier in allen Konfigurationen dieselbe</translation></message>
+<message><source>its tilt or decentre</source><translation>ihre Kippung oder Dezentrierung</translation></message>
 <message><source>keep best focus</source><translation>besten Fokus halten</translation></message>
 <message><source>keep paraxial focus</source><translation>paraxialen Fokus halten</translation></message>
 <message><source>kernels in the middle of a cell are then the mean of its corners</source><translation>Kerne mitten in einer Zelle sind dann das Mittel ihrer Ecken</translation></message>
@@ -1154,6 +1157,7 @@
 <message><source>one pass in float32</source><translation>ein Durchgang in float32</translation></message>
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
+<message><source>only some columns of the lens have {name}; give it to all of them or to none</source><translation>nur manche Spalten des Objektivs haben {name}; allen oder keiner geben</translation></message>
 <message><source>only {share:.0%} of the light lies in the window; take a larger one</source><translation>nur {share:.0%} des Lichts liegen im Fenster; ein größeres nehmen</translation></message>
 <message><source>open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>or</source><translation>oder</translation></message>
@@ -1336,6 +1340,7 @@
 <message><source>surface {number} stands where {due} is due; sort them</source><translation>Fläche {number} steht, wo {due} kommen müsste; ordnen</translation></message>
 <message><source>surface {surface}</source><translation>Fläche {surface}</translation></message>
 <message><source>surface {surface} ({label})</source><translation>Fläche {surface} ({label})</translation></message>
+<message><source>surface {surface} differs between columns in its aspheric terms or in a medium without a name, for which a Zemax file has no line; save as TOML</source><translation>Fläche {surface} unterscheidet sich zwischen Spalten in asphärischen Termen oder in einem Medium ohne Namen, wofür eine Zemax-Datei keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface} has aspheric terms above r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat asphärische Glieder über r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
@@ -1362,6 +1367,7 @@
 <message><source>surface {surface}: {message}</source><translation>Fläche {surface}: {message}</translation></message>
 <message><source>surface {surface}: {name} differs between x and y; only round lenses are read</source><translation>Fläche {surface}: {name} unterscheidet sich zwischen x und y; nur runde Objektive werden gelesen</translation></message>
 <message><source>surface {surface}: {name} is {found}; write a number</source><translation>Fläche {surface}: {name} ist {found}; eine Zahl schreiben</translation></message>
+<message><source>surface {surface}: {what} is not one in all columns; it is that of the nearest, {near}</source><translation>Fläche {surface}: {what} ist nicht in allen Spalten gleich; maßgebend ist die nächste, {near}</translation></message>
 <message><source>surfaces in the order of the light</source><translation>Flächen in der Reihenfolge des Lichts</translation></message>
 <message><source>surfaces is {found}; write the first and the last, as in [3, 4]</source><translation>surfaces ist {found}; die erste und die letzte schreiben, wie in [3, 4]</translation></message>
 <message><source>surfaces {first} and {last} are equally curved, so the element has no shape factor; change a radius first</source><translation>Die Flächen {first} und {last} sind gleich gekrümmt, daher hat das Element keinen Formfaktor; ändern Sie zuerst einen Radius</translation></message>
@@ -1406,6 +1412,7 @@
 <message><source>the choice of a method</source><translation>die Wahl eines Verfahrens</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
 <message><source>the coefficients</source><translation>die Koeffizienten</translation></message>
+<message><source>the columns have different numbers of fields or wavelengths, and a Zemax file one; save as TOML</source><translation>die Spalten des Objektivs haben verschieden viele Felder oder Wellenlängen, eine Zemax-Datei hat eine Zahl; als TOML speichern</translation></message>
 <message><source>the columns have {counts} surfaces; give every column the same surfaces</source><translation>die Spalten haben {counts} Flächen; jeder Spalte dieselben Flächen geben</translation></message>
 <message><source>the columns of the lens have different {what}, {stated}; a file holds one, so give all the same</source><translation>die Spalten des Objektivs haben verschiedene {what}, {stated}; eine Datei hat nur eine, allen dieselbe geben</translation></message>
 <message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
@@ -1470,6 +1477,7 @@
 <message><source>the last thickness as the distance to the sensor</source><translation>die letzte Dicke als Abstand zum Sensor</translation></message>
 <message><source>the layout</source><translation>der Aufbau</translation></message>
 <message><source>the lens</source><translation>das Objektiv</translation></message>
+<message><source>the lens has a ring of zoom and one of focus, and a Zemax file one list of configurations; save as TOML</source><translation>das Objektiv hat einen Zoomring und einen Fokusring, eine Zemax-Datei eine Liste von Konfigurationen; als TOML speichern</translation></message>
 <message><source>the lens has mirrors, which an ISET file cannot say; save as TOML</source><translation>das Objektiv hat Spiegel, die eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the lens has no surfaces; give at least one</source><translation>das Objektiv hat keine Flächen; mindestens eine angeben</translation></message>
 <message><source>the lens has no surfaces; write a [[surface]] for each</source><translation>das Objektiv hat keine Flächen; für jede ein [[surface]] schreiben</translation></message>
@@ -1485,6 +1493,7 @@
 <message><source>the link holds no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
 <message><source>the link is cut off or changed; copy all of it again, from p2sf: to its last letter</source><translation>der Link ist abgeschnitten oder verändert; noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
 <message><source>the mask in the stop leaves nothing open; make its obscuration or its vanes smaller</source><translation>die Maske in der Blende lässt nichts offen; ihre Abschattung oder ihre Streben kleiner machen</translation></message>
+<message><source>the medium behind it</source><translation>das Medium dahinter</translation></message>
 <message><source>the method huygens</source><translation>das Verfahren huygens</translation></message>
 <message><source>the method traced</source><translation>das Verfahren traced</translation></message>
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
