@@ -87,13 +87,14 @@ class Qcon:
         """Return the coefficients of r … r⁴."""
         return 0.0, 0.0, 0.0, (*self.even_terms(), 0.0)[0]
 
+    def scaled_terms(self) -> tuple[float, ...]:
+        """Return the coefficients of u⁴, u⁶, …, mm: the same surface but for rounding, more with each term."""
+        columns = _jacobi_powers(len(self.coefficients))
+        return tuple(fsum(a * c for a, c in zip(self.coefficients, column, strict=True)) for column in columns)
+
     def even_terms(self) -> tuple[float, ...]:
-        """Return A4, A6, …, mm⁻³, mm⁻⁵, …: the same surface exactly, but for rounding that grows with the order."""
-        terms = enumerate(_jacobi_powers(len(self.coefficients)))
-        return tuple(
-            fsum(a * c for a, c in zip(self.coefficients, column, strict=True)) / self.normalisation_mm ** (4 + 2 * k)
-            for k, column in terms
-        )
+        """Return A4, A6, …, mm⁻³, mm⁻⁵, …, of the same surface."""
+        return tuple(a / self.normalisation_mm ** (4 + 2 * k) for k, a in enumerate(self.scaled_terms()))
 
     def scaled(self, factor: float) -> "Qcon":
         """Return the shape ``factor`` times as large."""

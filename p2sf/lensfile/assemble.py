@@ -8,6 +8,7 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.shapes import RadialPolynomial, Shape
 from p2sf.lensfile import conjugates
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
@@ -132,24 +133,17 @@ def _lacks(medium: Medium, wavelength_um: float) -> bool:
 
 
 def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surface:
-    """Return one surface in mm; an r² term on a plane makes a paraboloid, elsewhere it raises GeometryError."""
+    """Return one surface in mm; an r² term on a plane makes a paraboloid. GeometryError for powers that cannot be."""
     curvature, conic, terms = raw.curvature / unit, raw.conic, dict(raw.aspheric)
-    square = terms.pop(2, 0.0)
-    if square and curvature:
+    if terms.get(2) and not curvature:
+        curvature, conic = 2 * terms.pop(2) / unit, -1.0
+    wrong = [power for power, value in terms.items() if value and not 1 <= power <= HIGHEST_ORDER]
+    if wrong:
         raise GeometryError(
-            "surface {surface}: the r² coefficient {value:g} beside a radius of curvature is not a conic with terms "
-            "from r⁴ on; refit the surface without r²",
+            "surface {surface}: aspheric term r^{power}; powers from 1 to {most} are read",
             surface=number,
-            value=square,
-        )
-    if square:
-        curvature, conic = 2 * square / unit, -1.0
-    odd = [power for power, value in terms.items() if value and (power % 2 or not 4 <= power <= HIGHEST_ORDER)]
-    if odd:
-        raise GeometryError(
-            "surface {surface}: aspheric term r^{power} is not even from r⁴ on; refit the surface",
-            surface=number,
-            power=odd[0],
+            power=wrong[0],
+            most=HIGHEST_ORDER,
         )
     return Surface(
         1 / curvature if curvature else inf,
@@ -158,12 +152,28 @@ def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surfa
         conic,
         _coefficients(terms, unit),
         raw.semi_diameter * unit if raw.semi_diameter > 0 else inf,
+        _shape(raw, {power: value for power, value in terms.items() if power == 2 or power % 2}, unit, number),
+        raw.diffraction.scaled(unit) if raw.diffraction else None,
     )
+
+
+def _shape(raw: RawSurface, terms: dict[int, float], unit: float, number: int) -> Shape | None:
+    """Return the shape of a file, or the terms that are not even from r⁴ on; GeometryError where it has both."""
+    top = max((power for power, value in terms.items() if value), default=0)
+    if not top:
+        return raw.shape.scaled(unit) if raw.shape else None
+    if raw.shape:
+        raise GeometryError(
+            "surface {surface}: a term in r^{power} beside another shape; put all terms into one",
+            surface=number,
+            power=top,
+        )
+    return RadialPolynomial(tuple(terms.get(power, 0.0) * unit ** (1 - power) for power in range(1, top + 1)))
 
 
 def _coefficients(terms: dict[int, float], unit: float) -> tuple[float, ...]:
     """Return A4, A6, … in mm^-3, mm^-5, …, up to the last that is not 0."""
-    top = max((power for power, value in terms.items() if value), default=2)
+    top = max((power for power, value in terms.items() if value and power % 2 == 0), default=2)
     return tuple(terms.get(power, 0.0) * unit ** (1 - power) for power in range(4, top + 1, 2))
 
 

@@ -8,12 +8,13 @@ numbers are told by their size (`_finish`).
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from math import inf
+from math import inf, pi
 
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GlassError
 from p2sf.glass.media import MIRROR, Medium, measured_index
 from p2sf.lens.lens import Lens
+from p2sf.lens.shapes import Diffraction, RadialPolynomial
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -23,11 +24,11 @@ from p2sf.lensfile.source_text import LensText, number
 from p2sf.messages import Message
 
 TILTS = Message("is tilted or decentred")
-SHAPES = Message("has a shape that is not a sphere, a conic or an even asphere")
+SHAPES = Message("has a shape that is not a sphere, a conic or an asphere in powers of r")
 REFUSED = {
     **dict.fromkeys("XDE YDE ZDE ADE BDE CDE XOD YOD ZOD GLB".split(), TILTS),
-    **dict.fromkeys("DIF GRT HOE HOR HCO HX1 HWL GRO GRS".split(), Message("diffracts")),
-    **dict.fromkeys("XTO YTO AAS CYL SPS XYP ZRN RDX CUX UDS ODD ANA BIC SPL".split(), SHAPES),
+    **dict.fromkeys("GRT HOE HX1 GRO GRS HX2 HY1 HY2 HZ1 HZ2".split(), Message("diffracts")),
+    **dict.fromkeys("XTO YTO AAS CYL XYP ZRN RDX CUX UDS ODD ANA BIC SPL".split(), SHAPES),
     **dict.fromkeys("GRN GIR URN".split(), Message("is followed by a gradient index")),
     **dict.fromkeys("NSS NSE ENT EXI".split(), Message("begins a non-sequential part")),
     **dict.fromkeys("CUF FRE".split(), Message("is a Fresnel surface")),
@@ -43,7 +44,7 @@ HARMLESS = (
     (
         Message("titles, sessions and computing settings"),
         "LEN INI TEM PRE GO DER CLS VER OUT CON ASP SPH POL CA APE ROT REV DAR "
-        "BEN PIV RET CMT WID AFI AFC RFO RSI PFR PTP POR HCT HCC",
+        "BEN PIV RET CMT WID AFI AFC RFO RSI PFR PTP POR HCC SCC",
     ),
 )
 REASON = {name: reason for reason, names in HARMLESS for name in names.split()}
@@ -130,6 +131,8 @@ class CodeVReading:
     radii: bool | None = None  # None: the file does not say
     numbered: dict[int, RawSurface] = field(default_factory=dict)  # whose shape is the number after S, by their id
     fields: dict[str, list[float]] = field(default_factory=dict)
+    special: dict[int, dict[str, float]] = field(default_factory=dict)
+    phase: dict[int, dict[str, float]] = field(default_factory=dict)
     private: dict[str, Medium] = field(default_factory=dict)
     private_nm: list[float] | None = None
     in_private: bool = False
@@ -294,6 +297,55 @@ def _coefficient(reading: CodeVReading, command: CodeVCommand, surface: RawSurfa
     surface.aspheric[ORDERS[command.name]] = reading.number(command, 0, Message("aspheric coefficient"))
 
 
+def _special(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    """Read SPS ODD radius, a polynomial in r; LensFileError for any other special surface."""
+    kind = command.words[0].upper() if command.words else ""
+    if kind != "ODD":
+        raise reading.source.error(
+            "{surface} is a special surface of type {kind}, which is not read; only ODD is",
+            command.line,
+            surface=surface.name,
+            kind=kind[:20] or Message("nothing"),
+        )
+    reading.special[surface.number] = {"NRADIUS": reading.number(command, 1, Message("normalisation radius"), 0.0)}
+
+
+def _special_value(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    """Read SCO name value; C1 is K, C2 is AR1, the coefficient of r, and C33 the normalisation radius."""
+    name = command.words[0].upper() if command.words else ""
+    place = int(name[1:]) if re.fullmatch(r"C\d{1,3}", name) else 0
+    if place:
+        name = {1: "K", 33: "NRADIUS"}.get(place, f"AR{place - 1}")
+    values = reading.special.get(surface.number)
+    if values is None or not re.fullmatch(r"K|NRADIUS|AR([1-9]|[12]\d|30)", name):
+        raise reading.source.error(
+            "{surface}: coefficient {name} of a special surface is not known; K, AR1 to AR30 and NRADIUS after SPS ODD "
+            "are",
+            command.line,
+            surface=surface.name,
+            name=name[:20] or Message("nothing"),
+        )
+    values[name] = reading.number(command, 1, Message("aspheric coefficient"))
+
+
+def _diffracts(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    """Read DIF DOE, HCT R, HOR order, HWL nm and HCO C1 value …: a phase of revolution; LensFileError for others."""
+    values, words = reading.phase.setdefault(surface.number, {}), [word.upper() for word in command.words]
+    place = re.fullmatch(r"C(\d{1,2})", words[0]) if words and command.name[:3] == "HCO" else None
+    if command.name[:3] in ("HOR", "HWL"):
+        values[command.name[:3]] = reading.number(command, 0, Message("order or wavelength of a phase"))
+    elif place:
+        values[f"C{int(place[1])}"] = reading.number(command, 1, Message("coefficient of a phase"))
+    elif (command.name[:3], *words[:1]) not in (("DIF", "DOE"), ("HCT", "R")):
+        raise reading.source.error(
+            "{surface} diffracts by {command} {kind}, which is not read; only DOE with a phase in r (HCT R) is",
+            command.line,
+            surface=surface.name,
+            command=command.name[:20],
+            kind=words[0][:20] if words else "",
+        )
+
+
 def _rim(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     """Read CIR radius; an edge is not a clear rim, obscurations and holes are noted and left out."""
     kind = next((word.upper() for word in command.words if word.upper() in ("EDG", "OBS", "HOL")), "")
@@ -314,6 +366,9 @@ ON_SURFACE = {
     "THI": _thickness,
     "K": _set("conic", Message("conic constant")),
     "CIR": _rim,
+    "SPS": _special,
+    "SCO": _special_value,
+    **dict.fromkeys(("DIF", "HOR", "HWL", "HCT", "HCO"), _diffracts),
     **dict.fromkeys(("RDY", "CUY"), _radius),
     **dict.fromkeys(ORDERS, _coefficient),
 }
@@ -526,6 +581,8 @@ def _finish(reading: CodeVReading) -> None:
         reading.notes.add("read", "no stop (STO) is stated; surface 1 is the stop, which is what CODE V takes")
     if not 1 <= raw.stop <= len(raw.surfaces):
         raise reading.source.error("the stop is on the object or the image; put it on a surface between", first.line)
+    for surface in raw.surfaces:
+        _shape(reading, surface)
     _gather_fields(reading)
 
 
@@ -544,6 +601,31 @@ def _tell_radii(reading: CodeVReading) -> None:
     )
     for surface in numbered:
         surface.curvature = 1 / surface.curvature
+
+
+def _shape(reading: CodeVReading, surface: RawSurface) -> None:
+    """Give a surface its odd polynomial and its phase, which is 2π/λ₀ times the sum of Cⱼr²ʲ."""
+    special = dict(reading.special.get(surface.number, {}))
+    radius = special.pop("NRADIUS", 0.0) or 1.0
+    if special:
+        surface.conic = special.pop("K", surface.conic)
+    terms = {int(name[2:]): value for name, value in special.items() if value}
+    if terms and radius == 1:
+        surface.aspheric = {power: surface.aspheric.get(power, 0.0) + value for power, value in terms.items()}
+    elif terms:
+        surface.shape = RadialPolynomial(tuple(terms.get(k, 0.0) for k in range(1, max(terms) + 1)), abs(radius))
+    phase = dict(reading.phase.get(surface.number, {}))
+    order, wavelength_nm = phase.pop("HOR", 1.0), phase.pop("HWL", 0.0)
+    paths = {int(name[1:]): value for name, value in phase.items() if value}
+    if not paths or not order:
+        return
+    if not wavelength_nm > 0:
+        raise reading.source.error(
+            "{surface} diffracts without a wavelength (HWL) of its phase; add it", surface.line, surface=surface.name
+        )
+    wave = 2 * pi * reading.raw.unit_mm * NM_PER_UM * UM_PER_MM / wavelength_nm
+    numbers = tuple(wave * paths.get(place, 0.0) for place in range(1, max(paths) + 1))
+    surface.diffraction = Diffraction(numbers, 1.0, order)
 
 
 def _gather_fields(reading: CodeVReading) -> None:

@@ -7,6 +7,7 @@ from math import inf
 from typing import Literal
 
 from p2sf.glass.media import Medium
+from p2sf.lens.shapes import Diffraction, Shape
 from p2sf.messages import Message
 
 RawApertureKind = Literal[
@@ -34,7 +35,10 @@ class RawGlass:
 
 @dataclass
 class RawSurface:
-    """One surface while it is being read. ``glass`` None is air; ``keeps_medium`` repeats the one before it."""
+    """One surface while it is being read. ``glass`` None is air; ``keeps_medium`` repeats the one before it.
+
+    ``aspheric`` maps a power of r to its coefficient; ``shape`` is added to it.
+    """
 
     number: int
     line: int | None = None
@@ -46,6 +50,8 @@ class RawSurface:
     conic: float = 0.0
     aspheric: dict[int, float] = field(default_factory=dict)
     semi_diameter: float = inf
+    shape: Shape | None = None
+    diffraction: Diffraction | None = None
 
     @property
     def name(self) -> Message:
@@ -59,7 +65,7 @@ class RawSurface:
 class RawLens:
     """A whole file. Lengths in units of ``unit_mm``; wavelengths µm; field pairs (x, y) in the kind's unit.
 
-    ``aspheric`` maps the power of r to its coefficient; ``primary`` counts wavelengths from 0.
+    ``primary`` counts wavelengths from 0.
     """
 
     surfaces: list[RawSurface] = field(default_factory=list)

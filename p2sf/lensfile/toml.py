@@ -148,10 +148,10 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
 def _shape(shape: Shape) -> str:
     numbers = shape.coefficients
     if isinstance(shape, RadialPolynomial):
-        kind = "extended asphere" if shape.even else "extended odd asphere"
         if shape.normalisation_mm == 1:
             return f'{{ type = "odd asphere", coefficients = {_list(numbers)} }}'
-        numbers = numbers[1::2] if shape.even else numbers
+        even = shape.even and len(numbers) % 2 == 0
+        kind, numbers = ("extended asphere", numbers[1::2]) if even else ("extended odd asphere", numbers)
     else:
         kind = type(shape).__name__
     radius = _number(shape.normalisation_mm)

@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from p2sf.conventions import NM_PER_UM
-from p2sf.errors import LensFileError
+from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
+from p2sf.lens.even_terms import even_asphere
 from p2sf.lens.lens import Lens, Surface, check_aligned
+from p2sf.lens.shapes import Qbfs, RadialPolynomial
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
 from p2sf.lensfile.columns import columns_of
 from p2sf.lensfile.conjugates import FAR, limiting_rim, trace
@@ -24,6 +26,8 @@ from p2sf.paraxial.positions import as_in_columns, focused_vergence
 SILICA_LABEL = "main/SiO2/Malitson"
 ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
 HIGHEST_ZEMAX_ORDER = 16
+HIGHEST_ZEMAX_ODD = 8
+MOST_ISET_TERMS = 20
 SPECTRUM_NM = tuple(range(400, 701, 10))
 
 
@@ -62,7 +66,6 @@ def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
 
     The columns of a zoom are its configurations, the present position the one that its surfaces show if it is a column.
     """
-    _check_plain(lens, "Zemax")
     _check_zemax_columns(lens)
     stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
     lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", "  DISZ INFINITY"]
@@ -118,7 +121,8 @@ def _check_zemax_columns(lens: Lens) -> None:
     for number, rows in enumerate(zip(*(column.surfaces for column in lens.positions.lenses), strict=True), 1):
         unnamed = [row.medium for row in rows if not isinstance(row.medium, CatalogueGlass | FormulaGlass)]
         different = len({row.medium for row in rows}) > 1
-        if len({row.aspheric for row in rows}) > 1 or (different and unnamed):
+        shapes = {(row.aspheric, row.shape, row.diffraction) for row in rows}
+        if len(shapes) > 1 or (different and unnamed):
             raise LensFileError(
                 "surface {surface} differs between columns in its aspheric terms or in a medium without a name, for "
                 "which a Zemax file has no line; save as TOML",
@@ -151,24 +155,71 @@ def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
 
 
 def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list[str]:
-    if len(surface.aspheric) > HIGHEST_ZEMAX_ORDER // 2 - 1:
-        raise LensFileError(
-            "surface {surface} has aspheric terms above r^16, for which Zemax has no line; save as TOML", surface=number
-        )
+    kind, numbers = _zemax_shape(surface, number)
     rim = surface.semi_diameter
     if number == stop and lens.aperture.kind == "stop_semi_diameter":
         rim = lens.aperture.value
     return [
         f"SURF {number}",
         *["  STOP"] * (number == stop),
-        f"  TYPE {'EVENASPH' if surface.aspheric else 'STANDARD'}",
+        f"  TYPE {kind}",
         f"  CURV {surface.curvature!r}",
-        *(f"  PARM {i} {a!r}" for i, a in enumerate(surface.aspheric, 2)),
+        *numbers,
         f"  DISZ {surface.thickness!r}",
         *[_zemax_glass(surface.medium)] * (surface.medium != AIR),
         *[f"  CONI {surface.conic!r}"] * bool(surface.conic),
         f"  DIAM {rim if isfinite(rim) else 0!r} {int(isfinite(rim))} 0 0 1",
     ]
+
+
+def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
+    """Return the type of a surface and the lines of its terms; LensFileError for what Zemax has no line for.
+
+    The first type that holds it is taken: even and odd aspheres in powers of r, extended ones in powers of r over the
+    normalisation radius, to which Qcon is converted exactly.
+    """
+    radius, terms = _power_terms(surface, number)
+    odd, top = any(power % 2 for power in terms), max(terms, default=0)
+    step = 1 if odd else 2
+    parameters = [f"  PARM {power // step} {value!r}" for power, value in sorted(terms.items())]
+    if surface.diffraction is not None:
+        if odd or radius != 1 or top > HIGHEST_ZEMAX_ORDER:
+            raise LensFileError(
+                "surface {surface} diffracts and has terms other than even ones up to r^16, for which Zemax has no "
+                "line; save as TOML",
+                surface=number,
+            )
+        d = surface.diffraction
+        return "BINARY_2", [f"  PARM 0 {d.order!r}", *parameters, *_extra_data(d.normalisation_mm, d.coefficients)]
+    if not terms:
+        return "STANDARD", []
+    if radius == 1 and top <= (HIGHEST_ZEMAX_ODD if odd else HIGHEST_ZEMAX_ORDER):
+        return "ODDASPHE" if odd else "EVENASPH", parameters
+    listed = tuple(terms.get(power, 0.0) for power in range(step, top + 1, step))
+    return "XOSPHERE" if odd else "XASPHERE", _extra_data(radius, listed)
+
+
+def _power_terms(surface: Surface, number: int) -> tuple[float, dict[int, float]]:
+    """Return a normalisation radius, and coefficients by the powers of r over it, mm; LensFileError for Qbfs."""
+    shape = surface.shape
+    if isinstance(shape, Qbfs):
+        raise LensFileError(
+            "surface {surface} is a Qbfs asphere, for which no line of Zemax is known here; save as TOML, or convert "
+            "it to even terms",
+            surface=number,
+        )
+    radius = shape.normalisation_mm if shape else 1.0
+    terms = {power: a * radius**power for power, a in zip(range(4, 99, 2), surface.aspheric, strict=False)}
+    if isinstance(shape, RadialPolynomial):
+        more = dict(enumerate(shape.coefficients, 1))
+    else:
+        more = {4 + 2 * k: a for k, a in enumerate(shape.scaled_terms())} if shape else {}
+    return radius, {power: a for power in {*terms, *more} if (a := terms.get(power, 0.0) + more.get(power, 0.0))}
+
+
+def _extra_data(radius: float, numbers: tuple[float, ...]) -> list[str]:
+    """Return the lines of extra data: how many numbers, the normalisation radius, and the numbers."""
+    return [f"  XDAT {place} {float(x)!r} 0 0 1 0 0" for place, x in enumerate((len(numbers), radius, *numbers), 1)]
 
 
 def _zemax_glass(medium: Medium) -> str:
@@ -225,12 +276,11 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
         raise LensFileError("the object stands in a medium, which an ISET file cannot say; save as TOML")
     if any(surface.reflects for surface in lens.surfaces):
         raise LensFileError("the lens has mirrors, which an ISET file cannot say; save as TOML")
-    _check_plain(lens, "ISET")
     wave = lens.reference_wavelength_um
     stop = lens.stop_surface or limiting_rim(lens, wave)[0]
     rows = []
     for number, surface in enumerate(lens.surfaces, 1):
-        row = _iset_row(surface, _iset_index(surface.medium, wave, spectral))
+        row = _iset_row(_iset_surface(surface, number), _iset_index(surface.medium, wave, spectral))
         plain = not surface.bare or surface.medium != lens.media[number - 1]
         if number == stop:
             opening = {"radius": 0, "thickness": 0.0, "ior": 0, "semi_aperture": _stop_rim(lens, stop, wave)}
@@ -250,16 +300,20 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     return json.dumps(top, indent=1) + "\n"
 
 
-def _check_plain(lens: Lens, program: str) -> None:
-    """Raise LensFileError for a surface that the files of a program cannot hold."""
-    for number, surface in enumerate(lens.surfaces, 1):
-        if surface.shape is not None or surface.diffraction is not None:
-            raise LensFileError(
-                "surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save "
-                "as TOML",
-                surface=number,
-                program=program,
-            )
+def _iset_surface(surface: Surface, number: int) -> Surface:
+    """Return a surface as a conic with even terms, exactly; LensFileError where that is impossible."""
+    try:
+        made = even_asphere(surface)
+    except GeometryError:
+        made = None
+    exact = made is not None and not made.residual_mm and len(made.surface.aspheric) <= MOST_ISET_TERMS
+    if made is not None and exact and surface.diffraction is None:
+        return made.surface
+    raise LensFileError(
+        "surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML",
+        surface=number,
+        program="ISET",
+    )
 
 
 def _iset_row(surface: Surface, ior: float | list[list[float]]) -> dict[str, Any]:

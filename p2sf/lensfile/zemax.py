@@ -12,6 +12,7 @@ from typing import NoReturn
 
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
+from p2sf.lens.shapes import Diffraction, RadialPolynomial
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -27,21 +28,19 @@ REFUSED_TYPES = {
     "IRREGULA": Message("a surface that is not round"),
     "DGRATING": Message("a grating that diffracts"),
     "BINARY_1": Message("a diffractive surface"),
-    "BINARY_2": Message("a diffractive surface"),
     "BINARY_3": Message("a diffractive surface"),
     "PARAXIAL": Message("an ideal lens without a prescription"),
     "PARAX_XY": Message("an ideal lens without a prescription"),
     "NONSEQCO": Message("a non-sequential part"),
     "BLACKBOX": Message("a black box that hides its surfaces"),
     "BLCKBOX1": Message("a black box that hides its surfaces"),
-    "ODDASPHE": Message("an asphere with odd powers"),
     "QED_TYPE": Message("an asphere in Forbes's polynomials"),
-    "XOSPHERE": Message("an extended odd asphere"),
-    "XASPHERE": Message("an extended asphere"),
     "FRESNELS": Message("a Fresnel surface"),
     "GRINSUR1": Message("a gradient index"),
     "ALTERNAT": Message("the root of the sphere on its other side"),
 }
+READ_TYPES = ("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2")
+MOST_TERMS = 60  # of an extended asphere or a phase
 UNKNOWN_TYPE = Message("which P2SF does not trace")
 HARMLESS = (
     (
@@ -56,7 +55,7 @@ HARMLESS = (
     (Message("coatings, polarisation, scatter"), "COAT COFN POLS FIMP FLAP PFIL GFAC"),
     (
         Message("computing settings"),
-        "VERS GSTD NSCD RAIM ROPD POPS PUPD CONF HYPR RCMF ENVD GLRS XDAT YDAT SCBD AUTH NOTE",
+        "VERS GSTD NSCD RAIM ROPD POPS PUPD CONF HYPR RCMF ENVD GLRS YDAT SCBD AUTH NOTE",
     ),
     (
         Message("variables, pickups and solves, whose stored values are read"),
@@ -122,6 +121,7 @@ class ZemaxReading:
     catalogues: tuple[str, ...] = ()
     kinds: dict[int, str] = field(default_factory=dict)
     parameters: dict[int, dict[int, float]] = field(default_factory=dict)
+    extra: dict[int, dict[int, float]] = field(default_factory=dict)
     x_fields: list[float] = field(default_factory=list)
     y_fields: list[float] = field(default_factory=list)
     field_count: int | None = None
@@ -268,10 +268,11 @@ def begin_surface(reading: ZemaxReading, words: list[str]) -> None:
 
 def _type(reading: ZemaxReading, words: list[str]) -> None:
     reading.kinds[reading.surface.number] = kind = words[1].upper() if len(words) > 1 else ""
-    if kind not in ("STANDARD", "EVENASPH", "COORDBRK"):
+    if kind not in (*READ_TYPES, "COORDBRK"):
         reading.refuse(
-            "{surface} has type {kind}, {description}; only STANDARD and EVENASPH surfaces are read",
+            "{surface} has type {kind}, {description}; only the types {known} are read",
             kind=kind or Message("nothing"),
+            known=READ_TYPES,
             description=REFUSED_TYPES.get(kind, UNKNOWN_TYPE),
         )
 
@@ -295,6 +296,12 @@ def _conic(reading: ZemaxReading, words: list[str]) -> None:
 def _parameter(reading: ZemaxReading, words: list[str]) -> None:
     place = whole(words[1] if len(words) > 1 else "", Message("parameter number"), reading.source, reading.line)
     reading.parameters.setdefault(reading.surface.number, {})[place] = reading.number(words, 2, Message("parameter"))
+
+
+def _extra(reading: ZemaxReading, words: list[str]) -> None:
+    """Read XDAT number value: the extra data of extended aspheres and phases."""
+    place = whole(words[1] if len(words) > 1 else "", Message("number of extra data"), reading.source, reading.line)
+    reading.extra.setdefault(reading.surface.number, {})[place] = reading.number(words, 2, Message("extra data"))
 
 
 def _stop(reading: ZemaxReading, words: list[str]) -> None:
@@ -361,6 +368,7 @@ ON_SURFACE = {
     "DISZ": _thickness,
     "CONI": _conic,
     "PARM": _parameter,
+    "XDAT": _extra,
     "STOP": _stop,
     "DIAM": _semi_diameter,
     "GLAS": _glass,
@@ -594,7 +602,7 @@ def _finish(reading: ZemaxReading) -> None:
 
 
 def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
-    """Give an even asphere its terms; LensFileError for a coordinate break that is not all zeros."""
+    """Give an asphere its terms and a phase; LensFileError for a coordinate break that is not all zeros."""
     parameters = reading.parameters.get(surface.number, {})
     kind = reading.kinds.get(surface.number, "STANDARD")
     if kind == "COORDBRK" and any(parameters.values()):
@@ -603,5 +611,34 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
             surface.line,
             surface=surface.name,
         )
-    if kind == "EVENASPH":
-        surface.aspheric = {2 * place: value for place, value in parameters.items() if value}
+    step = 1 if kind in ("ODDASPHE", "XOSPHERE") else 2
+    if kind in ("EVENASPH", "ODDASPHE", "BINARY_2"):
+        surface.aspheric = {step * place: value for place, value in parameters.items() if place and value}
+    if kind not in ("XASPHERE", "XOSPHERE", "BINARY_2"):
+        return
+    terms, radius = _extra_terms(reading, surface)
+    if kind == "BINARY_2":  # parameter 0 is the order
+        order = parameters.get(0, 1.0)
+        surface.diffraction = Diffraction(terms, radius, order) if order and any(terms) else None
+    elif radius == 1:
+        surface.aspheric = {step * place: value for place, value in enumerate(terms, 1) if value}
+    elif any(terms):
+        every = terms if step == 1 else tuple(x for term in terms for x in (0.0, term))
+        surface.shape = RadialPolynomial(every, radius)
+
+
+def _extra_terms(reading: ZemaxReading, surface: RawSurface) -> tuple[tuple[float, ...], float]:
+    """Return coefficients and normalisation radius of the extra data: their number, the radius, then one each."""
+    extra = reading.extra.get(surface.number, {})
+    count, radius = extra.get(1, 0.0), extra.get(2, 1.0)
+    if not (0 <= count <= MOST_TERMS and count == int(count) and radius > 0):
+        raise reading.source.error(
+            "{surface} has {count:g} terms and a normalisation radius of {radius:g} in its extra data (XDAT); give up "
+            "to {most} terms and a positive radius",
+            surface.line,
+            surface=surface.name,
+            count=count,
+            radius=radius,
+            most=MOST_TERMS,
+        )
+    return tuple(extra.get(place, 0.0) for place in range(3, 3 + int(count))), radius

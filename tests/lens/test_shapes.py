@@ -10,6 +10,8 @@ from scipy.special import eval_jacobi
 
 from p2sf.errors import GeometryError
 from p2sf.lens import Aperture, Diffraction, Lens, Qbfs, Qcon, RadialPolynomial, Surface
+from p2sf.lens.even_terms import even_asphere
+from p2sf.lens.even_terms import sag as surface_sag
 
 SHAPES = {
     "odd": RadialPolynomial((1e-3, -2e-4, 3e-5, 0.0, 1e-6)),
@@ -111,6 +113,33 @@ def test_qcon_is_an_even_asphere_exactly(count):
 def test_a_shape_grows_with_its_lens(shape):
     r = np.linspace(0, 8, 9)
     assert sag(shape.scaled(3.0), 3 * r, CURVATURE / 3) == pytest.approx(3 * sag(shape, r, CURVATURE), rel=1e-13)
+
+
+@pytest.mark.parametrize(("radius", "conic"), [(30.0, 0.0), (-25.0, -0.8), (inf, 0.0)])
+def test_shapes_as_even_terms(radius, conic):
+    r = np.linspace(0, 9, 91)
+    plain = Surface(radius, conic=conic, aspheric=(1e-6, -1e-8))
+    for shape in (SHAPES["Qcon"], RadialPolynomial((0.0, 0.0, 0.0, 0.01, 0.0, 0.02), 9.0)):
+        made = even_asphere(replace(plain, shape=shape))
+        assert made.residual_mm == 0 and made.surface.shape is None
+        assert surface_sag(made.surface, r) == pytest.approx(surface_sag(replace(plain, shape=shape), r), abs=1e-15)
+    square = replace(plain, shape=SHAPES["extended"], semi_diameter=9.0)
+    made = even_asphere(square)
+    assert made.surface.curvature == pytest.approx(square.vertex_curvature, rel=1e-15)
+    assert made.residual_mm < 1e-9
+
+
+def test_qbfs_as_even_terms_says_what_it_leaves():
+    """More terms leave less; what is left is the largest difference of sag found elsewhere too."""
+    surface, r = Surface(30.0, shape=SHAPES["Qbfs"]), np.linspace(0, 9, 777)
+    left = [even_asphere(surface, terms) for terms in (4, 8, 12)]
+    for made in left:
+        found = np.abs(surface_sag(made.surface, r) - surface_sag(surface, r)).max()
+        assert made.residual_mm == pytest.approx(found, rel=0.02, abs=2e-15)
+        assert made.surface.curvature == surface.vertex_curvature
+    assert left[0].residual_mm > 1e3 * left[1].residual_mm and left[2].residual_mm < 1e-9
+    with pytest.raises(GeometryError, match="odd powers of the radius"):
+        even_asphere(Surface(shape=SHAPES["odd"]))
 
 
 def lens(**values) -> Lens:

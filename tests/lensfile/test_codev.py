@@ -1,9 +1,12 @@
 """CODE V files: commands, comments, continued lines, glasses, units, and what is refused by surface number."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
+from p2sf.lens import RadialPolynomial
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import paraxial_rays, working_f_number
@@ -129,10 +132,47 @@ def test_zero_tilts_are_no_tilts():
     assert read(DOUBLET, ("  PIM", "  ADE 0.0; YDE 0.0")).lens == read(DOUBLET).lens
 
 
+def test_a_published_hybrid_of_plastic():
+    """CODE V's sample 65988: 15 mm, its own thickness the focus of its reference wavelength, F and C as one."""
+    lens = load_lens(FOLDER / "hybrid.seq")
+    phase = lens.surfaces[0].diffraction
+    assert (phase.order, phase.normalisation_mm) == (1.0, 1.0)
+    assert phase.coefficients == (pytest.approx(-0.001807322521767816 * 2 * np.pi / 587.5618e-6, rel=1e-14),)
+    back = {nm: float(cardinal_points(lens, nm / 1e3).back_focal_distance) for nm in lens.wavelengths_nm}
+    assert back[587.5618] == pytest.approx(lens.sensor_mm, abs=1e-4)
+    assert back[486.1327] == pytest.approx(back[656.2725], abs=1e-3)
+    plain = replace(lens, surfaces=(replace(lens.surfaces[0], diffraction=None), lens.surfaces[1]))
+    away = [float(cardinal_points(plain, nm / 1e3).back_focal_distance) for nm in (486.1327, 656.2725)]
+    assert away[1] - away[0] > 0.2, "without its phase it is a singlet"
+
+
+def test_an_odd_polynomial_by_names_and_by_numbers_in_any_unit():
+    named = "SPS ODD 0.0; SCO K -1.0; SCO AR2 1e-4; SCO AR3 2e-5"
+    numbered = "SPS ODD 1.0; SCO C1 -1.0; SCO C3 1e-4; SCO C4 2e-5"
+    for change in (named, numbered):
+        surface = read(DOUBLET, ("  PIM", f"  {change}")).lens.surfaces[2]
+        assert surface.shape == RadialPolynomial((0.0, 1e-4, 2e-5)) and surface.conic == -1.0
+    normalised = read(DOUBLET, ("  PIM", "  SPS ODD 5.0; SCO AR3 2e-5"), ("DIM   M", "DIM   C")).lens.surfaces[2]
+    assert normalised.shape == RadialPolynomial((0.0, 0.0, 2e-4), 50.0)
+
+
+def test_a_phase_in_centimetres_is_that_in_millimetres():
+    """C₂ in cm⁻³ adds C₂r⁴ cm of path."""
+    change = ("  PIM", "  DIF DOE; HOR 2; HWL 500; HCT R; HCO C2 3e-3"), ("DIM   M", "DIM   C")
+    phase = read(DOUBLET, *change).lens.surfaces[2].diffraction
+    assert phase.phase_and_slope(100.0)[0] == pytest.approx(2 * 2 * np.pi / 500e-6 * 3e-2, rel=1e-14)
+
+
 REFUSED = {
     "a tilt": (("  PIM", "  ADE 3.0"), "surface 3 is tilted or decentred"),
     "a decentre": (("  PIM", "  YDE 3.0"), "surface 3 is tilted or decentred"),
-    "a diffractive surface": (("  PIM", "  DIF DOE"), "surface 3 diffracts"),
+    "a ruled grating": (("  PIM", "  DIF GRT"), "surface 3 diffracts by DIF GRT"),
+    "a hologram": (("  PIM", "  DIF DOE; HX1 3.0"), "surface 3 diffracts"),
+    "a phase in x and y": (("  PIM", "  DIF DOE; HCT XY"), "surface 3 diffracts by HCT XY"),
+    "a phase of no wavelength": (("  PIM", "  DIF DOE; HCO C1 1e-3"), "surface 3 diffracts without a wavelength"),
+    "a special surface": (("  PIM", "  SPS XYP"), "surface 3 is a special surface of type XYP"),
+    "a term of no special surface": (("  PIM", "  SCO AR3 1e-3"), "surface 3: coefficient AR3 of a special surface"),
+    "a term too high": (("  PIM", "  SPS ODD; SCO C32 1"), "surface 3: coefficient AR31"),
     "a toroid": (("  PIM", "  YTO"), "surface 3 has a shape"),
     "an unknown glass": (("NBK7_SCHOTT", "NNIX7_SCHOTT"), 'glass "NNIX7" of SCHOTT is in no catalogue'),
     "a number that is no glass": (("NBK7_SCHOTT", "1.5168"), "neither a name nor a six-digit code"),

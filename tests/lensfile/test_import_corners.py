@@ -8,6 +8,7 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex
+from p2sf.lens import Diffraction, Qbfs, RadialPolynomial
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import parse_toml
@@ -16,6 +17,7 @@ from p2sf.paraxial.first_order import magnification
 from p2sf.paraxial.pupils import numerical_aperture
 from tests.support.lens_files import read
 
+PHASE = Diffraction((-300.0, 20.0), 5.0)
 ZEMAX, TABLE = "doublet.zmx", "singlet.csv"
 GLAS = "GLAS N-BK7 0 0 1.5 4.0E+1 0 0 0 0 0 0"
 
@@ -103,12 +105,16 @@ def test_a_table_in_inches_is_in_millimetres_afterwards():
     ("ending", "change", "words"),
     [
         ("json", {"object_medium": ConstantIndex(1.33)}, "which an ISET file cannot say; save as TOML"),
-        ("zmx", {"aspheric": tuple([1e-9] * 40)}, "save as TOML"),
+        ("zmx", {"conic": 0.0, "shape": Qbfs((1e-3,), 5.0)}, "is a Qbfs asphere, .*; save as TOML"),
+        ("zmx", {"shape": RadialPolynomial((1e-3,)), "diffraction": PHASE}, "surface 1 diffracts and .* save as TOML"),
+        ("json", {"shape": RadialPolynomial((1e-3,))}, "which a file for ISET cannot say; save as TOML"),
+        ("json", {"conic": 0.0, "shape": Qbfs((1e-3,), 5.0)}, "which a file for ISET cannot say; save as TOML"),
+        ("json", {"diffraction": PHASE}, "which a file for ISET cannot say; save as TOML"),
     ],
 )
 def test_what_a_format_cannot_say_is_refused_and_not_left_out(tmp_path, ending, change, words):
     lens = find_lens("asphere")
-    if "aspheric" in change:
+    if "object_medium" not in change:
         lens = replace(lens, surfaces=(replace(lens.surfaces[0], **change), *lens.surfaces[1:]))
     else:
         lens = replace(lens, **change)

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex, TabulatedIndex, catalogue_glass, model_glass
+from p2sf.lens import Diffraction, Qcon, RadialPolynomial
+from p2sf.lens.even_terms import sag
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
@@ -53,6 +55,7 @@ def test_every_shipped_lens_survives_the_round_trip(name, tmp_path):
 
 numbers = st.floats(-1e12, 1e12).filter(lambda x: abs(x) > 1e-12)
 positive = st.floats(1e-9, 1e9)
+terms = st.lists(st.floats(-1, 1), min_size=1, max_size=7).map(tuple)
 surfaces = st.builds(
     Surface,
     radius=st.one_of(numbers, st.just(inf)),
@@ -66,6 +69,13 @@ surfaces = st.builds(
     conic=st.floats(-1e3, 1e3),
     aspheric=st.lists(st.floats(-1, 1), max_size=4).map(tuple),
     semi_diameter=st.one_of(positive, st.just(inf)),
+    shape=st.one_of(
+        st.none(),
+        st.builds(RadialPolynomial, terms),
+        st.builds(RadialPolynomial, terms, positive),
+        st.builds(Qcon, terms, positive),
+    ),
+    diffraction=st.one_of(st.none(), st.builds(Diffraction, terms, positive, st.floats(-5, 5))),
 )
 texts = st.text(st.characters(exclude_categories=("Cs",)), max_size=30)
 
@@ -117,6 +127,39 @@ def test_units_scale_every_length_and_nothing_else(unit, mm):
     assert diameter.aperture.value == 2 * mm
 
 
+SHAPES = {
+    "odd": 'shape = { type = "odd asphere", coefficients = [0.1, 2e-3, 3e-4] }',
+    "extended odd": 'shape = { type = "extended odd asphere", normalisation_radius = 4, coefficients = [0.1, 0.02] }',
+    "extended": 'shape = { type = "extended asphere", normalisation_radius = 4, coefficients = [0.1, 0.02] }',
+    "Qbfs": 'shape = { type = "Qbfs", normalisation_radius = 4, coefficients = [0.1, 0.02] }',
+    "Qcon": 'shape = { type = "Qcon", normalisation_radius = 4, coefficients = [0.1, 0.02] }',
+}
+
+
+@pytest.mark.parametrize("kind", SHAPES)
+def test_shapes_are_scaled_by_the_unit(kind):
+    """A sag of y in one unit is that of y in the other."""
+    text = GOOD.replace("semi_diameter = 10", "semi_diameter = 10\n" + SHAPES[kind])
+    one, ten = (parse_toml(text.replace('"mm"', f'"{unit}"')).surfaces[0] for unit in ("mm", "cm"))
+    r = np.linspace(0, 3, 7)
+    assert sag(ten, 10 * r) == pytest.approx(10 * sag(one, r), rel=1e-13)
+    u = (r / 4) ** 2
+    known = {
+        "odd": 0.1 * r + 2e-3 * r**2 + 3e-4 * r**3,
+        "extended odd": 0.1 * r / 4 + 0.02 * u,
+        "extended": 0.1 * u + 0.02 * u * u,
+        "Qcon": u * u * (0.1 + 0.02 * (6 * u - 5)),
+        "Qbfs": u * (1 - u) / np.sqrt(1 - (r / 50) ** 2) * (0.1 + 0.02 * (13 - 16 * u) / np.sqrt(19)),
+    }
+    assert sag(one, r) - sag(replace(one, shape=None), r) == pytest.approx(known[kind], abs=1e-15)
+
+
+def test_a_phase_is_scaled_by_the_unit():
+    line = "diffraction = { normalisation_radius = 4, coefficients = [-30, 2] }"
+    text = GOOD.replace("semi_diameter = 10", "semi_diameter = 10\n" + line).replace('"mm"', '"cm"')
+    assert parse_toml(text).surfaces[0].diffraction == Diffraction((-30.0, 2.0), 40.0)
+
+
 # (what is changed in GOOD, into what, line, what the sentence holds)
 MISTAKES = [
     ("thickness = 4\n", 'thickness = "abc"\n', 12, ["surface 1", 'thickness is "abc"', "as a number"]),
@@ -134,6 +177,12 @@ MISTAKES = [
     ("semi_diameter = 10", "aspheric = 1e-5", 14, ["aspheric is 1e-05", "list of numbers"]),
     ("semi_diameter = 10", 'aspheric = [1e-5, "x"]', 14, ['aspheric is "x"', "finite number"]),
     ("semi_diameter = 10", "conic = 1" + 400 * "0", 14, ["conic is 1000", "finite number"]),
+    ("semi_diameter = 10", "shape = 3", 14, ["shape is 3", "write { key = value, … }"]),
+    ("semi_diameter = 10", 'shape = { type = "Q" }', 14, ['type "Q" of a shape is unknown', "Qbfs, Qcon"]),
+    ("semi_diameter = 10", SHAPES["Qcon"].replace("= 4", "= 0"), 14, ["normalisation_radius is 0", "positive"]),
+    ("semi_diameter = 10", SHAPES["Qcon"].replace("coef", "ceof"), 14, ['"ceofficients" is unknown', "did you mean"]),
+    ("semi_diameter = 10", SHAPES["odd"].replace("[0.1", '["x"'), 14, ['coefficients is "x"', "finite number"]),
+    ("semi_diameter = 10", "diffraction = { order = 1 }", 14, ["normalisation_radius is missing"]),
     ('"SCHOTT N-BK7"', '"SCHOTT N-BK8"', 13, ["surface 1", '"SCHOTT N-BK8"', "did you mean SCHOTT N-BK7"]),
     ('"SCHOTT N-BK7"', '"F2"', 13, ["sold with different indices", "SCHOTT F2", "write the one you mean"]),
     ('"SCHOTT N-BK7"', "{ nd = 1.5 }", 13, ["glass is {'nd': 1.5}", "vd = 64.17"]),

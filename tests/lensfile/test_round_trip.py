@@ -5,6 +5,8 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import TabulatedIndex, catalogue_glass
+from p2sf.lens import RadialPolynomial, Source
+from p2sf.lens.even_terms import sag
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.agf import read_agf
@@ -14,7 +16,9 @@ from p2sf.lensfile.writing import lens_to_iset, write_lens
 from p2sf.paraxial.first_order import abcd
 from p2sf.paraxial.pupils import find_stop, stop_rim
 from p2sf.paraxial.seidel import coefficients
+from p2sf.raytrace.pencil import pencil
 from tests.support.lens_files import FILES, FOLDER, read, text_of
+from tests.support.shaped_lenses import EXTENDED, ODD, OTHER_PHASE, QCON, singlet
 
 
 def with_own_glass() -> Lens:
@@ -61,7 +65,40 @@ def test_zmx_is_the_same_lens_to_this_reader(name, tmp_path):
         assert (new.conic, new.aspheric, new.thickness) == (old.conic, old.aspheric, old.thickness)
 
 
-@pytest.mark.parametrize("name", sorted({*LENSES} - {"mirrors.roa"}))  # ISET has no mirrors
+SHAPED = {
+    "ODDASPHE": {"shape": ODD, "aspheric": (1e-6,)},
+    "EVENASPH": {"shape": RadialPolynomial((0.0, 1e-3)), "aspheric": (1e-6, 2e-9)},
+    "XASPHERE": {"shape": EXTENDED, "aspheric": (1e-6,)},
+    "XOSPHERE": {"shape": RadialPolynomial((0.01, 0.02, 0.03), 9.0), "aspheric": (1e-6, 2e-9)},
+    "BINARY_2": {"aspheric": (1e-6,), "diffraction": OTHER_PHASE},
+}
+MORE = {"Qcon": {"shape": QCON}, "r³⁰": {"aspheric": tuple(1e-5 * 9.0**-k for k in range(0, 28, 2))}}
+
+
+@pytest.mark.parametrize("kind", [*SHAPED, *MORE])
+def test_zmx_holds_shapes_and_phases(kind, tmp_path):
+    """The same rays, to the rounding of terms that are put together by the powers of a normalisation radius."""
+    lens = singlet({**SHAPED, **MORE}[kind])
+    write_lens(lens, tmp_path / "out.zmx")
+    assert f"TYPE {kind if kind in SHAPED else 'XASPHERE'}\n" in (tmp_path / "out.zmx").read_text()
+    again, eta = load_lens(tmp_path / "out.zmx"), np.linspace(-1, 1, 9)
+    one, two = (pencil(each, Source(900.0, 0.05, 0.55), 0.3 * eta, eta) for each in (lens, again))
+    assert one.passed.all() and one.path == pytest.approx(two.path, abs=1e-13)
+    assert again.surfaces[1].diffraction == lens.surfaces[1].diffraction
+
+
+def test_iset_gets_qcon_as_its_even_terms(tmp_path):
+    lens = singlet({"shape": QCON, "conic": -0.5, "aspheric": (1e-6,)})
+    write_lens(lens, tmp_path / "out.json")
+    again = load_lens(tmp_path / "out.json").surfaces[1]
+    r = np.linspace(0, 8, 20)
+    assert again.shape is None and sag(again, r) == pytest.approx(sag(lens.surfaces[1], r), rel=1e-13, abs=1e-16)
+
+
+NOT_IN_ISET = {"mirrors.roa", "hybrid.seq"}  # mirrors and diffraction
+
+
+@pytest.mark.parametrize("name", sorted({*LENSES} - NOT_IN_ISET))
 def test_iset_is_the_same_lens_at_its_reference_wavelength(name, tmp_path):
     """A stop on a refracting surface becomes a plane at its vertex, which changes no Seidel sum."""
     lens, path = LENSES[name](), tmp_path / "out.json"

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
+from p2sf.lens import Diffraction, RadialPolynomial
 from p2sf.lens.lens import with_sensor
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points
@@ -176,6 +177,40 @@ def test_configurations_that_differ_in_nothing_are_one_lens():
     assert read(DOUBLET, ("MNUM 1 1", "MNUM 3 1")).lens == read(DOUBLET).lens
 
 
+def test_a_square_term_beside_a_radius_is_kept():
+    surface = read(DOUBLET, ("PARM 1 0", "PARM 1 1e-3")).lens.surfaces[2]
+    assert surface.shape == RadialPolynomial((0.0, 1e-3)) and surface.aspheric == (1e-7, -2e-10)
+
+
+def extra(*numbers: float) -> str:
+    return "".join(f'  XDAT {place} {x:.12E} 0 0 1.0 0.0 0 ""\n' for place, x in enumerate(numbers, 1))
+
+
+@pytest.mark.parametrize(("unit", "mm"), [("MM", 1.0), ("IN", 25.4)])
+def test_odd_and_extended_aspheres_and_phases(unit, mm):
+    """Parameters as OpticStudio's manual has them: XDAT 1 is the number of terms, 2 the normalisation radius."""
+
+    def surface(kind: str, data: str = ""):
+        return read(
+            DOUBLET, ("  TYPE EVENASPH\n", f"  TYPE {kind}\n{data}"), ("UNIT MM", f"UNIT {unit}")
+        ).lens.surfaces[2]
+
+    odd = surface("ODDASPHE")  # its parameters 2 and 3 are now those of r² and r³
+    assert odd.shape.coefficients == pytest.approx((0.0, 1e-7 / mm, -2e-10 / mm**2), rel=1e-14) and not odd.aspheric
+    even = surface("XASPHERE", extra(2, 4.0, 0.01, -0.02))
+    assert even.shape == RadialPolynomial((0.0, 0.01 * mm, 0.0, -0.02 * mm), 4.0 * mm)
+    assert surface("XASPHERE", extra(3, 1.0, 0.0, 0.01, -0.02)).aspheric == pytest.approx((0.01 / mm**3, -0.02 / mm**5))
+    assert surface("XOSPHERE", extra(3, 4.0, 0.01, -0.02, 0.03)).shape.coefficients == (
+        0.01 * mm,
+        -0.02 * mm,
+        0.03 * mm,
+    )
+    phase = surface("BINARY_2", "  PARM 0 2\n" + extra(2, 5.0, -300.0, 20.0, 99.0))
+    assert phase.diffraction == Diffraction((-300.0, 20.0), 5.0 * mm, 2.0)
+    assert phase.aspheric == pytest.approx((1e-7 / mm**3, -2e-10 / mm**5), rel=1e-14)
+    assert surface("BINARY_2", "  PARM 0 0\n" + extra(1, 5.0, -300.0)).diffraction is None, "order 0"
+
+
 REFUSED = {
     "a toroid": (("TYPE EVENASPH", "TYPE TOROIDAL"), "surface 3 has type TOROIDAL"),
     "a grating": (("TYPE EVENASPH", "TYPE DGRATING"), "surface 3 has type DGRATING"),
@@ -184,7 +219,13 @@ REFUSED = {
     "a tilt": (("TYPE EVENASPH", "TYPE COORDBRK"), "surface 3 is a coordinate break"),
     "non-sequential": (("MODE SEQ", "MODE NSC"), "mode NSC is not sequential"),
     "a decentred rim": (("  MAZH 0 0", "  OBDC 0 3.5"), "surface 3 has a rim decentred"),
-    "a square term": (("PARM 1 0", "PARM 1 1e-3"), "surface 3: the r² coefficient"),
+    "a power too high": (("PARM 1 0", "PARM 21 1e-3"), r"surface 3: aspheric term r\^42; powers from 1 to 40"),
+    "Forbes's polynomials": (("TYPE EVENASPH", "TYPE QED_TYPE"), "surface 3 has type QED_TYPE, an asphere in Forbes"),
+    "half a term": (("TYPE EVENASPH", "TYPE XASPHERE\n  XDAT 1 1.5"), "surface 3 has 1.5 terms"),
+    "no radius": (
+        ("TYPE EVENASPH", "TYPE BINARY_2\n  XDAT 1 1\n  XDAT 2 0"),
+        "a normalisation radius of 0 in its extra",
+    ),
     "an unknown unit": (("UNIT MM", "UNIT FURLONG"), "lens unit"),
     "an unknown glass": (
         ("N-BK7", "N-NOTHING7"),
@@ -217,8 +258,8 @@ def test_a_refusal_carries_its_line_and_its_values_as_data():
 
 
 def test_an_error_of_the_lens_stands_on_the_line_of_its_surface():
-    with pytest.raises(LensFileError, match="surface 3: the r² coefficient") as caught:
-        read(DOUBLET, ("PARM 1 0", "PARM 1 1e-3"))
+    with pytest.raises(LensFileError, match=r"surface 3: aspheric term r\^42") as caught:
+        read(DOUBLET, ("PARM 1 0", "PARM 21 1e-3"))
     assert text_of(DOUBLET).splitlines()[caught.value.line - 1] == "SURF 3"
 
 

@@ -791,11 +791,8 @@
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende angeben</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende oder den Durchmesser der Pupille angeben</translation></message>
 <message><source>an asphere in Forbes's polynomials</source><translation>eine Asphäre in Forbes-Polynomen</translation></message>
-<message><source>an asphere with odd powers</source><translation>eine Asphäre mit ungeraden Potenzen</translation></message>
 <message><source>an end of the sweep</source><translation>ein Ende des Durchlaufs</translation></message>
 <message><source>an energy fraction of {fraction}; give a number between 0 and 1</source><translation>ein Energieanteil von {fraction}; eine Zahl zwischen 0 und 1 angeben</translation></message>
-<message><source>an extended asphere</source><translation>eine erweiterte Asphäre</translation></message>
-<message><source>an extended odd asphere</source><translation>eine erweiterte ungerade Asphäre</translation></message>
 <message><source>an ideal lens without a prescription</source><translation>eine ideale Linse ohne Rezept</translation></message>
 <message><source>an object at infinity has no height; give the field as an angle or an image height</source><translation>ein Objekt im Unendlichen hat keine Höhe; das Feld als Winkel oder Bildhöhe angeben</translation></message>
 <message><source>an object at infinity has no numerical aperture; state the pupil's diameter or f-number</source><translation>ein Objekt im Unendlichen hat keine numerische Apertur; Pupillendurchmesser oder Blendenzahl angeben</translation></message>
@@ -868,6 +865,7 @@
 <message><source>coarse</source><translation>grob</translation></message>
 <message><source>coatings, polarisation, scatter</source><translation>Beschichtungen, Polarisation, Streuung</translation></message>
 <message><source>coefficient</source><translation>Koeffizient</translation></message>
+<message><source>coefficient of a phase</source><translation>Koeffizient einer Phase</translation></message>
 <message><source>coefficient, waves</source><translation>Koeffizient, Wellen</translation></message>
 <message><source>coefficients are {count} numbers; write 1 to {most}</source><translation>coefficients sind {count} Zahlen; 1 bis {most} schreiben</translation></message>
 <message><source>coefficients of {name} are not up to {count} numbers; correct them</source><translation>die Koeffizienten von {name} sind nicht bis zu {count} Zahlen; berichtigen</translation></message>
@@ -945,6 +943,7 @@
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
 <message><source>exact rays, since {because}</source><translation>exakte Strahlen, denn {because}</translation></message>
 <message><source>exact rays, this field</source><translation>exakt, dieses Feld</translation></message>
+<message><source>extra data</source><translation>Zusatzdaten</translation></message>
 <message><source>f number</source><translation>Blendenzahl</translation></message>
 <message><source>f number {value:.6g}</source><translation>Blendenzahl {value:.6g}</translation></message>
 <message><source>f-number</source><translation>Blendenzahl</translation></message>
@@ -1007,6 +1006,7 @@
 <message><source>glass {name} of {path} has nd {nd:.5f} by its coefficients and {listed:.5f} by its name line; the catalogue is damaged, replace it</source><translation>das Glas {name} aus {path} hat nd {nd:.5f} nach seinen Koeffizienten und {listed:.5f} nach seiner Namenszeile; der Katalog ist beschädigt, ersetzen</translation></message>
 <message><source>glass's nd or vd</source><translation>nd oder vd des Glases</translation></message>
 <message><source>green</source><translation>Grün</translation></message>
+<message><source>has a shape that is not a sphere, a conic or an asphere in powers of r</source><translation>hat eine Form, die keine Kugel, kein Kegelschnitt und keine Asphäre in Potenzen von r ist</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an even asphere</source><translation>hat eine Form, die weder Kugel noch Kegelschnitt noch gerade Asphäre ist</translation></message>
 <message><source>has no diffracted direction behind surface {surface}, whose phase is too steep there</source><translation>hat hinter Fläche {surface} keine gebeugte Richtung, deren Phase dort zu steil ist</translation></message>
 <message><source>heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them</source><translation>Höhen × Abstände × Wellenlängen: {heights} × {depths} × {waves}; alle übrigen liegen auf Polynomen durch diese</translation></message>
@@ -1127,6 +1127,7 @@
 <message><source>no stop is named; the narrowest rim, surface {number}, is the stop</source><translation>keine Blende ist genannt; der engste Rand, Fläche {number}, ist die Blende</translation></message>
 <message><source>no stop named</source><translation>keine Blende genannt</translation></message>
 <message><source>none</source><translation>keine</translation></message>
+<message><source>normalisation radius</source><translation>Normierungsradius</translation></message>
 <message><source>not converged: agrees to {reached:.1e} only</source><translation>nicht konvergiert: stimmt nur auf {reached:.1e} überein</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
 <message><source>nothing is pinned as B (Ctrl+B)</source><translation>nichts ist als B gemerkt (Strg+B)</translation></message>
@@ -1134,6 +1135,7 @@
 <message><source>number of blades</source><translation>Zahl der Lamellen</translation></message>
 <message><source>number of columns</source><translation>Anzahl der Spalten</translation></message>
 <message><source>number of configurations</source><translation>Zahl der Konfigurationen</translation></message>
+<message><source>number of extra data</source><translation>Nummer der Zusatzdaten</translation></message>
 <message><source>number of fields</source><translation>Anzahl der Felder</translation></message>
 <message><source>number of rays drawn from a point</source><translation>Zahl der von einem Punkt gezeichneten Strahlen</translation></message>
 <message><source>number of rows</source><translation>Anzahl der Zeilen</translation></message>
@@ -1161,6 +1163,7 @@
 <message><source>only {share:.0%} of the light lies in the window; take a larger one</source><translation>nur {share:.0%} des Lichts liegen im Fenster; ein größeres nehmen</translation></message>
 <message><source>open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>or</source><translation>oder</translation></message>
+<message><source>order or wavelength of a phase</source><translation>Ordnung oder Wellenlänge einer Phase</translation></message>
 <message><source>other wavefronts explain the pictures as well: {count}; add a focus</source><translation>andere Wellenfronten erklären die Bilder ebenso gut: {count}; einen Fokus hinzufügen</translation></message>
 <message><source>outer radius</source><translation>Außenradius</translation></message>
 <message><source>parameter</source><translation>Parameter</translation></message>
@@ -1341,9 +1344,10 @@
 <message><source>surface {surface}</source><translation>Fläche {surface}</translation></message>
 <message><source>surface {surface} ({label})</source><translation>Fläche {surface} ({label})</translation></message>
 <message><source>surface {surface} differs between columns in its aspheric terms or in a medium without a name, for which a Zemax file has no line; save as TOML</source><translation>Fläche {surface} unterscheidet sich zwischen Spalten in asphärischen Termen oder in einem Medium ohne Namen, wofür eine Zemax-Datei keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} diffracts and has terms other than even ones up to r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} beugt und hat andere Glieder als gerade bis r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
-<message><source>surface {surface} has aspheric terms above r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat asphärische Glieder über r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} is a Qbfs asphere, for which no line of Zemax is known here; save as TOML, or convert it to even terms</source><translation>Fläche {surface} ist eine Qbfs-Asphäre, für die hier keine Zeile von Zemax bekannt ist; als TOML speichern oder in gerade Glieder umrechnen</translation></message>
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
@@ -1351,9 +1355,10 @@
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
 <message><source>surface {surface}: Qbfs departs from a sphere, and the conic constant is {conic:g}; set it to 0 or use Qcon</source><translation>Fläche {surface}: Qbfs weicht von einer Kugel ab, und die Kegelschnittkonstante ist {conic:g}; auf 0 setzen oder Qcon verwenden</translation></message>
 <message><source>surface {surface}: a coefficient of its shape or its phase is not finite; correct it</source><translation>Fläche {surface}: ein Koeffizient ihrer Form oder ihrer Phase ist nicht endlich; berichtigen</translation></message>
+<message><source>surface {surface}: a term in r^{power} beside another shape; put all terms into one</source><translation>Fläche {surface}: ein Glied in r^{power} neben einer anderen Form; alle Glieder in eine setzen</translation></message>
 <message><source>surface {surface}: a tilt of {tilt:g}° about {axis} turns it edge on or further; give less than 90°</source><translation>Fläche {surface}: eine Kippung von {tilt:g}° um {axis} stellt sie auf die Kante oder weiter; weniger als 90° angeben</translation></message>
 <message><source>surface {surface}: a tilt or decentre is not finite; give finite numbers</source><translation>Fläche {surface}: eine Kippung oder Dezentrierung ist nicht endlich; endliche Zahlen angeben</translation></message>
-<message><source>surface {surface}: aspheric term r^{power} is not even from r⁴ on; refit the surface</source><translation>Fläche {surface}: das asphärische Glied r^{power} ist nicht gerade ab r⁴; die Fläche neu anpassen</translation></message>
+<message><source>surface {surface}: aspheric term r^{power}; powers from 1 to {most} are read</source><translation>Fläche {surface}: asphärisches Glied r^{power}; Potenzen von 1 bis {most} werden gelesen</translation></message>
 <message><source>surface {surface}: aspheric_coefficients is not a list of up to 20 numbers; correct it</source><translation>Fläche {surface}: aspheric_coefficients ist keine Liste von bis zu 20 Zahlen; berichtigen</translation></message>
 <message><source>surface {surface}: conic or aspheric coefficient is not finite; correct it</source><translation>Fläche {surface}: der Kegelschnitt oder ein asphärischer Koeffizient ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: ior is neither a number nor [[nm …], [n …]]; correct it</source><translation>Fläche {surface}: ior ist weder eine Zahl noch [[nm …], [n …]]; berichtigen</translation></message>
@@ -1362,7 +1367,6 @@
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>surface {surface}: semi-diameter {semi_diameter} mm; give a positive number</source><translation>Fläche {surface}: Halbmesser {semi_diameter} mm; eine positive Zahl angeben</translation></message>
 <message><source>surface {surface}: the medium behind it is not one in all columns; it is that of the nearest, {near}</source><translation>Fläche {surface}: das Medium dahinter ist nicht in allen Spalten dasselbe; es ist das der nächsten, {near}</translation></message>
-<message><source>surface {surface}: the r² coefficient {value:g} beside a radius of curvature is not a conic with terms from r⁴ on; refit the surface without r²</source><translation>Fläche {surface}: der r²-Koeffizient {value:g} neben einem Krümmungsradius ist kein Kegelschnitt mit Gliedern ab r⁴; die Fläche ohne r² neu anpassen</translation></message>
 <message><source>surface {surface}: thickness {thickness} mm; give a finite number</source><translation>Fläche {surface}: Dicke {thickness} mm; eine endliche Zahl angeben</translation></message>
 <message><source>surface {surface}: {message}</source><translation>Fläche {surface}: {message}</translation></message>
 <message><source>surface {surface}: {name} differs between x and y; only round lenses are read</source><translation>Fläche {surface}: {name} unterscheidet sich zwischen x und y; nur runde Objektive werden gelesen</translation></message>
@@ -1554,6 +1558,7 @@
 <message><source>the stop is on the object or the image; put it on a surface between</source><translation>die Blende liegt auf dem Objekt oder dem Bild; auf eine Fläche dazwischen legen</translation></message>
 <message><source>the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but a radius of {radius:g} mm ends that surface at {edge:.6g} mm; stop the lens down or move the stop</source><translation>die Blende auf Fläche {surface} hat einen Halbmesser von {rim:.6g} mm, aber ein Radius von {radius:g} mm lässt diese Fläche bei {edge:.6g} mm enden; abblenden oder die Blende versetzen</translation></message>
 <message><source>the stop, surface {number}, is open to its rim, semi-diameter {rim:g} mm</source><translation>die Blende, Fläche {number}, ist bis zum Rand offen, Halbmesser {rim:g} mm</translation></message>
+<message><source>the surface has odd powers of the radius, which no even terms describe; keep its shape</source><translation>die Fläche hat ungerade Potenzen des Radius, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
 <message><source>the tolerance</source><translation>die Toleranz</translation></message>
 <message><source>the tolerance is measured as "{measure}"; choose {choices}</source><translation>die Toleranz ist als "{measure}" gemessen; {choices} wählen</translation></message>
 <message><source>the tolerance is {tolerance:g} dB; give the least peak signal-to-noise ratio, a positive number</source><translation>die Toleranz ist {tolerance:g} dB; das kleinste Spitzen-Signal-Rausch-Verhältnis angeben, eine positive Zahl</translation></message>
@@ -1889,14 +1894,19 @@
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>
 <message><source>{surface} diffracts ({kind}); only refracting and reflecting surfaces are read</source><translation>{surface} beugt ({kind}); nur brechende und spiegelnde Flächen werden gelesen</translation></message>
+<message><source>{surface} diffracts by {command} {kind}, which is not read; only DOE with a phase in r (HCT R) is</source><translation>{surface} beugt durch {command} {kind}, was nicht gelesen wird; nur DOE mit einer Phase in r (HCT R) wird gelesen</translation></message>
+<message><source>{surface} diffracts without a wavelength (HWL) of its phase; add it</source><translation>{surface} beugt ohne eine Wellenlänge (HWL) der Phase; ergänzen</translation></message>
 <message><source>{surface} has a rim decentred by ({x:g}, {y:g}); only centred lenses are read</source><translation>{surface} hat einen um ({x:g}, {y:g}) dezentrierten Rand; nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>{surface} has a shape ({kind}) that is not round or not known; only {known} are read</source><translation>{surface} hat eine Form ({kind}), die nicht rund oder nicht bekannt ist; nur {known} werden gelesen</translation></message>
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
-<message><source>{surface} has type {kind}, {description}; only STANDARD and EVENASPH surfaces are read</source><translation>{surface} hat den Typ {kind}, {description}; nur Flächen STANDARD und EVENASPH werden gelesen</translation></message>
+<message><source>{surface} has type {kind}, {description}; only the types {known} are read</source><translation>{surface} hat den Typ {kind}, {description}; nur die Typen {known} werden gelesen</translation></message>
+<message><source>{surface} has {count:g} terms and a normalisation radius of {radius:g} in its extra data (XDAT); give up to {most} terms and a positive radius</source><translation>{surface} hat {count:g} Glieder und einen Normierungsradius von {radius:g} in den Zusatzdaten (XDAT); bis zu {most} Glieder und einen positiven Radius angeben</translation></message>
 <message><source>{surface} is a coordinate break (tilt or decentre); only centred lenses are read</source><translation>{surface} ist ein Koordinatenbruch (Kippung oder Dezentrierung); nur zentrierte Objektive werden gelesen</translation></message>
+<message><source>{surface} is a special surface of type {kind}, which is not read; only ODD is</source><translation>{surface} ist eine Sonderfläche vom Typ {kind}, die nicht gelesen wird; nur ODD wird gelesen</translation></message>
 <message><source>{surface} is an ideal lens made by a hologram, which has no prescription; put a real lens in its place</source><translation>{surface} ist eine ideale Linse aus einem Hologramm, ohne Konstruktionsdaten; bitte eine wirkliche Linse einsetzen</translation></message>
 <message><source>{surface} is tilted or decentred; only centred lenses are read</source><translation>{surface} ist gekippt oder dezentriert; nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>{surface} {reason} ({command}); only centred systems are read</source><translation>{surface} {reason} ({command}); nur zentrierte Systeme werden gelesen</translation></message>
+<message><source>{surface}: coefficient {name} of a special surface is not known; K, AR1 to AR30 and NRADIUS after SPS ODD are</source><translation>{surface}: Koeffizient {name} einer Sonderfläche ist nicht bekannt; K, AR1 bis AR30 und NRADIUS nach SPS ODD sind es</translation></message>
 <message><source>{surface}: glass "{name}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it</source><translation>{surface}: das Glas "{name}" ist weder ein Name noch ein sechsstelliger Code wie 517642 oder 517.642; berichtigen</translation></message>
 <message><source>{surface}: radius {radius:g} differs from the lens data's; correct one</source><translation>{surface}: der Radius {radius:g} weicht von dem der Linsendaten ab; einen berichtigen</translation></message>
 <message><source>{table} has "{key}", which means nothing here; it takes {keys}</source><translation>{table}: "{key}" bedeutet hier nichts; möglich sind {keys}</translation></message>

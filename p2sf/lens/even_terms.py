@@ -1,0 +1,72 @@
+"""A surface of another shape as a conic with even terms: exactly where that is possible, else by a fit."""
+
+from dataclasses import dataclass, replace
+from math import isfinite
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Surface
+from p2sf.lens.shapes import Qbfs, Qcon
+
+SAMPLES = 400  # along the radius: far more than a polynomial of 30 terms has bends
+
+
+@dataclass(frozen=True)
+class EvenAsphere:
+    """A conic with even terms, and by how much its sag departs from that of the surface it stands for, mm."""
+
+    surface: Surface
+    residual_mm: float
+
+
+def even_asphere(surface: Surface, terms: int = 12) -> EvenAsphere:
+    """Return a surface as a conic with even terms from r⁴ on.
+
+    Qcon and even polynomials without r² are converted exactly, but for rounding. Qbfs, and polynomials with a term in
+    r², get the radius of their vertex, and ``terms`` even terms by least squares over the clear radius or, without one,
+    the normalisation radius. Raises GeometryError for odd terms.
+    """
+    shape = surface.shape
+    if shape is None:
+        return EvenAsphere(surface, 0.0)
+    first, second, third, _ = shape.series(surface.curvature)
+    if first or third or not (isinstance(shape, Qbfs | Qcon) or shape.even):
+        raise GeometryError("the surface has odd powers of the radius, which no even terms describe; keep its shape")
+    if isinstance(shape, Qbfs) or second:
+        return _fitted(surface, terms)
+    if isinstance(shape, Qcon):
+        more = shape.even_terms()
+    else:
+        more = tuple(a / shape.normalisation_mm ** (4 + 2 * k) for k, a in enumerate(shape.coefficients[3::2]))
+    return EvenAsphere(replace(surface, aspheric=_added(surface.aspheric, more), shape=None), 0.0)
+
+
+def _added(one: tuple[float, ...], other: tuple[float, ...]) -> tuple[float, ...]:
+    short, long = sorted((one, other), key=len)
+    return tuple(a + b for a, b in zip((*short, *[0.0] * (len(long) - len(short))), long, strict=True))
+
+
+def _fitted(surface: Surface, terms: int) -> EvenAsphere:
+    """Return the least-squares fit in Forbes's Qcon, whose terms are orthogonal, in powers of r."""
+    curvature = surface.vertex_curvature
+    rim = surface.semi_diameter
+    if not isfinite(rim):
+        rim = surface.shape.normalisation_mm if surface.shape else 1.0
+    r = rim * np.sin(np.linspace(0, np.pi / 2, SAMPLES))
+    plain = replace(surface, radius=1 / curvature if curvature else np.inf, aspheric=(), shape=None)
+    departure = sag(surface, r) - sag(plain, r)
+    basis = [Qcon((*[0.0] * m, 1.0), rim).sag_and_slope(r * r, 0.0)[0] for m in range(terms)]
+    found, *_ = np.linalg.lstsq(np.column_stack(basis), departure, rcond=None)
+    made = replace(plain, aspheric=Qcon(tuple(found.tolist()), rim).even_terms())
+    return EvenAsphere(made, float(np.abs(sag(made, r) - sag(surface, r)).max()))
+
+
+def sag(surface: Surface, r: np.ndarray) -> np.ndarray:
+    """Return the sag of a surface at radii r, mm; NaN beyond the edge of its conic."""
+    c, square = surface.curvature, r * r
+    with np.errstate(invalid="ignore"):
+        depth: np.ndarray = c * square / (1 + np.sqrt(1 - (1 + surface.conic) * c * c * square))
+        for power, term in enumerate(surface.aspheric, 2):
+            depth = depth + term * square**power
+        return depth if surface.shape is None else depth + surface.shape.sag_and_slope(square, c)[0]
