@@ -34,7 +34,7 @@ def traced(lens: Lens, wavelength: float, y: float, u: float) -> tuple[float, fl
     return y, u
 
 
-@pytest.mark.parametrize("name", shipped_lenses())
+@pytest.mark.parametrize("name", sorted(set(shipped_lenses()) - {"diffractive_singlet"}))  # the rays below refract only
 def test_the_sums_are_the_changes_of_image_place_and_height(name):
     """δ(defocus path) = n'u'·δ(height of the axial ray in the image plane)/2, δ(tilt) = n'u'·δ(image height)."""
     lens, place = on_image(name)

@@ -19,6 +19,8 @@ from p2sf.raytrace.fit import fit, levels
 from p2sf.raytrace.pencil import Status, hexapolar, pencil, spot, trace
 from tests.support.pencils import disc
 
+# They image near objects only, and the pupil of the first is so far off that 1° of field lies outside its glass.
+RELAYS = {"relay": ((150.0,), (0.0, 0.1)), "telecentric_relay": ((90.9,), (0.0, 0.015, 0.0285))}
 NEAR = {"eye_navarro": 100.0}  # mm; other lenses at 1 m
 SHIPPED = shipped_lenses()
 
@@ -26,8 +28,9 @@ SHIPPED = shipped_lenses()
 def places(name):
     """Yield lens, aimed at its stop, and sources at infinity and nearby, at its three fields."""
     lens = with_aim(find_lens(name), "stop")
-    # The relay images near objects only, and its pupil is so far off that 1° of field lies outside its glass.
-    depths, fields = ((150.0,), (0.0, 0.1)) if name == "relay" else ((inf, NEAR.get(name, 1000.0)), lens.fields_deg)
+    depths, fields = (inf, NEAR.get(name, 1000.0)), lens.fields_deg
+    if name in RELAYS:
+        depths, fields = RELAYS[name]
     for depth in depths:
         for angle in fields:
             yield lens, Source(depth, np.tan(np.deg2rad(angle)), lens.reference_wavelength_um)

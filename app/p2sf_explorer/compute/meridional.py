@@ -4,7 +4,7 @@ The layout draws five rays; arrays of five cost as much as arrays of five hundre
 """
 
 from collections.abc import Callable, Sequence
-from math import copysign, hypot, sqrt
+from math import copysign, hypot, nan, sqrt
 
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.shapes import WAVES_MM
@@ -89,21 +89,23 @@ def meet(surface: Surface, z: float, y: float, cz: float, cy: float) -> Meeting 
     c, k = surface.curvature, surface.conic
     f, g = c * y * y, cz - c * y * cy  # the conic's quadratic for the step from the vertex plane (Welford 1986, §4.3)
     root = g * g - f * c * (1 + k * cz * cz)
-    if not root >= 0:  # nor where the ray is NaN, having no way to its place in the stop
+    step = f / (g + copysign(sqrt(root), cz)) if root >= 0 else nan  # nor where the ray has no way to the stop
+    on_conic = c * (1 + k) * step * cz < 1
+    if surface.shape is not None or any(surface.aspheric):
+        # A ray may miss the conic under an asphere and meet the asphere; it then starts from the vertex plane.
+        return (
+            _on_asphere(surface, step * cz, y + step * cy, cz, cy) if on_conic else _on_asphere(surface, 0.0, y, cz, cy)
+        )
+    if not on_conic:
         return None
-    step = f / (g + copysign(sqrt(root), cz))
     z, y = step * cz, y + step * cy
-    if c * (1 + k) * z >= 1:
-        return None
-    if surface.shape is None and not any(surface.aspheric):
-        return z, y, c * y / (1 - c * (1 + k) * z)
-    return _on_asphere(surface, z, y, cz, cy)
+    return z, y, c * y / (1 - c * (1 + k) * z)
 
 
 def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float) -> Meeting | None:
     """Return where a ray that met the conic meets the asphere, by Newton's method; None where it does not converge."""
     for _ in range(NEWTON_STEPS):
-        if (1 + surface.conic) * (surface.curvature * y) ** 2 >= 1:
+        if not (1 + surface.conic) * (surface.curvature * y) ** 2 < 1:
             return None
         sag, by_square = sag_and_slope(surface, y * y)
         slope, miss = 2 * y * float(by_square), float(sag) - z

@@ -88,13 +88,14 @@ DEPTH = Quantity(
     ticks=lambda ranges: distance_ticks(ranges.closest_mm),
     marks=lambda state, ranges: (_focused(state, ranges),),
 )
+FINE_DEG = 0.1  # below it a field, such as a telescope's, is written to 1e-4°
 FIELD = Quantity(
     key="field_deg",
     title="Field",
     tip="Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field). ▾ are the fields "
     "that the lens file states.",
     scale=lambda ranges: Linear(0.0, ranges.field_deg),
-    write=lambda value: f"{signed(value, 2)}°",
+    write=lambda value: f"{signed(value, 2 if not value or abs(value) >= FINE_DEG else 4)}°",
     read=_reader("field angle", **{"°": 1.0, "deg": 1.0}),
     shown=_plain("field_deg"),
     ticks=lambda ranges: tuple((value, f"{text}°") for value, text in ticks(0.0, ranges.field_deg, 5)),

@@ -212,7 +212,7 @@ def ranges(lens: Lens) -> Ranges:
     return Ranges(
         closest_mm=closest_distance(lens),
         middle_mm=middle_distance(lens),
-        field_deg=min(75.0, max(5.0, nice(1.25 * widest, (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)) if widest else 5.0)),
+        field_deg=_field_end(widest),
         wavelength_nm=wavelength_range(lens),
         f_number=(f_stop / 1.4, max(32.0, 4 * f_stop)) if finite else (1.0, 32.0),
         file_f_number=f_stop if finite else inf,
@@ -221,6 +221,12 @@ def ranges(lens: Lens) -> Ranges:
         stated_deg=lens.fields_deg,
         mask=lens.mask,
     )
+
+
+def _field_end(widest: float) -> float:
+    """Return where the field's slider ends, degrees: 5° or more, or less where the file states fields of minutes."""
+    end = nice(1.25 * widest, (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)) if widest else 5.0
+    return end if end <= 1.0 else min(75.0, max(5.0, end))
 
 
 def default_state(name: str, lens_text: str | None = None) -> State:

@@ -36,7 +36,7 @@ from p2sf_explorer.widgets.thumbnail import paint_lens
 NAME = Qt.ItemDataRole.UserRole
 WIDE, NARROW = 560, 110
 CELL, PICTURE = QSize(254, 172), 74
-SIZE = QSize(4 * 254 + 30, 4 * 172 + 48)
+COLUMNS, EDGES, HEIGHT = 4, 44, 4 * 172 + 48  # margins, frame and the scroll bar stand beside the columns
 ModelIndex = QModelIndex | QPersistentModelIndex
 ALIGN = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
 
@@ -150,7 +150,10 @@ class Gallery(QFrame):
         self.list.setGridSize(CELL * theme.scale)
         self.list.setStyleSheet(f"QListView {{ background: {theme.card}; outline: none; }}")
         room = self.screen().availableGeometry()
-        size = (SIZE * theme.scale).boundedTo(QSize(room.width() - 16, room.height() - 16))
+        cell, edges = CELL.width() * theme.scale, EDGES * theme.scale
+        columns = max(1, min(COLUMNS, int((room.width() - 16 - edges) // cell)))
+        wide, high = round(columns * cell + edges), round(HEIGHT * theme.scale)
+        size = QSize(wide, high).boundedTo(QSize(room.width() - 16, room.height() - 16))
         corner = QPoint(min(place.x(), room.right() - size.width()), min(place.y(), room.bottom() - size.height()))
         self.setGeometry(QRect(corner, size))
         model = self.list.model()

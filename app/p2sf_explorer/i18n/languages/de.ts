@@ -29,15 +29,18 @@
 <message><source>?</source><translation>?</translation></message>
 <message><source>A</source><translation>A</translation></message>
 <message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
+<message><source>A corrector plate of some micrometres at the centre of a spherical mirror: sharp over five degrees</source><translation>Eine Korrektionsplatte von einigen Mikrometern im Mittelpunkt eines Kugelspiegels: scharf über fünf Grad</translation></message>
 <message><source>A field of {angle:.0f}° is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Ein Feld von {angle:.0f}° liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>A lesson, and what it is about on the stage (F3)</source><translation>Eine Lektion, und worum es in ihr geht, auf der Bühne (F3)</translation></message>
 <message><source>A meniscus and a stop behind it: coma removed by moving the stop, as in the first cameras</source><translation>Ein Meniskus und dahinter eine Blende: Koma durch den Ort der Blende behoben, wie in den ersten Kameras</translation></message>
+<message><source>A paraboloid and a hyperboloid: no spherical aberration at all, but coma, and a hole in the pupil</source><translation>Ein Paraboloid und ein Hyperboloid: gar keine sphärische Aberration, aber Koma und ein Loch in der Pupille</translation></message>
 <message><source>A photograph through the lens on the stage</source><translation>Eine Fotografie durch das Objektiv auf der Bühne</translation></message>
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the first vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom ersten Scheitel.</translation></message>
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the last vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom letzten Scheitel.</translation></message>
 <message><source>A real 35 mm wide angle for a reflex camera: long back focus, astigmatism and distortion at the corner</source><translation>Ein echtes 35-mm-Weitwinkel für eine Spiegelreflexkamera: lange Schnittweite, Astigmatismus und Verzeichnung in der Ecke</translation></message>
 <message><source>A standard lens wide open: seven elements, large and balanced aberrations, strong vignetting</source><translation>Ein Normalobjektiv bei voller Öffnung: sieben Linsen, große und gegeneinander abgewogene Aberrationen, starke Vignettierung</translation></message>
 <message><source>A stock singlet, right way round: spherical aberration, coma and colour, undisguised</source><translation>Eine Einzellinse ab Lager, richtig herum: sphärische Aberration, Koma und Farbe, unverhüllt</translation></message>
+<message><source>A thick meniscus undoes the spherical aberration of spherical mirrors: no asphere anywhere</source><translation>Ein dicker Meniskus hebt die sphärische Aberration der Kugelspiegel auf: nirgends eine Asphäre</translation></message>
 <message><source>A triplet whose last element became a doublet: flatter field</source><translation>Ein Triplet, dessen letzte Linse zum Kittglied wurde: ebeneres Feld</translation></message>
 <message><source>A workspace of your own; it is kept as you leave it</source><translation>Ein eigener Arbeitsbereich; er bleibt, wie Sie ihn verlassen</translation></message>
 <message><source>A − B</source><translation>A − B</translation></message>
@@ -97,6 +100,7 @@
 <message><source>C II lateral colour</source><translation>C II Farbquerfehler</translation></message>
 <message><source>Cancel</source><translation>Abbrechen</translation></message>
 <message><source>Cancelled; nothing was written</source><translation>Abgebrochen; nichts wurde geschrieben</translation></message>
+<message><source>Cassegrain telescope f/10, 200 mm</source><translation>Cassegrain-Teleskop f/10, 200 mm</translation></message>
 <message><source>Cemented achromat f/6, 20 mm</source><translation>Verkitteter Achromat f/6, 20 mm</translation></message>
 <message><source>Centroid y</source><translation>Schwerpunkt y</translation></message>
 <message><source>Checkerboard</source><translation>Schachbrett</translation></message>
@@ -238,6 +242,8 @@
 <message><source>How much of a pixel's area is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
 <message><source>How the two pictures are put beside each other</source><translation>Wie die beiden Bilder nebeneinander gestellt werden</translation></message>
+<message><source>Hubble Space Telescope as built, f/24</source><translation>Hubble-Weltraumteleskop, wie gebaut, f/24</translation></message>
+<message><source>Hybrid achromat f/5, 50 mm: a singlet that diffracts</source><translation>Hybrid-Achromat f/5, 50 mm: eine Einzellinse, die beugt</translation></message>
 <message><source>Image</source><translation>Bild</translation></message>
 <message><source>Image height</source><translation>Bildhöhe</translation></message>
 <message><source>Image: Σ over the scene's points of brightness × PSF at that point, for red, green and blue; distortion and falling light included.</source><translation>Bild: Σ über die Punkte der Szene von Helligkeit × PSF an diesem Punkt, für Rot, Grün und Blau; Verzeichnung und Lichtabfall eingeschlossen.</translation></message>
@@ -249,6 +255,7 @@
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
 <message><source>Inspect</source><translation>Prüfen</translation></message>
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
+<message><source>Its primary is 2.2 µm too flat at the edge: spherical aberration of half a wave RMS in blue</source><translation>Sein Hauptspiegel ist am Rand 2,2 µm zu flach: sphärische Aberration von einer halben Welle RMS im Blauen</translation></message>
 <message><source>Keep beside the stage</source><translation>Neben der Bühne behalten</translation></message>
 <message><source>Keep in focus: while the lens is edited, the sensor follows its paraxial image, or goes to the smallest RMS of the present point, so that the aberrations are seen and not the defocus.</source><translation>Im Fokus halten: während das Objektiv bearbeitet wird, folgt der Sensor seinem paraxialen Bild oder geht zum kleinsten RMS des gegenwärtigen Punkts, damit die Abbildungsfehler zu sehen sind und nicht die Defokussierung.</translation></message>
 <message><source>L2 error</source><translation>L2-Fehler</translation></message>
@@ -288,11 +295,13 @@
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
 <message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
 <message><source>Make the plan that was cancelled, and the picture by it</source><translation>Den abgebrochenen Plan doch machen und das Bild danach</translation></message>
+<message><source>Maksutov-Cassegrain f/15, 150 mm</source><translation>Maksutow-Cassegrain f/15, 150 mm</translation></message>
 <message><source>Map over depth and field</source><translation>Karte über Abstand und Feld</translation></message>
 <message><source>Matrix</source><translation>Matrix</translation></message>
 <message><source>Matrix: the same picture at several fields, and at several wavelengths, depths or sensor shifts, or of A and B. A click on a picture, or Enter, makes its point the present one, which a frame marks; dashed: the nearest to it.</source><translation>Matrix: dasselbe Bild bei mehreren Feldern und mehreren Wellenlängen, Abständen oder Sensorversätzen, oder von A und B. Ein Klick auf ein Bild, oder Enter, macht seinen Punkt zum jetzigen, den ein Rahmen zeigt; gestrichelt: der nächste an ihm.</translation></message>
 <message><source>Method</source><translation>Methode</translation></message>
 <message><source>Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
+<message><source>Microscope objective 10×, NA 0.25</source><translation>Mikroskopobjektiv 10×, NA 0,25</translation></message>
 <message><source>More</source><translation>Mehr</translation></message>
 <message><source>Most of all {term}: {percent:.0f} % of the wavefront variance</source><translation>Am meisten {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Mostly {term}: {percent:.0f} % of the wavefront variance</source><translation>Meist {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
@@ -324,6 +333,7 @@
 <message><source>Obscuration</source><translation>Abschattung</translation></message>
 <message><source>Obscuration ε: radius of the dark disc in the middle of the stop over the rim's radius. It takes ε² of the light, narrows the core and feeds the rings.</source><translation>Abschattung ε: Radius der dunklen Scheibe in der Mitte der Blende über dem Radius des Randes. Sie nimmt ε² des Lichtes, macht den Kern schmaler und die Ringe heller.</translation></message>
 <message><source>On the stage</source><translation>Auf die Bühne</translation></message>
+<message><source>One glass and a diffractive side: rings whose colours run the other way undo the lens's own</source><translation>Ein Glas und eine beugende Seite: Ringe, deren Farben umgekehrt laufen, heben die der Linse auf</translation></message>
 <message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>One scale</source><translation>Ein Maßstab</translation></message>
 <message><source>Open</source><translation>Öffnen</translation></message>
@@ -367,6 +377,7 @@
 <message><source>Petzval lens f/1.4, 50 mm</source><translation>Petzval-Objektiv f/1,4, 50 mm</translation></message>
 <message><source>Petzval radius</source><translation>Petzval-Radius</translation></message>
 <message><source>Petzval sum</source><translation>Petzvalsumme</translation></message>
+<message><source>Phone camera lens f/2.8, 3.6 mm</source><translation>Objektiv einer Telefonkamera f/2,8, 3,6 mm</translation></message>
 <message><source>Photo…</source><translation>Foto …</translation></message>
 <message><source>Picture (*.png)</source><translation>Bild (*.png)</translation></message>
 <message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
@@ -484,6 +495,7 @@
 <message><source>Saved {name}</source><translation>{name} gespeichert</translation></message>
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
 <message><source>Save…</source><translation>Speichern …</translation></message>
+<message><source>Schmidt camera f/3, 80 mm</source><translation>Schmidt-Kamera f/3, 80 mm</translation></message>
 <message><source>Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
 <message><source>Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
@@ -544,6 +556,7 @@
 <message><source>Take B away (Ctrl+B)</source><translation>B entfernen (Strg+B)</translation></message>
 <message><source>Take this surface out; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
 <message><source>Teach</source><translation>Lehren</translation></message>
+<message><source>Telecentric relay 1:1, NA 0.05 (finite objects only)</source><translation>Telezentrisches Übertragungsobjektiv 1:1, NA 0,05 (nur für nahe Objekte)</translation></message>
 <message><source>Telephoto f/5.6, 127 mm</source><translation>Teleobjektiv f/5,6, 127 mm</translation></message>
 <message><source>Tessar f/4.5 (unit scale, f = 4 in)</source><translation>Tessar f/4,5 (Einheitsmaßstab, f = 4 Zoll)</translation></message>
 <message><source>Text of the lesson</source><translation>Text der Lektion</translation></message>
@@ -617,6 +630,7 @@
 <message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Diese Ansicht steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
 <message><source>This set-up cannot be computed; what was here belongs to the one before.</source><translation>Diese Einstellung lässt sich nicht berechnen; was hier war, gehört zur vorigen.</translation></message>
 <message><source>Three elements, the fewest that correct all five Seidel sums</source><translation>Drei Linsen, die wenigsten, die alle fünf Seidel-Summen korrigieren</translation></message>
+<message><source>Three plastic elements and six aspheres in 4.4 mm of length, as in the first phone cameras</source><translation>Drei Kunststofflinsen und sechs Asphären auf 4,4 mm Länge, wie in den ersten Telefonkameras</translation></message>
 <message><source>Through focus</source><translation>Fokusreihe</translation></message>
 <message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Fokusreihe: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
 <message><source>To the next part of the window</source><translation>Zum nächsten Teil des Fensters</translation></message>
@@ -628,7 +642,9 @@
 <message><source>Track</source><translation>Baulänge</translation></message>
 <message><source>Try</source><translation>Versuchen</translation></message>
 <message><source>Two achromats face to face, the stop in their common focus: for near objects only, image inverted</source><translation>Zwei Achromate einander zugewandt, die Blende in ihrem gemeinsamen Brennpunkt: nur für nahe Objekte, Bild umgekehrt</translation></message>
+<message><source>Two cemented doublets, light from the eyepiece's side: the PSF is the spot it makes on the specimen</source><translation>Zwei verkittete Dubletts, Licht von der Okularseite: Die PSF ist der Fleck auf dem Präparat</translation></message>
 <message><source>Two equal menisci about a stop: at unit magnification coma, distortion and lateral colour cancel exactly</source><translation>Zwei gleiche Menisken um eine Blende: beim Maßstab 1 heben sich Koma, Verzeichnung und Farbquerfehler genau auf</translation></message>
+<message><source>Two halves, each with the stop in its focus: the image keeps its size out of focus, and has no distortion</source><translation>Zwei Hälften, jede mit der Blende im Brennpunkt: Das Bild behält unscharf seine Größe und ist verzeichnungsfrei</translation></message>
 <message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
 <message><source>Type that suits the screen</source><translation>Schriftgröße, die zum Bildschirm passt</translation></message>
 <message><source>Typed numbers may have a decimal point or a decimal comma; files and the command line take a decimal point.</source><translation>Getippte Zahlen dürfen Dezimalpunkt oder Dezimalkomma haben; Dateien und die Kommandozeile nehmen den Dezimalpunkt.</translation></message>
