@@ -7,6 +7,7 @@
 <message><source>"{glass}" (nd {nd:.6f})</source><translation>"{glass}" (nd {nd:.6f})</translation></message>
 <message><source>"{line}" is no entry of the header; give {names}</source><translation>"{line}" ist kein Eintrag des Kopfes; {names} angeben</translation></message>
 <message><source>"{name}" is no slider; move one of {names}</source><translation>"{name}" ist kein Regler; einen von {names} bewegen</translation></message>
+<message><source>"{name}" is nothing that a frame tells here; choose from {choices}</source><translation>"{name}" ist nichts, was eine Aufnahme hier sagt; wählen aus {choices}</translation></message>
 <message><source>"{name}:" is no entry of a step here; give {names}</source><translation>"{name}:" ist hier kein Eintrag eines Schritts; {names} angeben</translation></message>
 <message><source>"{text}" in a claim is no number; write one such as 0.25 or 1e-3</source><translation>"{text}" in einer Behauptung ist keine Zahl; eine wie 0.25 oder 1e-3 schreiben</translation></message>
 <message><source>"{text}" is no claim; write one such as {example}</source><translation>"{text}" ist keine Behauptung; eine schreiben wie {example}</translation></message>
@@ -746,6 +747,8 @@
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
 <message><source>a file that ends in {ending}</source><translation>eine Datei mit der Endung {ending}</translation></message>
 <message><source>a fit</source><translation>eine Anpassung</translation></message>
+<message><source>a frame of shape {shape}; give rows and columns of counts</source><translation>eine Aufnahme der Form {shape}; Zeilen und Spalten von Zählwerten angeben</translation></message>
+<message><source>a frame without a finite count; check the file and its dark and flat fields</source><translation>eine Aufnahme ohne einen endlichen Zählwert; die Datei und ihr Dunkel- und Hellbild prüfen</translation></message>
 <message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
 <message><source>a glass needs a name and a formula number (NM name formula …); complete it</source><translation>ein Glas braucht Namen und Formelnummer (NM Name Formel …); ergänzen</translation></message>
 <message><source>a gradient index</source><translation>ein Gradientenindex</translation></message>
@@ -760,6 +763,7 @@
 <message><source>a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
+<message><source>a model with a pupil map is fitted to points straight above, below or beside the axis only</source><translation>ein Modell mit Pupillenabbildung wird nur an Punkte genau über, unter oder neben der Achse angepasst</translation></message>
 <message><source>a model with a pupil map needs the field along +y; turn the picture first</source><translation>ein Modell mit Pupillenabbildung braucht das Feld entlang +y; das Bild vorher drehen</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
@@ -767,6 +771,7 @@
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
 <message><source>a pixel of {pixel_um} µm; give a positive number</source><translation>ein Pixel von {pixel_um} µm; eine positive Zahl angeben</translation></message>
+<message><source>a point at ({x:.4g}, {y:.4g}) mm lies off the sensor; take a larger one</source><translation>ein Punkt bei ({x:.4g}, {y:.4g}) mm liegt neben dem Sensor; einen größeren nehmen</translation></message>
 <message><source>a profile through "{place}" is unknown; choose "chief" or "peak"</source><translation>ein Profil durch "{place}" ist unbekannt; "chief" oder "peak" wählen</translation></message>
 <message><source>a pupil grid of {size} samples; give an even count of at least 2</source><translation>ein Pupillengitter aus {size} Proben; eine gerade Anzahl ab 2 angeben</translation></message>
 <message><source>a pupil that ends at rims or where rays are lost</source><translation>eine Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
@@ -906,6 +911,7 @@
 <message><source>could not be aimed at its place in the stop, surface {surface}</source><translation>ließ sich nicht auf seinen Ort in der Blende richten, Fläche {surface}</translation></message>
 <message><source>cubic phase</source><translation>kubische Phase</translation></message>
 <message><source>curvature</source><translation>Krümmung</translation></message>
+<message><source>cut by the frame's edge</source><translation>vom Rand der Aufnahme angeschnitten</translation></message>
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
 <message><source>decimal separator</source><translation>,</translation></message>
 <message><source>defocus</source><translation>Defokus</translation></message>
@@ -1114,6 +1120,7 @@
 <message><source>mm</source><translation>mm</translation></message>
 <message><source>mode {mode} is not sequential; export the sequential lens</source><translation>der Modus {mode} ist nicht sequentiell; das sequentielle Objektiv exportieren</translation></message>
 <message><source>move the slider that has the focus</source><translation>den Regler bewegen, der den Fokus hat</translation></message>
+<message><source>much fainter than the others</source><translation>viel schwächer als die anderen</translation></message>
 <message><source>nd is {value}; give an index between 1 and 4</source><translation>nd ist {value}; einen Index zwischen 1 und 4 angeben</translation></message>
 <message><source>neural</source><translation>neuronal</translation></message>
 <message><source>nm</source><translation>nm</translation></message>
@@ -1129,7 +1136,9 @@
 <message><source>no glass (NM and CD lines) is in this file; give an AGF catalogue</source><translation>in dieser Datei ist kein Glas (Zeilen NM und CD); einen AGF-Katalog angeben</translation></message>
 <message><source>no nodes</source><translation>keine Knoten</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
+<message><source>no point can be used: {flags}; expose less, or move the points apart</source><translation>kein Punkt ist brauchbar: {flags}; kürzer belichten oder die Punkte weiter auseinanderrücken</translation></message>
 <message><source>no point stands out of the noise in a window of {shape} pixels; expose longer, or choose another point</source><translation>in einem Fenster von {shape} Pixeln hebt sich kein Punkt vom Rauschen ab; länger belichten oder einen anderen Punkt wählen</translation></message>
+<message><source>no point stands out of the noise of {noise:.3g} counts; expose longer, or check the dark field</source><translation>kein Punkt hebt sich vom Rauschen von {noise:.3g} Zählwerten ab; länger belichten oder das Dunkelbild prüfen</translation></message>
 <message><source>no polynomial follows the rays of this pupil; stop the lens down or reduce the field</source><translation>kein Polynom folgt den Strahlen dieser Pupille; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no polynomials through a few of them give the others</source><translation>keine Polynome durch wenige von ihnen ergeben die übrigen</translation></message>
 <message><source>no ray but the chief ray reaches the sensor; stop the lens down or reduce the field</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor; abblenden oder das Feld verkleinern</translation></message>
@@ -1182,6 +1191,7 @@
 <message><source>order or wavelength of a phase</source><translation>Ordnung oder Wellenlänge einer Phase</translation></message>
 <message><source>other wavefronts explain the pictures as well: {count}; add a focus</source><translation>andere Wellenfronten erklären die Bilder ebenso gut: {count}; einen Fokus hinzufügen</translation></message>
 <message><source>outer radius</source><translation>Außenradius</translation></message>
+<message><source>overlaps another point</source><translation>überlappt einen anderen Punkt</translation></message>
 <message><source>parameter</source><translation>Parameter</translation></message>
 <message><source>parameter number</source><translation>Parameternummer</translation></message>
 <message><source>paraxial</source><translation>paraxial</translation></message>
@@ -1273,6 +1283,7 @@
 <message><source>sagittal, along ξ</source><translation>sagittal, längs ξ</translation></message>
 <message><source>sampling</source><translation>Abtastung</translation></message>
 <message><source>sampling "{sampling}" is unknown; choose "mdft" or "fft"</source><translation>die Abtastung "{sampling}" ist unbekannt; "mdft" oder "fft" wählen</translation></message>
+<message><source>saturated</source><translation>gesättigt</translation></message>
 <message><source>scene</source><translation>Szene</translation></message>
 <message><source>secondary astigmatism</source><translation>sekundärer Astigmatismus</translation></message>
 <message><source>secondary coma</source><translation>sekundäre Koma</translation></message>
@@ -1436,6 +1447,7 @@
 <message><source>the columns have {counts} surfaces; give every column the same surfaces</source><translation>die Spalten haben {counts} Flächen; jeder Spalte dieselben Flächen geben</translation></message>
 <message><source>the columns of the lens have different {what}, {stated}; a file holds one, so give all the same</source><translation>die Spalten des Objektivs haben verschiedene {what}, {stated}; eine Datei hat nur eine, allen dieselbe geben</translation></message>
 <message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
+<message><source>the dark or flat field has shape {shape} and the picture {wanted}; take both with the same sensor</source><translation>das Dunkel- oder Hellbild hat die Form {shape} und das Bild {wanted}; beide mit demselben Sensor aufnehmen</translation></message>
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
 <message><source>the decomposition of a wavefront</source><translation>die Zerlegung einer Wellenfront</translation></message>
 <message><source>the depth map has the shape ({shape}), but the picture ({picture}); resize it</source><translation>die Tiefenkarte hat die Form ({shape}), aber das Bild ({picture}); ihre Größe anpassen</translation></message>
@@ -1476,7 +1488,9 @@
 <message><source>the file's model is incomplete ({reason}); save it again</source><translation>Das Modell der Datei ist unvollständig ({reason}); bitte neu speichern</translation></message>
 <message><source>the file's object is at {distance:.6g} mm; ask for this depth to see the file's image</source><translation>das Objekt der Datei liegt bei {distance:.6g} mm; mit diesem Objektabstand entsteht das Bild der Datei</translation></message>
 <message><source>the fill factor is {fill:g}; give a part above 0 and up to 1</source><translation>der Füllfaktor ist {fill:g}; einen Teil über 0 und bis 1 angeben</translation></message>
+<message><source>the fit was cancelled before it was done</source><translation>die Anpassung wurde abgebrochen, bevor sie fertig war</translation></message>
 <message><source>the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
+<message><source>the flat field is not brighter than the dark field; expose it longer</source><translation>das Hellbild ist nicht heller als das Dunkelbild; es länger belichten</translation></message>
 <message><source>the focus is stated twice, by {first} and {second}; keep one</source><translation>der Fokus ist zweimal angegeben, durch {first} und {second}; eines behalten</translation></message>
 <message><source>the focus of each zone</source><translation>der Fokus jeder Zone</translation></message>
 <message><source>the forming of images</source><translation>die Bilderzeugung</translation></message>
@@ -1513,6 +1527,7 @@
 <message><source>the link holds no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
 <message><source>the link is cut off or changed; copy all of it again, from p2sf: to its last letter</source><translation>der Link ist abgeschnitten oder verändert; noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
 <message><source>the mask in the stop leaves nothing open; make its obscuration or its vanes smaller</source><translation>die Maske in der Blende lässt nichts offen; ihre Abschattung oder ihre Streben kleiner machen</translation></message>
+<message><source>the measurement was cancelled before it was done</source><translation>die Messung wurde abgebrochen, bevor sie fertig war</translation></message>
 <message><source>the medium behind it</source><translation>das Medium dahinter</translation></message>
 <message><source>the method huygens</source><translation>das Verfahren huygens</translation></message>
 <message><source>the method traced</source><translation>das Verfahren traced</translation></message>
@@ -1536,6 +1551,7 @@
 <message><source>the point at {depth:g} mm, slope {slope:.4g}, {wave:g} nm: {error}</source><translation>der Punkt bei {depth:g} mm, Steigung {slope:.4g}, {wave:g} nm: {error}</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
 <message><source>the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its light; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihres Lichts finden; abblenden oder das Feld verkleinern</translation></message>
+<message><source>the pupil map of this lens folds over; stop the lens down or take a smaller field</source><translation>die Pupillenabbildung dieses Objektivs faltet sich; das Objektiv abblenden oder ein kleineres Feld nehmen</translation></message>
 <message><source>the range to play is {value}; give where it begins and where it ends</source><translation>der Bereich zum Abspielen ist {value}; angeben, wo er beginnt und wo er endet</translation></message>
 <message><source>the real stop</source><translation>die wahre Blende</translation></message>
 <message><source>the reference is summed when the sliders rest</source><translation>die Referenz wird summiert, wenn die Regler ruhen</translation></message>
@@ -1602,6 +1618,7 @@
 <message><source>there is no such file; check the path</source><translation>eine solche Datei gibt es nicht; den Pfad prüfen</translation></message>
 <message><source>there is no surface {number} in a lens of {count}; choose its row again</source><translation>eine Fläche {number} gibt es in einem Objektiv von {count} nicht; die Zeile noch einmal wählen</translation></message>
 <message><source>there is no table [sensor]; add it, with rows, columns and pixel_um under it</source><translation>es gibt keine Tabelle [sensor]; sie hinzufügen, darunter rows, columns und pixel_um</translation></message>
+<message><source>there is no usable point in the frame; look at what its points are flagged for</source><translation>in der Aufnahme ist kein brauchbarer Punkt; nachsehen, was gegen ihre Punkte spricht</translation></message>
 <message><source>there is nothing to draw; choose another field or wavelength</source><translation>es gibt nichts zu zeichnen; ein anderes Feld oder eine andere Wellenlänge wählen</translation></message>
 <message><source>thick exact rays, fine third order</source><translation>dick exakt, fein 3. Ordnung</translation></message>
 <message><source>thick tangential, fine sagittal</source><translation>dick tangential, fein sagittal</translation></message>
@@ -1678,6 +1695,7 @@
 <message><source>while something is dragged: give up, as it was before</source><translation>beim Ziehen: aufgeben, alles wie zuvor</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
 <message><source>whole pupil</source><translation>ganze Pupille</translation></message>
+<message><source>wider than the others, perhaps two points</source><translation>breiter als die anderen, vielleicht zwei Punkte</translation></message>
 <message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
 <message><source>with wheel, arrows or a dragged number: ten times as coarse, ten times as fine</source><translation>mit Rad, Pfeilen oder beim Ziehen an einer Zahl: zehnmal so grob, zehnmal so fein</translation></message>
 <message><source>working</source><translation>in Arbeit</translation></message>
@@ -1751,6 +1769,7 @@
 <message><source>{f:g}/mm</source><translation>{f:g}/mm</translation></message>
 <message><source>{f_number}, stop ⌀ {diameter} mm</source><translation>{f_number}, Blende ⌀ {diameter} mm</translation></message>
 <message><source>{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, JPEG oder HEIF; das Foto als eines davon speichern und dieses ablegen</translation></message>
+<message><source>{frames} frames and {focus} focus positions; give one for each</source><translation>{frames} Aufnahmen und {focus} Fokuslagen; für jede eine angeben</translation></message>
 <message><source>{glass} is in no catalogue given; accept a substitute ({offers}) or give its AGF catalogue</source><translation>{glass} steht in keinem angegebenen Katalog; einen Ersatz annehmen ({offers}) oder seinen AGF-Katalog angeben</translation></message>
 <message><source>{glass} is in no catalogue; give its AGF catalogue, or its index as nd and vd</source><translation>{glass} steht in keinem Katalog; seinen AGF-Katalog angeben oder seinen Index als nd und vd</translation></message>
 <message><source>{glass} replaced by {substitute}, {difference}</source><translation>{glass} ersetzt durch {substitute}, {difference}</translation></message>
@@ -1847,6 +1866,7 @@
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>
+<message><source>{path} cannot be read as a picture; it is damaged, or of another kind than its ending says</source><translation>{path} lässt sich nicht als Bild lesen; es ist beschädigt oder von anderer Art, als seine Endung sagt</translation></message>
 <message><source>{path} cannot be read, {reason}; check the name</source><translation>{path} ist nicht lesbar, {reason}; den Namen prüfen</translation></message>
 <message><source>{path} cannot be read, {reason}; give the path of a PNG, TIFF, JPEG or HEIF</source><translation>{path} ist nicht lesbar, {reason}; den Pfad eines PNG, TIFF, JPEG oder HEIF angeben</translation></message>
 <message><source>{path} cannot be read, {reason}; give the path of a scene file</source><translation>{path} ist nicht lesbar, {reason}; den Pfad einer Szenendatei angeben</translation></message>
@@ -1854,8 +1874,11 @@
 <message><source>{path} cannot be written, {reason}; choose a folder you may write to</source><translation>{path} ist nicht schreibbar, {reason}; einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
 <message><source>{path} cannot be written, {reason}; {remedy}</source><translation>{path} ist nicht schreibbar, {reason}; {remedy}</translation></message>
 <message><source>{path} cannot be written, {why}; choose another place</source><translation>{path} ist nicht schreibbar, {why}; einen anderen Ort wählen</translation></message>
+<message><source>{path} does not say how large its pixels are; give {parameter}</source><translation>{path} sagt nicht, wie groß seine Pixel sind; {parameter} angeben</translation></message>
+<message><source>{path} has a table of {rows} × {columns} values, and its head says {said}; list it again</source><translation>{path} hat eine Tabelle von {rows} × {columns} Werten, und ihr Kopf sagt {said}; sie neu ausgeben</translation></message>
 <message><source>{path} has the ending "{ending}", which is no picture here; choose {choices}</source><translation>{path} hat die Endung "{ending}", was hier kein Bild ist; {choices} wählen</translation></message>
 <message><source>{path} has the shape ({shape}); give one picture of 1 or 3 channels</source><translation>{path} hat die Form ({shape}); ein Bild mit 1 oder 3 Kanälen angeben</translation></message>
+<message><source>{path} holds an array of shape {shape}; give rows and columns of counts</source><translation>{path} enthält ein Feld der Form {shape}; Zeilen und Spalten von Zählwerten angeben</translation></message>
 <message><source>{path} holds values that are not finite; replace them first</source><translation>{path} enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
 <message><source>{path} holds {kind} samples; save it with 8 or 16 bits or as float</source><translation>{path} enthält Werte vom Typ {kind}; mit 8 oder 16 Bit oder als Gleitkomma speichern</translation></message>
 <message><source>{path} is a TIFF that cannot be read ({why}); save it again, uncompressed</source><translation>{path} ist ein TIFF, das nicht lesbar ist ({why}); noch einmal speichern, unkomprimiert</translation></message>
@@ -1864,11 +1887,15 @@
 <message><source>{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey</source><translation>{path} ist ein verschachteltes oder indiziertes 16-Bit-PNG; ohne Interlacing speichern, in RGB oder Grau</translation></message>
 <message><source>{path} is no PNG, TIFF, JPEG or HEIF that can be read; convert it to one</source><translation>{path} ist kein lesbares PNG, TIFF, JPEG oder HEIF; in eines davon umwandeln</translation></message>
 <message><source>{path} is no TOML: {reason}; correct it</source><translation>{path} ist kein TOML: {reason}; berichtigen</translation></message>
+<message><source>{path} is no listing of a PSF or a wavefront map that can be read; write it as text from OpticStudio</source><translation>{path} ist keine lesbare Liste einer PSF oder einer Wellenfront; sie als Text aus OpticStudio schreiben</translation></message>
 <message><source>{path} is not a PSF that this program wrote as FITS; save the snapshot again</source><translation>{path} ist keine PSF, die dieses Programm als FITS geschrieben hat; den Schnappschuss neu speichern</translation></message>
 <message><source>{path} is not a PSF that this program wrote; export it again with p2sf psf -o</source><translation>{path} ist keine PSF, die dieses Programm geschrieben hat; mit p2sf psf -o neu ausgeben</translation></message>
+<message><source>{path} is not a measurement that this program wrote; make it with p2sf measure -o</source><translation>{path} ist keine Messung, die dieses Programm geschrieben hat; sie mit p2sf measure -o erstellen</translation></message>
 <message><source>{path} is not on this computer; the saved state carries the lens itself</source><translation>{path} ist nicht auf diesem Rechner; der gespeicherte Zustand enthält das Objektiv selbst</translation></message>
 <message><source>{path} is too large a PNG ({why}); save it smaller</source><translation>{path} ist ein zu großes PNG ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large a {kind} ({why}); save it smaller</source><translation>{path} ist als {kind} zu groß ({why}); kleiner speichern</translation></message>
+<message><source>{path} is too large: {reason}; cut it</source><translation>{path} ist zu groß: {reason}; zuschneiden</translation></message>
+<message><source>{path} lists a wavefront, not a PSF; list the PSF of the same point</source><translation>{path} listet eine Wellenfront, keine PSF; die PSF desselben Punktes ausgeben</translation></message>
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
 <message><source>{path}: HEIF photos need pillow-heif, which is not installed; pip install 'p2sf[heif]', or save a JPEG</source><translation>{path}: HEIF-Fotos brauchen pillow-heif, das nicht installiert ist; pip install 'p2sf[heif]', oder ein JPEG speichern</translation></message>
 <message><source>{path}: PSF data has no ending "{ending}"; choose {endings}</source><translation>{path}: PSF-Daten haben nicht die Endung "{ending}"; {endings} wählen</translation></message>
@@ -1878,6 +1905,7 @@
 <message><source>{path}: a value is missing or of the wrong kind ({reason}); numbers stand without quotes</source><translation>{path}: ein Wert fehlt oder ist von falscher Art ({reason}); Zahlen stehen ohne Anführungszeichen</translation></message>
 <message><source>{path}: no PSF can be read from the ending "{ending}"; choose {choices}</source><translation>{path}: aus der Endung "{ending}" lässt sich keine PSF lesen; {choices} wählen</translation></message>
 <message><source>{path}: one file holds one PSF, this stack has shape ({shape}); write them singly</source><translation>{path}: eine Datei enthält eine PSF, dieser Stapel hat die Form ({shape}); einzeln schreiben</translation></message>
+<message><source>{path}: the ending "{ending}" is no picture here; choose {choices}</source><translation>{path}: die Endung "{ending}" ist hier kein Bild; wählen: {choices}</translation></message>
 <message><source>{path}: the ending "{ending}" is unknown; choose {choices}</source><translation>{path}: die Endung "{ending}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>{path}: this set-up has no PSF; change it until there is a picture</source><translation>{path}: diese Einstellung hat keine PSF; sie ändern, bis es ein Bild gibt</translation></message>
 <message><source>{percent:.1f} %</source><translation>{percent:.1f} %</translation></message>

@@ -1,0 +1,137 @@
+"""A frame: counts of an exposure on square pixels, what is known of its noise, and where its pixels lie."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import inf
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import RequestError
+from p2sf.parameters import check_positive
+
+MAD = 1.4826  # median absolute deviation to standard deviation of a normal distribution
+
+
+@dataclass(frozen=True)
+class FrameGeometry:
+    """Rows and columns of square pixels of ``pixel_um``; row 0 is the top, x runs along columns, y up.
+
+    ``axis``: row and column of the optical axis, by default the middle.
+    """
+
+    rows: int
+    columns: int
+    pixel_um: float
+    axis: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        check_positive("pixel_um", self.pixel_um)
+
+    @property
+    def _middle(self) -> tuple[float, float]:
+        return self.axis or ((self.rows - 1) / 2, (self.columns - 1) / 2)
+
+    def pixel_at(self, x_mm: float, y_mm: float) -> tuple[int, int]:
+        """Return the row and column of the pixel at a place, which may lie off the frame."""
+        row, column = self._middle
+        pitch = self.pixel_um / UM_PER_MM
+        return round(row - y_mm / pitch), round(column + x_mm / pitch)
+
+    def place_of(self, row: float, column: float) -> tuple[float, float]:
+        """Return x and y in mm from the axis."""
+        middle, pitch = self._middle, self.pixel_um / UM_PER_MM
+        return (column - middle[1]) * pitch, (middle[0] - row) * pitch
+
+
+@dataclass(frozen=True)
+class Noise:
+    """What is known of a sensor's noise: ``gain`` in electrons per count, inf where shot noise does not matter.
+
+    ``read_noise``: standard deviation of a dark pixel in counts; ``full_scale``: counts from which one is saturated.
+    """
+
+    gain: float = inf
+    read_noise: float | None = None
+    full_scale: float = inf
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Counts (rows, columns), row 0 the top, with dark and flat field already applied; ``bad``: pixels not to use."""
+
+    values: np.ndarray
+    geometry: FrameGeometry
+    noise: Noise = field(default_factory=Noise)
+    bad: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        if self.values.ndim != 2 or self.values.shape != (self.geometry.rows, self.geometry.columns):
+            raise RequestError(
+                "a frame of shape {shape}; give rows and columns of counts", shape=str(self.values.shape)
+            )
+        if not np.isfinite(self.values).any():
+            raise RequestError("a frame without a finite count; check the file and its dark and flat fields")
+
+    @cached_property
+    def background(self) -> float:
+        """Return the median of all counts: points cover few pixels."""
+        return float(np.median(self.values[np.isfinite(self.values)]))
+
+    @cached_property
+    def read_noise(self) -> float:
+        """Return the stated noise of a dark pixel in counts, or that estimated from the median absolute deviation.
+
+        The estimate contains the background's shot noise.
+        """
+        if self.noise.read_noise is not None:
+            return self.noise.read_noise
+        finite = self.values[np.isfinite(self.values)]
+        deviation = MAD * float(np.median(np.abs(finite - self.background)))
+        return deviation or float(np.std(finite)) or 1.0
+
+    def variance(self, light: np.ndarray) -> np.ndarray:
+        """Return the variance of counts whose mean is ``light``: read noise, and shot noise where the gain is known."""
+        dark = 0.0 if self.noise.read_noise is not None else self.background  # an estimate contains its shot noise
+        shot = np.maximum(light - dark, 0.0) / self.noise.gain
+        variance: np.ndarray = self.read_noise**2 + shot
+        return variance
+
+    @property
+    def saturated(self) -> np.ndarray:
+        """Return which pixels have reached full scale, (rows, columns)."""
+        full: np.ndarray = np.greater_equal(self.values, self.noise.full_scale)
+        return full
+
+    @property
+    def usable(self) -> np.ndarray:
+        """Return which pixels count, (rows, columns)."""
+        good: np.ndarray = np.isfinite(self.values) & ~self.saturated
+        if self.bad is not None:
+            good &= ~self.bad
+        return good
+
+
+def calibrated(values: np.ndarray, dark: np.ndarray | None = None, flat: np.ndarray | None = None) -> np.ndarray:
+    """Return (values − dark)/(flat − dark), the flat field's mean taken as 1; NaN where the flat field is dark.
+
+    Raises RequestError for fields of another shape.
+    """
+    for other in (dark, flat):
+        if other is not None and other.shape != values.shape:
+            raise RequestError(
+                "the dark or flat field has shape {shape} and the picture {wanted}; take both with the same sensor",
+                shape=str(other.shape),
+                wanted=str(values.shape),
+            )
+    zero = np.zeros_like(values, float) if dark is None else dark.astype(float)
+    light: np.ndarray = values - zero
+    if flat is None:
+        return light
+    gain = flat - zero
+    mean = float(gain[np.isfinite(gain)].mean())
+    if not mean > 0:
+        raise RequestError("the flat field is not brighter than the dark field; expose it longer")
+    with np.errstate(divide="ignore", invalid="ignore"):
+        corrected: np.ndarray = np.where(gain > 0.01 * mean, light / (gain / mean), np.nan)
+    return corrected

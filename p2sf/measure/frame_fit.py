@@ -1,0 +1,212 @@
+"""One set of numbers that explains all points of a frame, or of several at known focus (handbook 11.3).
+
+Each point has its own place, light and background, which are eliminated from the normal equations (a Schur complement),
+so that the few numbers of the frame are solved for alone, by Levenberg's and Marquardt's method (Moré 1978).
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from p2sf.errors import Cancelled, RequestError
+from p2sf.measure.frame_start import suggested
+from p2sf.measure.frame_terms import FrameModel, FramePoint, PointPupil
+from p2sf.measure.point_model import PixelSum
+from p2sf.measure.starting_values import seen
+from p2sf.threads import one_blas_thread
+
+STEPS = 30
+RTOL = 1e-5  # of the sum of squares in one step
+FIRST_DAMPING, WEAKER, STRONGER, MOST_DAMPING = 1e-3, 0.2, 5.0, 1e8
+LEAST_SINGULAR = 1e-10
+
+Part: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Residuals of a point, their derivatives by the frame's unknowns, and by the point's own."""
+
+
+@dataclass(frozen=True, eq=False)
+class FrameFit:
+    """What explains a frame.
+
+    Attributes
+    ----------
+    model : FrameModel
+        Its unknowns and the lens.
+    values, covariance
+        Of the model's unknowns, for the stated noise.
+    frames : numpy.ndarray
+        x and y in µm from the window's middle pixel, light and background of every point, (points, 4).
+    modelled : tuple of numpy.ndarray
+        The windows as fitted.
+    r2, chi2s : numpy.ndarray
+        Of every point, (points,); chi2 is reduced.
+    chi2 : float
+        Of all points together.
+    twin : numpy.ndarray or None
+        Values that explain the frame as well; None with a lens, or frames at several focus positions.
+    """
+
+    model: FrameModel
+    points: tuple[FramePoint, ...]
+    values: np.ndarray
+    covariance: np.ndarray
+    frames: np.ndarray
+    modelled: tuple[np.ndarray, ...]
+    r2: np.ndarray
+    chi2s: np.ndarray
+    chi2: float
+    twin: np.ndarray | None = None
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Return the Cramér–Rao bound of each value for the stated noise."""
+        deviation: np.ndarray = np.sqrt(np.diag(self.covariance))
+        return deviation
+
+    @property
+    def errors(self) -> np.ndarray:
+        """Return one standard deviation of each value: the bound, enlarged where the rest exceeds the noise."""
+        enlarged: np.ndarray = self.bounds * max(1.0, self.chi2) ** 0.5
+        return enlarged
+
+
+class PointSum:
+    """One point's residuals over the noise and their derivatives by the frame's unknowns and by its own four."""
+
+    def __init__(self, point: FramePoint, model: FrameModel):
+        picture = point.picture
+        self.good = picture.usable
+        self.data = np.where(self.good, picture.values, 0.0)
+        self.root = np.where(self.good, 1 / np.sqrt(np.broadcast_to(picture.variance, self.data.shape)), 0.0)
+        half_um = max(self.data.shape) / 2 * model.optics.pixel_um
+        self.pupil: PointPupil = model.pupil(point.x_mm, point.y_mm, half_um)
+        rows = self.pupil.rows
+        self.fy = np.broadcast_to(rows.fy[:, None], rows.fx.shape)
+        self.phase = self.pupil.phase + point.focus_um * self.pupil.focus
+        self.columns = np.concatenate([self.pupil.terms, -rows.fx[None], -self.fy[None]]).astype(np.float32)
+        self.sum = PixelSum(rows, self.data.shape, model.optics)
+
+    def light(self, values: np.ndarray, x: float, y: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return the share of all light on each pixel and its derivatives by the unknowns, x and y."""
+        phase = self.phase + np.tensordot(values, self.pupil.terms, 1) - (self.pupil.rows.fx * x + self.fy * y)
+        return self.sum.light_and_slopes(phase, self.columns)
+
+    def start(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> np.ndarray:
+        """Return x, y, light and background to start from: where the centroids of picture and model agree."""
+        found = seen(point.picture, model.optics)
+        light, _ = self.light(values, 0.0, 0.0)
+        across, up = ((np.arange(n) - n // 2) * model.optics.pixel_um for n in light.shape[::-1])
+        total = light.sum()
+        x, y = found.x - light.sum(0) @ across / total, found.y - light.sum(1) @ up / total
+        return np.array([x, y, found.flux, found.background])
+
+    def residuals(self, values: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return residuals (pixels,), and their derivatives by the frame's unknowns and by x, y, light, background."""
+        x, y, flux, background = own
+        light, slopes = self.light(values, x, y)
+        rest = ((flux * light + background - self.data) * self.root).ravel()
+        moved = (flux * slopes * self.root).reshape(len(slopes), -1).T
+        count = values.size
+        local = np.column_stack([moved[:, count:], (light * self.root).ravel(), self.root.ravel()])
+        return rest, moved[:, :count], local
+
+
+@one_blas_thread
+def fit_frame(
+    points: Sequence[FramePoint],
+    model: FrameModel,
+    start: np.ndarray | None = None,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> FrameFit:
+    """Return the numbers of the model that explain all points together.
+
+    ``start``: of the unknowns; when not given, those of the lens as designed, or without a lens those that fits of
+    single points suggest. Raises RequestError for no points.
+    """
+    if not points:
+        raise RequestError("there is no usable point in the frame; look at what its points are flagged for")
+    if start is None:
+        start = np.zeros(len(model.unknowns)) if model.lens is not None else suggested(points, model)
+    values = np.array(start, float)
+    sums = [PointSum(point, model) for point in points]
+    own = np.array([one.start(point, model, values) for one, point in zip(sums, points, strict=True)])
+    parts = [one.residuals(values, mine) for one, mine in zip(sums, own, strict=True)]
+    cost, damping = _cost(parts), FIRST_DAMPING
+    for step in range(STEPS):
+        if cancelled and cancelled():
+            raise Cancelled("the fit was cancelled before it was done")
+        if progress:
+            progress(min(0.95, step / 8))
+        while damping < MOST_DAMPING:
+            change, moves = _step(parts, damping)
+            new_values, new_own = values + change, own + moves
+            tried = [one.residuals(new_values, mine) for one, mine in zip(sums, new_own, strict=True)]
+            lower = _cost(tried)
+            if lower < cost:
+                break
+            damping *= STRONGER
+        else:
+            break
+        gain, values, own, parts, cost = cost - lower, new_values, new_own, tried, lower
+        damping *= WEAKER
+        if gain < RTOL * cost:
+            break
+    return _result(points, model, sums, values, own, parts)
+
+
+def _cost(parts: Sequence[Part]) -> float:
+    return float(sum(rest @ rest for rest, _, _ in parts))
+
+
+def _normal(part: Part, damping: float) -> tuple[np.ndarray, ...]:
+    """Return (shared, mixed, own inverse, shared gradient, own gradient) of one point's normal equations."""
+    rest, shared, own = part
+    inside = own.T @ own
+    inside[np.diag_indices(4)] *= 1 + damping
+    return shared.T @ shared, shared.T @ own, np.linalg.inv(inside), shared.T @ rest, own.T @ rest
+
+
+def _step(parts: Sequence[Part], damping: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the change of the frame's values and of every point's own, (points, 4)."""
+    normals = [_normal(part, damping) for part in parts]
+    reduced = sum(a - b @ c @ b.T for a, b, c, _, _ in normals)
+    gradient = sum(g - b @ c @ h for _, b, c, g, h in normals)
+    matrix = np.asarray(reduced) + damping * np.diag(np.diag(np.asarray(sum(a for a, *_ in normals))))
+    scale = 1 / np.sqrt(np.maximum(np.diag(matrix), 1e-300))
+    change = -scale * np.linalg.lstsq(scale[:, None] * matrix * scale, scale * np.asarray(gradient), rcond=1e-12)[0]
+    moves = np.array([-c @ (h + b.T @ change) for _, b, c, _, h in normals])
+    return change, moves
+
+
+def _result(
+    points: Sequence[FramePoint],
+    model: FrameModel,
+    sums: Sequence[PointSum],
+    values: np.ndarray,
+    own: np.ndarray,
+    parts: Sequence[Part],
+) -> FrameFit:
+    normals = [_normal(part, 0.0) for part in parts]
+    information = np.asarray(sum(a - b @ c @ b.T for a, b, c, _, _ in normals))
+    scale = 1 / np.sqrt(np.maximum(np.diag(information), 1e-300))
+    covariance = scale[:, None] * np.linalg.pinv(scale[:, None] * information * scale, rcond=LEAST_SINGULAR) * scale
+    modelled = tuple(
+        mine[2] * one.light(values, mine[0], mine[1])[0] + mine[3] for one, mine in zip(sums, own, strict=True)
+    )
+    freedom = [max(1, int(one.good.sum()) - 4) for one in sums]
+    squares = np.array([rest @ rest for rest, _, _ in parts])
+    r2 = np.array([_r2(one, light) for one, light in zip(sums, modelled, strict=True)])
+    all_chi2 = float(squares.sum()) / max(1, sum(freedom) - values.size)
+    one_focus = model.lens is None and not any(point.focus_um for point in points)
+    odd = np.array([name == "w31" for name in model.unknowns])
+    twin = np.where(odd, values, -values) if one_focus else None
+    chi2s = squares / np.array(freedom)
+    return FrameFit(model, tuple(points), values, covariance, own, modelled, r2, chi2s, all_chi2, twin)
+
+
+def _r2(one: PointSum, light: np.ndarray) -> float:
+    inside = one.data[one.good]
+    return float(1 - np.sum((inside - light[one.good]) ** 2) / np.sum((inside - inside.mean()) ** 2))

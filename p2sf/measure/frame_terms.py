@@ -1,0 +1,181 @@
+"""What is unknown of a whole frame: a few numbers that change the wavefront of every point (handbook 11.3)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from math import pi
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import RequestError
+from p2sf.lens.lens import Lens, with_sensor
+from p2sf.measure.lens_pupil import lens_rows
+from p2sf.measure.point_model import Optics, PupilRows, counts_for, paraxial_rows
+from p2sf.measure.point_problem import PointPicture
+from p2sf.measure.pupil_model import turned
+from p2sf.paraxial.seidel import coefficients
+from p2sf.pixel_kernels.sensor_points import SensorMap, sensor_map
+from p2sf.pupil.zernike import basis
+from p2sf.raytrace.fit import FittedPencil, fit
+
+FOCUS = ("sensor_shift_um", "tilt_x_deg", "tilt_y_deg")
+FIELD = ("w40", "w31", "w22", "w20")
+SPACING = "spacing_um:"
+SHIFT_MM, SPACING_MM = 0.01, 0.005  # steps of differences of rays, so small that W changes linearly
+RESIDUAL_WAVES = 1e-3  # of fits to the lens's rays
+UM_PER_DEGREE_MM = pi / 180 * UM_PER_MM  # by which a place 1 mm away recedes when tilted by 1°
+UNIT = {"sensor_shift_um": "µm", "tilt_x_deg": "°", "tilt_y_deg": "°", **dict.fromkeys(FIELD, "waves")}
+
+
+@dataclass(frozen=True, eq=False)
+class FramePoint:
+    """One point of a frame: its window, the place of the window's middle pixel in mm, and the frame's known focus.
+
+    ``focus_um``: how much farther from the lens the sensor was than at the frame that the numbers are of.
+    """
+
+    picture: PointPicture
+    x_mm: float
+    y_mm: float
+    focus_um: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class PointPupil:
+    """The pupil of one point of a frame: nodes, its wavefront in waves, (rows, columns), and what each unknown adds.
+
+    ``terms``: (unknowns, rows, columns), waves per unit. ``focus``: waves per µm by which the sensor recedes.
+    """
+
+    rows: PupilRows
+    phase: np.ndarray
+    terms: np.ndarray
+    focus: np.ndarray
+
+
+@dataclass(frozen=True)
+class FrameModel:
+    """Which unknowns a frame is explained by, and the lens, if any, that they are departures from.
+
+    ``unknowns``: of ``sensor_shift_um``, ``tilt_x_deg``, ``tilt_y_deg`` (by which the sensor recedes towards +x, +y);
+    ``w40``, ``w31``, ``w22``, ``w20``, waves at ``height_mm``, growing with the field as 1, h, h² and h²; and
+    ``spacing_um:k``, of the space behind surface k, the sensor staying at its distance from the last surface. Without a
+    lens the pupil is the paraxial one of the numerical aperture, and W has no other terms.
+    """
+
+    optics: Optics
+    height_mm: float
+    unknowns: tuple[str, ...] = (*FOCUS, *FIELD)
+    lens: Lens | None = None
+    depth_mm: float = float("inf")
+
+    def __post_init__(self) -> None:
+        surfaces = len(self.lens.surfaces) if self.lens is not None else 0
+        spacings = tuple(f"{SPACING}{k}" for k in range(1, surfaces))
+        for name in self.unknowns:
+            if name not in (*FOCUS, *FIELD, *spacings):
+                raise RequestError(
+                    '"{name}" is nothing that a frame tells here; choose from {choices}',
+                    name=name,
+                    choices=(*FOCUS, *FIELD, *spacings),
+                )
+
+    @property
+    def focus_waves_per_um(self) -> float:
+        """Return Wd per µm of a paraxial pupil in air, NA²Δz/(2λ)."""
+        return self.optics.na**2 / (2 * self.optics.wavelength_um)
+
+    def unit(self, name: str) -> str:
+        """Return the unit of an unknown."""
+        return UNIT.get(name, "µm")
+
+    def pupil(self, x_mm: float, y_mm: float, half_um: float) -> PointPupil:
+        """Return the pupil of a point whose chief ray lands at (x, y); its nodes serve a window of ±``half_um``."""
+        azimuth, height = float(np.arctan2(x_mm, y_mm)), float(np.hypot(x_mm, y_mm))
+        if self.lens is None:
+            return self._paraxial(x_mm, y_mm, azimuth, height, half_um)
+        return self._of_lens(x_mm, y_mm, azimuth, height, half_um)
+
+    def _paraxial(self, x: float, y: float, azimuth: float, height: float, half_um: float) -> PointPupil:
+        counts = counts_for(1.2 * self.optics.cycles * half_um, self.optics.cycles, half_um)
+        rows = paraxial_rows(counts, self.optics.cycles)
+        square = rows.xi**2 + rows.eta**2
+        focus = square * self.focus_waves_per_um
+        across, along = turned(rows.xi, rows.eta, azimuth)
+        return self._with_terms(rows, np.zeros_like(rows.xi), focus, (x, y, height), (across, along), {})
+
+    def _of_lens(self, x: float, y: float, azimuth: float, height: float, half_um: float) -> PointPupil:
+        assert self.lens is not None
+        found, moved = self.fits(height)
+        counts = counts_for(1.2 * self.optics.cycles * half_um, self.optics.cycles, half_um)
+        rows = lens_rows(found, azimuth, counts)
+        forms = np.stack([found.phase, *(change for change in moved.values())])
+        values = -(forms @ basis(found.level.wave_order, rows.xi.ravel(), rows.eta.ravel()))
+        phase, focus, *others = values.reshape(len(forms), *rows.xi.shape)
+        spacings = dict(zip(tuple(moved)[1:], others, strict=True))
+        return self._with_terms(rows, phase, focus, (x, y, height), (rows.xi, rows.eta), spacings)
+
+    def _with_terms(
+        self,
+        rows: PupilRows,
+        phase: np.ndarray,
+        focus: np.ndarray,
+        place: tuple[float, float, float],
+        meridional: tuple[np.ndarray, np.ndarray],
+        spacings: dict[str, np.ndarray],
+    ) -> PointPupil:
+        x, y, height = place
+        across, along = meridional
+        square, h = across**2 + along**2, height / self.height_mm
+        made = {
+            "sensor_shift_um": focus,
+            "tilt_x_deg": focus * (x * UM_PER_DEGREE_MM),
+            "tilt_y_deg": focus * (y * UM_PER_DEGREE_MM),
+            "w40": square**2,
+            "w31": h * square * along,
+            "w22": h * h * along**2,
+            "w20": h * h * square,
+            **spacings,
+        }
+        return PointPupil(rows, phase, np.stack([made[name] for name in self.unknowns]), focus)
+
+    def fits(self, height_mm: float) -> tuple[FittedPencil, dict[str, np.ndarray]]:
+        """Return the fit of a point at a height, and how its phase's coefficients change per µm of what moves.
+
+        The first change is the sensor's.
+        """
+        assert self.lens is not None
+        source = self._map().source(height_mm, self.optics.wavelength_um)
+        found = fit(self.lens, source, residual_waves=RESIDUAL_WAVES)
+        numbers = found.numbers
+        moves: dict[str, Callable[[float], Lens]] = {"sensor_shift_um": self._shifted}
+        for name in self.unknowns:
+            if name.startswith(SPACING):
+                moves[name] = partial(self._respaced, int(name.removeprefix(SPACING)))
+        changes = {}
+        for name, moved in moves.items():
+            step = SPACING_MM if name.startswith(SPACING) else SHIFT_MM
+            more, less = (fit(moved(sign * step), source, numbers).phase for sign in (1, -1))
+            changes[name] = (more - less) / (2 * step * UM_PER_MM)
+        return found, changes
+
+    def _shifted(self, step_mm: float) -> Lens:
+        assert self.lens is not None
+        return with_sensor(self.lens, self.lens.sensor_mm + step_mm)
+
+    def _respaced(self, surface: int, step_mm: float) -> Lens:
+        assert self.lens is not None
+        surfaces = list(self.lens.surfaces)
+        surfaces[surface - 1] = replace(surfaces[surface - 1], thickness=surfaces[surface - 1].thickness + step_mm)
+        return replace(self.lens, surfaces=tuple(surfaces))
+
+    def _map(self) -> SensorMap:
+        assert self.lens is not None
+        return sensor_map(self.lens, self.depth_mm, self.optics.wavelength_um, self.height_mm * 1.02)
+
+
+def lens_optics(lens: Lens, depth_mm: float, wavelength_um: float, pixel_um: float, fill: float = 1.0) -> Optics:
+    """Return the scale of a lens's PSFs. Raises GeometryError where the lens forms no image."""
+    c = coefficients(lens, depth_mm, 0.0, wavelength_um)
+    return Optics(abs(float(c.reduced_slope)), wavelength_um, pixel_um, fill)

@@ -1,0 +1,102 @@
+"""The pupil of a lens for a point anywhere on the sensor, in rows of equal fy (handbook 11.3).
+
+A fit to traced rays gives f(ξ, η) about the meridian; a point at another azimuth turns it, and its rows are no longer
+even in anything. Row j follows fy(u, v) = c_j between two points of the rim, c_j = middle + half·cos θ_j, which is
+Gauss–Chebyshev quadrature as in `separable_sum`, for any map that rises steadily.
+"""
+
+import numpy as np
+
+from p2sf.errors import SamplingError
+from p2sf.measure.point_model import PupilRows
+from p2sf.measure.pupil_model import turned
+from p2sf.pupil.quadrature import gauss_legendre
+from p2sf.pupil.zernike import basis, gradient
+from p2sf.raytrace.fit import FittedPencil
+
+NEWTON_STEPS = 10
+SETTLED = 1e-9
+
+
+class TurnedMap:
+    """The frequencies of a fit, cycles/µm with the sign of W's phase, over a pupil turned by an azimuth in radians."""
+
+    def __init__(self, found: FittedPencil, azimuth: float):
+        self.found, self.order = found, found.level.map_order
+        self.azimuth = azimuth
+        self.sine, self.cosine = np.sin(azimuth), np.cos(azimuth)
+
+    def at(self, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return fx and fy along the sensor's axes, each of the points' shape."""
+        xi, eta = turned(u.ravel(), v.ravel(), self.azimuth)
+        across = -self.found.fx @ basis(self.order, xi, eta, True)
+        along = -self.found.fy @ basis(self.order, xi, eta)
+        return self._to_sensor(across, along, u.shape)
+
+    def slopes_of_fy(self, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return ∂fy/∂u and ∂fy/∂v, each of the points' shape."""
+        xi, eta = turned(u.ravel(), v.ravel(), self.azimuth)
+        odd, even = gradient(self.order, xi, eta, True), gradient(self.order, xi, eta)
+        by_xi, by_eta = (
+            self._to_sensor(-self.found.fx @ a, -self.found.fy @ b, u.shape)[1] for a, b in zip(odd, even, strict=True)
+        )
+        # ξ = u·cos − v·sin and η = u·sin + v·cos
+        return by_xi * self.cosine + by_eta * self.sine, by_eta * self.cosine - by_xi * self.sine
+
+    def _to_sensor(
+        self, across: np.ndarray, along: np.ndarray, shape: tuple[int, ...]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        x = across * self.cosine + along * self.sine
+        y = along * self.cosine - across * self.sine
+        return x.reshape(shape), y.reshape(shape)
+
+
+def lens_rows(found: FittedPencil, azimuth: float, counts: tuple[int, int]) -> PupilRows:
+    """Return nodes of the whole pupil of a fit, turned by ``azimuth`` radians from +y towards +x.
+
+    ``fx`` and ``fy`` are relative to the chief ray. Raises SamplingError where fy does not rise across the pupil.
+    """
+    seen, (rows, columns) = TurnedMap(found, azimuth), counts
+    low, high = (_extreme(seen, angle) for angle in (np.pi, 0.0))
+    theta = np.arange(1, rows + 1) * (np.pi / (rows + 1))
+    (bottom,), (top,) = (seen.at(np.sin(a), np.cos(a))[1] for a in (low, high))
+    fy = (top + bottom) / 2 + (top - bottom) / 2 * np.cos(theta)
+    right = _on_rim(seen, fy, high + theta * ((low - high) / np.pi))
+    left = _on_rim(seen, fy, high - theta * ((high + 2 * np.pi - low) / np.pi))
+    node, share = gauss_legendre(columns)
+    ends = np.sin(left)[:, None], np.sin(right)[:, None]
+    u = (ends[0] + ends[1]) / 2 + (ends[1] - ends[0]) / 2 * node
+    v = (np.cos(left) + np.cos(right))[:, None] / 2 + (np.cos(right) - np.cos(left))[:, None] / 2 * node
+    for _ in range(NEWTON_STEPS):
+        slope = seen.slopes_of_fy(u, v)[1]
+        step = (seen.at(u, v)[1] - fy[:, None]) / slope
+        v = v - step
+        if np.abs(step).max() < SETTLED:
+            break
+    else:
+        raise SamplingError("the pupil map of this lens folds over; stop the lens down or take a smaller field")
+    weight = (ends[1] - ends[0]) * share * np.sin(theta)[:, None] / np.abs(slope)
+    xi, eta = turned(u, v, azimuth)
+    weight = weight * found.weight_at(xi, eta)
+    fx, _ = seen.at(u, v)
+    return PupilRows(fy, fx, xi, eta, weight / weight.sum())
+
+
+def _extreme(seen: TurnedMap, guess: float) -> np.ndarray:
+    """Return the angle on the rim, (1,), from +v towards +u, where fy is greatest or least."""
+    angle, step = np.array([guess]), 1e-3
+    for _ in range(NEWTON_STEPS):
+        before, here, after = (seen.at(np.sin(a), np.cos(a))[1] for a in (angle - step, angle, angle + step))
+        angle = angle - step * (after - before) / 2 / (after - 2 * here + before)
+    return angle
+
+
+def _on_rim(seen: TurnedMap, fy: np.ndarray, guess: np.ndarray) -> np.ndarray:
+    """Return the angles on the rim, from +v towards +u, at which fy has these values."""
+    angle = guess
+    for _ in range(2 * NEWTON_STEPS):
+        sine, cosine = np.sin(angle), np.cos(angle)
+        by_u, by_v = seen.slopes_of_fy(sine, cosine)
+        step = (seen.at(sine, cosine)[1] - fy) / (by_u * cosine - by_v * sine)
+        angle = angle - np.clip(step, -0.3, 0.3)
+    return angle

@@ -1,0 +1,192 @@
+"""From a frame to a measurement: its points, the wavefront of each, and what explains all of them (handbook 11.3)."""
+
+import json
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.errors import Cancelled, P2SFError, RequestError
+from p2sf.files.atomic import DAMAGED, read_arrays
+from p2sf.files.writing import write_beside
+from p2sf.lens.lens import Lens
+from p2sf.measure.frame import Frame
+from p2sf.measure.frame_fit import FrameFit, fit_frame
+from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint
+from p2sf.measure.point_fit import PointFit, fit_point
+from p2sf.measure.point_model import Optics
+from p2sf.measure.point_problem import PointPicture
+from p2sf.measure.points import FoundPoint, find_points, in_grid, window_half, window_of
+from p2sf.measure.pupil_model import SIX
+from p2sf.messages import Message
+
+FEWEST = 5  # points of a frame whose field is fitted too
+PART_OF_POINTS = 0.6  # of the time, as progress is told
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """What frames of points tell.
+
+    Attributes
+    ----------
+    frames : tuple of Frame
+        The pictures; points are those of the first.
+    optics : Optics
+        The scale of their PSFs.
+    points : tuple of FoundPoint
+        All that were found, the brightest first, with what speaks against using them.
+    half : int
+        Half the width of the points' windows, pixels.
+    fits : tuple of PointFit or None
+        Of every point; None for those not used.
+    failures : tuple of Message or None
+        Why a point that was used could not be fitted.
+    whole : FrameFit or None
+        What explains all points together; None for too few of them.
+    """
+
+    frames: tuple[Frame, ...]
+    optics: Optics
+    points: tuple[FoundPoint, ...]
+    half: int
+    fits: tuple[PointFit | None, ...]
+    failures: tuple[Message | None, ...]
+    whole: FrameFit | None = None
+
+    @property
+    def used(self) -> int:
+        """Return how many points were fitted."""
+        return sum(found is not None for found in self.fits)
+
+
+def measured(
+    frames: Sequence[Frame],
+    optics: Optics,
+    *,
+    focus_um: Sequence[float] = (0.0,),
+    model: str = SIX,
+    lens: Lens | None = None,
+    depth_mm: float = float("inf"),
+    unknowns: Sequence[str] = (*FOCUS, *FIELD),
+    singly: bool = True,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Measurement:
+    """Return what one frame, or several of the same points at known focus, tell of the lens that made them.
+
+    ``focus_um``: how much farther from the lens the sensor was at each frame. ``singly``: fit every point by itself;
+    ``lens``: as designed, from which the whole frame departs by ``unknowns``. A frame of fewer than five usable points
+    is fitted point by point only. Raises RequestError where no point can be used.
+    """
+    if len(frames) != len(focus_um):
+        raise RequestError(
+            "{frames} frames and {focus} focus positions; give one for each", frames=len(frames), focus=len(focus_um)
+        )
+    points = in_grid(find_points(frames[0]))
+    half = window_half(points)
+    waves_per_um = optics.na**2 / (2 * optics.wavelength_um)
+    windows = [_windows(frames, point, half, np.asarray(focus_um) * waves_per_um) for point in points]
+    fits: list[PointFit | None] = [None] * len(points)
+    failures: list[Message | None] = [None] * len(points)
+    for k, (point, pictures) in enumerate(zip(points, windows, strict=True)):
+        if cancelled and cancelled():
+            raise Cancelled("the measurement was cancelled before it was done")
+        if singly and pictures:
+            try:
+                fits[k] = _fit(point, pictures, optics, model)
+            except P2SFError as error:
+                failures[k] = error.message
+        if progress:
+            progress(PART_OF_POINTS * (k + 1) / len(points))
+    made = Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures))
+    placed = [
+        FramePoint(replace(picture, defocus_waves=0.0), *_middle(frames[0], point), focus)
+        for point, pictures in zip(points, windows, strict=True)
+        for picture, focus in zip(pictures, focus_um, strict=False)
+    ]
+    if sum(bool(pictures) for pictures in windows) < FEWEST:
+        return made
+    height = max(float(np.hypot(point.x_mm, point.y_mm)) for point in placed)
+    whole = FrameModel(optics, height, tuple(unknowns), lens, depth_mm)
+    told = (lambda share: progress(PART_OF_POINTS + (1 - PART_OF_POINTS) * share)) if progress else None
+    return replace(made, whole=fit_frame(placed, whole, progress=told, cancelled=cancelled))
+
+
+def _windows(frames: Sequence[Frame], point: FoundPoint, half: int, waves: np.ndarray) -> list[PointPicture]:
+    """Return a point's windows in all frames; none where it cannot be used in one of them."""
+    if not point.good:
+        return []
+    found = [window_of(frame, point, half, float(wave)) for frame, wave in zip(frames, waves, strict=True)]
+    whole = [one for one in found if one is not None]
+    return whole if len(whole) == len(found) else []
+
+
+def _fit(point: FoundPoint, pictures: Sequence[PointPicture], optics: Optics, model: str) -> PointFit:
+    """Return the fit of a point; for a model with a map its window is turned so that the field lies along +y."""
+    azimuth = float(np.rad2deg(np.arctan2(point.x_mm, point.y_mm))) if np.hypot(point.x_mm, point.y_mm) else 0.0
+    if model == SIX:
+        return fit_point(pictures, optics, model, azimuth)
+    quarter = round(azimuth / 90)
+    if abs(azimuth - 90 * quarter) > 1.0:
+        raise RequestError("a model with a pupil map is fitted to points straight above, below or beside the axis only")
+    return fit_point([_turned(picture, quarter) for picture in pictures], optics, model)
+
+
+def _turned(picture: PointPicture, quarter: int) -> PointPicture:
+    """Return a window turned so that a field along azimuth 90°·quarter, from +y towards +x, lies along +y."""
+    # Rows run towards +y, so that rot90 of the array turns the picture from +y towards −x.
+    variance = np.broadcast_to(picture.variance, picture.values.shape)
+    values, noise, good = (np.rot90(part, -quarter) for part in (picture.values, variance, picture.usable))
+    return replace(picture, values=values, variance=noise, good=good)
+
+
+def _middle(frame: Frame, point: FoundPoint) -> tuple[float, float]:
+    return frame.geometry.place_of(round(point.row), round(point.column))
+
+
+def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:
+    """Write the numbers of a measurement as .npz and return the path. Raises ExportError.
+
+    ``places_mm`` (points, 2), ``numbers``, ``errors`` and ``bounds`` (points, numbers), ``twins``, ``r2``, ``chi2`` of
+    every point used; ``whole``, ``whole_errors``, ``whole_bounds`` of the frame; ``meta`` names them.
+    """
+    used = [(point, one) for point, one in zip(found.points, found.fits, strict=True) if one is not None]
+    arrays: dict[str, np.ndarray] = {
+        "places_mm": np.array([(point.x_mm, point.y_mm) for point, _ in used]).reshape(-1, 2),
+        "r2": np.array([one.r2 for _, one in used]),
+        "chi2": np.array([one.chi2 for _, one in used]),
+    }
+    meta: dict[str, object] = {"optics": vars(found.optics), "points_found": len(found.points)}
+    if used:
+        arrays["numbers"], arrays["errors"], arrays["bounds"] = (
+            np.array([getattr(one, name) for _, one in used]) for name in ("numbers", "errors", "bounds")
+        )
+        none = np.full(used[0][1].numbers.size, np.nan)
+        arrays["twins"] = np.array([one.others[0] if one.others else none for _, one in used])
+        meta |= {"model": used[0][1].model.name, "names": used[0][1].names}
+    if found.whole is not None:
+        whole = found.whole
+        arrays |= {"whole": whole.values, "whole_errors": whole.errors, "whole_bounds": whole.bounds}
+        model = whole.model
+        meta["unknowns"] = {name: model.unit(name) for name in model.unknowns}
+        meta["height_mm"] = model.height_mm
+        meta["lens"] = model.lens.name if model.lens is not None else None
+    arrays["meta"] = np.array(json.dumps(meta))
+    return write_beside(path, lambda handle: np.savez_compressed(handle, **arrays))  # type: ignore[arg-type]  # allow_pickle is none of them
+
+
+def read_measurement(path: str | os.PathLike[str]) -> tuple[dict[str, np.ndarray], dict]:
+    """Return the arrays and the meta of a file of `write_measurement`. Raises RequestError."""
+    try:
+        arrays = read_arrays(path)
+        meta = json.loads(str(arrays.pop("meta")))
+        if "places_mm" not in arrays or not isinstance(meta, dict):
+            raise ValueError("no measurement")
+    except (OSError, ValueError, *DAMAGED) as error:
+        raise RequestError(
+            "{path} is not a measurement that this program wrote; make it with p2sf measure -o", path=str(path)
+        ) from error
+    return arrays, meta

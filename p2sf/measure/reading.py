@@ -1,0 +1,140 @@
+"""Frames of counts from files: PNG, TIFF, JPEG, FITS, npy, npz, and OpticStudio's listings of PSFs."""
+
+import os
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from p2sf.errors import RequestError
+from p2sf.files.atomic import DAMAGED, read_arrays
+from p2sf.files.raster_size import OversizedError, check_samples
+from p2sf.io.photo_files import READABLE, read_photo
+from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrated
+from p2sf.measure.listings import read_listing
+from p2sf.parameters import check_positive
+
+FITS = (".fits", ".fit", ".fts")
+ENDINGS = (*READABLE, *FITS, ".npy", ".npz", ".txt")
+CHANNELS = {"red": 0, "green": 1, "blue": 2}
+FULL = {"8": 255.0, "16": 65535.0}
+
+
+def read_frame(
+    path: str | os.PathLike[str],
+    pixel_um: float | None = None,
+    *,
+    dark: str | os.PathLike[str] | None = None,
+    flat: str | os.PathLike[str] | None = None,
+    noise: Noise | None = None,
+    channel: str = "green",
+) -> Frame:
+    """Return the frame of a picture, its dark field subtracted and divided by its flat field.
+
+    ``pixel_um`` is needed where the file does not say it: listings and this program's own PSFs do. Whole numbers are
+    counts, and saturate at their largest value unless ``noise`` says so; of a colour picture one ``channel`` is taken.
+    Raises RequestError for a file that cannot be read, and for fields of another size.
+    """
+    values, own_pitch, full = read_counts(path, channel)
+    pitch = pixel_um or own_pitch
+    if pitch is None:
+        raise RequestError(
+            "{path} does not say how large its pixels are; give {parameter}", path=str(path), parameter="pixel_um"
+        )
+    check_positive("pixel_um", pitch)
+    saturated = values >= min(full, noise.full_scale if noise else np.inf)
+    fields = [None if other is None else read_counts(other, channel)[0] for other in (dark, flat)]
+    counts = calibrated(values, *fields)
+    kept = noise or Noise()
+    return Frame(
+        counts, FrameGeometry(len(counts), counts.shape[1], pitch), Noise(kept.gain, kept.read_noise), saturated
+    )
+
+
+def read_counts(path: str | os.PathLike[str], channel: str = "green") -> tuple[np.ndarray, float | None, float]:
+    """Return counts (rows, columns), row 0 the top, the pixel in µm if the file says it, and the largest count.
+
+    Raises RequestError.
+    """
+    ending = Path(path).suffix.lower()
+    if ending not in ENDINGS:
+        raise RequestError(
+            '{path}: the ending "{ending}" is no picture here; choose {choices}',
+            path=str(path),
+            ending=ending,
+            choices=ENDINGS,
+        )
+    if ending == ".txt":
+        listing = read_listing(path)
+        if listing.kind != "psf":
+            raise RequestError("{path} lists a wavefront, not a PSF; list the PSF of the same point", path=str(path))
+        return listing.values[::-1], listing.pitch_um, np.inf
+    if ending in (".npy", ".npz"):
+        values, pitch = _arrays(path, ending)
+        return _plane(values, path, channel), pitch, np.inf
+    if ending in FITS:
+        return _plane(_from_fits(path), path, channel), None, np.inf
+    photo = read_photo(path, "linear")
+    full = FULL.get(photo.depth, np.inf)
+    scale = full if np.isfinite(full) else 1.0
+    return _plane(photo.values.astype(float) * scale, path, channel), None, full
+
+
+def _arrays(path: str | os.PathLike[str], ending: str) -> tuple[np.ndarray, float | None]:
+    """Return the picture in an array file, and its pixel in µm; a PSF of this program has rows towards +y."""
+    try:
+        if ending == ".npy":
+            with warnings.catch_warnings(action="ignore"):
+                return np.load(path, allow_pickle=False), None
+        found = read_arrays(path)
+    except (OSError, ValueError, *DAMAGED) as error:
+        raise _unreadable(path) from error
+    if "psf" in found and "y_um" in found and found["y_um"].size > 1:
+        return found["psf"][..., ::-1, :], float(np.diff(found["y_um"]).mean())
+    planes = [values for name, values in found.items() if values.ndim >= 2]
+    if not planes:
+        raise _unreadable(path)
+    pitch = found.get("pixel_um")
+    return found.get("values", planes[0]), None if pitch is None or pitch.size != 1 else float(pitch)
+
+
+def _from_fits(path: str | os.PathLike[str]) -> np.ndarray:
+    """Return the first picture of a FITS file, whose rows go up."""
+    try:
+        from astropy.io import fits
+    except ImportError as error:
+        raise RequestError("FITS files need astropy, which is not installed; pip install 'p2sf[fits]'") from error
+    try:
+        with warnings.catch_warnings(action="ignore"), fits.open(path, memmap=False) as file:
+            planes = [unit.data for unit in file if getattr(unit, "data", None) is not None and unit.data.ndim >= 2]
+        return np.asarray(planes[0])[..., ::-1, :]
+    except (OSError, ValueError, KeyError, *DAMAGED) as error:
+        raise _unreadable(path) from error
+
+
+def _plane(values: np.ndarray, path: str | os.PathLike[str], channel: str) -> np.ndarray:
+    """Return one plane of counts as float64. Raises RequestError."""
+    if channel not in CHANNELS:
+        raise RequestError(
+            '{parameter} is "{value}"; choose {choices}', parameter="channel", value=channel, choices=(*CHANNELS,)
+        )
+    plane = np.squeeze(values)
+    if plane.ndim == 3 and plane.shape[-1] in (3, 4):
+        plane = plane[..., CHANNELS[channel]]
+    if plane.ndim != 2 or min(plane.shape) < 2 or plane.dtype.kind not in "iuf":
+        raise RequestError(
+            "{path} holds an array of shape {shape}; give rows and columns of counts",
+            path=str(path),
+            shape=str(values.shape),
+        )
+    try:
+        check_samples(plane.shape, plane.nbytes)
+    except OversizedError as error:
+        raise RequestError("{path} is too large: {reason}; cut it", path=str(path), reason=str(error)) from error
+    return plane.astype(float)
+
+
+def _unreadable(path: str | os.PathLike[str]) -> RequestError:
+    return RequestError(
+        "{path} cannot be read as a picture; it is damaged, or of another kind than its ending says", path=str(path)
+    )

@@ -1,0 +1,284 @@
+"""Frames: simulated through lenses, read from files, their points found, and one model fitted to all of them."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from p2sf.errors import Cancelled, P2SFError, RequestError
+from p2sf.files.writing import write_beside
+from p2sf.io.photo_files import write_photo
+from p2sf.lens.lens import with_f_number
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrated
+from p2sf.measure.frame_fit import PointSum, fit_frame
+from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, lens_optics
+from p2sf.measure.lens_pupil import lens_rows
+from p2sf.measure.listings import listing_of, read_listing
+from p2sf.measure.measurement import measured, read_measurement, write_measurement
+from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_problem import PointPicture
+from p2sf.measure.points import find_points, in_grid, window_half
+from p2sf.measure.reading import read_frame
+from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
+from p2sf.pixel_kernels.frequency_grid import pupil_map
+from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
+from p2sf.pupil.zernike import basis
+from p2sf.raytrace.fit import fit
+from tests.support.reference import DATA
+
+PITCH = 3.45
+LISTED = DATA / "opticstudio"
+
+
+@pytest.fixture(scope="module")
+def triplet():
+    return with_f_number(find_lens("cooke_triplet"), 4.0)
+
+
+@pytest.fixture(scope="module")
+def frame(triplet):
+    """Return 5 × 3 points with a sensor too far by 25 µm and tilted by 0.1° and −0.05°."""
+    exposure = Exposure(sensor_shift_um=25.0, tilt_deg=(0.1, -0.05))
+    return simulated_frame(triplet, grid_of_points(5, 3, 4.0, 2.0), FrameGeometry(680, 1260, PITCH), exposure)
+
+
+@pytest.mark.parametrize("azimuth", [0.0, 0.7, 2.5, -1.9])
+def test_nodes_of_a_lens_give_its_pixel_kernels_at_every_azimuth(triplet, azimuth):
+    """The kernels sample the pupil over direction cosines with cells at its edge: to 4e-3 of the peak."""
+    source, shift = Source(field_deg=14.0), (0.7, -0.4)
+    found = fit(triplet, source)
+    rows = lens_rows(found, azimuth, (64, 64))
+    waves = -found.phase @ basis(found.level.wave_order, rows.xi.ravel(), rows.eta.ravel())[: found.phase.size]
+    optics = lens_optics(triplet, np.inf, source.wavelength_um, PITCH)
+    phase = waves.reshape(rows.xi.shape) - rows.fx * shift[0] - rows.fy[:, None] * shift[1]
+    light = PixelSum(rows, (25, 25), optics).light(phase)
+    pupil = pupil_map(triplet, source, "fitted", None)
+    window = PixelWindow(half_width(pupil, PITCH), PITCH, samples_across(pupil, PITCH, 2.0))
+    cut = slice(window.half - 12, window.half + 13)
+    kernel = pixel_kernel(pupil, azimuth, window, shift)[::-1][cut, cut].astype(float)
+    assert light / light.sum() == pytest.approx(kernel / kernel.sum(), abs=5e-3 * kernel.max() / kernel.sum())
+
+
+def test_points_are_found_where_they_were_put_and_in_their_order(frame):
+    points = in_grid(find_points(frame))
+    assert len(points) == 15 and all(point.good for point in points)
+    places = {point.place: (point.x_mm, point.y_mm) for point in points}
+    assert set(places) == {(i, j) for i in range(-2, 3) for j in range(-1, 2)}
+    for (i, j), place in places.items():
+        assert place == pytest.approx((i, j), abs=0.006)  # coma moves centroids by a pixel or so
+
+
+def test_a_grid_may_be_turned_and_distorted():
+    geometry = FrameGeometry(400, 400, 10.0)
+    values = np.zeros((400, 400))
+    places = {}
+    for i in range(-3, 4):
+        for j in range(-3, 4):
+            x, y = i * 45.0, j * 45.0
+            grow = 1 + 2e-6 * (x * x + y * y)
+            turned = (x * np.cos(0.25) - y * np.sin(0.25)) * grow, (x * np.sin(0.25) + y * np.cos(0.25)) * grow
+            row, column = round(199.5 - turned[1]), round(199.5 + turned[0])
+            values[row - 1 : row + 2, column - 1 : column + 2] = 1000
+            places[row, column] = (i, j)
+    points = in_grid(find_points(Frame(values + np.random.default_rng(0).normal(0, 5, values.shape), geometry)))
+    assert {(round(p.row), round(p.column)): p.place for p in points} == places
+
+
+def test_what_cannot_be_used_is_flagged():
+    rng, values = np.random.default_rng(1), np.zeros((120, 160))
+    blob = np.exp(-0.5 * (np.hypot(*np.mgrid[-6:7, -6:7]) / 1.6) ** 2)
+
+    def put(row, column, peak):
+        values[row - 6 : row + 7, column - 6 : column + 7] += peak * blob
+
+    for column in (30, 60, 90):
+        put(30, column, 1000)
+    put(80, 30, 6000)  # saturates
+    put(80, 80, 1000)
+    put(80, 93, 1000)  # touches its neighbour
+    put(113, 150, 1000)
+    values[60, 140] = 3000  # a hot pixel is no point
+    counts = np.minimum(values + 50 + rng.normal(0, 5, values.shape), 4000)[:116]
+    points = find_points(Frame(counts, FrameGeometry(116, 160, 5.0), Noise(full_scale=4000)))
+    flagged = {(round(p.row, -1), round(p.column, -1)): [str(f) for f in p.flags] for p in points}
+    assert flagged[30, 30] == flagged[30, 60] == flagged[30, 90] == []
+    assert "saturated" in flagged[80, 30]
+    assert "two points" in flagged[80, 90][0] and "edge" in flagged[110, 150][0]
+    assert not any(abs(p.row - 60) < 3 and abs(p.column - 140) < 3 for p in points)
+
+
+def test_a_frame_gives_back_how_the_sensor_stands(triplet, frame):
+    """Five standard deviations, of some 0.2 µm and 0.01°; the simulation's own error of 4e-3 is a part of one."""
+    optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
+    found = measured([frame], optics, lens=triplet, unknowns=FOCUS, singly=False).whole
+    assert np.abs((found.values - [25.0, 0.1, -0.05]) / found.errors).max() < 5
+    assert (found.errors < [0.5, 0.01, 0.02]).all()
+    assert found.chi2 == pytest.approx(1.0, abs=0.15) and found.r2.min() > 0.95
+
+
+def model_points(model, truth, noise, places, focus=(0.0,), pixels=25, seed=0):
+    rng, points = np.random.default_rng(seed), []
+    for x, y in places:
+        for shift in focus:
+            empty = FramePoint(PointPicture(np.zeros((pixels, pixels))), x, y, shift)
+            light, _ = PointSum(empty, model).light(truth, 0.3, 0.2)
+            counts = light * (1000 / light.max()) + 50 + rng.normal(0, noise, light.shape)
+            points.append(FramePoint(PointPicture(counts, noise**2), x, y, shift))
+    return points
+
+
+def test_a_frame_without_a_lens_starts_from_its_points_and_names_the_twin():
+    """Five standard deviations; the sign of all even terms together is open."""
+    model = FrameModel(Optics(0.125, 0.55, 2.2), 5.0)
+    truth = np.array([20.0, 0.1, -0.06, 0.5, 0.9, -0.8, 0.6])
+    points = model_points(model, truth, 10.0, grid_of_points(3, 3, 8.0, 6.0))
+    found = fit_frame(points, model)
+    near = min((found.values, found.twin), key=lambda values: np.abs(values - truth).sum())
+    assert np.abs((near - truth) / found.bounds).max() < 5
+
+
+def test_a_spacing_is_told_from_a_shift_by_its_field(triplet):
+    """A point model of the lens with its third space longer by 40 µm, fitted by one without."""
+    optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
+    model = FrameModel(optics, 8.0, ("sensor_shift_um", "spacing_um:2"), triplet)
+    truth = np.array([5.0, 40.0])
+    points = model_points(model, truth, 5.0, [(0.0, 0.0), (0.0, 7.5), (-5.0, 3.0)], pixels=21)
+    found = fit_frame(points, model)
+    assert np.abs((found.values - truth) / found.bounds).max() < 5
+
+
+def test_a_frame_at_two_focus_positions_has_no_twin():
+    model = FrameModel(Optics(0.125, 0.55, 2.2), 5.0, ("sensor_shift_um", "w40", "w31"))
+    truth = np.array([20.0, 0.5, 0.9])
+    points = model_points(model, truth, 10.0, [(0.0, 0.0), (4.0, 0.0)], focus=(0.0, 60.0))
+    found = fit_frame(points, model, start=truth * 0.8)
+    assert found.twin is None and np.abs((found.values - truth) / found.bounds).max() < 5
+
+
+def test_a_measurement_is_cancelled_reported_and_written(triplet, frame, tmp_path):
+    optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
+    with pytest.raises(Cancelled):
+        measured([frame], optics, cancelled=lambda: True)
+    shares = []
+    cut = Frame(frame.values[:, 420:840], FrameGeometry(680, 420, PITCH))
+    found = measured([cut], optics, progress=shares.append)
+    assert found.used == 3 and found.whole is None and shares == sorted(shares)
+    arrays, meta = read_measurement(write_measurement(found, tmp_path / "coefficients.npz"))
+    assert meta["names"] == ["W40", "W31", "W22", "W20 + Wd"] and arrays["numbers"].shape == (3, 4)
+    assert arrays["numbers"] == pytest.approx(np.array([one.numbers for one in found.fits if one]))
+    (tmp_path / "other.npz").write_bytes(b"PK nothing")
+    with pytest.raises(RequestError, match="not a measurement"):
+        read_measurement(tmp_path / "other.npz")
+
+
+def test_dark_and_flat_fields_leave_the_light():
+    rng = np.random.default_rng(0)
+    light, dark, gain = rng.uniform(100, 200, (8, 9)), rng.uniform(5, 9, (8, 9)), rng.uniform(0.8, 1.2, (8, 9))
+    gain /= gain.mean()
+    assert calibrated(light * gain + dark, dark, 5000 * gain + dark) == pytest.approx(light)
+    with pytest.raises(RequestError, match="flat field has shape"):
+        calibrated(light, dark[1:])
+    with pytest.raises(RequestError, match="not brighter"):
+        calibrated(light, dark, dark - 1)
+
+
+def test_noise_is_estimated_beside_points(frame):
+    """Few pixels hold points: the estimate is the 10 counts of the exposure, to the 1 % of its own noise."""
+    assert frame.read_noise == pytest.approx(10.0, rel=0.03) and frame.background == pytest.approx(50.0, abs=0.5)
+
+
+@pytest.mark.parametrize("kind", ["png8", "png16", "tiff", "npy", "npz", "fits"])
+def test_counts_come_from_files_as_they_are(kind, tmp_path):
+    counts = np.random.default_rng(2).integers(0, 250, (20, 30))
+    path = tmp_path / f"frame.{kind.rstrip('0123456789')}"
+    if kind == "png8":
+        Image.fromarray(counts.astype(np.uint8)).save(path)
+    elif kind == "png16":
+        Image.fromarray((counts * 200).astype(np.uint16)).save(path)
+    elif kind == "tiff":
+        write_photo(path, counts / 1000, "linear", "float")
+    elif kind == "npy":
+        np.save(path, counts)
+    elif kind == "npz":
+        np.savez(path, values=counts, pixel_um=4.0)
+    else:
+        fits = pytest.importorskip("astropy.io.fits")
+        fits.PrimaryHDU(counts[::-1].astype(np.int16)).writeto(path)
+    scale = {"png16": 200.0, "tiff": 1e-3}.get(kind, 1.0)
+    found = read_frame(path, None if kind == "npz" else 4.0)
+    assert found.values == pytest.approx(counts * scale, rel=1e-6) and found.geometry.pixel_um == 4.0
+
+
+def test_listings_of_opticstudio_are_read_in_either_encoding(tmp_path):
+    psf, waves = (read_listing(LISTED / name) for name in ("huygens_psf_0_1.75.txt", "wavefront_0_1.75.txt"))
+    assert (psf.kind, psf.values.shape, psf.pitch_um, psf.wavelength_um) == ("psf", (64, 64), 0.289, 0.5)
+    assert psf.field == (0.0, 1.75) and psf.values.max() == pytest.approx(psf.strehl, abs=5e-4)
+    assert waves.statistics == pytest.approx((waves.peak_to_valley, waves.rms), rel=2e-4)
+    text = (LISTED / "wavefront_0_1.75.txt").read_text("utf-16")
+    (tmp_path / "again.txt").write_text(
+        text.replace("Wavefront Function", "Wavefront Function\nOne more line"), "utf-8"
+    )
+    again = read_listing(tmp_path / "again.txt")
+    assert np.array_equal(again.values, waves.values) and again.rms == waves.rms
+    assert read_frame(LISTED / "huygens_psf_0_1.75.txt").geometry.pixel_um == 0.289
+
+
+def test_the_centroid_of_a_listed_psf_lies_where_its_head_says():
+    """Light beyond the window counts in neither: 0.05 µm. A table upside down would miss by 3 µm."""
+    psf = read_listing(LISTED / "huygens_psf_0_1.75.txt")
+    y = (np.arange(64) - psf.centre[0]) * psf.pitch_um
+    assert psf.values.sum(1) @ y / psf.values.sum() == pytest.approx(1.67881506, abs=0.05)
+
+
+def test_damaged_files_get_a_sentence(tmp_path):
+    """Each file is cut, or bytes in it changed; what is still a picture may be read."""
+    rng = np.random.default_rng(0)
+    counts = rng.integers(0, 200, (16, 16)).astype(np.uint8)
+    for name in ("a.png", "a.tif"):
+        Image.fromarray(counts).save(tmp_path / name)
+    np.save(tmp_path / "a.npy", counts)
+    np.savez(tmp_path / "a.npz", values=counts)
+    (tmp_path / "a.txt").write_bytes((LISTED / "wavefront_0_1.75.txt").read_bytes()[:3000])
+    whole = {path: path.read_bytes() for path in sorted(tmp_path.iterdir())}
+    for trial in range(100):
+        path, data = list(whole.items())[trial % len(whole)]
+        damaged = bytearray(data[: rng.integers(1, len(data))] if trial % 2 else data)
+        for place in rng.integers(0, len(damaged), 4):
+            damaged[place] = rng.integers(256)
+        write_beside(path, lambda handle, content=bytes(damaged): handle.write(content))
+        try:
+            find_points(read_frame(path, 4.0))
+        except P2SFError as error:
+            assert str(error)
+
+
+def test_a_listing_that_contradicts_itself_is_refused():
+    text = (LISTED / "wavefront_0_1.75.txt").read_text("utf-16")
+    with pytest.raises(RequestError, match="its head says 33 × 32"):
+        listing_of(text.replace("32 by 32", "32 by 33"), "x.txt")
+    with pytest.raises(RequestError, match="no listing"):
+        listing_of(text.replace("0.5000", "many"), "x.txt")
+    with pytest.raises(RequestError, match="no listing"):
+        listing_of("a shopping list\n1 2 3\n", "x.txt")
+
+
+def test_frames_that_hold_nothing_are_refused(tmp_path):
+    geometry = FrameGeometry(40, 50, 4.0)
+    with pytest.raises(RequestError, match="no point stands out"):
+        find_points(Frame(np.random.default_rng(0).normal(50, 5, (40, 50)), geometry))
+    with pytest.raises(RequestError, match="shape"):
+        Frame(np.zeros((3, 4)), geometry)
+    with pytest.raises(RequestError, match="finite"):
+        Frame(np.full((40, 50), np.nan), geometry)
+    with pytest.raises(RequestError, match="how large its pixels"):
+        np.save(tmp_path / "a.npy", np.zeros((4, 4)))
+        read_frame(tmp_path / "a.npy")
+    with pytest.raises(RequestError, match="the ending"):
+        read_frame(tmp_path / "a.doc", 4.0)
+    values = np.full((40, 50), 50.0) + np.random.default_rng(0).normal(0, 1, (40, 50))
+    values[18:23, 20:25] = 4000
+    with pytest.raises(RequestError, match="saturated"):
+        window_half(find_points(Frame(values, geometry, Noise(full_scale=4000))))
+    with pytest.raises(RequestError, match="choose from"):
+        FrameModel(Optics(0.1, 0.5, 2.0), 5.0, ("tilt",))
