@@ -16,6 +16,7 @@ from tests.support.lens_files import FOLDER, text_of
 from tests.support.paraxial_by_hand import first_order
 
 MIRRORS = "mirrors.roa"
+HOLOGRAM = {"__instance_type__": ["m", "DiffractiveElement"], "attributes": {}}
 CURVATURES, GAPS = (-0.00125, -0.004, 0.01, 0.008), (-300.0, 280.0, 6.0, 90.0)
 
 
@@ -70,13 +71,40 @@ def test_media_by_numbers():
     assert lens_of(lambda model: glass(model, n=1.33)).surfaces[2].medium.label == "1.33"
 
 
+def test_a_phase_of_coefficients_of_path_is_read():
+    """A path c·r² at the reference wavelength λ₀ is a lens of power −2c λ/λ₀ on a plane without glass."""
+
+    def phase(model):
+        model["seq_model"]["attributes"]["ifcs"] = [model["seq_model"]["attributes"]["ifcs"][i] for i in (0, 3, 5)]
+        model["seq_model"]["attributes"]["gaps"] = [model["seq_model"]["attributes"]["gaps"][i] for i in (0, 4)]
+        surface(model, 1).update(
+            profile_id="11",
+            phase_element={
+                "__instance_type__": ["rayoptics.oprops.doe", "DiffractiveElement"],
+                "attributes": {
+                    "coefficients": [-0.005, 1e-8],
+                    "ref_wl": 587.5618,
+                    "order": 1,
+                    "phase_fct_name": "radial_phase_fct",
+                },
+            },
+        )
+
+    lens = lens_of(phase)
+    assert float(cardinal_points(lens, 0.5875618).effective_focal_length) == pytest.approx(100.0, rel=1e-12)
+    blue = float(cardinal_points(lens, 0.4861327).effective_focal_length)
+    assert blue == pytest.approx(100.0 * 0.5875618 / 0.4861327, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
         (lambda m: surface(m, 2).update(decenter={"attributes": {"alpha": 1.0}}), "surface 2 is tilted or decentred"),
         (
-            lambda m: surface(m, 3).update(phase_element={"__instance_type__": ["m", "DiffractiveElement"]}),
-            r"surface 3 \(corrector\) diffracts \(DiffractiveElement\)",
+            lambda m: surface(m, 3).update(
+                phase_element={"__instance_type__": ["m", "DiffractiveElement"], "attributes": {}}
+            ),
+            r"surface 3 \(corrector\) diffracts \(DiffractiveElement\) and not by a phase",
         ),
         (
             lambda m: m["profile_dict"]["12"].update(__instance_type__=["m", "YToroid"]),

@@ -5,13 +5,14 @@ interface is the object and the last the image; profiles stand in a table of the
 """
 
 import json
-from math import inf
+from math import inf, pi
 from typing import Any
 
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import P2SFError
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
+from p2sf.lens.shapes import Diffraction
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -75,14 +76,16 @@ def _raw_lens(model: dict[str, Any], source: LensText) -> RawLens:
         raw.object_distance = inf
     raw.object_glass = _glass(gaps[0]["medium"])
     for number, (interface, gap) in enumerate(zip(interfaces[1:-1], gaps[1:], strict=True), 1):
-        raw.surfaces.append(_surface(number, interface, gap, model, source))
+        raw.surfaces.append(_surface(number, interface, gap, model, raw.unit_mm, source))
     stop = sequence.get("stop_surface")
     raw.stop = int(stop) if stop else None
     _conditions(raw, _inside(model["optical_spec"]))
     return raw
 
 
-def _surface(number: int, interface: Any, gap: dict[str, Any], model: dict[str, Any], source: LensText) -> RawSurface:
+def _surface(
+    number: int, interface: Any, gap: dict[str, Any], model: dict[str, Any], unit_mm: float, source: LensText
+) -> RawSurface:
     values = _inside(interface)
     surface = RawSurface(number, 1, str(values.get("label", ""))[:60], thickness=float(gap["thi"]))
     if values.get("decenter"):
@@ -94,12 +97,7 @@ def _surface(number: int, interface: Any, gap: dict[str, Any], model: dict[str, 
             surface=surface.name,
         )
     if values.get("phase_element"):
-        raise source.error(
-            "{surface} diffracts ({kind}); only refracting and reflecting surfaces are read",
-            1,
-            surface=surface.name,
-            kind=_kind(values["phase_element"]),
-        )
+        surface.diffraction = _diffraction(surface, values["phase_element"], unit_mm, source)
     profile = values.get("profile") or model.get("profile_dict", {}).get(str(values.get("profile_id")))
     _shape(surface, profile, source)
     reflects = values.get("interact_mode") == "reflect"
@@ -109,6 +107,21 @@ def _surface(number: int, interface: Any, gap: dict[str, Any], model: dict[str, 
         rim = float(_inside(aperture).get("radius", rim))
     surface.semi_diameter = float(rim)
     return surface
+
+
+def _diffraction(surface: RawSurface, element: Any, unit_mm: float, source: LensText) -> Diffraction:
+    """Return the phase 2π/λ·Σ cⱼr²ʲ of an element whose coefficients are a path at its reference wavelength."""
+    values = _inside(element)
+    if _kind(element) != "DiffractiveElement" or values.get("phase_fct_name") != "radial_phase_fct":
+        raise source.error(
+            "{surface} diffracts ({kind}) and not by a phase in powers of r²; only such phases are read",
+            1,
+            surface=surface.name,
+            kind=_kind(element),
+        )
+    wavelength = float(values["ref_wl"]) / (NM_PER_UM * UM_PER_MM * unit_mm)
+    terms = tuple(2 * pi / wavelength * float(c) for c in values["coefficients"])
+    return Diffraction(terms, 1.0, float(values.get("order", 1)))
 
 
 def _shape(surface: RawSurface, profile: Any, source: LensText) -> None:

@@ -1937,7 +1937,7 @@
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>
-<message><source>{surface} diffracts ({kind}); only refracting and reflecting surfaces are read</source><translation>{surface} beugt ({kind}); nur brechende und spiegelnde Flächen werden gelesen</translation></message>
+<message><source>{surface} diffracts ({kind}) and not by a phase in powers of r²; only such phases are read</source><translation>{surface} beugt ({kind}), und nicht mit einer Phase in Potenzen von r²; nur solche Phasen werden gelesen</translation></message>
 <message><source>{surface} diffracts by {command} {kind}, which is not read; only DOE with a phase in r (HCT R) is</source><translation>{surface} beugt durch {command} {kind}, was nicht gelesen wird; nur DOE mit einer Phase in r (HCT R) wird gelesen</translation></message>
 <message><source>{surface} diffracts without a wavelength (HWL) of its phase; add it</source><translation>{surface} beugt ohne eine Wellenlänge (HWL) der Phase; ergänzen</translation></message>
 <message><source>{surface} has a rim decentred by ({x:g}, {y:g}); only centred lenses are read</source><translation>{surface} hat einen um ({x:g}, {y:g}) dezentrierten Rand; nur zentrierte Objektive werden gelesen</translation></message>
