@@ -56,6 +56,8 @@ class Surface:
     before, after : tuple of Placement
         How the axes of the surface stand in those before it, and how those behind it, along whose z the thickness
         runs, stand in the surface's own: one break of the coordinates after the other.
+    inner_radius : float
+        Radius, mm, within which rays are lost where rims clip: a mirror's hole, or the shadow of what stands there.
     """
 
     radius: float = inf
@@ -68,6 +70,7 @@ class Surface:
     diffraction: Diffraction | None = None
     before: tuple[Placement, ...] = ()
     after: tuple[Placement, ...] = ()
+    inner_radius: float = 0.0
 
     @property
     def curvature(self) -> float:
@@ -380,6 +383,12 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
                 "surface {surface}: semi-diameter {semi_diameter} mm; give a positive number",
                 surface=number,
                 semi_diameter=surface.semi_diameter,
+            )
+        if not 0 <= surface.inner_radius < surface.semi_diameter:
+            raise GeometryError(
+                "surface {surface}: inner radius {inner} mm; give a number from 0 to below the semi-diameter",
+                surface=number,
+                inner=surface.inner_radius,
             )
         if not all(isfinite(x) for x in (surface.conic, *surface.aspheric)):
             raise GeometryError(

@@ -24,6 +24,7 @@ radius = 50.0                    # > 0: centre of curvature to the right; inf is
 thickness = 4.0                  # to the next surface, the last one to the sensor; < 0 where light runs back
 glass = "SCHOTT N-BK7"           # or 1.5168, or { nd = 1.5168, vd = 64.17 }, or "mirror"; left out: air
 semi_diameter = 10.0             # clear rim; left out: unlimited
+inner_radius = 2.0               # rays within are lost: a hole, a shadow; left out: 0
 conic = -1.0
 aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
 shape = { type = "Qcon", normalisation_radius = 10.0, coefficients = [1e-3] }  # added to it, see SHAPES
@@ -136,6 +137,7 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
         _Line("thickness", _number(surface.thickness)),
         _Line("glass", _medium(surface.medium), '"air"'),
         _Line("semi_diameter", _number(surface.semi_diameter), "inf"),
+        _Line("inner_radius", _number(surface.inner_radius), "0.0"),
         _Line("conic", _number(surface.conic), "0.0"),
         _Line("aspheric", _list(surface.aspheric), "[]"),
         _Line("shape", _shape(surface.shape) if surface.shape else ""),
@@ -206,7 +208,7 @@ TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_m
 TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 SHAPED = ("shape", "diffraction", "before", "after")
-SURFACE = ("radius", "thickness", "glass", "semi_diameter", "conic", "aspheric", *SHAPED)
+SURFACE = ("radius", "thickness", "glass", "semi_diameter", "inner_radius", "conic", "aspheric", *SHAPED)
 # The names are OpticStudio's. Coefficients are of r, r², … (in units⁰, units⁻¹, …), of ρ = r/normalisation radius,
 # ρ², …, of ρ², ρ⁴, …, and of Forbes's polynomials Q₀, Q₁, … (all in units).
 SHAPES = ("odd asphere", "extended odd asphere", "extended asphere", "Qbfs", "Qcon")
@@ -215,6 +217,7 @@ MOST_TERMS = 60
 RADIUS = Constraint(lambda x: x == x and x != 0, Message("write a number that is not 0, inf for a plane"))
 THICKNESS = Constraint(isfinite, Message("write the distance to the next surface as a number"))
 RIM = Constraint(lambda x: x > 0, Message("write a positive number"))
+INNER = Constraint(lambda x: 0 <= x < inf, Message("write a number from 0"))
 FINITE = Constraint(isfinite, Message("write a finite number"))
 OPENING = Constraint(lambda x: 0 < x < inf, Message("write a positive number"))
 FIELD = Constraint(lambda x: abs(x) < 90, Message("write an angle in degrees below 90"))
@@ -307,6 +310,7 @@ def _surface(table: Table, scale: float) -> Surface:
         conic=table.number("conic", FINITE, 0.0),
         aspheric=tuple(a * scale ** -(2 * k + 3) for k, a in enumerate(aspheric)),
         semi_diameter=table.number("semi_diameter", RIM, inf) * scale,
+        inner_radius=table.number("inner_radius", INNER, 0.0) * scale,
         shape=_read_shape(table, scale),
         diffraction=_read_diffraction(table, scale),
         before=read_placements(table, "before", scale),

@@ -19,11 +19,11 @@ from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, with_reac
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, basis_by_powers, gradient
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
+from p2sf.raytrace.clear_pieces import CLIPPED, check_without_holes
 from p2sf.raytrace.fit import Gradient, Level, PencilForms, determinant, fit, level_rays, pencil_forms
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
 from p2sf.raytrace.trace import lens_rims, run
-from p2sf.raytrace.vignetting import CLIPPED
 
 ORDERS = 6, 18  # the least and the greatest
 FAR_OFF = 30.0  # times the allowed residual: then the next order but one is tried, since the next seldom suffices
@@ -87,6 +87,7 @@ def _rims(lens: Lens, sources: Sources, clip: bool) -> np.ndarray:
 
     (Sources, surfaces, nodes); no surfaces unless ``clip``. Raises GeometryError where rims clip all rays of a source.
     """
+    check_without_holes(lens, clip)
     nodes, limits = disc_nodes(*NODES), lens_rims(lens, keep_stop=False)
     if not clip:
         return np.empty((len(np.asarray(sources.depth_mm)), 0, nodes.xi.size))

@@ -16,7 +16,7 @@ import numpy as np
 
 from p2sf.conventions import centred_axis
 from p2sf.errors import Cancelled, GeometryError, SamplingError
-from p2sf.lens.lens import Lens, check_aligned, check_unmasked
+from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
@@ -29,7 +29,7 @@ from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import Pencil, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 from p2sf.raytrace.seen_mask import with_slopes
-from p2sf.raytrace.vignetting import clear_nodes, pencil_blur, pupil_nodes, radiometric
+from p2sf.raytrace.vignetting import pencil_blur, pupil_nodes, radiometric
 from p2sf.threads import for_each, one_blas_thread
 
 BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
@@ -228,10 +228,7 @@ def huygens_field(
 
 def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNodes:
     """Return nodes up to where rays end: at the pupil's rim, at clear apertures, or where they miss a surface."""
-    if clip or not all_reach(lens, source):
-        check_unmasked(lens, Message("a pupil that ends at rims or where rays are lost"))
-        return clear_nodes(lens, source, counts, clip)
-    return pupil_nodes(lens, source, counts)
+    return pupil_nodes(lens, source, counts, clip, whole=clip or all_reach(lens, source))
 
 
 @lru_cache(maxsize=16)

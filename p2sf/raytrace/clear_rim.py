@@ -15,8 +15,8 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import gauss_legendre
+from p2sf.raytrace.clear_pieces import CLIPPED, LOST, check_without_holes
 from p2sf.raytrace.pencil import hexapolar, pencil
-from p2sf.raytrace.vignetting import CLIPPED, LOST
 
 SEARCH_RINGS = 8
 SECTIONS = 16  # of each direction in each round: one trace of many rays costs less than many of few
@@ -64,6 +64,7 @@ def clear_rim(lens: Lens, source: Source, clip: bool, directions: int, rounds: i
     Raises GeometryError where no part is clear.
     """
     check_aligned(lens, Message("the search for rims in the pupil"))
+    check_without_holes(lens, clip)
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():

@@ -269,3 +269,11 @@ def clip(beam: Beam, rim: float, number: int) -> None:
     outside[..., outside.shape[-1] - beam.exempt :] = False
     if outside.any():
         beam.fail(outside, Status.CLIPPED, number)
+
+
+def clip_inside(beam: Beam, radius: float, number: int) -> None:
+    """Stop every ray that lands inside ``radius`` mm: in the hole of a mirror, or behind what stands there."""
+    inside = beam.x * beam.x + beam.y * beam.y < radius * radius
+    inside[..., inside.shape[-1] - beam.exempt :] = False
+    if inside.any():
+        beam.fail(inside, Status.CLIPPED, number)

@@ -12,7 +12,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
-from p2sf.raytrace.surface import Beam, Status, clip, diffract, meet, move, refract, to_plane
+from p2sf.raytrace.surface import Beam, Status, clip, clip_inside, diffract, meet, move, refract, to_plane
 
 Index: TypeAlias = np.ndarray | list[float]  # per medium, object space first; floats for one wavelength
 
@@ -173,6 +173,8 @@ def _cross(
         visit(number)
     if rims is not None:
         clip(beam, rims[number - 1], number)
+        if surface.inner_radius:
+            clip_inside(beam, surface.inner_radius, number)
     if surface.diffraction is not None:
         diffract(beam, normal, surface.diffraction, after, number)
     elif not _same(before, after):
@@ -209,7 +211,7 @@ def lens_rims(lens: Lens, keep_stop: bool = True) -> np.ndarray:
     """
     stop = lens.stop_surface or named_stop(lens)
     rims = rim_radii(lens, stop, stop_rim(lens) if keep_stop else np.inf) * (1 + RIM_TIE)
-    if not np.isfinite(rims).any():
+    if not np.isfinite(rims).any() and not any(surface.inner_radius for surface in lens.surfaces):
         raise GeometryError(
             "the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off",
             parameter="clip",

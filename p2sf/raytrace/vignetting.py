@@ -18,6 +18,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
+from p2sf.raytrace.clear_pieces import CLIPPED, LOST, check_without_holes, holes_of, piece_nodes
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.seen_mask import mask_seen
@@ -27,8 +28,6 @@ SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/
 BISECTIONS = 36  # the pupil radius to 2e-11
 CORNER_BISECTIONS = 26  # a corner's direction to 2e-10
 FEWEST_PER_ARC = 6
-CLIPPED = "the rims clip every ray of this field; leave {parameter} off or reduce the field"
-LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduce the field"
 BLUR_NODES = 16, 40  # carry the weight and the area of a fit, which are smooth
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
@@ -47,16 +46,20 @@ def whole_nodes(counts: tuple[int, int]) -> ClearNodes:
     return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
 
 
-def pupil_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool = False) -> ClearNodes:
-    """Return nodes over what the mask in the stop, and where asked the rims, leave open; about as dense as ``counts``.
+def pupil_nodes(
+    lens: Lens, source: Source, counts: tuple[int, int], clip: bool = False, whole: bool = True
+) -> ClearNodes:
+    """Return nodes over what mask, rims and lost rays leave open; about as dense as ``counts`` are over the disc.
 
-    ``clip``: end the pupil at the rims, or where rays are lost, which needs rays. Raises GeometryError where nothing
-    is open.
+    ``clip``: end the pupil at the rims, and at holes. ``whole``: every ray of the disc is known to reach the sensor.
+    Raises GeometryError where nothing is open.
     """
     mask = mask_seen(lens, source)
-    if mask.clear:
-        return clear_nodes(lens, source, counts, clip) if clip else whole_nodes(counts)
-    return mask_nodes(mask, *counts)
+    if whole and not clip:
+        return whole_nodes(counts) if mask.clear else mask_nodes(mask, *counts)
+    if mask.clear and not (clip and holes_of(lens)):
+        return clear_nodes(lens, source, counts, clip)
+    return piece_nodes(lens, source, counts, clip, mask)
 
 
 def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool = True) -> ClearNodes:
@@ -91,6 +94,7 @@ def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.
 def outline(lens: Lens, source: Source, clip: bool = True) -> ClearPart:
     """Return centre and corners of the clear part of the pupil. Raises GeometryError when no part is clear."""
     check_aligned(lens, Message("the search for rims in the pupil"))
+    check_without_holes(lens, clip)
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():

@@ -7,10 +7,12 @@ from functools import cache
 from math import floor, log10
 from pathlib import Path
 
+import numpy as np
+
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.glass.catalogue import find_entry
 from p2sf.glass.media import CatalogueGlass, ConstantIndex
-from p2sf.lens.lens import Lens, with_aim, with_f_number
+from p2sf.lens.lens import Aperture, Lens, with_aim, with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import abcd, cardinal_points
@@ -19,12 +21,13 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 
 DATA = Path(__file__).with_name("published.toml")
 KINDS = {"program": "another program", "paper": "the paper's authors", "witness": "independent witness"}
+LISTED = 32  # points along a side of a listed wavefront
 AGREES, DIFFERS = "agrees", "differs, unexplained"
 
 
@@ -34,7 +37,9 @@ class Published:
 
     ``why`` says where the tolerance comes from. ``measure`` names the function of `MEASURES`; "" with ``waits_for``,
     what this program lacks. The others say what of the shipped lens is replaced: ``glasses`` by label, all ``indices``
-    at this wavelength, the ``last_radius``, the ``f_number``.
+    at this wavelength, the ``last_radius``, the ``f_number``, the ``stop_semi_diameter``, mm, and the ``inner_radii``
+    by surface. ``file``: the lens's, beside this module, where it is not a shipped one. ``pixels`` and ``pixel_um``:
+    the samples among which the highest is looked for.
     """
 
     quantity: str
@@ -51,6 +56,12 @@ class Published:
     field_deg: float = 0.0
     f_number: float | None = None
     last_radius: float | None = None
+    azimuth_deg: float = 0.0
+    pixels: int = 64
+    pixel_um: float = 0.289
+    file: str = ""
+    stop_semi_diameter: float | None = None
+    inner_radii: dict[str, float] | None = None
     glasses: dict[str, str] | None = None
     indices: tuple[float, ...] = ()
     row: int = 0
@@ -108,7 +119,13 @@ def validation() -> tuple[Comparison, ...]:
 
 def lens_of(figure: Published) -> Lens:
     """Return the lens a figure is about; rays fill its paraxial entrance pupil, as in the other programs' defaults."""
-    lens = with_aim(find_lens(figure.lens), "paraxial")
+    lens = with_aim(find_lens(DATA.with_name(figure.file) if figure.file else figure.lens), "paraxial")
+    for number, radius in (figure.inner_radii or {}).items():
+        holed = list(lens.surfaces)
+        holed[int(number) - 1] = replace(holed[int(number) - 1], inner_radius=radius)
+        lens = replace(lens, surfaces=tuple(holed))
+    if figure.stop_semi_diameter is not None:
+        lens = replace(lens, aperture=Aperture("stop_semi_diameter", figure.stop_semi_diameter))
     for label, other in (figure.glasses or {}).items():
         glass = CatalogueGlass(find_entry(other))
         surfaces = (replace(s, medium=glass) if s.medium.label == label else s for s in lens.surfaces)
@@ -161,6 +178,28 @@ def r_squared_of_seidel(figure: Published, lens: Lens) -> float:
     return r_squared(seidel_psf(six, *window).values, huygens_psf(lens, source, *window).values)
 
 
+def strehl(figure: Published, lens: Lens) -> float:
+    """Return the highest sample of the Huygens sum over the unaberrated peak; rims and holes end the pupil."""
+    peak = huygens_psf(lens, figure.point, figure.pixels, figure.pixel_um, clip=True).strehl
+    return float("nan") if peak is None else float(peak)
+
+
+def rms_of_listed_points(figure: Published, lens: Lens) -> float:
+    """Return the RMS of the wavefront about its mean over the 32 × 32 points of a listing, waves; tilt counts.
+
+    Sample (row, column) is the pupil point (column − 16, row − 16)/15; rims and holes block. Where the field lies off
+    the plane ξ = 0 the points are seen turned.
+    """
+    centre = (np.arange(LISTED) - LISTED // 2) / (LISTED // 2 - 1)
+    xi, eta = (x.ravel() for x in np.meshgrid(centre, centre))
+    inside = xi**2 + eta**2 <= 1
+    turn = np.deg2rad(figure.azimuth_deg)
+    xi, eta = xi * np.cos(turn) - eta * np.sin(turn), eta * np.cos(turn) + xi * np.sin(turn)
+    xi, eta = xi[inside], eta[inside]
+    passed = pencil(lens, figure.point, xi, eta, clip=True).passed
+    return float(displayed_opd(lens, figure.point, xi[passed], eta[passed]).std())
+
+
 MEASURES: dict[str, Callable[[Published, Lens], float]] = {
     "focal_length": focal_length,
     "front_focal_plane": front_focal_plane,
@@ -169,6 +208,8 @@ MEASURES: dict[str, Callable[[Published, Lens], float]] = {
     "rms_wavefront": rms_wavefront,
     "chief_ray": chief_ray,
     "r_squared_of_seidel": r_squared_of_seidel,
+    "strehl": strehl,
+    "rms_of_listed_points": rms_of_listed_points,
 }
 COLUMNS = ("quantity", "lens", "theirs", "source", "ours", "difference", "tolerance", "verdict")
 

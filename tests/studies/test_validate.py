@@ -23,8 +23,9 @@ def test_a_published_figure_agrees_or_waits(name):
 
 
 def test_the_figures_asked_for_are_in_the_table():
-    assert [figure.value for figure in OPTICSTUDIO] == [49.99978307143194, 0.2364, 1.2182]
-    assert sum(figure.waits_for == "obscured pupils" for figure in published()) == 8
+    assert [figure.value for figure in OPTICSTUDIO if not figure.file] == [49.99978307143194, 0.2364, 1.2182]
+    telescope = [figure.value for figure in OPTICSTUDIO if figure.file]
+    assert telescope == [0.098, 0.691, 1.8841, 0.214, 1.5983, 0.044, 1.6847, 0.073]
     assert sum(figure.kind == "paper" for figure in published()) == 4
 
 
@@ -40,7 +41,7 @@ def test_the_focal_length_has_double_precision():
 
 def test_the_filling_of_the_pupil_tells():
     """Through the real stop the wavefront at 14° has 1.205 waves: the figure was made in the paraxial pupil."""
-    figure = OPTICSTUDIO[-1]
+    figure = next(figure for figure in OPTICSTUDIO if figure.value == 1.2182)
     stop = MEASURES[figure.measure](figure, with_aim(lens_of(figure), "stop"))
     assert stop == pytest.approx(1.205, abs=1e-3) and lens_of(figure).aim == "paraxial"
 

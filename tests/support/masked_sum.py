@@ -12,10 +12,13 @@ from p2sf.raytrace.ray_field import ray_data
 AT_ONCE = 2**17
 
 
-def masked_sum(lens: Lens, source: Source, mask: PupilMask, pixels: int, pixel_um: float, side: int) -> np.ndarray:
+def masked_sum(
+    lens: Lens, source: Source, mask: PupilMask, pixels: int, pixel_um: float, side: int, clip: bool = False
+) -> np.ndarray:
     """Return the intensity of exact rays, unit sum, (pixels, pixels), from about 0.79·side² points of the disc.
 
-    The grid is yes or no at every edge, and its error falls with about side^−1.5. ``mask`` is as the source sees it.
+    The grid is yes or no at every edge, and its error falls with about side^−1.5. ``mask`` is as the source sees it;
+    ``clip``: rims and holes clip.
     """
     centre = (2 * np.arange(side) + 1 - side) / side
     axis, field = centred_axis(pixels, pixel_um), np.zeros((pixels, pixels), complex)
@@ -25,9 +28,11 @@ def masked_sum(lens: Lens, source: Source, mask: PupilMask, pixels: int, pixel_u
         if not inside.any():
             continue
         xi, eta = xi[inside], eta[inside]
-        data = ray_data(pencil(lens, source, xi, eta))
+        rays = pencil(lens, source, xi, eta, clip)
+        data = ray_data(rays)
         phase = data.phase + mask.path_um(xi, eta) / source.wavelength_um
-        light = data.weight * mask.amplitude(xi, eta) * np.exp(2j * np.pi * phase)
+        light = np.where(rays.passed, data.weight * mask.amplitude(xi, eta) * np.exp(2j * np.pi * phase), 0)
+        data.fx[~rays.passed] = data.fy[~rays.passed] = 0.0
         across = np.exp(2j * np.pi * data.fx[:, None] * axis)
         field += (light[:, None] * np.exp(2j * np.pi * data.fy[:, None] * axis)).T @ across
     intensity = np.abs(field) ** 2

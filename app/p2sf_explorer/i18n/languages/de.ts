@@ -774,7 +774,6 @@
 <message><source>a point at ({x:.4g}, {y:.4g}) mm lies off the sensor; take a larger one</source><translation>ein Punkt bei ({x:.4g}, {y:.4g}) mm liegt neben dem Sensor; einen größeren nehmen</translation></message>
 <message><source>a profile through "{place}" is unknown; choose "chief" or "peak"</source><translation>ein Profil durch "{place}" ist unbekannt; "chief" oder "peak" wählen</translation></message>
 <message><source>a pupil grid of {size} samples; give an even count of at least 2</source><translation>ein Pupillengitter aus {size} Proben; eine gerade Anzahl ab 2 angeben</translation></message>
-<message><source>a pupil that ends at rims or where rays are lost</source><translation>eine Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
 <message><source>a question and its answer go together; give both ask: and tell:</source><translation>eine Frage und ihre Antwort gehören zusammen; ask: und tell: angeben</translation></message>
 <message><source>a radius of 0 with an index is a plane</source><translation>ein Radius 0 mit einem Index ist eine Ebene</translation></message>
 <message><source>a row has {count} columns; write radius, thickness, index, diameter</source><translation>eine Zeile hat {count} Spalten; Radius, Dicke, Index, Durchmesser schreiben</translation></message>
@@ -788,6 +787,7 @@
 <message><source>a tolerance of {tolerance:g}; give the R² to hold, below 1</source><translation>eine Toleranz von {tolerance:g}; das einzuhaltende R² angeben, unter 1</translation></message>
 <message><source>a toroid that is not round</source><translation>ein Toroid, das nicht rund ist</translation></message>
 <message><source>a transfer function</source><translation>eine Übertragungsfunktion</translation></message>
+<message><source>a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or take the vanes away</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
 <message><source>a wavelength is not light; give micrometres</source><translation>eine Wellenlänge ist kein Licht; Mikrometer angeben</translation></message>
@@ -1373,6 +1373,7 @@
 <message><source>surface {surface} differs between columns in its aspheric terms or in a medium without a name, for which a Zemax file has no line; save as TOML</source><translation>Fläche {surface} unterscheidet sich zwischen Spalten in asphärischen Termen oder in einem Medium ohne Namen, wofür eine Zemax-Datei keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} diffracts and has terms other than even ones up to r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} beugt und hat andere Glieder als gerade bis r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
+<message><source>surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} off, or take the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface} is a Qbfs asphere, for which no line of Zemax is known here; save as TOML, or convert it to even terms</source><translation>Fläche {surface} ist eine Qbfs-Asphäre, für die hier keine Zeile von Zemax bekannt ist; als TOML speichern oder in gerade Glieder umrechnen</translation></message>
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
@@ -1388,6 +1389,7 @@
 <message><source>surface {surface}: aspheric term r^{power}; powers from 1 to {most} are read</source><translation>Fläche {surface}: asphärisches Glied r^{power}; Potenzen von 1 bis {most} werden gelesen</translation></message>
 <message><source>surface {surface}: aspheric_coefficients is not a list of up to 20 numbers; correct it</source><translation>Fläche {surface}: aspheric_coefficients ist keine Liste von bis zu 20 Zahlen; berichtigen</translation></message>
 <message><source>surface {surface}: conic or aspheric coefficient is not finite; correct it</source><translation>Fläche {surface}: der Kegelschnitt oder ein asphärischer Koeffizient ist nicht endlich; berichtigen</translation></message>
+<message><source>surface {surface}: inner radius {inner} mm; give a number from 0 to below the semi-diameter</source><translation>Fläche {surface}: innerer Radius {inner} mm; eine Zahl von 0 bis unter den halben Durchmesser angeben</translation></message>
 <message><source>surface {surface}: ior is neither a number nor [[nm …], [n …]]; correct it</source><translation>Fläche {surface}: ior ist weder eine Zahl noch [[nm …], [n …]]; berichtigen</translation></message>
 <message><source>surface {surface}: ior is no table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
 <message><source>surface {surface}: normalisation radius {radius} mm; give a positive number</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine positive Zahl angeben</translation></message>
@@ -1665,6 +1667,7 @@
 <message><source>value</source><translation>Wert</translation></message>
 <message><source>vane angle</source><translation>Strebenwinkel</translation></message>
 <message><source>vane width</source><translation>Strebenbreite</translation></message>
+<message><source>vanes meet outside the clear part of the pupil; leave {parameter} off or reduce the field</source><translation>die Streben treffen sich außerhalb des freien Teils der Pupille; {parameter} ausschalten oder das Feld verkleinern</translation></message>
 <message><source>variables, pickups and solves, whose stored values are read</source><translation>Variable, Übernahme- und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 <message><source>vd is {value}; give an Abbe number between 10 and 120</source><translation>vd ist {value}; eine Abbe-Zahl zwischen 10 und 120 angeben</translation></message>
 <message><source>vignetting factors (up to {value:g}) are not applied, and no surface but the stop states a rim; the pupil is full at every field</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht angewandt, und außer der Blende gibt keine Fläche einen Rand an; die Pupille ist bei jedem Feld voll</translation></message>
@@ -1703,6 +1706,7 @@
 <message><source>wrapped</source><translation>gefaltet</translation></message>
 <message><source>write a finite number</source><translation>eine endliche Zahl schreiben</translation></message>
 <message><source>write a number</source><translation>eine Zahl schreiben</translation></message>
+<message><source>write a number from 0</source><translation>eine Zahl ab 0 schreiben</translation></message>
 <message><source>write a number that is not 0, inf for a plane</source><translation>eine Zahl schreiben, die nicht 0 ist, inf für eine Ebene</translation></message>
 <message><source>write a positive number</source><translation>eine positive Zahl schreiben</translation></message>
 <message><source>write a wavelength in nanometres, 50 to 50000</source><translation>eine Wellenlänge in Nanometern schreiben, 50 bis 50000</translation></message>

@@ -1,0 +1,300 @@
+"""Pupil nodes where rims, holes of mirrors and shadows end what a mask leaves open, as signed pieces.
+
+A hole or a shadow stands on a surface and walks over the pupil with the field. Its image in the pupil is found as that
+of a rim is (`vignetting`): by bisection on real rays, along directions from a point inside. The open part is the clear
+part without holes, less each of its intersections with holes, plus those with two of them, and so on. Each of these
+pieces must be star-shaped about its centre, as overlaps of rims seen through a lens are.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import combinations, pairwise
+from math import ceil, cos, pi, sin, tan
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.source import Source
+from p2sf.messages import Message
+from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.mask_nodes import FEWEST_ACROSS, ClearNodes, Piece, circle_exit, ring_count, shaded_nodes
+from p2sf.pupil.quadrature import gauss_legendre
+from p2sf.raytrace.aiming import pupil_rays, start
+from p2sf.raytrace.pencil import hexapolar
+from p2sf.raytrace.surface import Status
+from p2sf.raytrace.trace import lens_rims, run
+
+SEARCH_RINGS = 24
+SCAN = 384  # directions around the whole circle in which corners are looked for
+BISECTIONS = 36  # the pupil radius to 2e-11
+CORNER_BISECTIONS = 16  # of its direction, to 3e-7: the radius is continuous there, and the sum good to the square
+FEWEST_PER_ARC = 8
+GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
+AXIS_POINTS, SECANTS = 65, 6
+TRIED_ALONG = 24  # points of a vane at which a hole that it crosses is looked for
+OBSCURATION = 0  # stands for the mask's own among the surfaces with holes
+LEFT_HOLE, LEFT_OBSCURATION = 1000, -1000  # labels of what ends a radius, beside surfaces and blades
+CLIPPED = "the rims clip every ray of this field; leave {parameter} off or reduce the field"
+LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduce the field"
+
+
+@dataclass(frozen=True)
+class Region:
+    """The part of the pupil whose rays reach the sensor and pass ``within`` every hole of these surfaces.
+
+    ``lens`` has its holes; they do not end rays here. ``mask``: as the source sees it.
+    """
+
+    lens: Lens
+    source: Source
+    clip: bool
+    mask: PupilMask
+    within: tuple[int, ...] = ()
+
+    def holds(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return which points of the iris lie in the region, and what ends it at the others."""
+        rays = pupil_rays(self.lens, self.source, xi, eta)
+        beam, heights = start(rays), []
+        beam.exempt = 0
+        rims = lens_rims(self.lens, keep_stop=False) if self.clip else None
+        solid = replace(self.lens, surfaces=tuple(replace(s, inner_radius=0.0) for s in self.lens.surfaces))
+        run(solid, beam, rays.index, rims, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
+        passed, label = beam.status == Status.PASSED, beam.failed_surface.astype(int)
+        for number in self.within:
+            if number != OBSCURATION:
+                inside = heights[number - 1] < self.lens.surfaces[number - 1].inner_radius
+                label = np.where(passed & ~inside, LEFT_HOLE + number, label)
+                passed = passed & inside
+        return passed, label
+
+    def limit(
+        self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return how far points lie from the iris and, where it counts, the obscuration, and a label of which."""
+        if self.mask.iris:
+            each = np.stack([edge.distance(xi, eta, sine, cosine) for edge in self.mask.edges])
+            distance, label = each.min(0), -1 - each.argmin(0)
+        else:
+            distance = circle_exit(1.0, xi, eta, sine, cosine)
+            label = np.zeros(distance.shape, int)
+        if OBSCURATION in self.within:
+            near = circle_exit(self.mask.obscuration, xi, eta, sine, cosine)
+            label = np.where(near < distance, LEFT_OBSCURATION, label)
+            distance = np.minimum(near, distance)
+        return distance, label
+
+    def edge(
+        self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return how far inner points lie from the region's edge along directions, and what ends it there."""
+        outer, label = self.limit(xi, eta, sine, cosine)
+        whole, ended = self.holds(xi + outer * sine, eta + outer * cosine)
+        low, high = np.zeros_like(outer), outer.copy()
+        for _ in range(0 if whole.all() else BISECTIONS):
+            middle = (low + high) / 2
+            inside, why = self.holds(xi + middle * sine, eta + middle * cosine)
+            low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+            ended = np.where(inside, ended, why)
+        return np.where(whole, outer, low), np.where(whole, label, ended)
+
+
+@dataclass(frozen=True)
+class Outline:
+    """The centre of a region, and the ends of the intervals of direction, from +η towards +ξ, where it is smooth."""
+
+    xi: float
+    eta: float
+    corners: tuple[float, ...]
+
+
+def holes_of(lens: Lens) -> tuple[int, ...]:
+    """Return the surfaces that have a hole or cast a shadow, from 1."""
+    return tuple(number for number, surface in enumerate(lens.surfaces, 1) if surface.inner_radius > 0)
+
+
+def check_without_holes(lens: Lens, clip: bool) -> None:
+    """Raise GeometryError where rims clip and a surface has a hole, for what takes the clear part to have none."""
+    if clip and holes_of(lens):
+        raise GeometryError(
+            "surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} "
+            "off, or take the hole as an obscuration of the stop",
+            parameter="clip",
+            surface=holes_of(lens)[0],
+        )
+
+
+def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool, mask: PupilMask) -> ClearNodes:
+    """Return nodes over what mask, rims, holes and lost rays leave open; GeometryError where that is nothing."""
+    check_aligned(lens, Message("the search for rims in the pupil"))
+    region = Region(lens, source, clip, mask)
+    shadows = (*((OBSCURATION,) if mask.obscuration else ()), *(holes_of(lens) if clip else ()))
+    outline = outline_of(region)
+    if outline is None:
+        raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
+    pieces, empty = [_nodes(region, outline, counts, 1)], list[tuple[int, ...]]()
+    for size in range(1, len(shadows) + 1):
+        for some in combinations(shadows, size):
+            if any(set(none) <= set(some) for none in empty):
+                continue
+            part = replace(region, within=some)
+            shape = outline_of(part)
+            if shape is None:
+                empty.append(some)
+            else:
+                pieces.append(_nodes(part, shape, counts, (-1) ** size))
+    for angle in mask.vane_angles:
+        pieces += _vane(region, shadows, angle, counts[0])
+    if mask.even:
+        pieces = [(xi, eta, 2 * area) for xi, eta, area in pieces if xi.mean() > 0]
+    xi, eta, area = (np.concatenate(column) for column in zip(*pieces, strict=True))
+    return shaded_nodes(mask, xi, eta, area, mask.even)
+
+
+@lru_cache(maxsize=64)
+def outline_of(region: Region) -> Outline | None:
+    """Return the centre and the corners of a region; None where it is empty."""
+    found = _centre(region)
+    if found is None:
+        return None
+    turn = pi if region.mask.even else 2 * pi
+    count = SCAN // 2 if region.mask.even else SCAN
+    theta = (np.arange(count) + 0.5) * (turn / count)
+    label = _along(region, found, theta)[1]
+    if not region.mask.even:  # the last direction and the first are neighbours
+        theta, label = np.append(theta, theta[0] + turn), np.append(label, label[0])
+    change = np.flatnonzero(np.diff(label))
+    low, high, first = theta[change], theta[change + 1], label[change]
+    for _ in range(CORNER_BISECTIONS if change.size else 0):
+        middle = (low + high) / 2
+        same = _along(region, found, middle)[1] == first
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    corners = ((low + high) / 2).tolist()
+    if region.mask.even:
+        return Outline(*found, (0.0, *corners, pi))
+    return Outline(*found, (*corners, corners[0] + turn) if corners else (0.0, turn))
+
+
+def _along(region: Region, centre: tuple[float, float], theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    one = np.ones_like(theta)
+    return region.edge(centre[0] * one, centre[1] * one, np.sin(theta), np.cos(theta))
+
+
+def _centre(region: Region) -> tuple[float, float] | None:
+    """Return a point well inside a region: where the axis of a hole is seen through it, else the mean of its points."""
+    xi, eta = hexapolar(SEARCH_RINGS)
+    tried = [_axis_seen(region, number) for number in region.within]
+    for place in (place for place in tried if place is not None):
+        if _inside(region, np.zeros(1), np.array([place]))[0]:
+            return 0.0, place
+    inside = _inside(region, xi, eta)
+    if not inside.any():
+        return None
+    middle = (0.0 if region.mask.even else float(xi[inside].mean())), float(eta[inside].mean())
+    if not _inside(region, np.array(middle[:1]), np.array(middle[1:]))[0]:
+        raise GeometryError(
+            "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",
+            parameter="clip",
+        )
+    return middle
+
+
+def _inside(region: Region, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    """Return which points of the disc lie in the region, the iris and the obscuration included."""
+    inside, _ = region.holds(xi, eta)
+    for edge in region.mask.edges:
+        inside = inside & edge.lies_inside(xi, eta)
+    if OBSCURATION in region.within:
+        inside = inside & (xi * xi + eta * eta < region.mask.obscuration**2)
+    return inside
+
+
+def _axis_seen(region: Region, number: int) -> float | None:
+    """Return the η at which a ray in the plane ξ = 0 meets the axis on a surface; None where none of the pupil does."""
+    if number == OBSCURATION:
+        return 0.0
+
+    def height(eta: np.ndarray) -> np.ndarray:
+        rays = pupil_rays(region.lens, region.source, 0 * eta, eta)
+        y: np.ndarray = run(region.lens, start(rays), rays.index, last=number).y
+        return y
+
+    eta = np.linspace(-1, 1, AXIS_POINTS)
+    y = height(eta)
+    change = np.flatnonzero(np.diff(np.sign(y)) != 0)
+    if not change.size:
+        return None
+    low, high = eta[change[0]], eta[change[0] + 1]
+    for _ in range(SECANTS):
+        ends = height(np.array([low, high]))
+        if ends[0] == ends[1]:
+            break
+        low, high = high, float(np.clip(low - ends[0] * (high - low) / (ends[1] - ends[0]), -1, 1))
+    return float(high)
+
+
+def _nodes(region: Region, outline: Outline, counts: tuple[int, int], sign: int) -> Piece:
+    """Return Gauss–Legendre nodes in ρ² up to the edge of a region, in directions between its corners."""
+    angles, steps = [], []
+    for low, high in pairwise(outline.corners):
+        number = max(FEWEST_PER_ARC, ceil(GAUSS_EXCESS * counts[1] * (high - low) / (2 * pi)))
+        node, weight = gauss_legendre(number)
+        angles.append((low + high + (high - low) * node) / 2)
+        steps.append((high - low) / 2 * weight)
+    theta, step = np.concatenate(angles), np.concatenate(steps)
+    radius, _ = _along(region, (outline.xi, outline.eta), theta)
+    square, weight = gauss_legendre(ring_count(counts[0], float(radius.max())))
+    rho = np.sqrt((1 + square) / 2)[:, None] * radius
+    area = sign * weight[:, None] / 4 * radius**2 * step / pi
+    return (outline.xi + rho * np.sin(theta)).ravel(), (outline.eta + rho * np.cos(theta)).ravel(), area.ravel()
+
+
+def _vane(region: Region, shadows: tuple[int, ...], angle: float, radial: int) -> list[Piece]:
+    """Return what a vane covers outside the shadows, up to where the clear part ends, with negative areas."""
+    half, count = region.mask.vane_width, region.mask.vanes
+    sine, cosine = sin(angle), cos(angle)
+    pieces = []
+    for low, high in ((-half, 0.0), (0.0, half)):
+        node, weight = gauss_legendre(FEWEST_ACROSS + ceil(radial * half / 2))
+        aside = (low + high + (high - low) * node) / 2
+        begin = np.abs(aside) / tan(pi / count) if count > 2 else np.zeros_like(aside)
+        foot = aside * cosine + begin * sine, -aside * sine + begin * cosine
+        directions = sine * np.ones_like(aside), cosine * np.ones_like(aside)
+        inner = np.zeros_like(aside)
+        for number in shadows:
+            shadow = replace(region, within=(number,))
+            if _inside(shadow, *foot).any():
+                inner = np.maximum(inner, np.where(_inside(shadow, *foot), shadow.edge(*foot, *directions)[0], 0))
+        if not region.holds(*foot)[0].all():
+            raise GeometryError(
+                "vanes meet outside the clear part of the pupil; leave {parameter} off or reduce the field",
+                parameter="clip",
+            )
+        outer = np.maximum(region.edge(*foot, *directions)[0], inner)
+        _check_open(region, shadows, foot, directions, (inner, outer))
+        place, share = gauss_legendre(radial)
+        along = (inner + outer + (outer - inner) * place[:, None]) / 2
+        area = -share[:, None] * (outer - inner) / 2 * weight * (high - low) / 2 / pi
+        pieces.append(((foot[0] + along * sine).ravel(), (foot[1] + along * cosine).ravel(), area.ravel()))
+    return pieces
+
+
+def _check_open(
+    region: Region,
+    shadows: tuple[int, ...],
+    foot: tuple[np.ndarray, np.ndarray],
+    directions: tuple[np.ndarray, np.ndarray],
+    ends: tuple[np.ndarray, np.ndarray],
+) -> None:
+    """Raise GeometryError where a vane enters a shadow farther out, and so is no single strip."""
+    part = (np.arange(TRIED_ALONG) + 0.5)[:, None] / TRIED_ALONG
+    along = ends[0] + (ends[1] - ends[0]) * part
+    xi, eta = ((a + along * b).ravel() for a, b in zip(foot, directions, strict=True))
+    for number in shadows:
+        if _inside(replace(region, within=(number,)), xi, eta).any():
+            raise GeometryError(
+                "a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or take the "
+                "vanes away",
+                parameter="clip",
+                surface=number,
+            )
