@@ -8,6 +8,7 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.shape_words import shape_words
 from p2sf.lens.shapes import RadialPolynomial, Shape
 from p2sf.lensfile import conjugates
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
@@ -262,6 +263,9 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
         wavelengths=lens.wavelengths_nm,
         angles=lens.fields_deg,
     )
+    for number, surface in enumerate(lens.surfaces, 1):
+        for words in shape_words(surface):
+            notes.add("read", "{shape}", number, shape=words)
     if raw.unit_mm != 1:
         notes.add("read", "lengths converted to mm from units of {unit:g} mm", unit=raw.unit_mm)
     if isfinite(raw.object_distance):

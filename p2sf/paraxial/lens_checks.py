@@ -8,9 +8,11 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.positions import steps_between
+from p2sf.lens.shapes import Qbfs, Qcon
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import named_stop, stop_rim
 
+BEYOND = 1.001  # of the normalisation radius: less is rounding
 AIR_LIKE = 1.01  # an index up to which a medium is a gas
 
 
@@ -22,7 +24,8 @@ def lens_checks(lens: Lens) -> tuple[Message, ...]:
     Raises GlassError for a reference wavelength outside a glass's data.
     """
     rims = (_rim_beyond_its_sphere(number, surface) for number, surface in enumerate(lens.surfaces, 1))
-    found = (*rims, _stop_beyond_its_sphere(lens), *_negative_glass(lens), _nothing_bends(lens))
+    shapes = (_rim_beyond_its_shape(number, surface) for number, surface in enumerate(lens.surfaces, 1))
+    found = (*rims, *shapes, _stop_beyond_its_sphere(lens), *_negative_glass(lens), _nothing_bends(lens))
     return (*(warning for warning in found if warning), *steps_between(lens))
 
 
@@ -43,6 +46,20 @@ def _rim_beyond_its_sphere(number: int, surface: Surface) -> Message | None:
         rim=surface.semi_diameter,
         radius=surface.radius,
         edge=edge(surface),
+    )
+
+
+def _rim_beyond_its_shape(number: int, surface: Surface) -> Message | None:
+    """Return a warning for a rim beyond the normalisation radius, where Forbes's polynomials grow fast."""
+    shape = surface.shape
+    if not isinstance(shape, Qbfs | Qcon) or not shape.normalisation_mm * BEYOND < surface.semi_diameter < inf:
+        return None
+    return Message(
+        "surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm "
+        "up to which its polynomials describe it; correct one of the two",
+        surface=number,
+        rim=surface.semi_diameter,
+        radius=shape.normalisation_mm,
     )
 
 
@@ -80,7 +97,7 @@ def _negative_glass(lens: Lens) -> Iterator[Message]:
 
 def _nothing_bends(lens: Lens) -> Message | None:
     index = indices(lens, lens.reference_wavelength_um)
-    if np.ptp(index):
+    if np.ptp(index) or any(surface.diffraction for surface in lens.surfaces):
         return None
     return Message(
         "every medium of this lens has the index {index:g}, so no surface bends light; name its glasses",

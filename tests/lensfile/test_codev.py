@@ -10,7 +10,7 @@ from p2sf.lens import RadialPolynomial
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import paraxial_rays, working_f_number
-from tests.support.lens_files import FOLDER, read, refused_at
+from tests.support.lens_files import FOLDER, read, read_file, refused_at
 
 DOUBLET, PRIVATE = "doublet.seq", "private.seq"
 
@@ -138,6 +138,7 @@ def test_a_published_hybrid_of_plastic():
     phase = lens.surfaces[0].diffraction
     assert (phase.order, phase.normalisation_mm) == (1.0, 1.0)
     assert phase.coefficients == (pytest.approx(-0.001807322521767816 * 2 * np.pi / 587.5618e-6, rel=1e-14),)
+    assert "diffracts in order 1: normalisation radius 1 mm" in read_file(FOLDER / "hybrid.seq").report.text
     back = {nm: float(cardinal_points(lens, nm / 1e3).back_focal_distance) for nm in lens.wavelengths_nm}
     assert back[587.5618] == pytest.approx(lens.sensor_mm, abs=1e-4)
     assert back[486.1327] == pytest.approx(back[656.2725], abs=1e-3)

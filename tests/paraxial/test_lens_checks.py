@@ -7,12 +7,14 @@ import pytest
 
 from p2sf.cli import main
 from p2sf.glass.media import ConstantIndex
+from p2sf.lens import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.lens_checks import edge, lens_checks
 from tests.support.mirrors import classical, mangin, telescope, two_mirrors
 
 GLASS = ConstantIndex(1.5)
+STOP = Surface(-40.0, 20.0)
 
 
 def singlet(rim=5.0, stop=2.0, conic=0.0, glass=GLASS, stop_surface=1) -> Lens:
@@ -72,3 +74,17 @@ def test_info_warns_and_still_answers(tmp_path, capsys):
     output, error = capsys.readouterr()
     assert "effective focal length" in output
     assert error.count("warning: ") == error.count("\n") == 2
+
+
+def test_rims_beyond_the_polynomials_of_forbes_and_a_kinoform_that_bends_without_glass():
+    def warned(shape, rim):
+        lens = replace(singlet(glass=GLASS), surfaces=(Surface(30.0, 3.0, GLASS, shape=shape, semi_diameter=rim), STOP))
+        return [message.text() for message in lens_checks(lens)]
+
+    for make in (Qbfs, Qcon):
+        (words,) = warned(make((1e-3,), 8.0), 9.0)
+        assert "surface 1 has a clear semi-diameter of 9 mm, beyond the normalisation radius of 8 mm" in words
+        assert not warned(make((1e-3,), 8.0), 8.0)
+    assert not warned(RadialPolynomial((0.0, 1e-3), 8.0), 9.0)
+    flat = Lens((Surface(diffraction=Diffraction((-100.0,), 5.0), thickness=50.0),), Aperture("f_number", 10.0), 1)
+    assert lens_checks(flat) == ()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
 from p2sf.messages import Message, Number
 from p2sf.paraxial.seidel import check_seidel
 from p2sf.paraxial.wavefront import steepest_slope
@@ -191,11 +192,23 @@ def rendered(
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
     else:
         method, why = (kept_method, NO_REASON) if kept_method else chosen(state, setup)
-    if method == "seidel":
-        check_seidel(setup.lens)
+    refused = without_coefficients(setup.lens) if method == "seidel" and not state.what_if.free_pupil else None
+    if refused:
+        method = "traced"  # for the pupil; the picture itself is covered
+    elif method == "seidel":
         check_image(setup.coefficients)
     task = Task(state, setup, method, why, least, cache)
-    return moving(task, quality) if quality == "preview" else resting(task)
+    picture = moving(task, quality) if quality == "preview" else resting(task)
+    return replace(picture, refused=refused) if refused else picture
+
+
+def without_coefficients(lens: Lens) -> Message | None:
+    """Return why a lens has no six coefficients, None where it has."""
+    try:
+        check_seidel(lens)
+    except GeometryError as error:
+        return error.message
+    return None
 
 
 def resting(task: Task) -> Rendered:

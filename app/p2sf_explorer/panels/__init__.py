@@ -88,7 +88,7 @@ REGISTRY = (
     tab("Rays", "spot", "Spot", "8.3", "spot:SpotPanel", "rays:spots"),
     tab("Rays", "ray_fan", "Ray fan", "8.3", "fans:RayFanPanel", "rays:ray_errors"),
     tab("Rays", "opd_fan", "OPD fan", "4.3", "fans:OpdFanPanel", "rays:path_errors"),
-    tab("Aberrations", "coefficients", "Coefficients", "3.2", "coefficients:CoefficientsPanel"),
+    tab("Aberrations", "coefficients", "Coefficients", "3.2", "coefficients:CoefficientsPanel", "seidel:six"),
     tab("Aberrations", "pupil", "Pupil", "3.1", "pupil:PupilPanel"),
     tab("Aberrations", "seidel", "Seidel per surface", "3.2", "seidel:SeidelPanel", "seidel:per_surface"),
     tab("Aberrations", "zernike", "Zernike", "3.4", "zernike:ZernikePanel", "zernike:zernike"),

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
-from p2sf.paraxial.seidel import chromatic_sums, seidel_sums
+from p2sf.paraxial.seidel import Coefficients, check_seidel, chromatic_sums, seidel_sums
 from p2sf_explorer.compute.live import Live
 
 
@@ -21,6 +21,13 @@ class PerSurface:
     waves: dict[str, np.ndarray]
     stop_surface: int
     colours_nm: tuple[float, float]
+
+
+def six(live: Live) -> Coefficients:
+    """Return the coefficients of the picture; GeometryError for a lens that has none, unless its pupil is free."""
+    if not live.state.what_if.free_pupil:
+        check_seidel(live.setup.lens)
+    return live.setup.coefficients
 
 
 def per_surface(live: Live) -> PerSurface:

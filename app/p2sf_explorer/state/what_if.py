@@ -57,8 +57,9 @@ def altered(own: Coefficients, state: State) -> Coefficients:
     if not is_altered(state):
         return own
     added = dict(zip(TERMS, state.what_if.added_waves, strict=True))
-    base = 0.0 if state.what_if.free_pupil else 1.0
-    return replace(own, **{t: (base * getattr(own, t) + added[t]) * is_heard(state, t) for t in TERMS})
+    free = state.what_if.free_pupil
+    made: dict[str, Any] = {t: (0.0 if free else getattr(own, t)) + added[t] for t in TERMS}
+    return replace(own, **{t: value * is_heard(state, t) for t, value in made.items()})
 
 
 def with_added(state: State, term: str, waves: float) -> tuple[float, ...]:

@@ -5,6 +5,7 @@ from PySide6.QtGui import QBrush, QHideEvent, QKeyEvent, QMouseEvent, QPainter
 from PySide6.QtWidgets import QStyledItemDelegate, QStyleOptionViewItem, QTableView, QWidget
 
 from p2sf_explorer.compute.editing import written
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.results.lens_table import COLUMNS, Rows
 from p2sf_explorer.widgets.scrub import Scrub, claimed
@@ -176,7 +177,12 @@ class SurfaceModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.EditRole and key != "stop":
             text = written(self._rows.lens.surfaces[row], key, full=True)
             return text if key == "medium" else local(text)
-        return tr(HEADS[key][1]) if role == Qt.ItemDataRole.ToolTipRole else None
+        return self._tip(row, key) if role == Qt.ItemDataRole.ToolTipRole else None
+
+    def _tip(self, row: int, key: str) -> str:
+        """Return what a column means, and of aspheric terms the shape of the surface that is added to them."""
+        shapes = self._rows.shapes[row][1] if self._rows and key == "aspheric" and self._rows.shapes else ()
+        return "\n\n".join([tr(HEADS[key][1]), *map(said, shapes)])
 
     def setData(self, index: Index, value: str, role: int = Qt.ItemDataRole.EditRole) -> bool:
         """Emit what was typed, unless it is what was there."""
@@ -210,4 +216,6 @@ class LocalNumbers(QStyledItemDelegate):
 def entries(rows: Rows, row: int) -> tuple[str, ...]:
     """Return a surface's entries in the order of the columns, with a mark for the stop."""
     texts = rows.texts[row]
-    return (*texts[:STOP], "●" if row + 1 == rows.stop else "○", *texts[STOP:])
+    shapes = map(said, rows.shapes[row][0]) if rows.shapes else ()
+    terms = "  + ".join(filter(None, (texts[-1], *shapes)))
+    return (*texts[:STOP], "●" if row + 1 == rows.stop else "○", *texts[STOP:-1], terms)

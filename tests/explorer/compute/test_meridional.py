@@ -1,17 +1,20 @@
 import numpy as np
 import pytest
 
+from p2sf.lens import Surface
+from p2sf.lens.even_terms import sag
 from p2sf.lens.lens import AIMS, indices, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.pupils import find_stop
 from p2sf.raytrace.pencil import Status, pupil_rays, trace
-from p2sf_explorer.compute.glass_outlines import glass_of
+from p2sf_explorer.compute.glass_outlines import glass_of, profile
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.meridional import aimed, path
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, prescription
 from p2sf_explorer.state.state import changed
 from tests.support.mirrors import aplanatic, mangin, telescope, two_mirrors
+from tests.support.shaped_lenses import PARTS, QBFS, UNSEEN_BY_SEIDEL, singlet, two_shaped_mirrors
 
 
 @pytest.mark.parametrize("name", shipped_lenses())
@@ -48,6 +51,28 @@ def test_plain_numbers_are_reflected_where_the_arrays_are(lens):
         start, direction = (a[k, :0:-1].tolist() for a in (origins, directions))
         z, y, passed = path(lens, index, wavelength, start, direction)
         assert passed and np.allclose(np.stack([z, y]), exact.points[1:, k, :0:-1].T, rtol=0, atol=1e-11 * size)
+
+
+@pytest.mark.parametrize("make", [singlet, two_shaped_mirrors])
+@pytest.mark.parametrize("parts", [*PARTS.values(), *UNSEEN_BY_SEIDEL.values()], ids=[*PARTS, *UNSEEN_BY_SEIDEL])
+def test_plain_numbers_meet_shapes_and_are_diffracted_where_the_arrays_are(make, parts):
+    lens, eta = make(*parts), np.linspace(-1, 1, 5)
+    rays = pupil_rays(lens, Source(np.inf, 0.03, 0.55), np.zeros(5), eta)
+    exact = trace(lens, rays.origins, rays.directions, 0.55)
+    index = indices(lens, 0.55).tolist()
+    origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
+    for k in range(5):
+        start, direction = (a[k, :0:-1].tolist() for a in (origins, directions))
+        z, y, passed = path(lens, index, 0.55, start, direction)
+        # Newton's method ends at 1e-12 mm here.
+        assert passed and np.allclose(np.stack([z, y]), exact.points[1:, k, :0:-1].T, rtol=0, atol=1e-10)
+
+
+def test_a_section_is_drawn_with_the_sag_of_its_shape():
+    surface = Surface(60.0, shape=QBFS)
+    z, y = profile(surface, 5.0, 8.0)
+    assert z == pytest.approx(5.0 + sag(surface, np.abs(y)), abs=1e-14) and len(y) > 2
+    assert len(profile(Surface(shape=QBFS), 0.0, 8.0)[1]) > 2, "not a straight line"
 
 
 def test_mirrors_are_drawn_and_glass_that_light_crosses_twice_is_drawn_once():

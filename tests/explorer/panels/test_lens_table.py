@@ -9,7 +9,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit
 
 from p2sf.errors import GeometryError, GlassError
+from p2sf.lens.lens import with_sensor
 from p2sf.lensfile import load_lens
+from p2sf.lensfile.toml import write_toml
+from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import f_number
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute.editing import deleted, edited_state, inserted, with_stop, with_value
@@ -18,6 +21,7 @@ from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.widgets.surface_table import KEYS
 from tests.explorer.shell.test_window import changed, pictures
+from tests.support.shaped_lenses import ODD, PHASE, singlet
 
 LENS = "double_gauss_28"
 
@@ -235,3 +239,43 @@ def test_back_to_file_drops_the_edits(window, table, typed, qtbot):
     qtbot.mouseClick(table.buttons["_revert"], Qt.MouseButton.LeftButton)
     assert window.store.state.optics.lens_text is None
     assert not table.buttons["_revert"].isEnabled()
+
+
+SHAPED = singlet({"shape": ODD, "aspheric": (1e-7,)}, {"diffraction": PHASE})
+
+
+def test_shapes_and_diffraction_are_named_and_kept_while_their_terms_are_edited(window, typed, tmp_path):
+    """The cell of the terms says what is added to them, its tip with the numbers; typing leaves that alone."""
+    window.commands.open_path(str(saved(SHAPED, tmp_path)))
+    window.open_panel("lens")
+    model = window.panels["lens"].model
+    column = KEYS.index("aspheric")
+    cells = [model.data(model.index(row, column)) for row in range(3)]
+    assert cells == ["", "1e−07  + Odd asphere", "Diffractive"]
+    tips = [model.data(model.index(row, column), Qt.ItemDataRole.ToolTipRole) for row in range(3)]
+    assert "3e−05" in tips[1] and "order 1" in tips[2] and "−2500" in tips[2] and "phase" not in tips[0]
+    assert model.data(model.index(1, column), Qt.ItemDataRole.EditRole) == "1e-07"
+    typed(1, "aspheric", "2e-7")
+    edited = prescription(window.store.state).surfaces[1]
+    assert edited.aspheric == (2e-7,) and edited.shape == ODD
+    typed(1, "radius", "45")
+    assert prescription(window.store.state).surfaces[1].shape == ODD
+
+
+def test_a_lens_without_seidel_sums_has_a_picture_and_says_so_beside_its_coefficients(window, tmp_path):
+    window.commands.open_path(str(saved(SHAPED, tmp_path)))
+    window.store.update(method="seidel")
+    assert "Surface 2 has a term in r³" in window.panels["psf"].widget.overlay.text
+    window.store.update(method="auto")
+    assert window.live.method in ("fitted", "traced") and window.live.psf.values.max() > 0
+    window.open_panel("coefficients")
+    assert "Surface 2 has a term in r³" in window.panels["coefficients"].widget.overlay.text
+    window.store.update(free_pupil=True, added_waves=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    assert window.live.psf.method == "seidel" and not window.panels["coefficients"].widget.overlay.text
+
+
+def saved(lens, folder):
+    """Return the path of a lens file, its sensor in focus."""
+    focused = with_sensor(lens, float(image_distance(lens, inf, lens.reference_wavelength_um)))
+    write_toml(focused, folder / "shaped.toml")
+    return folder / "shaped.toml"

@@ -428,6 +428,8 @@
 <message><source>Put the source at infinity</source><translation>Die Quelle ins Unendliche setzen</translation></message>
 <message><source>Put the sweep away</source><translation>Durchlauf wegräumen</translation></message>
 <message><source>Put this panel on the stage (double-click its title, or drag it there)</source><translation>Diese Ansicht auf die Bühne stellen (Doppelklick auf den Titel, oder dorthin ziehen)</translation></message>
+<message><source>Qbfs asphere</source><translation>Qbfs-Asphäre</translation></message>
+<message><source>Qcon asphere</source><translation>Qcon-Asphäre</translation></message>
 <message><source>Qt needs the library libxcb-cursor to open a window on X11; run apt-get install libxcb-cursor0</source><translation>Qt braucht die Bibliothek libxcb-cursor, um auf X11 ein Fenster zu öffnen; apt-get install libxcb-cursor0 ausführen</translation></message>
 <message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts; RMS der Strahlen {rms} µm; {method}</translation></message>
 <message><source>R80 {radius} µm</source><translation>R80 {radius} µm</translation></message>
@@ -928,7 +930,9 @@
 <message><source>did you mean {glasses}?</source><translation>ist {glasses} gemeint?</translation></message>
 <message><source>did you mean {name}?</source><translation>ist {name} gemeint?</translation></message>
 <message><source>difference, % of the peak</source><translation>Differenz, % der Spitze</translation></message>
+<message><source>diffractive</source><translation>diffraktiv</translation></message>
 <message><source>diffracts</source><translation>beugt</translation></message>
+<message><source>diffracts in order {order:g}: normalisation radius {radius:g} mm, phase in rad of ρ², ρ⁴, … {numbers:.6g}</source><translation>beugt in Ordnung {order:g}: Normierungsradius {radius:g} mm, Phase in rad von ρ², ρ⁴, … {numbers:.6g}</translation></message>
 <message><source>distance</source><translation>Abstand</translation></message>
 <message><source>distance "{name}" has no value in [variable distances]; add it</source><translation>der Abstand "{name}" hat keinen Wert in [variable distances]; hinzufügen</translation></message>
 <message><source>distance from the chief ray, µm</source><translation>Entfernung vom Hauptstrahl, µm</translation></message>
@@ -965,6 +969,8 @@
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
 <message><source>exact rays, since {because}</source><translation>exakte Strahlen, denn {because}</translation></message>
 <message><source>exact rays, this field</source><translation>exakt, dieses Feld</translation></message>
+<message><source>extended asphere</source><translation>erweiterte Asphäre</translation></message>
+<message><source>extended odd asphere</source><translation>erweiterte ungerade Asphäre</translation></message>
 <message><source>extra data</source><translation>Zusatzdaten</translation></message>
 <message><source>f number</source><translation>Blendenzahl</translation></message>
 <message><source>f number {value:.6g}</source><translation>Blendenzahl {value:.6g}</translation></message>
@@ -1174,6 +1180,8 @@
 <message><source>object space</source><translation>Objektraum</translation></message>
 <message><source>object {h} mm</source><translation>Objekt {h} mm</translation></message>
 <message><source>obscuration</source><translation>Abschattung</translation></message>
+<message><source>odd asphere</source><translation>ungerade Asphäre</translation></message>
+<message><source>odd asphere: coefficients of r, r², … in mm {numbers:.6g}</source><translation>ungerade Asphäre: Koeffizienten von r, r², … in mm {numbers:.6g}</translation></message>
 <message><source>of light</source><translation>des Lichts</translation></message>
 <message><source>of peak</source><translation>der Spitze</translation></message>
 <message><source>off</source><translation>aus</translation></message>
@@ -1372,6 +1380,7 @@
 <message><source>surface {surface} ({label})</source><translation>Fläche {surface} ({label})</translation></message>
 <message><source>surface {surface} differs between columns in its aspheric terms or in a medium without a name, for which a Zemax file has no line; save as TOML</source><translation>Fläche {surface} unterscheidet sich zwischen Spalten in asphärischen Termen oder in einem Medium ohne Namen, wofür eine Zemax-Datei keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} diffracts and has terms other than even ones up to r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} beugt und hat andere Glieder als gerade bis r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm up to which its polynomials describe it; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, jenseits des Normierungsradius von {radius:g} mm, bis zu dem ihre Polynome sie beschreiben; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} off, or take the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
@@ -1788,6 +1797,7 @@
 <message><source>{kind} has its columns at {places}; give finite numbers that ascend</source><translation>{kind} hat seine Spalten bei {places}; endliche, aufsteigende Zahlen angeben</translation></message>
 <message><source>{kind} has two columns of one name: {names}; rename one</source><translation>{kind} hat zwei Spalten eines Namens: {names}; eine umbenennen</translation></message>
 <message><source>{kind} has {columns} columns at {places} places; give at least two, and one place for each</source><translation>{kind} hat {columns} Spalten an {places} Orten; mindestens zwei angeben, und für jede einen Ort</translation></message>
+<message><source>{kind}: normalisation radius {radius:g} mm, coefficients {numbers:.6g} mm</source><translation>{kind}: Normierungsradius {radius:g} mm, Koeffizienten {numbers:.6g} mm</translation></message>
 <message><source>{lost} of {rays} rays are lost, and a smooth pupil does not describe that</source><translation>{lost} von {rays} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field</source><translation>{lost} von {total} Strahlen erreichen den Sensor nicht; abblenden oder das Feld verkleinern</translation></message>
 <message><source>{lost} rays lost</source><translation>{lost} Strahlen verloren</translation></message>
