@@ -66,7 +66,8 @@ def psf_of_fit(
 def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
     """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and the nodes it took."""
     dtype = np.float64 if quality == "settled" else np.float32
-    parts = discs(found, pixels, pixel_um, quality) if takes_rows(found.mask) else None
+    in_rows = takes_rows(found.mask) and not found.level.skew
+    parts = discs(found, pixels, pixel_um, quality) if in_rows else None
     if parts is None:
         counts = counts_for(found.steepness, pixels, pixel_um)
         if counts[0] * counts[1] > MOST_NODES:
@@ -82,7 +83,7 @@ def fitted_intensity(
     found: FittedPencil, counts: tuple[int, int], pixels: int, pixel_um: float, dtype: DTypeLike = np.float64
 ) -> np.ndarray:
     """Return |Σ weight·exp(2πi(w + f·x))|² of a fit over its open pupil, (pixels, pixels): the plain sum."""
-    nodes, axis = mask_nodes(found.mask, *counts), centred_axis(pixels, pixel_um)
+    nodes, axis = _nodes(found.mask, *counts, bool(found.level.skew)), centred_axis(pixels, pixel_um)
     weight = nodes.weight * nodes.amplitude * found.weight_at(nodes.xi, nodes.eta)
     weight /= weight.sum() / nodes.weight.sum()
     field = np.zeros((pixels, pixels), np.result_type(dtype, np.complex64))
@@ -96,9 +97,9 @@ def fitted_intensity(
 
 def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: tuple[int, int]) -> Iterator[tuple[slice, Values]]:
     """Yield phase, fx and fy of a fit at its nodes, in blocks: of millions of nodes a basis takes gigabytes."""
-    orders = max(found.level.wave_order, found.level.map_order), found.level.map_order
+    orders, skew = found.level.orders, bool(found.level.skew)
     if nodes.xi.size <= MOST_KEPT // 2:
-        even, odd = (_kept_basis(orders[flag], *counts, flag, found.mask) for flag in (False, True))
+        even, odd = (_kept_basis(orders[flag], *counts, flag, found.mask, skew) for flag in (False, True))
         yield slice(0, nodes.xi.size), found.on(even, odd)
         return
     for begin in range(0, nodes.xi.size, MOST_KEPT):
@@ -108,6 +109,12 @@ def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: tuple[int, int]) -
 
 
 @lru_cache(maxsize=8)
-def _kept_basis(order: int, radial: int, angular: int, odd: bool, mask: PupilMask) -> np.ndarray:
-    nodes = mask_nodes(mask, radial, angular)
+def _kept_basis(order: int, radial: int, angular: int, odd: bool, mask: PupilMask, skew: bool) -> np.ndarray:
+    nodes = _nodes(mask, radial, angular, skew)
     return basis(order, nodes.xi, nodes.eta, odd)
+
+
+def _nodes(mask: PupilMask, radial: int, angular: int, skew: bool) -> ClearNodes:
+    """Return nodes over the open pupil, for a fit without symmetry over all of it."""
+    nodes = mask_nodes(mask, radial, angular)
+    return nodes.unfolded() if skew else nodes

@@ -16,7 +16,7 @@ import numpy as np
 
 from p2sf.conventions import centred_axis
 from p2sf.errors import Cancelled, GeometryError, SamplingError
-from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
@@ -81,7 +81,6 @@ def huygens_psf(
     GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there, and the
     radiometric amplitude is refused.
     """
-    check_aligned(lens, Message("the method huygens"))
     started = perf_counter()
     window = pixels, pixel_um
     pupil = fit(lens, source) if amplitude == "radiometric" else None
@@ -154,7 +153,7 @@ def first_counts(lens: Lens, source: Source, window: Window, clip: bool) -> Coun
 
     Raises GeometryError where no ray passes, SamplingError where more than MOST_NODES nodes would be needed.
     """
-    xi, eta = _probe()
+    xi, eta = _probe(lens.misaligned)
     rays = _probing(lens, source)
     if not rays.passed.any():
         raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
@@ -172,11 +171,15 @@ def first_counts(lens: Lens, source: Source, window: Window, clip: bool) -> Coun
     return radial, angular
 
 
-@lru_cache(maxsize=1)
-def _probe() -> tuple[np.ndarray, np.ndarray]:
-    """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest."""
+@lru_cache(maxsize=2)
+def _probe(both: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest.
+
+    ``both`` halves of the disc, or the half ξ > 0.
+    """
     nodes, angle = disc_nodes(*PROBE), np.linspace(0, np.pi, PROBE[1])
-    return np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
+    xi, eta = np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
+    return (np.append(xi, -xi), np.tile(eta, 2)) if both else (xi, eta)
 
 
 def huygens_field(
@@ -240,7 +243,7 @@ def all_reach(lens: Lens, source: Source) -> bool:
 @lru_cache(maxsize=4)
 def _probing(lens: Lens, source: Source) -> Pencil:
     """Return the coarse pencil, which says both how steep the phase is and whether all rays reach the sensor."""
-    return pencil(lens, source, *_probe())
+    return pencil(lens, source, *_probe(lens.misaligned))
 
 
 def _block(lens: Lens, source: Source, nodes: ClearNodes) -> tuple[RayData, np.ndarray]:

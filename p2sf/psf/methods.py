@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, RequestError, SamplingError
-from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
@@ -32,7 +32,17 @@ from p2sf.psf.seidel import (
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES, Judges, behind, fit, fit_rays, judging_rays, level_rays, levels
+from p2sf.raytrace.fit import (
+    LEVELS,
+    RESIDUAL_WAVES,
+    Judges,
+    behind,
+    fit,
+    fit_rays,
+    judging_rays,
+    level_rays,
+    levels_for,
+)
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data, steepness
 from p2sf.raytrace.seen_mask import mask_seen
@@ -109,10 +119,9 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
     Raises GeometryError where the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
     """
-    check_aligned(lens, Message("the choice of a method"))
     _check_tolerance(tolerance, BELOW_ONE)
     allowed = 1 - tolerance
-    xi, eta, weight = level_rays(QUICK_LEVELS[0])
+    xi, eta, weight = level_rays(levels_for(lens)[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
     if not rays.passed.all():
         # Only rays know an edge: neither six coefficients nor a fit do.
@@ -126,7 +135,7 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
     if seidel <= allowed:
         return tried
-    for level in levels(lens.aim)[: len(QUICK_LEVELS)]:
+    for level in levels_for(lens)[: len(QUICK_LEVELS)]:
         found = fit_rays(data, level, level.rays, steep)
         found = found if judges is None else behind(found, judges)
         fitted = predicted_error(found.error_waves, "fitted")
@@ -149,7 +158,7 @@ def _by_rays(tried: Choice, error: float) -> Choice:
 
 def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
     """Return the predicted 1 − R² of six coefficients ``c``; infinite where rays are lost, which they cannot know."""
-    xi, eta, weight = level_rays(QUICK_LEVELS[0])
+    xi, eta, weight = level_rays(levels_for(lens)[0])
     try:
         rays = pencil(lens, source, xi, eta)
     except GeometryError:  # not even the chief ray arrives
@@ -264,7 +273,7 @@ def _by_tracing(lens: Lens, source: Source, method: str, window: tuple[int, floa
 
 
 def _check_unclipped(lens: Lens, source: Source, method: str) -> None:
-    xi, eta, _ = level_rays(QUICK_LEVELS[0])
+    xi, eta, _ = level_rays(levels_for(lens)[0])
     lost = int((~pencil(lens, source, xi, eta, clip=True).passed).sum())
     if lost:
         raise GeometryError(

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.disc_rows import Disc, EdgeField, discs, edge_field, intensity_over, takes_rows
@@ -56,7 +56,6 @@ def traced_psf(
     reference is, to FALLBACK_TOLERANCE, which takes long: ``cancelled`` is called between blocks of them (`Cancelled`).
     Raises GeometryError where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
     """
-    check_aligned(lens, Message("the method traced"))
     started = perf_counter()
     parts = None if clip else _parts(lens, source, (pixels, pixel_um), quality)
     if parts is None:
@@ -77,11 +76,11 @@ def traced_psf(
 
 def in_rows(lens: Lens, source: Source) -> bool:
     """Return whether a fit puts the rays of the whole pupil in rows, so that `traced_psf` is fast."""
-    return takes_rows(mask_seen(lens, source)) and _fit(lens, source) is not None
+    return not lens.misaligned and takes_rows(mask_seen(lens, source)) and _fit(lens, source) is not None
 
 
 def _parts(lens: Lens, source: Source, window: tuple[int, float], quality: str) -> tuple[Disc, ...] | None:
-    found = _fit(lens, source)
+    found = None if lens.misaligned else _fit(lens, source)
     return None if found is None or not takes_rows(found.mask) else discs(found, *window, quality)
 
 

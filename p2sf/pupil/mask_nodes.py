@@ -46,6 +46,14 @@ class ClearNodes:
         amplitude, path = (x[some] if isinstance(x, np.ndarray) else x for x in (self.amplitude, self.path_um))
         return ClearNodes(self.xi[some], self.eta[some], self.weight[some], self.share, amplitude, path, self.even)
 
+    def unfolded(self) -> "ClearNodes":
+        """Return nodes over the whole disc, for light that is not even in ξ."""
+        if not self.even:
+            return self
+        amplitude, path = (np.tile(x, 2) if isinstance(x, np.ndarray) else x for x in (self.amplitude, self.path_um))
+        xi, weight = np.append(self.xi, -self.xi), np.tile(self.weight, 2) / 2
+        return ClearNodes(xi, np.tile(self.eta, 2), weight, self.share, amplitude, path, False)
+
 
 Piece = tuple[np.ndarray, np.ndarray, np.ndarray]
 """ξ, η and signed shares of the disc's area."""

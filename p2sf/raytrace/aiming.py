@@ -453,9 +453,8 @@ def _weighing_map(lens: Lens, source: Source) -> StopMap | SkewStopMap | None:
     found, enter = _cached_rough_map(lens, source), entrance(lens, source)
     if found is None:
         return None
-    (x, y), (odd, even, (odd_xi, odd_eta), (even_xi, even_eta)) = found, _rough_terms()
-    area = (x @ odd_xi) * (y @ even_eta) - (x @ odd_eta) * (y @ even_xi)
-    weight = area / enter.radius**2 * _oblique(enter, x @ odd, y @ even)
+    x, y = found
+    weight, even = _own_weight(enter, x, y, ROUGH_ORDER, ROUGH_NODES), _terms(ROUGH_ORDER, ROUGH_NODES, False)[0]
     return StopMap.of(ROUGH_ORDER, x, y, even @ (disc_nodes(*ROUGH_NODES).weight * weight))
 
 
@@ -477,13 +476,20 @@ def _rough_map(lens: Lens, enter: Entrance) -> Point | None:
     return _least_squares(odd, x), _least_squares(even, y)
 
 
-@lru_cache(maxsize=1)
-def _rough_terms() -> tuple[np.ndarray, np.ndarray, Point, Point]:
-    """Return the odd and the even terms at the nodes of the rough map, (terms, nodes), and their gradients."""
-    nodes = disc_nodes(*ROUGH_NODES)
-    odd, even = (basis(ROUGH_ORDER, nodes.xi, nodes.eta, flag) for flag in (True, False))
-    slopes = [gradient(ROUGH_ORDER, nodes.xi, nodes.eta, flag) for flag in (True, False)]
-    return odd, even, slopes[0], slopes[1]
+@lru_cache(maxsize=4)
+def _terms(order: int, counts: tuple[int, int], odd: bool) -> tuple[np.ndarray, Point]:
+    """Return the odd or the even terms at nodes of the half disc, (terms, nodes), and their gradients."""
+    nodes = disc_nodes(*counts)
+    return basis(order, nodes.xi, nodes.eta, odd), gradient(order, nodes.xi, nodes.eta, odd)
+
+
+def _own_weight(enter: Entrance, x: np.ndarray, y: np.ndarray, order: int, counts: tuple[int, int]) -> np.ndarray:
+    """Return the weights at nodes of the half disc by the areas of the map with these coefficients of x and y."""
+    odd, (odd_xi, odd_eta) = _terms(order, counts, True)
+    even, (even_xi, even_eta) = _terms(order, counts, False)
+    area = (x @ odd_xi) * (y @ even_eta) - (x @ odd_eta) * (y @ even_xi)
+    weight: np.ndarray = area / enter.radius**2 * _oblique(enter, x @ odd, y @ even)
+    return weight
 
 
 @lru_cache(maxsize=64)
@@ -498,19 +504,16 @@ def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | SkewSto
     if not np.isfinite(rays.x).all():
         return None
     true = rays.x, rays.y, np.asarray(rays.weight)
-    (odd, even), (x, y, weight) = _fine_projections(), (column[:count] for column in true)
-    found = StopMap.of(FINE_ORDER, odd @ x, even @ y, even @ weight)
+    x, y = (
+        _terms(FINE_ORDER, FINE_NODES, flag)[0] @ (nodes.weight * column[:count])
+        for flag, column in zip((True, False), true[:2], strict=True)
+    )
+    # By the map's own areas: those by differences are off by some 1e-6.
+    weight = _own_weight(enter, x, y, FINE_ORDER, FINE_NODES)
+    found = StopMap.of(FINE_ORDER, x, y, _terms(FINE_ORDER, FINE_NODES, False)[0] @ (nodes.weight * weight))
     off_x, off_y, off = (mapped - column[count:] for mapped, column in zip(found.at(*held), true, strict=True))
     exact = np.hypot(off_x, off_y).max() <= aim_error * enter.radius.item() and np.abs(off).max() <= WEIGHT_ERROR
     return found if exact else None
-
-
-@lru_cache(maxsize=1)
-def _fine_projections() -> tuple[np.ndarray, np.ndarray]:
-    """Return the matrices from values at the fine map's nodes to coefficients of the odd and of the even terms."""
-    nodes = disc_nodes(*FINE_NODES)
-    odd, even = (basis(FINE_ORDER, nodes.xi, nodes.eta, flag) * nodes.weight for flag in (True, False))
-    return odd, even
 
 
 def _least_squares(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -647,10 +650,17 @@ def _skew_weighing_map(lens: Lens, source: Source) -> SkewStopMap | None:
     found, enter = _cached_skew_map(lens, source), entrance(lens, source)
     if found is None:
         return None
-    (x, y), (rows, (along_xi, along_eta)) = found, _skew_terms(ROUGH_ORDER, ROUGH_NODES)
-    area = (x @ along_xi) * (y @ along_eta) - (x @ along_eta) * (y @ along_xi)
-    weight = area / enter.radius**2 * _oblique(enter, x @ rows, y @ rows)
+    (x, y), (rows, _) = found, _skew_terms(ROUGH_ORDER, ROUGH_NODES)
+    weight = _skew_weight(enter, x, y, ROUGH_ORDER, ROUGH_NODES)
     return SkewStopMap.of(ROUGH_ORDER, x, y, rows @ (whole_disc(*ROUGH_NODES)[2] * weight))
+
+
+def _skew_weight(enter: Entrance, x: np.ndarray, y: np.ndarray, order: int, nodes: tuple[int, int]) -> np.ndarray:
+    """Return the weights at nodes of the whole disc by the areas of a map with these coefficients."""
+    rows, (along_xi, along_eta) = _skew_terms(order, nodes)
+    area = (x @ along_xi) * (y @ along_eta) - (x @ along_eta) * (y @ along_xi)
+    weight: np.ndarray = area / enter.radius**2 * _oblique(enter, x @ rows, y @ rows)
+    return weight
 
 
 def _skew_stop_map(lens: Lens, source: Source, aim_error: float) -> SkewStopMap | None:
@@ -661,8 +671,11 @@ def _skew_stop_map(lens: Lens, source: Source, aim_error: float) -> SkewStopMap 
     if not np.isfinite(rays.x).all():
         return None
     true = rays.x, rays.y, np.asarray(rays.weight)
-    rows = _skew_terms(FINE_ORDER, FINE_NODES)[0] * area
-    found = SkewStopMap.of(FINE_ORDER, *(rows @ column[:count] for column in true))
+    rows = _skew_terms(FINE_ORDER, FINE_NODES)[0]
+    x, y = (rows @ (area * column[:count]) for column in true[:2])
+    # By the map's own areas: those by differences are off by some 1e-6 that would not cancel without symmetry.
+    weight = _skew_weight(enter, x, y, FINE_ORDER, FINE_NODES)
+    found = SkewStopMap.of(FINE_ORDER, x, y, rows @ (area * weight))
     off_x, off_y, off = (mapped - column[count:] for mapped, column in zip(found.at(*held), true, strict=True))
     exact = np.hypot(off_x, off_y).max() <= aim_error * enter.radius.item() and np.abs(off).max() <= WEIGHT_ERROR
     return found if exact else None

@@ -15,13 +15,12 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import protected
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Aim, Lens, check_aligned
+from p2sf.lens.lens import Aim, Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import mask_nodes
-from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.pupil.zernike import basis, columns, evaluate, gradient, terms
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import RayData, Steepness, ray_data, steepness
@@ -29,6 +28,7 @@ from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 
 # Rays held out of the fit to test it, on the rim, where a polynomial deviates first: (ξ, η).
 HELD_OUT = np.array([[0.0, 0.0, 1.0, 0.6], [1.0, -1.0, 0.0, 0.8]])
+SKEW_HELD_OUT_DEG = np.array([0.0, 80.0, 170.0, 260.0])  # of a lens without symmetry, from +η towards +ξ
 # RMS phase error in waves up to which an order is kept: 1 − R² then stays below some (4πσ)² = 2e-3.
 RESIDUAL_WAVES = 3.5e-3
 # Weight s^a·(1 − s)^b of a ray at s = ρ², beside its area: the centre makes the core of the PSF, and at the rim a
@@ -43,7 +43,9 @@ Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η o
 class Level:
     """The size of a fit: orders of W and of the maps, and the radii × directions of the rays it is made from.
 
-    ``weighted``: the rays have weights, a polynomial of the maps' order.
+    ``weighted``: the rays have weights, a polynomial of the maps' order. ``skew``: for a lens without symmetry, the
+    orders, of phase and of maps and weight, up to which the fit also has the terms that symmetry about η forbids. A
+    misaligned lens is nearly symmetric, so that these may end earlier. The directions are then of the whole disc.
     """
 
     wave_order: int
@@ -51,16 +53,32 @@ class Level:
     radii: int
     directions: int
     weighted: bool = False
+    skew: tuple[int, int] | None = None
 
     @property
     def numbers(self) -> int:
         """Return how many coefficients the level has."""
-        return self.unweighted_numbers + len(terms(self.map_order)) * self.weighted
+        return self.unweighted_numbers + sum(self.counts[2]) * self.weighted
 
     @property
     def unweighted_numbers(self) -> int:
         """Return how many coefficients phase and maps have, without those of a weight."""
-        return len(terms(self.wave_order)) + len(terms(self.map_order)) + len(terms(self.map_order, True))
+        return sum(map(sum, self.counts))
+
+    @property
+    def counts(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
+        """Return how many terms phase, fx and fy have: those of their symmetry, and of the other, which come behind."""
+        wave, maps = self.skew or (0, 0)  # no terms are odd at order 0
+        others = len(terms(wave, True)), len(terms(maps)) if self.skew else 0, len(terms(maps, True))
+        own = len(terms(self.wave_order)), len(terms(self.map_order, True)), len(terms(self.map_order))
+        phase, fx, fy = zip(own, others, strict=True)
+        return phase, fx, fy
+
+    @property
+    def orders(self) -> tuple[int, int]:
+        """Return the orders of all terms that are even in ξ, and of all that are odd."""
+        wave, maps = self.skew or (0, 0)
+        return max(self.wave_order, self.map_order), max(self.map_order, wave, maps)
 
     @property
     def rays(self) -> int:
@@ -77,6 +95,14 @@ LEVELS = (
     Level(24, 18, 15, 26),
 )
 WEIGHTED = tuple(replace(level, weighted=True) for level in LEVELS)
+SKEW = (
+    Level(6, 3, 6, 10, True, (4, 2)),
+    Level(8, 5, 6, 10, True, (5, 3)),
+    Level(10, 7, 7, 18, True, (7, 5)),
+    Level(14, 9, 9, 26, True, (10, 7)),
+    Level(18, 13, 12, 36, True, (14, 10)),
+    Level(24, 18, 15, 50, True, (20, 15)),
+)
 UNIFORM = protected(np.ones(1))  # the first polynomial is 1
 
 
@@ -85,11 +111,17 @@ def levels(aim: Aim) -> tuple[Level, ...]:
     return WEIGHTED if aim == "stop" else LEVELS
 
 
+def levels_for(lens: Lens) -> tuple[Level, ...]:
+    """Return the sizes of fit for a lens: those without symmetry if it is misaligned."""
+    return SKEW if lens.misaligned else levels(lens.aim)
+
+
 @dataclass(frozen=True)
 class FittedPencil:
     """Coefficients of the orthonormal polynomials of `zernike`: phase in waves, fx and fy in cycles per µm.
 
-    ``phase``, ``fy`` and ``weight`` belong to the even terms, ``fx`` to the odd. ``residual_waves`` is the RMS error of
+    ``phase``, ``fy`` and ``weight`` belong to the even terms, ``fx`` to the odd; without symmetry (`Level.skew`) each
+    goes on with terms of the other kind. ``residual_waves`` is the RMS error of
     the phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm, ``weight_residual`` that of the
     weight over its mean; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak of
     the clear disc. ``mask``: what stands in the pupil, as the source sees it; ``wavelength_um`` scales its phase.
@@ -125,15 +157,18 @@ class FittedPencil:
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return phase (waves), fx and fy (cycles/µm) at pupil points, each (points,)."""
-        even = basis(max(self.level.wave_order, self.level.map_order), xi, eta)
-        return self.on(even, basis(self.level.map_order, xi, eta, odd=True))
+        even, odd = self.level.orders
+        return self.on(basis(even, xi, eta), basis(odd, xi, eta, odd=True))
 
     def on(self, even: np.ndarray, odd: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return phase, fx and fy where the even and odd terms have these values, (terms, points)."""
+        if self.level.skew:
+            phase, fx, fy = rows_of(self.level, even, odd)
+            return self.phase @ phase, self.fx @ fx, self.fy @ fy
         return self.phase @ even[: len(self.phase)], self.fx @ odd, self.fy @ even[: len(self.fy)]
 
     def at_points(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return phase and fx as `at` does, but by Horner's rule, at points of any shape."""
+        """Return phase and fx as `at` does, but by Horner's rule, at points of any shape; for a symmetric fit."""
         square = xi * xi
         phase = evaluate(columns(self.phase, self.level.wave_order), square, eta)
         return phase, xi * evaluate(columns(self.fx, self.level.map_order, True), square, eta)
@@ -141,12 +176,16 @@ class FittedPencil:
     def weight_at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return the light of unit pupil area at points of any shape, as `Pencil.weight` has it: 1 for uniform ones."""
         order = self.level.map_order if self.level.weighted else 0
-        return evaluate(columns(self.weight, order), xi * xi, eta)
+        if self.level.skew is None:
+            return evaluate(columns(self.weight, order), xi * xi, eta)
+        own, square = self.level.counts[2][0], xi * xi
+        odd = evaluate(columns(self.weight[own:], self.level.skew[1], True), square, eta)
+        both: np.ndarray = evaluate(columns(self.weight[:own], order), square, eta) + xi * odd
+        return both
 
     def jacobian(self, xi: ArrayLike, eta: ArrayLike) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (cycles/µm)²."""
-        order = self.level.map_order
-        return determinant(self.fx, self.fy, gradient(order, xi, eta, odd=True), gradient(order, xi, eta))
+        return determinant(self.fx, self.fy, *_map_slopes(self.level, xi, eta))
 
 
 def fit(
@@ -163,12 +202,11 @@ def fit(
     ``numbers``: those of a level, with or without those of its weight, so that one count serves every `Lens.aim`.
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
-    check_aligned(lens, Message("a fit"))
     mask = mask_seen(lens, source)
     judges = None if mask.clear else judging_rays(lens, source, mask, stop)
     traced, rays, sampling, found = 0 if judges is None else judges.data.phase.size, None, None, None
-    for level in levels(lens.aim)[first:]:
-        if numbers not in (None, level.numbers, level.unweighted_numbers):
+    for place, level in enumerate(levels_for(lens)[first:], first):
+        if numbers not in (None, level.numbers, *_counts_of(place)):
             continue
         if rays is None or sampling != (level.radii, level.directions):
             rays, sampling = _trace(lens, source, level, stop), (level.radii, level.directions)
@@ -179,9 +217,14 @@ def fit(
         if numbers or found.error_waves < residual_waves:
             break
     if found is None:
-        offered = tuple(level.numbers for level in levels(lens.aim))
+        offered = tuple(level.numbers for level in levels_for(lens))
         raise GeometryError("no fit has {numbers} numbers; choose one of {offered}", numbers=numbers, offered=offered)
     return found
+
+
+def _counts_of(place: int) -> tuple[int, int]:
+    """Return the numbers of a level of a symmetric lens, without and with those of its weight."""
+    return LEVELS[place].numbers, WEIGHTED[place].numbers
 
 
 @dataclass(frozen=True)
@@ -199,6 +242,7 @@ class Judges:
 def judging_rays(lens: Lens, source: Source, mask: PupilMask, stop: Stop | None = None) -> Judges:
     """Return rays through the open part of the pupil; GeometryError where one does not reach the sensor."""
     nodes = mask_nodes(replace(mask, vanes=0), *JUDGES)
+    nodes = nodes.unfolded() if lens.misaligned else nodes
     share: np.ndarray = nodes.weight * np.square(nodes.amplitude)
     data = _reaching(lens, source, nodes.xi, nodes.eta, stop)
     return Judges(mask, float(source.wavelength_um), nodes.xi, nodes.eta, share / share.sum(), data)
@@ -247,32 +291,54 @@ def _reaching(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray, stop:
 @lru_cache(maxsize=16)
 def level_rays(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the pupil points (ξ, η) of a level's rays, those held out last, and the area weights of the others."""
+    if level.skew:
+        return _skew_rays(level)
     nodes = disc_nodes(level.radii, 2 * level.directions)
     return np.append(nodes.xi, HELD_OUT[0]), np.append(nodes.eta, HELD_OUT[1]), nodes.weight
 
 
+def _skew_rays(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return rays over the whole disc, in directions no two of which are mirror images.
+
+    For the terms of symmetry, which are most, this is as good as twice as many directions.
+    """
+    square, weight = gauss_legendre(level.radii)
+    angle = (np.arange(level.directions) + 0.25) * (2 * np.pi / level.directions)
+    rho, held = np.sqrt((1 + square) / 2), np.deg2rad(SKEW_HELD_OUT_DEG)
+    xi, eta = np.outer(rho, np.sin(angle)).ravel(), np.outer(rho, np.cos(angle)).ravel()
+    share = np.repeat(weight / 2 / level.directions, level.directions)
+    return np.append(xi, np.sin(held)), np.append(eta, np.cos(held)), share
+
+
 @dataclass(frozen=True)
 class Projection:
-    """A level's even and odd terms on its rays, and the least-squares inverses for phase, fy and fx."""
+    """The terms of phase, fx and fy of a level on its rays, and the least-squares inverses for them."""
 
-    even: np.ndarray
-    odd: np.ndarray
+    rows: tuple[np.ndarray, np.ndarray, np.ndarray]
     phase: np.ndarray
-    fy: np.ndarray
     fx: np.ndarray
+    fy: np.ndarray
+
+
+def rows_of(level: Level, even: np.ndarray, odd: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the terms of phase, fx and fy, (terms, points), out of all even and all odd ones."""
+    phase, fx, fy = level.counts
+    if level.skew is None:
+        return even[: phase[0]], odd[: fx[0]], even[: fy[0]]
+    pairs = ((even, odd, phase), (odd, even, fx), (even, odd, fy))
+    one, two, three = (np.concatenate([own[: count[0]], other[: count[1]]]) for own, other, count in pairs)
+    return one, two, three
 
 
 @lru_cache(maxsize=16)
 def _projection(level: Level) -> Projection:
     xi, eta, weight = level_rays(level)
-    even = basis(max(level.wave_order, level.map_order), xi, eta)
-    odd = basis(level.map_order, xi, eta, odd=True)
+    even, odd = level.orders
+    rows = rows_of(level, basis(even, xi, eta), basis(odd, xi, eta, odd=True))
     square = (xi * xi + eta * eta)[: weight.size]
     root = np.sqrt(weight * square**CENTRE_POWER * (1 - square) ** RIM_POWER)
-    waves, maps = even[: len(terms(level.wave_order))], even[: len(terms(level.map_order))]
-    inverses = (np.linalg.pinv((part[:, : weight.size] * root).T) * root for part in (waves, maps, odd))
-    phase, fy, fx = inverses
-    return Projection(even, odd, phase, fy, fx)
+    phase, fx, fy = (np.linalg.pinv((part[:, : weight.size] * root).T) * root for part in rows)
+    return Projection(rows, phase, fx, fy)
 
 
 @dataclass(frozen=True)
@@ -292,18 +358,19 @@ def pencil_forms(rays: RayData, level: Level) -> PencilForms:
     """Return the least-squares coefficients of a level's rays, (…, ray), of one pencil or several."""
     _, _, area = level_rays(level)
     project, used = _projection(level), area.size
-    phase, fy, fx = (
+    phase, fx, fy = (
         column[..., :used] @ inverse.T
-        for inverse, column in ((project.phase, rays.phase), (project.fy, rays.fy), (project.fx, rays.fx))
+        for inverse, column in ((project.phase, rays.phase), (project.fx, rays.fx), (project.fy, rays.fy))
     )
+    phase_rows, fx_rows, fy_rows = project.rows
     light, light_residual = UNIFORM, np.zeros(phase.shape[:-1])
     if level.weighted:
         light = rays.weight[..., :used] @ project.fy.T
-        miss = light @ project.even[: light.shape[-1]] - rays.weight
+        miss = light @ fy_rows - rays.weight
         light_residual = _residual(miss, area, light.shape[-1]) / (rays.weight[..., :used] @ area)
-    miss_x, miss_y = fx @ project.odd - rays.fx, fy @ project.even[: fy.shape[-1]] - rays.fy
+    miss_x, miss_y = fx @ fx_rows - rays.fx, fy @ fy_rows - rays.fy
     # At a ray's landing point x the integrand's phase is w + f·x, so this is the error that matters there.
-    error = phase @ project.even[: phase.shape[-1]] - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
+    error = phase @ phase_rows - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
     residual = _residual(error, area, phase.shape[-1])
     map_residual = np.hypot(_residual(miss_x, area, fx.shape[-1]), _residual(miss_y, area, fy.shape[-1]))
     return PencilForms(phase, fx, fy, light, residual, map_residual, light_residual)
@@ -336,13 +403,24 @@ def _residual(error: np.ndarray, weight: np.ndarray, unknowns: int) -> np.ndarra
 
 @lru_cache(maxsize=16)
 def _slope_basis(level: Level) -> tuple[Gradient, Gradient]:
-    """Return (∂/∂ξ, ∂/∂η) of the odd and of the even map terms at a level's own rays."""
+    """Return (∂/∂ξ, ∂/∂η) of the terms of fx and of fy at a level's own rays."""
     xi, eta, weight = level_rays(level)
-    inner = xi[: weight.size], eta[: weight.size]
-    return gradient(level.map_order, *inner, odd=True), gradient(level.map_order, *inner)
+    return _map_slopes(level, xi[: weight.size], eta[: weight.size])
 
 
-def determinant(fx: np.ndarray, fy: np.ndarray, odd: Gradient, even: Gradient) -> np.ndarray:
-    """Return ∂(fx, fy)/∂(ξ, η) from the gradients of the odd and even terms."""
-    determinant: np.ndarray = (fx @ odd[0]) * (fy @ even[1]) - (fx @ odd[1]) * (fy @ even[0])
+def _map_slopes(level: Level, xi: ArrayLike, eta: ArrayLike) -> tuple[Gradient, Gradient]:
+    """Return (∂/∂ξ, ∂/∂η) of the terms of fx and of fy at pupil points."""
+    if level.skew is None:
+        return gradient(level.map_order, xi, eta, odd=True), gradient(level.map_order, xi, eta)
+    order = max(level.map_order, level.skew[1])
+    even, odd = gradient(order, xi, eta), gradient(order, xi, eta, odd=True)
+    _, (own_x, other_x), (own_y, other_y) = level.counts
+    of_fx = [np.concatenate([one[:own_x], two[:other_x]]) for one, two in zip(odd, even, strict=True)]
+    of_fy = [np.concatenate([one[:own_y], two[:other_y]]) for one, two in zip(even, odd, strict=True)]
+    return (of_fx[0], of_fx[1]), (of_fy[0], of_fy[1])
+
+
+def determinant(fx: np.ndarray, fy: np.ndarray, of_fx: Gradient, of_fy: Gradient) -> np.ndarray:
+    """Return ∂(fx, fy)/∂(ξ, η) from the gradients of the terms of fx and of fy."""
+    determinant: np.ndarray = (fx @ of_fx[0]) * (fy @ of_fy[1]) - (fx @ of_fx[1]) * (fy @ of_fy[0])
     return determinant

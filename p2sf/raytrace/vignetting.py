@@ -34,14 +34,18 @@ GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same 
 
 @dataclass(frozen=True)
 class ClearPart:
-    """The clear part of the pupil: its centre on the η axis, and the corners' angles from +η, 0 and π included."""
+    """The clear part of the pupil: its centre on the η axis, and the corners' angles from +η, 0 and π included.
+
+    Without symmetry the centre lies ``aside`` at ξ, and the angles go once around.
+    """
 
     centre: float
     corners: tuple[float, ...]
+    aside: float = 0.0
 
 
 def whole_nodes(counts: tuple[int, int]) -> ClearNodes:
-    """Return the nodes of (radial, angular) ``counts`` over the whole pupil."""
+    """Return the nodes of (radial, angular) ``counts`` over the whole pupil, by its half ξ > 0."""
     nodes = disc_nodes(*counts)
     return ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
 
@@ -56,7 +60,8 @@ def pupil_nodes(
     """
     mask = mask_seen(lens, source)
     if whole and not clip:
-        return whole_nodes(counts) if mask.clear else mask_nodes(mask, *counts)
+        nodes = whole_nodes(counts) if mask.clear else mask_nodes(mask, *counts)
+        return nodes.unfolded() if lens.misaligned else nodes
     if mask.clear and not (clip and holes_of(lens)):
         return clear_nodes(lens, source, counts, clip)
     return piece_nodes(lens, source, counts, clip, mask)
@@ -70,13 +75,15 @@ def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool 
     """
     shape = outline(lens, source, clip)
     theta, share = _directions(shape.corners, counts[1])
-    radius, _ = _edge(lens, source, clip, shape.centre, theta)
+    radius, _ = _edge(lens, source, clip, (shape.aside, shape.centre), theta)
     square, weight = gauss_legendre(counts[0])
     rho = np.sqrt((1 + square) / 2)[:, None] * radius
     # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half and divided by the whole pupil's area π.
     area = (weight[:, None] / 2 * radius**2 * share / np.pi).ravel()
-    xi, eta = (rho * np.sin(theta)).ravel(), (shape.centre + rho * np.cos(theta)).ravel()
-    return ClearNodes(xi, eta, area / area.sum(), float(area.sum()))
+    xi, eta = (shape.aside + rho * np.sin(theta)).ravel(), (shape.centre + rho * np.cos(theta)).ravel()
+    if lens.misaligned:
+        area /= 2  # no mirror half
+    return ClearNodes(xi, eta, area / area.sum(), float(area.sum()), even=not lens.misaligned)
 
 
 def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -93,19 +100,28 @@ def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.
 @lru_cache(maxsize=16)
 def outline(lens: Lens, source: Source, clip: bool = True) -> ClearPart:
     """Return centre and corners of the clear part of the pupil. Raises GeometryError when no part is clear."""
-    check_aligned(lens, Message("the search for rims in the pupil"))
     check_without_holes(lens, clip)
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():
         raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
-    centre = float(eta[passed].mean())
-    if not pencil(lens, source, [0.0], [centre], clip).passed.all():
+    aside, middle = float(xi[passed].mean()) if lens.misaligned else 0.0, float(eta[passed].mean())
+    if not pencil(lens, source, [aside], [middle], clip).passed.all():
         raise GeometryError(
             "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",
             parameter="clip",
         )
-    theta = (np.arange(SCAN) + 0.5) * (np.pi / SCAN)
+    corners = _corners(lens, source, clip, (aside, middle))
+    if not lens.misaligned:
+        return ClearPart(middle, (0.0, *corners, np.pi))
+    around = (*corners, corners[0] + 2 * np.pi) if corners else (0.0, 2 * np.pi)
+    return ClearPart(middle, around, aside)
+
+
+def _corners(lens: Lens, source: Source, clip: bool, centre: tuple[float, float]) -> list[float]:
+    """Return the directions where one rim takes over from another, over half a turn, without symmetry over a whole."""
+    count = 2 * SCAN + 1 if lens.misaligned else SCAN
+    theta = (np.arange(count) + 0.5) * (np.pi / SCAN)
     rim = _edge(lens, source, clip, centre, theta)[1]
     change = np.flatnonzero(np.diff(rim))
     low, high, first = theta[change], theta[change + 1], rim[change]
@@ -113,7 +129,8 @@ def outline(lens: Lens, source: Source, clip: bool = True) -> ClearPart:
         middle = (low + high) / 2
         same = _edge(lens, source, clip, centre, middle)[1] == first
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return ClearPart(centre, (0.0, *((low + high) / 2).tolist(), np.pi))
+    corners: list[float] = ((low + high) / 2).tolist()
+    return corners
 
 
 def clear_outline(lens: Lens, source: Source, points: int, clip: bool = True) -> tuple[np.ndarray, np.ndarray]:
@@ -121,25 +138,28 @@ def clear_outline(lens: Lens, source: Source, points: int, clip: bool = True) ->
 
     Some ``points``, evenly seen from the centre. Raises GeometryError when no part is clear.
     """
+    check_aligned(lens, Message("the outline of half a pupil"))
     shape = outline(lens, source, clip)
     arcs = [(low, high, max(2, round(points * (high - low) / np.pi))) for low, high in pairwise(shape.corners)]
     parts = [np.linspace(*arc, endpoint=False) for arc in arcs]
     theta = np.append(np.concatenate(parts), np.pi)
-    radius, _ = _edge(lens, source, clip, shape.centre, theta)
+    radius, _ = _edge(lens, source, clip, (0.0, shape.centre), theta)
     return radius * np.sin(theta), shape.centre + radius * np.cos(theta)
 
 
-def _edge(lens: Lens, source: Source, clip: bool, centre: float, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the clear radius along each angle, and the surface that ends it (0: the pupil's own rim)."""
-    sine, cosine = np.sin(theta), np.cos(theta)
+def _edge(
+    lens: Lens, source: Source, clip: bool, centre: tuple[float, float], theta: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the clear radius along each angle about a centre (ξ, η), and the surface that ends it (0: the rim)."""
+    sine, cosine, (aside, up) = np.sin(theta), np.cos(theta), centre
     # The unit circle seen from the centre: |centre + r·direction| = 1.
-    outer = np.sqrt(1 - (centre * sine) ** 2) - centre * cosine
-    rays = pencil(lens, source, outer * sine, centre + outer * cosine, clip)
+    outer = np.sqrt(1 - (up * sine - aside * cosine) ** 2) - (up * cosine + aside * sine)
+    rays = pencil(lens, source, aside + outer * sine, up + outer * cosine, clip)
     whole, rim = rays.passed, rays.failed_surface.copy()
     low, high = np.zeros_like(outer), outer.copy()
     for _ in range(0 if whole.all() else BISECTIONS):
         middle = (low + high) / 2
-        rays = pencil(lens, source, middle * sine, centre + middle * cosine, clip)
+        rays = pencil(lens, source, aside + middle * sine, up + middle * cosine, clip)
         low, high = np.where(rays.passed, middle, low), np.where(rays.passed, high, middle)
         rim = np.where(rays.passed, rim, rays.failed_surface)
     return np.where(whole, outer, low), np.where(whole, 0, rim)
@@ -164,7 +184,8 @@ def masked_blur(found: FittedPencil) -> float:
     """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval."""
     if found.mask.clear:
         return found.blur_um2
-    return _blur(found, mask_nodes(found.mask, *BLUR_NODES))
+    nodes = mask_nodes(found.mask, *BLUR_NODES)
+    return _blur(found, nodes.unfolded() if found.level.skew else nodes)
 
 
 def _blur(found: FittedPencil, nodes: ClearNodes, radiometrically: bool = False) -> float:

@@ -748,7 +748,6 @@
 <message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
 <message><source>a file that ends in {ending}</source><translation>eine Datei mit der Endung {ending}</translation></message>
-<message><source>a fit</source><translation>eine Anpassung</translation></message>
 <message><source>a frame of shape {shape}; give rows and columns of counts</source><translation>eine Aufnahme der Form {shape}; Zeilen und Spalten von Zählwerten angeben</translation></message>
 <message><source>a frame without a finite count; check the file and its dark and flat fields</source><translation>eine Aufnahme ohne einen endlichen Zählwert; die Datei und ihr Dunkel- und Hellbild prüfen</translation></message>
 <message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
@@ -1451,7 +1450,6 @@
 <message><source>the blur is too large for a reference here; {remedy}</source><translation>die Unschärfe ist hier zu groß für eine Referenz; {remedy}</translation></message>
 <message><source>the chief ray {outcome}; choose a smaller field</source><translation>der Hauptstrahl {outcome}; ein kleineres Feld wählen</translation></message>
 <message><source>the chief ray {outcome}; surface {placed} is decentred by ({decentre:g}) mm and tilted by ({tilt:g})°: make that or the field smaller</source><translation>der Hauptstrahl {outcome}; Fläche {placed} ist um ({decentre:g}) mm dezentriert und um ({tilt:g})° gekippt: das oder das Feld verkleinern</translation></message>
-<message><source>the choice of a method</source><translation>die Wahl eines Verfahrens</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
 <message><source>the coefficients</source><translation>die Koeffizienten</translation></message>
 <message><source>the columns have different numbers of fields or wavelengths, and a Zemax file one; save as TOML</source><translation>die Spalten des Objektivs haben verschieden viele Felder oder Wellenlängen, eine Zemax-Datei hat eine Zahl; als TOML speichern</translation></message>
@@ -1540,8 +1538,6 @@
 <message><source>the mask in the stop leaves nothing open; make its obscuration or its vanes smaller</source><translation>die Maske in der Blende lässt nichts offen; ihre Abschattung oder ihre Streben kleiner machen</translation></message>
 <message><source>the measurement was cancelled before it was done</source><translation>die Messung wurde abgebrochen, bevor sie fertig war</translation></message>
 <message><source>the medium behind it</source><translation>das Medium dahinter</translation></message>
-<message><source>the method huygens</source><translation>das Verfahren huygens</translation></message>
-<message><source>the method traced</source><translation>das Verfahren traced</translation></message>
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
 <message><source>the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %</source><translation>das mittlere Pixel hält {real} % des Lichts, von dem einer idealen Linse {perfect} %</translation></message>
 <message><source>the model glass's deviation in partial dispersion is left out; n changes by less than 1e-4</source><translation>die Abweichung der Teildispersion des Modellglases ist weggelassen; n ändert sich um weniger als 1e-4</translation></message>
@@ -1553,6 +1549,7 @@
 <message><source>the object stands in a medium, which an ISET file cannot say; save as TOML</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the object's height of {height:g} as an angle, for it is far away</source><translation>die Objekthöhe {height:g} als Winkel, denn das Objekt ist sehr weit entfernt</translation></message>
 <message><source>the open tab</source><translation>das offene Blatt</translation></message>
+<message><source>the outline of half a pupil</source><translation>der Umriss einer halben Pupille</translation></message>
 <message><source>the paraxial pupil</source><translation>die paraxiale Pupille</translation></message>
 <message><source>the phase is {slope:.0f} waves steep; stop the lens down</source><translation>die Phase ist {slope:.0f} Wellen steil; das Objektiv abblenden</translation></message>
 <message><source>the picture has the shape ({shape}), but the scene's sensor wants {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>

@@ -1,0 +1,148 @@
+"""PSFs of misaligned lenses: laws of symmetry, folds, and rays of a tracer in space."""
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+import pytest
+
+from p2sf.glass.media import MIRROR
+from p2sf.lens.lens import Surface, seen_from
+from p2sf.lens.misalignment import displaced, folding, with_tilted_sensor
+from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.methods import render
+from p2sf.psf.traced import traced_psf
+from p2sf.raytrace.aiming import pupil_rays
+from p2sf.raytrace.fit import SKEW, fit
+from p2sf.raytrace.pencil import diffraction_phase, hexapolar, pencil
+from p2sf.raytrace.vignetting import clear_nodes
+from tests.long.misaligned_methods import ASKED_OF_TRACED, outcomes
+from tests.support.space_rays import fly, poses
+
+WINDOW = 33, 1.0  # an odd count is its own mirror image
+FOLD = 1e-9  # relative L2: what two routes to one pupil map leave
+
+
+@pytest.fixture(scope="module")
+def gauss():
+    return find_lens("double_gauss_28")
+
+
+@pytest.fixture(scope="module")
+def bad(gauss):
+    tilted = displaced(gauss, 3, 5, Placement(0.1, 0.2, 0.02, 0.3, 0.2))
+    return with_tilted_sensor(tilted, Placement(tilt_x_deg=0.1, tilt_y_deg=0.2))
+
+
+def distance(one, two) -> float:
+    return float(np.linalg.norm(one.values - two.values) / np.linalg.norm(two.values))
+
+
+def test_a_fold_leaves_the_psf_unchanged(gauss):
+    before = 0.4 * gauss.sensor_mm
+    last, source = replace(gauss.surfaces[-1], thickness=before), Source(field_deg=10)
+    straight = huygens_psf(gauss, source, *WINDOW)
+    for tilt in (Placement(tilt_x_deg=45.0), Placement(tilt_x_deg=-20.0, tilt_y_deg=30.0, tilt_z_deg=15.0)):
+        mirror = Surface(inf, before - gauss.sensor_mm, MIRROR, **folding(tilt))
+        folded = replace(gauss, surfaces=(*gauss.surfaces[:-1], last, mirror))
+        assert distance(huygens_psf(folded, source, *WINDOW), straight) < FOLD
+
+
+def test_phase_and_direction_are_those_of_a_tracer_in_space(bad):
+    """The phase is (OPL ray − OPL chief − n′K·(I − C))/λ by points and directions in space."""
+    source, (xi, eta) = Source(field_deg=(6, 8)), hexapolar(2)
+    azimuth = np.deg2rad(source.azimuth_deg)
+    back = np.array([[np.cos(azimuth), np.sin(azimuth), 0], [-np.sin(azimuth), np.cos(azimuth), 0], [0, 0, 1]])
+    rays = pupil_rays(seen_from(bad, source.azimuth_deg), source, np.append(xi, 0.0), np.append(eta, 0.0))
+    origins, along = rays.origins @ back.T, rays.directions @ back.T
+    flights = [fly(bad, *ray, source.wavelength_um) for ray in zip(origins, along, strict=True)]
+    chief = flights[-1]
+    # From the wavefront of the source to the point of launch, the rest that `fly` does not know.
+    start = (origins - origins[-1]) @ along[-1]
+    wave_mm = source.wavelength_um / 1000
+    expected = [
+        (f.path + s - chief.path - f.direction @ (f.points[-1] - chief.points[-1])) / wave_mm
+        for f, s in zip(flights[:-1], start, strict=False)
+    ]
+    found = pencil(bad, source, xi, eta)
+    assert diffraction_phase(found) == pytest.approx(expected, abs=1e-8)
+    axes = poses(bad)[-1].turn.inv()
+    local = np.array([back.T @ axes.apply(f.direction) for f in flights])
+    assert found.kx == pytest.approx(local[:-1, 0], abs=1e-13) and found.chief_kx == pytest.approx(local[-1, 0])
+    assert found.ky == pytest.approx(local[:-1, 1], abs=1e-13)
+    landed = np.array([back.T @ axes.apply(f.points[-1] - chief.points[-1]) for f in flights])
+    assert found.dx == pytest.approx(landed[:-1, 0], abs=1e-12)
+    assert found.dy == pytest.approx(landed[:-1, 1], abs=1e-12)
+
+
+def test_a_decentre_to_the_other_side_mirrors_the_psf(gauss):
+    left, right = (displaced(gauss, 3, 5, Placement(x, 0.1, 0, 0.2, y)) for x, y in ((-0.2, -0.3), (0.2, 0.3)))
+    one, two = (huygens_psf(lens, Source(field_deg=10), *WINDOW).values for lens in (left, right))
+    assert np.linalg.norm(one - two[:, ::-1]) < 1e-7 * np.linalg.norm(two)
+    assert np.linalg.norm(two - two[:, ::-1]) > 0.05 * np.linalg.norm(two), "the PSF has no symmetry"
+
+
+def test_what_a_decentre_in_y_does_to_a_field_in_y_one_in_x_does_to_a_field_in_x(gauss):
+    up, aside = (displaced(gauss, 3, 5, Placement(*shift)) for shift in ((0.0, 0.2), (0.2, 0.0)))
+    one = huygens_psf(up, Source(field_deg=10), *WINDOW)
+    two = huygens_psf(aside, Source(field_deg=(10, 0)), *WINDOW)
+    assert distance(two, one) < 1e-8
+
+
+def test_traced_is_the_reference_to_a_part_in_ten_thousand(bad):
+    source = Source(field_deg=(6, 8))
+    reference, traced = huygens_psf(bad, source, *WINDOW), traced_psf(bad, source, *WINDOW)
+    spread = np.square(reference.values - reference.values.mean()).sum()
+    assert 1 - np.square(reference.values - traced.values).sum() / spread > 0.9999
+
+
+def test_rims_end_a_pupil_that_is_not_even(gauss):
+    """The clear share, and its middle, are those of many rays."""
+    source, tilted = Source(field_deg=14), displaced(gauss, 1, 3, Placement(1.5, 0.5))
+    xi, eta = hexapolar(50)
+    passed = pencil(tilted, source, xi, eta, clip=True).passed
+    nodes = clear_nodes(tilted, source, (24, 60))
+    assert not nodes.even and 0.2 < nodes.share < 0.95
+    assert nodes.share == pytest.approx(passed.mean(), abs=0.005)
+    assert nodes.weight @ nodes.xi == pytest.approx(xi[passed].mean(), abs=0.005)
+
+
+def test_seidel_is_the_lens_set_straight_and_says_so(gauss, bad):
+    straight, tilted = (render(lens, Source(field_deg=5), "seidel") for lens in (gauss, bad))
+    assert tilted.values == pytest.approx(straight.values, abs=1e-15)
+    assert "set straight, without its tilts and decentres" in str(tilted.sampling)
+
+
+def test_methods_keep_their_promises_on_random_misalignments():
+    """300 points are tried by ``python -m tests.long.misaligned_methods``."""
+    for point in outcomes(4, seed=5):
+        assert not point.broken and point.traced > ASKED_OF_TRACED, point
+        assert point.fitted > 1 - point.predicted, point
+
+
+def test_a_fit_without_symmetry_is_that_of_symmetry_where_there_is_one(gauss, bad):
+    """A sphere turned about its own centre has no terms that symmetry forbids."""
+    turned = displaced(
+        gauss, 1, 1, Placement(tilt_x_deg=2.0, tilt_y_deg=1.0, pivot=(0.0, 0.0, gauss.surfaces[0].radius))
+    )
+    assert turned.misaligned
+    found, level = fit(turned, Source(field_deg=10), SKEW[1].numbers), SKEW[1]
+    (phase, _), (fx, _), (fy, _) = level.counts
+    largest = np.abs(found.phase).max()
+    assert np.abs(found.phase[phase:]).max() < 1e-4 * largest
+    assert np.abs(found.fx[fx:]).max() + np.abs(found.fy[fy:]).max() < 1e-5 * np.abs(found.fx).max()
+    real = fit(bad, Source(field_deg=10), SKEW[1].numbers)
+    assert np.abs(real.phase[phase:]).max() > 1e-2 * largest
+
+
+def test_the_area_over_frequencies_of_a_fit_without_symmetry(bad):
+    """∂(fx, fy)/∂(ξ, η) by central differences of the fit itself: a second-order error of 1e-4²."""
+    found = fit(bad, Source(field_deg=10), SKEW[1].numbers)
+    xi, eta, step = np.array([0.3, -0.5, 0.1]), np.array([0.2, 0.6, -0.7]), 1e-4
+    _, *across = (a - b for a, b in zip(found.at(xi + step, eta), found.at(xi - step, eta), strict=True))
+    _, *along = (a - b for a, b in zip(found.at(xi, eta + step), found.at(xi, eta - step), strict=True))
+    expected = (across[0] * along[1] - across[1] * along[0]) / (2 * step) ** 2
+    assert found.jacobian(xi, eta) == pytest.approx(expected, rel=1e-6)
