@@ -34,7 +34,7 @@ LAYERS = (
     "p2sf_explorer.shell",
     "p2sf_explorer.__main__",
     "p2sf.cli",
-    "p2sf.__main__",
+    "p2sf.__main__ p2sf_explorer.site",
 )
 FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}
 QT = {"PySide6", "pyqtgraph", "pyvista"}

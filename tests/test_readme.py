@@ -2,11 +2,15 @@
 
 import re
 import shlex
+import shutil
 from pathlib import Path
 
 import pytest
 
 from p2sf.cli import COMMANDS
+from p2sf.image.charts import draw_chart
+from p2sf.io.photo_files import write_photo
+from p2sf_explorer.site.examples import run_line
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -24,6 +28,24 @@ def test_the_library_example_runs_as_written(capsys):
 @pytest.mark.parametrize("line", LINES)
 def test_every_command_shown_exists(line):
     assert shlex.split(line, comments=True)[1] in COMMANDS
+
+
+LONG = {"tradeoff", "paper"}  # seconds each, and run by tests/studies
+
+
+def test_the_commands_run_in_their_order(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(ROOT / "tests/data/import/doublet.zmx", "YOURS.zmx")
+    shutil.copy(ROOT / "tests/data/import/own.agf", ".")
+    Path("FOLDER").mkdir()
+    Path("SCENE.toml").write_text("tolerance = 0.2\n[sensor]\nrows = 16\ncolumns = 24\npixel_um = 60.0\n")
+    write_photo("picture.png", draw_chart("text", 16, 24))
+    for line in LINES:
+        if line.split()[1] not in LONG:
+            run_line(line)
+    assert {"psf.tiff", "colour.png", "lens.toml", "dg.npz", "one.png", "out.png"} <= {
+        path.name for path in tmp_path.iterdir()
+    }
 
 
 def test_every_file_linked_or_named_exists():

@@ -83,6 +83,11 @@ def _app() -> "App":
     return app
 
 
+def command_line_markdown() -> str:
+    """Return the help of every command as one page of Markdown."""
+    return _app().generate_docs(output_format="markdown")
+
+
 def _usage(error: "CycloptsError") -> str:
     """Return a wrong command line as one sentence that says where to look."""
     told, known, _ = str(error).partition("Available commands: ")

@@ -1,6 +1,8 @@
 """The handbook's pages as text: their headings, their formulas, and what a formula looks like. No Qt in here."""
 
 import re
+import unicodedata
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -9,13 +11,21 @@ import numpy as np
 
 FOLDER = Path(__file__).parent
 PAGES = {
+    "find": "Find it in two minutes",
+    "tutorial": "Tutorial",
+    "import": "Import a lens",
+    "export": "Export",
     "theory": "Theory",
     "numerics": "Numerical accuracy",
     "speed": "Speed",
     "plans": "Plans",
     "window": "The window",
 }
-FORMULA = re.compile(r"\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)
+# What is code has no formulas, whatever dollar signs it has.
+CODE = r"^```.*?^```$|`[^`\n]+`"
+FORMULA = re.compile(rf"{CODE}|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL | re.MULTILINE)
+COMMENT = re.compile(r"^<!--.*?-->\n+", re.MULTILINE | re.DOTALL)
+PICTURE = re.compile(r"^!\[[^]]*\]\((pictures|made)/([\w.]+)\)$", re.MULTILINE)
 HEADING = re.compile(r"^(#+) +(.*)$", re.MULTILINE)
 NUMBER = re.compile(r"^(\d+(?:\.\d+)?)\b")
 
@@ -43,6 +53,25 @@ def page(name: str) -> str:
     return (FOLDER / f"{name}.md").read_text(encoding="utf-8")
 
 
+def shown(name: str) -> str:
+    """Return a page for the window: without marks for those who run its code, and without pictures of the window.
+
+    Such pictures are made for the site, when it is built; in the window the thing itself is there to be seen.
+    """
+    return PICTURE.sub(lambda found: "" if found[1] == "made" else found[0], COMMENT.sub("", page(name)))
+
+
+def pictures(text: str) -> tuple[str, ...]:
+    """Return the names of a page's pictures, files in the folder ``pictures``."""
+    return tuple(name for folder, name in PICTURE.findall(text) if folder == "pictures")
+
+
+def anchor(heading: str) -> str:
+    """Return what a link to a heading has behind ``#``, as Python-Markdown and GitHub make it of the heading's text."""
+    plain = unicodedata.normalize("NFKD", heading).encode("ascii", "ignore").decode()
+    return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", plain).strip().lower())
+
+
 def headings(text: str) -> tuple[Heading, ...]:
     """Return the headings of a page in their order."""
     found = ((len(marks), words.strip()) for marks, words in HEADING.findall(text))
@@ -51,18 +80,35 @@ def headings(text: str) -> tuple[Heading, ...]:
 
 def formulas(text: str) -> tuple[str, ...]:
     """Return the formulas of a page, each once, as they stand between dollar signs."""
-    return tuple(dict.fromkeys(" ".join((block or inline).split()) for block, inline in FORMULA.findall(text)))
+    found: dict[str, None] = {}
+
+    def note(formula: str, _block: bool) -> str:
+        found[formula] = None
+        return ""
+
+    with_formulas(text, note)
+    return tuple(found)
+
+
+def with_formulas(text: str, replace: Callable[[str, bool], str]) -> str:
+    """Return a page with what ``replace(formula, on a line of its own)`` returns in place of each formula."""
+
+    def replaced(found: re.Match[str]) -> str:
+        formula = found[1] or found[2]
+        return replace(" ".join(formula.split()), bool(found[1])) if formula else found[0]
+
+    return FORMULA.sub(replaced, text)
 
 
 def with_pictures(text: str, link: str = "formula:") -> str:
     """Return a page with a picture in place of each formula; the n-th of `formulas` is named ``formula:n``."""
     known = {formula: number for number, formula in enumerate(formulas(text))}
 
-    def picture(found: re.Match[str]) -> str:
-        name = f"![formula]({link}{known[' '.join((found[1] or found[2]).split())]})"
-        return f"\n\n{name}\n\n" if found[1] else name
+    def picture(formula: str, block: bool) -> str:
+        name = f"![formula]({link}{known[formula]})"
+        return f"\n\n{name}\n\n" if block else name
 
-    return FORMULA.sub(picture, text)
+    return with_formulas(text, picture)
 
 
 @lru_cache(maxsize=512)

@@ -18,11 +18,24 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QDialog, QSplitter, QTextBrowser, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.handbook.pages import PAGES, Formula, formulas, headings, page, rendered, with_pictures
+from p2sf_explorer.handbook.pages import (
+    FOLDER,
+    PAGES,
+    Formula,
+    anchor,
+    formulas,
+    headings,
+    page,
+    pictures,
+    rendered,
+    shown,
+    with_pictures,
+)
 from p2sf_explorer.i18n.tr import tr
 
 TEXT_PX, FORMULA_PX, TABLE_PX = 14, 15, 11
 WIDE, TALL, CONTENTS = 1100, 820, 260
+PICTURE_PX = 720
 MANY_COLUMNS = 8  # from which a table of numbers is set small and unbroken
 DESCENT = 0.16  # of the text's size: what a letter hangs below the line
 BODY = """
@@ -85,13 +98,14 @@ class Handbook(QDialog):
         self._scroll_to(heading)
 
     def _follow(self, link: QUrl) -> None:
-        name = link.toString().removesuffix(".md")
+        name = link.path().removesuffix(".md") or self._page
         if name in PAGES:
-            self._open(name, "")
+            texts = (heading.text for heading in headings(page(name)))
+            self._open(name, next((text for text in texts if anchor(text) == link.fragment()), ""))
 
     def _document(self, name: str) -> QTextDocument:
         """Return a page as Qt lays it out; its formulas are pictures in the text's colour."""
-        document, source, ratio = QTextDocument(self.text), page(name), self.devicePixelRatioF()
+        document, source, ratio = QTextDocument(self.text), shown(name), self.devicePixelRatioF()
         scale = self._theme.scale
         document.setDefaultStyleSheet(BODY.format(line=self._theme.line, accent=self._theme.accent))
         font = self.text.font()
@@ -102,6 +116,9 @@ class Handbook(QDialog):
         for number, formula in enumerate(formulas(source)):
             picture = painted(rendered(formula, FORMULA_PX * scale * ratio), self._theme.text, ratio, scale)
             document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(f"formula:{number}"), picture)
+        for picture_file in pictures(source):
+            picture = fitted(QImage(str(FOLDER / "pictures" / picture_file)), round(PICTURE_PX * scale * ratio), ratio)
+            document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(f"pictures/{picture_file}"), picture)
         lay_out(document)
         rule_tables(document, self._theme)
         return document
@@ -143,6 +160,13 @@ def painted(formula: Formula, colour: str, ratio: float, scale: float = 1.0) -> 
     ).copy()
     picture.setDevicePixelRatio(ratio)
     return picture
+
+
+def fitted(picture: QImage, width: int, ratio: float) -> QImage:
+    """Return a picture no wider than so many pixels of the screen."""
+    made = picture.scaledToWidth(min(width, picture.width()), Qt.TransformationMode.SmoothTransformation)
+    made.setDevicePixelRatio(ratio)
+    return made
 
 
 def fragments(block: QTextBlock) -> list[QTextFragment]:

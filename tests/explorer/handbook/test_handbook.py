@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QUrl
 
 from p2sf_explorer.charts.theme import DARK, LIGHT
-from p2sf_explorer.handbook.pages import PAGES, formulas, headings, page, rendered, with_pictures
+from p2sf_explorer.handbook.pages import CODE, PAGES, anchor, formulas, headings, page, rendered, shown, with_pictures
 from p2sf_explorer.handbook.viewer import Handbook
 from p2sf_explorer.panels import REGISTRY
 
@@ -21,7 +21,7 @@ def test_every_formula_is_drawn_and_none_is_left_as_text(name):
     found = formulas(page(name))
     for formula in found:
         assert rendered(formula, 15.0).opacity.max() > 0.9
-    assert "$" not in with_pictures(page(name))
+    assert "$" not in re.sub(CODE, "", with_pictures(page(name)), flags=re.MULTILINE | re.DOTALL)
 
 
 def test_a_formula_that_mathtext_does_not_know_is_an_error():
@@ -65,14 +65,38 @@ def test_a_section_opens_at_its_heading_with_formulas_in_the_themes_colour(qtbot
     assert opaque.alpha() == 255 and opaque.name() == theme.text
 
 
-def test_links_between_pages_are_followed(qtbot):
+LINKS = [(name, link) for name in PAGES for link in re.findall(r"(?<!!)\[[^]]*\]\(([^)]+)\)", page(name))]
+
+
+def test_links_between_pages_lead_to_a_page_and_a_heading():
+    anchors = {name: {anchor(heading.text) for heading in headings(page(name))} for name in PAGES}
+    for name, link in LINKS:
+        target, _, section = link.partition("#")
+        if not target.startswith("lessons/"):  # pages of the site alone; the window has the lessons themselves
+            assert not section or section in anchors[target.removesuffix(".md") or name], link
+            assert target.removesuffix(".md") in {"", *PAGES}, link
+
+
+def test_a_link_to_a_section_scrolls_there(qtbot):
     book = Handbook(LIGHT)
     qtbot.addWidget(book)
-    book.show_section("theory")
-    for name in PAGES:
-        for link in re.findall(r"(?<!!)\[[^]]*\]\(([^)]+)\)", page(name)):  # not of pictures
-            book.text.anchorClicked.emit(QUrl(link))
-            assert book.text.document().firstBlock().text() == headings(page(link.removesuffix(".md")))[0].text
+    book.show_section("find")
+    book.text.anchorClicked.emit(QUrl("theory.md#61-the-coefficient-of-determination"))
+    top = book.text.cursorForPosition(book.text.viewport().rect().topLeft()).block()
+    assert "6.1 The coefficient of determination" in (top.text(), top.next().text())
+
+
+def test_the_pages_pictures_are_shown(qtbot):
+    book = Handbook(LIGHT)
+    qtbot.addWidget(book)
+    book.show_section("speed")
+    picture = book.text.document().resource(2, QUrl("pictures/complete_trade.png"))
+    assert picture.width() == 720 * book.devicePixelRatioF()
+
+
+def test_the_window_leaves_out_what_is_for_the_site():
+    text = shown("tutorial")
+    assert "made/" in page("tutorial") and "made/" not in text and "<!--" not in text
 
 
 def test_the_window_opens_the_theory_from_the_palette_and_a_panel_its_section(window):

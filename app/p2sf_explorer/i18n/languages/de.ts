@@ -189,6 +189,7 @@
 <message><source>Explorer states (*.json)</source><translation>Zustände des Explorers (*.json)</translation></message>
 <message><source>Export a set of PSFs</source><translation>Einen Satz PSFs exportieren</translation></message>
 <message><source>Export a set of PSFs…</source><translation>Einen Satz PSFs exportieren …</translation></message>
+<message><source>Export</source><translation>Export</translation></message>
 <message><source>Export…</source><translation>Exportieren …</translation></message>
 <message><source>FFT of {samples} × {samples} pupil samples</source><translation>FFT aus {samples} × {samples} Pupillenproben</translation></message>
 <message><source>FITS files need astropy, which is not installed; pip install 'p2sf[fits]'</source><translation>FITS-Dateien brauchen astropy, das nicht installiert ist; pip install 'p2sf[fits]'</translation></message>
@@ -209,6 +210,7 @@
 <message><source>Film…</source><translation>Film …</translation></message>
 <message><source>Find a command, a panel, a lens or a preset</source><translation>Befehl, Ansicht, Objektiv oder Vorgabe finden</translation></message>
 <message><source>Find a command…</source><translation>Befehl finden …</translation></message>
+<message><source>Find it in two minutes</source><translation>In zwei Minuten gefunden</translation></message>
 <message><source>First dark ring of a perfect lens, 0.61 λ/NA.</source><translation>Erster dunkler Ring eines perfekten Objektivs, 0,61 λ/NA.</translation></message>
 <message><source>First order</source><translation>Erste Ordnung</translation></message>
 <message><source>First-order data</source><translation>Daten erster Ordnung</translation></message>
@@ -248,6 +250,7 @@
 <message><source>Image</source><translation>Bild</translation></message>
 <message><source>Image height</source><translation>Bildhöhe</translation></message>
 <message><source>Image: Σ over the scene's points of brightness × PSF at that point, for red, green and blue; distortion and falling light included.</source><translation>Bild: Σ über die Punkte der Szene von Helligkeit × PSF an diesem Punkt, für Rot, Grün und Blau; Verzeichnung und Lichtabfall eingeschlossen.</translation></message>
+<message><source>Import a lens</source><translation>Ein Objektiv importieren</translation></message>
 <message><source>Import</source><translation>Import</translation></message>
 <message><source>Import report</source><translation>Importbericht</translation></message>
 <message><source>Import report: everything the reader of the lens file took, replaced, passed over or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
@@ -644,6 +647,7 @@
 <message><source>Tools</source><translation>Extras</translation></message>
 <message><source>Track</source><translation>Baulänge</translation></message>
 <message><source>Try</source><translation>Versuchen</translation></message>
+<message><source>Tutorial</source><translation>Einführung</translation></message>
 <message><source>Two achromats face to face, the stop in their common focus: for near objects only, image inverted</source><translation>Zwei Achromate einander zugewandt, die Blende in ihrem gemeinsamen Brennpunkt: nur für nahe Objekte, Bild umgekehrt</translation></message>
 <message><source>Two cemented doublets, light from the eyepiece's side: the PSF is the spot it makes on the specimen</source><translation>Zwei verkittete Dubletts, Licht von der Okularseite: Die PSF ist der Fleck auf dem Präparat</translation></message>
 <message><source>Two equal menisci about a stop: at unit magnification coma, distortion and lateral colour cancel exactly</source><translation>Zwei gleiche Menisken um eine Blende: beim Maßstab 1 heben sich Koma, Verzeichnung und Farbquerfehler genau auf</translation></message>

@@ -1,0 +1,106 @@
+"""Pages that are made from the sources: the README, how to contribute, the command line, the library, the lessons."""
+
+import re
+from pathlib import Path
+
+import p2sf
+from p2sf.cli import command_line_markdown
+from p2sf_explorer.handbook.pages import PAGES
+from p2sf_explorer.lessons.lesson import FOLDER as LESSONS
+from p2sf_explorer.lessons.lesson import Lesson, Step, shipped_lessons
+
+ROOT = Path(__file__).parents[3]
+# Where the files that pages link to in the sources stand on the site.
+PLACES = {
+    "app/p2sf_explorer/handbook/": "",
+    "app/p2sf_explorer/lessons/README.md": "lessons/format.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "CHANGELOG.md": "changelog.md",
+}
+LINK = re.compile(r"(?<=\]\()(" + "|".join(map(re.escape, PLACES)) + ")")
+MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.interchange.psf_set", "p2sf.psf.result"
+
+
+def pages() -> dict[str, str]:
+    """Return the Markdown of every generated page by its path on the site."""
+    return {
+        "index.md": _moved("README.md"),
+        "contributing.md": _moved("CONTRIBUTING.md"),
+        "changelog.md": _moved("CHANGELOG.md"),
+        "cli.md": command_line_page(),
+        "api.md": library_page(),
+        "lessons/index.md": lessons_page(),
+        "lessons/format.md": (LESSONS / "README.md").read_text(encoding="utf-8"),
+    } | {f"lessons/{lesson.name}.md": lesson_page(lesson) for lesson in shipped_lessons()}
+
+
+def navigation() -> list[dict[str, object]]:
+    """Return the site's contents, in the form of MkDocs' ``nav``."""
+    named = {f"{name}.md": title for name, title in PAGES.items()}
+
+    def entry(path: str) -> dict[str, object]:
+        return {named[path]: path}
+
+    lessons: list[object] = ["lessons/index.md"]
+    lessons += [{lesson.title: f"lessons/{lesson.name}.md"} for lesson in shipped_lessons()]
+    return [
+        {"P2SF Explorer": "index.md"},
+        entry("find.md"),
+        entry("tutorial.md"),
+        {"How to": [entry(path) for path in ("import.md", "export.md", "plans.md", "window.md")] + [
+            {"Add a panel, a format, a lesson": "contributing.md"}, {"Write a lesson": "lessons/format.md"},
+        ]},
+        {"Lessons": lessons},
+        {"Theory and figures": [entry(path) for path in ("theory.md", "numerics.md", "speed.md")]},
+        {"Reference": [{"Library": "api.md"}, {"Command line": "cli.md"}, {"Changes": "changelog.md"}]},
+    ]  # fmt: skip
+
+
+def library_page() -> str:
+    """Return the page of the library, whose entries mkdocstrings fills from the docstrings."""
+    lines = ["# Library", "", "Everything here is imported from `p2sf`: `import p2sf`, then `p2sf.render`.", ""]
+    for name in p2sf.__all__:
+        lines += [f"::: p2sf.{name}", ""]
+    lines += ["## Beside these", ""]
+    for name in MORE_OF_THE_LIBRARY:
+        lines += [f"::: {name}", ""]
+    return "\n".join(lines)
+
+
+def command_line_page() -> str:
+    """Return the help of every command, without the list of them that the site puts beside every page."""
+    text = re.sub(r"^## Table of Contents.*?(?=^\*\*)", "", command_line_markdown(), flags=re.MULTILINE | re.DOTALL)
+    return text.replace("# p2sf", "# Command line", 1)
+
+
+def lessons_page() -> str:
+    """Return the list of lessons."""
+    rows = [f"1. [{lesson.title}]({lesson.name}.md): {lesson.about}" for lesson in shipped_lessons()]
+    return "\n".join(
+        ("# Lessons", "", "F3 opens them in the window, where every slider can be moved.", "", *rows, "",
+         "A lesson is a file: [write one](format.md).", "")
+    )  # fmt: skip
+
+
+def lesson_page(lesson: Lesson) -> str:
+    """Return a lesson as a page: every step with its picture of the window, its question and its answer."""
+    head = f"# {lesson.title}\n\n{lesson.about}\n"
+    steps = (_step(step, f"../made/{lesson.name}_{number}.png") for number, step in enumerate(lesson.steps, 1))
+    return "\n".join((head, *steps))
+
+
+def _step(step: Step, picture: str) -> str:
+    parts = [f"## {step.title}", step.text, f"![The window at the step “{step.title}”]({picture})"]
+    if step.attempt:
+        parts.append(f"**Try.** {step.attempt}")
+    if step.question:
+        parts.append(f"**Question.** {step.question}")
+    if step.answer:
+        parts.append('??? success "Answer"\n\n' + "\n".join(f"    {line}" for line in step.answer.splitlines()))
+    return "\n\n".join(parts) + "\n"
+
+
+def _moved(name: str) -> str:
+    """Return a file of the project's root with its links to other pages as they are on the site."""
+    text = (ROOT / name).read_text(encoding="utf-8")
+    return LINK.sub(lambda found: PLACES[found[1]], text)

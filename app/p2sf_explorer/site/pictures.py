@@ -1,0 +1,63 @@
+"""Pictures that the site shows: those that the examples on its pages write, and those of the window."""
+
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from PySide6.QtWidgets import QApplication
+
+from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.i18n.language import ENGLISH, set_language
+from p2sf_explorer.lessons.lesson import shipped_lessons
+from p2sf_explorer.shell.gallery import settle
+from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.site.examples import run_examples
+from p2sf_explorer.state.state import State, changed, new_state
+
+SIZE = 1280, 800
+MADE = re.compile(r"\]\(made/([\w.]+)\)")
+FIRST = new_state(theme="light")
+WINDOW = {
+    "window_first.png": FIRST,
+    "window_field.png": changed(FIRST, field_deg=14.0),
+    "window_stopped.png": changed(FIRST, field_deg=14.0, f_number=8.0),
+}
+
+
+def example_pictures(text: str, page: str) -> Iterator[tuple[str, bytes]]:
+    """Run a page's examples, and yield the name and content of each picture that they write and the page shows."""
+    with TemporaryDirectory() as folder:
+        run_examples(text, Path(folder), page)
+        for name in MADE.findall(text):
+            if name not in WINDOW:
+                yield name, (Path(folder) / name).read_bytes()
+
+
+def lesson_states() -> dict[str, State]:
+    """Return the state of each step of each lesson by the name of its picture."""
+    return {
+        f"{lesson.name}_{number + 1}.png": lesson.state(number, FIRST)
+        for lesson in shipped_lessons()
+        for number in range(len(lesson.steps))
+    }
+
+
+def window_pictures(states: dict[str, State]) -> Iterator[tuple[str, bytes]]:
+    """Yield the name and PNG of the window in each state."""
+    _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
+    QApplication.setStyle("Fusion")
+    configure_plots()
+    set_language(ENGLISH)
+    window = MainWindow(FIRST)
+    window.resize(*SIZE)
+    window.show()
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "window.png"
+        for name, state in states.items():
+            window.store.replace(state)
+            settle(window)
+            window.grab().save(str(path))
+            yield name, path.read_bytes()
+    window.close()

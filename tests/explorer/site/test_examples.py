@@ -1,0 +1,81 @@
+"""Every code block of the handbook runs, or says why it cannot."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from p2sf_explorer.handbook.pages import FOLDER, PAGES, page
+from p2sf_explorer.site.examples import ExampleError, blocks, run_examples
+from p2sf_explorer.site.generated import ROOT, pages
+from p2sf_explorer.site.pictures import MADE, WINDOW
+
+WITH_CODE = [name for name in PAGES if "```" in page(name)]
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    """Return the folder in which a page's examples ran and what they printed, by the page's name."""
+    found = {}
+    for name in WITH_CODE:
+        folder = tmp_path_factory.mktemp(name)
+        found[name] = folder, run_examples(page(name), folder, f"{name}.md")
+    return found
+
+
+def test_every_block_of_the_handbook_runs(ran):
+    assert set(ran) >= {"tutorial", "import", "export", "plans", "theory"}
+    kinds = {(block.language, block.mark) for name in PAGES for block in blocks(page(name))}
+    assert {("python", ""), ("sh", ""), ("toml", "file")} <= kinds
+
+
+def test_the_other_pages_of_the_site_run_or_say_why_not():
+    """The README's commands are run by tests/test_readme.py."""
+    for name, text in pages().items():
+        for block in blocks(text):
+            runs = block.mark == "not run" or (name == "index.md" and block.language in ("sh", "python"))
+            assert runs or name == "cli.md", f"{name}, line {block.line}"  # which shows how each command is called
+
+
+def test_every_fence_of_a_page_is_the_beginning_or_the_end_of_a_block():
+    for name in PAGES:
+        assert len(re.findall(r"^```", page(name), re.MULTILINE)) == 2 * len(list(blocks(page(name)))), name
+
+
+def test_the_pictures_that_a_page_shows_are_written_by_its_examples(ran):
+    for name in PAGES:
+        for picture in MADE.findall(page(name)):
+            assert picture in WINDOW or (ran[name][0] / picture).read_bytes().startswith(b"\x89PNG"), picture
+
+
+def test_the_tutorial_says_the_order_of_the_methods(ran):
+    """Its sentence is that six coefficients are not enough at 10° and a fit is."""
+    found = dict(re.findall(r"^(\w+) +R² = (-?[\d.]+)$", ran["tutorial"][1], re.MULTILINE))
+    assert float(found["seidel"]) < 0.9 < 0.99 < float(found["fitted"]) <= float(found["traced"]) <= 1
+
+
+def test_every_picture_of_the_folder_is_shown_and_every_one_shown_is_there():
+    texts = [path.read_text(encoding="utf-8") for path in (*FOLDER.glob("*.md"), ROOT / "README.md")]
+    shown = set(re.findall(r"pictures/(\w+\.png)", " ".join(texts)))
+    assert shown <= {path.name for path in (FOLDER / "pictures").glob("*.png")}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("```python\n1 / 0\n```", "line 1: ZeroDivisionError"),
+        ("one\n\n```sh\np2sf info no_such_lens\n```", "line 3: ValueError"),
+        ("```sh\nrm -r /\n```", "no command of ours"),
+        ("```toml\na = \n```", "line 1: TOMLDecodeError"),
+        ("```matlab\nx\n```", 'nothing runs a block of "matlab"'),
+    ],
+)
+def test_a_block_that_fails_is_named_with_its_line(tmp_path, text, said):
+    with pytest.raises(ExampleError, match=re.escape(said)):
+        run_examples(text, tmp_path, "page.md")
+
+
+def test_a_marked_block_is_not_run_and_a_file_is_written(tmp_path):
+    text = "<!-- not run: none -->\n```python\n1 / 0\n```\n\n<!-- file: a.txt -->\n```text\nwords\n```\n"
+    assert run_examples(text, tmp_path, "page.md") == ""
+    assert Path(tmp_path / "a.txt").read_text() == "words\n"
