@@ -178,6 +178,11 @@ def fragments(block: QTextBlock) -> list[QTextFragment]:
     return found
 
 
+def is_code(block: QTextBlock) -> bool:
+    """Return whether a paragraph is a line of code between fences."""
+    return block.isValid() and block.blockFormat().hasProperty(QTextFormat.Property.BlockCodeFence)
+
+
 def lay_out(document: QTextDocument) -> None:
     """Give headings, paragraphs and formulas their room; let each formula end where its line of text ends."""
     block = document.begin()
@@ -186,10 +191,11 @@ def lay_out(document: QTextDocument) -> None:
         pictures = [piece for piece in pieces if piece.charFormat().isImageFormat()]
         form, level = block.blockFormat(), block.blockFormat().headingLevel()
         in_table = QTextCursor(block).currentTable() is not None
-        form.setTopMargin({0: 0 if in_table else 5, 1: 4, 2: 22}.get(level, 14))
-        form.setBottomMargin(0 if in_table else 5)
+        in_code, code_goes_on = is_code(block), is_code(block) and is_code(block.next())
+        form.setTopMargin({0: 0 if in_table or in_code else 5, 1: 4, 2: 22}.get(level, 14))
+        form.setBottomMargin(0 if in_table or code_goes_on else 5)
         form.setNonBreakableLines(in_table and QTextCursor(block).currentTable().columns() >= MANY_COLUMNS)
-        if len(pictures) == len(pieces) == 1 and not in_table:
+        if (len(pictures) == len(pieces) == 1 and not in_table) or in_code:
             form.setLeftMargin(32)
         elif not level and not in_table:
             form.setLineHeight(125, QTextBlockFormat.LineHeightTypes.ProportionalHeight.value)
