@@ -9,6 +9,7 @@ import pytest
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance, magnification
+from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.pupils import f_number, numerical_aperture, pupils
 from p2sf.raytrace.trace import trace
 
@@ -134,3 +135,36 @@ def test_the_relay_is_telecentric_on_both_sides_and_free_of_distortion():
     ray = trace(lens, origin, np.array([0.0, slope, 1.0]), D)
     assert abs(np.rad2deg(ray.cosines[0, 1])) < 0.1
     assert -ray.points[-1][0, 1] / origin[0, 1] == pytest.approx(1, abs=3e-5)
+
+
+@pytest.mark.parametrize("zoom", [20, 22, 24, 26, 31.5, 35, 46, 55, 60])
+def test_the_zoom_keeps_its_focus_and_is_sharp_between_the_columns_too(zoom):
+    """Within 0.2 % of the focal length that the ring says, and an RMS spot below the Airy radius of f/4.3."""
+    lens = lens_at(find_lens("zoom_3x"), zoom=zoom)
+    assert focal_length(lens) == pytest.approx(zoom, rel=2e-3)
+    for height in (0.0, 4.2, 6.0):  # mm on the sensor
+        assert rms_spot_um(lens, height / zoom, D) < 1.22 * D * 4.3 + 0.5
+    assert 6.0 / zoom == pytest.approx(np.tan(np.deg2rad(max(lens.fields_deg))), rel=5e-3)
+
+
+def test_the_zooms_columns_have_their_focal_lengths():
+    lens = find_lens("zoom_3x")
+    for column in (20.0, 24.0, 28.0, 35.0, 43.0, 50.0, 60.0):
+        assert focal_length(lens_at(lens, zoom=column)) == pytest.approx(column, rel=1e-5)
+    assert find_lens("zoom_3x").stop_surface == 7
+
+
+@pytest.mark.parametrize(("place", "depth"), [(0.0, inf), (0.29, 240.0), (0.628, 125.0)])
+def test_floating_focus_keeps_the_macro_sharp(place, depth):
+    """Extended as a whole to 1:1.6, with the space of infinity, its spots at the edge are larger by half."""
+    lens = lens_at(find_lens("macro_floating"), focus_position=place)
+    assert abs(float(magnification(lens, depth, D))) == pytest.approx(place, abs=2e-3)
+    slopes = [np.tan(np.deg2rad(angle)) for angle in (0.0, 9.0, 14.0)]
+    floating = [rms_spot_um(lens, slope, D, depth) for slope in slopes]
+    assert max(floating) < 13
+    if place != 0.628:
+        return
+    stiff = lens_at(find_lens("macro_floating"), focus_position=0.0)
+    stiff = with_sensor(stiff, float(image_distance(stiff, depth, D)))
+    nearby = [with_sensor(stiff, stiff.sensor_mm + shift) for shift in np.linspace(-0.5, 0.5, 41)]
+    assert min(rms_spot_um(lens, slopes[-1], D, depth) for lens in nearby) > 1.5 * floating[-1]

@@ -22,7 +22,8 @@ from tests.support.reference import LENSES, listed_indices, prescriptions
 ROOT = Path(__file__).parents[2]
 OWN = ("fast_gauss_f14", "periskop", "singlet_f6", "wide_angle_35")
 TELESCOPES = ("cassegrain_f10", "hubble", "maksutov", "schmidt_camera")
-MADE = ("diffractive_singlet", "microscope_10x", "phone_f28", "telecentric_relay", *TELESCOPES)
+RINGS = ("macro_floating", "zoom_3x")
+MADE = ("diffractive_singlet", "microscope_10x", "phone_f28", "telecentric_relay", *TELESCOPES, *RINGS)
 NEAR = {"relay", "telecentric_relay"}  # for near objects only
 D_LINE = 0.5875618
 

@@ -95,6 +95,7 @@
 <message><source>Blade angle: direction of the first corner, from the direction of the field (+η) towards +ξ.</source><translation>Lamellenwinkel: Richtung der ersten Ecke, von der Richtung des Feldes (+η) nach +ξ.</translation></message>
 <message><source>Blades</source><translation>Lamellen</translation></message>
 <message><source>Blades of the iris, their corners on the rim's circle; 0: round. The PSF has as many spikes where their number is even, twice as many where it is odd.</source><translation>Lamellen der Irisblende, ihre Ecken auf dem Kreis des Randes; 0: rund. Die PSF hat ebenso viele Strahlen, wo ihre Zahl gerade ist, doppelt so viele, wo sie ungerade ist.</translation></message>
+<message><source>Both halves move apart as it comes closer: sharp from infinity to more than half of life size</source><translation>Beide Hälften rücken beim Nahen auseinander: scharf von unendlich bis über die halbe Lebensgröße</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
 <message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
@@ -296,6 +297,7 @@
 <message><source>MTF through focus</source><translation>MTF durch den Fokus</translation></message>
 <message><source>MTF: RMS error ≤ {percent} % of its own RMS</source><translation>MTF: RMS-Fehler ≤ {percent} % ihres eigenen RMS</translation></message>
 <message><source>MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration.</translation></message>
+<message><source>Macro lens f/3.8, 60 mm, with floating focus</source><translation>Makroobjektiv f/3,8, 60 mm, mit gleitender Gruppe</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
 <message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
 <message><source>Make the plan that was cancelled, and the picture by it</source><translation>Den abgebrochenen Plan doch machen und das Bild danach</translation></message>
@@ -651,6 +653,7 @@
 <message><source>Two achromats face to face, the stop in their common focus: for near objects only, image inverted</source><translation>Zwei Achromate einander zugewandt, die Blende in ihrem gemeinsamen Brennpunkt: nur für nahe Objekte, Bild umgekehrt</translation></message>
 <message><source>Two cemented doublets, light from the eyepiece's side: the PSF is the spot it makes on the specimen</source><translation>Zwei verkittete Dubletts, Licht von der Okularseite: Die PSF ist der Fleck auf dem Präparat</translation></message>
 <message><source>Two equal menisci about a stop: at unit magnification coma, distortion and lateral colour cancel exactly</source><translation>Zwei gleiche Menisken um eine Blende: beim Maßstab 1 heben sich Koma, Verzeichnung und Farbquerfehler genau auf</translation></message>
+<message><source>Two groups, negative then positive: their space sets the focal length, and both move to keep focus</source><translation>Zwei Gruppen, negativ, dann positiv: Ihr Abstand setzt die Brennweite, und beide wandern, damit es scharf bleibt</translation></message>
 <message><source>Two halves, each with the stop in its focus: the image keeps its size out of focus, and has no distortion</source><translation>Zwei Hälften, jede mit der Blende im Brennpunkt: Das Bild behält unscharf seine Größe und ist verzeichnungsfrei</translation></message>
 <message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
 <message><source>Type that suits the screen</source><translation>Schriftgröße, die zum Bildschirm passt</translation></message>
@@ -734,6 +737,7 @@
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
 <message><source>Zoom</source><translation>Zoom</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
+<message><source>Zoom lens 3×, 20 to 60 mm</source><translation>Zoomobjektiv 3×, 20 bis 60 mm</translation></message>
 <message><source>Zoom out</source><translation>Verkleinern</translation></message>
 <message><source>Z{number}: {waves} λ · {share}</source><translation>Z{number}: {waves} λ · {share}</translation></message>
 <message><source>[aperture] states {count} of {names}; keep exactly one</source><translation>[aperture] gibt {count} von {names} an; genau eines behalten</translation></message>
