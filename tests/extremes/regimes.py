@@ -2,12 +2,15 @@
 
 from dataclasses import dataclass, replace
 from functools import cache
-from math import inf, pi, tan
+from math import inf, isinf, pi, tan
 
 import numpy as np
+from mpmath import binomial, mpf, sqrt
 
 from p2sf.glass.media import ConstantIndex
+from p2sf.lens import Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.shapes import Shape
 from p2sf.paraxial.first_order import basis_rays, cardinal_points
 from tests.support.reference import prescription_lens, reference
 from tests.support.simple_lenses import simple, telescope
@@ -29,12 +32,13 @@ class Case:
 def system_of(case: Case) -> dict:
     """Return the plain numbers of a case for the witness."""
     lens, surfaces = case.lens, case.lens.surfaces
+    shapes = [vertex_of(s) for s in surfaces]
     return {
-        "radius": [s.radius for s in surfaces],
+        "radius": [radius for radius, _, _ in shapes],
         "thickness": [s.thickness for s in surfaces],
         "index": [float(medium.index(case.wavelength)) for medium in lens.media],
-        "conic": [s.conic for s in surfaces],
-        "a4": [s.aspheric[0] if s.aspheric else 0.0 for s in surfaces],
+        "conic": [conic for _, conic, _ in shapes],
+        "a4": [a4 for _, _, a4 in shapes],
         "stop": lens.stop_surface - 1,
         "rim": lens.aperture.value,
         "depth": case.depth,
@@ -42,6 +46,30 @@ def system_of(case: Case) -> dict:
         "field": case.field,
         "wavelength_mm": case.wavelength / 1000,
     }
+
+
+def vertex_of(surface: Surface) -> tuple:
+    """Return radius, conic and A4 of the plain surface with the same r² and r⁴ terms, in 50 digits for a shape."""
+    a4 = surface.aspheric[0] if surface.aspheric else 0.0
+    if surface.shape is None:
+        return surface.radius, surface.conic, a4
+    c = mpf(0) if isinf(surface.radius) else 1 / mpf(surface.radius)
+    second, fourth = vertex_terms(surface.shape, c)
+    bent = c + 2 * second
+    whole = (1 + mpf(surface.conic)) * c**3 / 8 + mpf(a4) + fourth
+    return (1 / bent if bent else inf), 0.0, whole - bent**3 / 8
+
+
+def vertex_terms(shape: Shape, c) -> tuple:
+    """Return the coefficients of r² and r⁴ in 50 digits, by closed forms (Forbes 2007) of up to three terms of Qbfs."""
+    terms, edge = [mpf(a) for a in shape.coefficients], mpf(shape.normalisation_mm)
+    if isinstance(shape, Qcon):
+        return mpf(0), sum((-1) ** m * binomial(m + 4, 4) * a for m, a in enumerate(terms)) / edge**4
+    if isinstance(shape, RadialPolynomial):
+        return terms[1] / edge**2, (terms[3] if len(terms) > 3 else 0) / edge**4
+    known = (1, 0), (13 / sqrt(mpf(19)), -16 / sqrt(mpf(19))), (29 * sqrt(mpf(2) / 95), -100 * sqrt(mpf(2) / 95))
+    value, slope = (sum(a * q[k] for a, q in zip(terms, known, strict=False)) for k in (0, 1))
+    return value / edge**2, (slope - value) / edge**4 + value * c * c / (2 * edge**2)
 
 
 @cache
@@ -215,6 +243,21 @@ def scaling_cases():
             yield Case("lens and λ × 1e-6 … 1e6", scaled(base(name), k), 900.0 * k, 0.1, WAVELENGTH * k)
 
 
+def shape_cases():
+    for name in ("double_gauss_28", "eye_navarro"):
+        for strength in (1e-15, 1e-4, 1e-2):
+            for edge in (1e-2, 10.0, 1e4):
+                depart = strength * min(edge, 1.0)
+                shapes = (
+                    Qbfs((depart, -depart / 2, depart / 3), edge),
+                    Qcon(tuple(depart * (-1) ** m / (m + 1) for m in range(10)), edge),
+                    RadialPolynomial((0.0, depart, 0.0, -depart), edge),
+                )
+                for number, shape in enumerate(shapes):
+                    lens = with_surface(base(name), number % 2, shape=shape, conic=0.0)
+                    yield Case("Qbfs, Qcon and r² terms", lens, inf if number else 300.0)
+
+
 REGIMES = (
     *(depth_cases, focal_plane_cases),
     *(field_cases, aperture_cases, wavelength_cases),
@@ -229,6 +272,7 @@ REGIMES = (
     index_space_cases,
     virtual_cases,
     scaling_cases,
+    shape_cases,
 )
 
 
