@@ -17,7 +17,9 @@ from scipy import fft
 from scipy.special import j1
 
 from p2sf.conventions import protected
+from p2sf.errors import SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of, uniform_disc
+from p2sf.metrics.masked_transfer import masked_cells
 from p2sf.metrics.perfect import circle_energy
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
@@ -94,6 +96,12 @@ def energy_of(pupil: FrequencyPupil, centre_um: float | None = None) -> "RingSum
     across = samples_across(pupil, centre)
     if across <= MOST_ACROSS:
         return ring_sums(pupil, centre, across)
+    if not pupil.mask.clear:
+        raise SamplingError(
+            "a blur that takes {across} pupil samples a side behind a mask; bring the sensor nearer to the image or "
+            "stop down",
+            across=across,
+        )
     return replace(landing_points(pupil, centre), departure=departure_of_rays(pupil, centre))
 
 
@@ -123,7 +131,8 @@ def ring_sums(pupil: FrequencyPupil, centre_um: float, across: int) -> RingSums:
     step = 2 * max(pupil.half_x, pupil.half_y) / across
     wave, kept = _cells(pupil, centre_um, step, across)
     length = fft.next_fast_len(2 * across + 4)
-    field = fft.fft2(np.concatenate([wave[:, ::-1], wave], axis=1), (length, length))
+    both = np.concatenate([wave[:, ::-1], wave], axis=1) if pupil.mask.clear else wave
+    field = fft.fft2(both, (length, length))
     transfer = fft.rfft2(field.real**2 + field.imag**2).real
     light = float(transfer[0, 0])
     ring, radius = _rings(length)
@@ -139,6 +148,8 @@ def _cells(pupil: FrequencyPupil, centre_um: float, step: float, across: int) ->
     is light that the whole edge would send beyond half the period of the grid.
     """
     wide, high = step / pupil.half_x, step / pupil.half_y
+    if not pupil.mask.clear:
+        return _masked_cells(pupil, centre_um, (wide, high), across)
     x = (np.arange(across // 2 + 1) + 0.5) * wide
     y = (np.arange(across + 2) - (across + 1) / 2) * high
     area = np.zeros((y.size, x.size))
@@ -152,6 +163,17 @@ def _cells(pupil: FrequencyPupil, centre_um: float, step: float, across: int) ->
     wave = np.empty(phase.shape, np.complex64)
     wave.real, wave.imag = cosine_sine(phase, np.float32)
     wave *= amplitude.astype(np.float32)
+    return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
+
+
+def _masked_cells(
+    pupil: FrequencyPupil, centre_um: float, size: tuple[float, float], across: int
+) -> tuple[np.ndarray, float]:
+    """Return `_cells` behind a mask, of the whole pupil, (y, x)."""
+    x, y = ((np.arange(across + 2) - (across + 1) / 2) * step for step in size)
+    amplitude, density, phase = masked_cells(pupil, x, y)
+    phase = phase + centre_um * pupil.half_y * y[:, None]
+    wave = (amplitude * np.exp(2j * pi * phase)).astype(np.complex64)
     return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
 
 

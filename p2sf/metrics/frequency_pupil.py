@@ -12,9 +12,9 @@ See handbook 6.3.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from math import inf
+from math import inf, nan
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
@@ -23,15 +23,18 @@ from scipy.linalg import qr, solve_triangular
 
 from p2sf.conventions import protected
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.huygens import all_reach
+from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.vignetting import clear_nodes, clear_outline
 
 # RMS error of the phase up to which a higher order is tried: the transfer function's error is at most 2π√2 times it.
@@ -39,6 +42,7 @@ RESIDUAL_WAVES = 5e-5
 MOST_RESIDUAL = 1e-3  # and above which no polynomial describes the pupil
 RIM = 64  # intervals of the rim's right half that are traced
 OUTLINE = 2048  # intervals of the outline: chords between them depart from it by 3e-7 of the radius
+CENTROID_CELLS = 256  # along each side, for the centroid of the light that a mask lets through: 1e-3 of its radius
 PROBE = 33  # points along each axis where slopes are looked for
 
 UNFOLLOWED = "no polynomial follows the rays of this pupil; stop the lens down or reduce the field"
@@ -104,6 +108,14 @@ class FrequencyPupil:
         RMS error of the phase.
     rays : int
         How many rays were traced.
+    mask : PupilMask
+        What stands in the pupil, as the source sees it; ``density`` and ``phase`` are those of the whole disc.
+    wavelength_um : float
+        By which the mask's path is waves.
+    turned : bool
+        Whether the box's x is −fx, which shows where a mask is not even.
+    stretch, up : numpy.ndarray
+        ξ/x and η of the ray at a point of the box, as ``phase`` is.
     """
 
     half_x: float
@@ -117,6 +129,11 @@ class FrequencyPupil:
     rms_um: float
     residual_waves: float
     rays: int
+    mask: PupilMask = CLEAR
+    wavelength_um: float = nan
+    turned: bool = False
+    stretch: np.ndarray = field(default_factory=lambda: np.ones((1, 1)))
+    up: np.ndarray = field(default_factory=lambda: np.array([[0.0], [1.0]]))
 
     @property
     def cut_off_per_um(self) -> tuple[float, float]:
@@ -125,7 +142,8 @@ class FrequencyPupil:
 
     def without_phase(self) -> "FrequencyPupil":
         """Return the same pupil of a perfect lens, whose light lands in one point but for diffraction."""
-        return replace(self, phase=np.zeros((2, 2)), centroid_um=0.0, rms_um=0.0)
+        mask = self.mask.without_phase()
+        return replace(self, phase=np.zeros((2, 2)), centroid_um=0.0, rms_um=0.0, mask=mask)
 
     def chords(self, y: np.ndarray) -> np.ndarray:
         """Return the half length of the row at each y, in the box's coordinates; 0 outside the pupil."""
@@ -236,7 +254,10 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False) -> FrequencyPu
         xi, eta, share, weight, phase, fx, fy = (column[passed] for column in columns)
         return PupilNodes(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
 
-    return _settled(traced, ORDERS, whole)
+    mask = mask_seen(lens, source)
+    if not (whole or mask.clear):
+        check_unmasked(lens, Message("a transfer function of a pupil that ends at rims or where rays are lost"))
+    return behind_mask(_settled(traced, ORDERS, whole), mask, float(source.wavelength_um))
 
 
 def pupil_of_fit(found: FittedPencil) -> FrequencyPupil:
@@ -249,11 +270,14 @@ def pupil_of_fit(found: FittedPencil) -> FrequencyPupil:
         weight = found.weight_at(xi, eta)
         return PupilNodes(xi, eta, _shares(inside.weight, edge), weight, *found.at(xi, eta), edge[0].size)
 
-    return replace(_settled(evaluated, ORDERS, True), rays=found.rays)
+    return behind_mask(replace(_settled(evaluated, ORDERS, True), rays=found.rays), found.mask, found.wavelength_um)
 
 
-def pupil_of_coefficients(six: Coefficients) -> FrequencyPupil:
-    """Return the pupil of the six coefficients: the unit circle, frequencies −n'u'(ξ, η)/λ, uniform density."""
+def pupil_of_coefficients(six: Coefficients, mask: PupilMask = CLEAR) -> FrequencyPupil:
+    """Return the pupil of the six coefficients: the unit circle, frequencies −n'u'(ξ, η)/λ, uniform density.
+
+    ``mask``: what else stands in it, as the source sees it. W counts the other way round than the mask's path.
+    """
     edge, scale = _rim(RIM), -float(six.reduced_slope) / float(six.wavelength_um)
 
     def evaluated(sampling: Sampling) -> PupilNodes:
@@ -262,7 +286,37 @@ def pupil_of_coefficients(six: Coefficients) -> FrequencyPupil:
         phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
         return PupilNodes(xi, eta, _shares(inside.weight, edge), one, phase, scale * xi, scale * eta, edge[0].size)
 
-    return replace(_settled(evaluated, (EXACT,), True), rays=2)
+    found = replace(_settled(evaluated, (EXACT,), True), rays=2)
+    return behind_mask(found, mask, -float(six.wavelength_um))
+
+
+def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) -> FrequencyPupil:
+    """Return the pupil behind a mask: centroid and RMS distance are those of the light that passes."""
+    if mask.clear:
+        return pupil
+    pupil = replace(pupil, mask=mask, wavelength_um=wavelength_um)
+    axis = (np.arange(CENTROID_CELLS) + 0.5) * (2 / CENTROID_CELLS) - 1
+    along = chebvander(axis, len(pupil.up) - 1)
+    xi, eta = axis * (along @ pupil.stretch @ along.T), along @ pupil.up @ along.T
+    inside = mask.opens(xi, eta) & (xi * xi + eta * eta <= 1)
+    phase, density = pupil.on_grid(axis, axis)
+    if mask.phased:
+        phase = phase + np.where(inside, mask.path_um(xi * inside, eta * inside), 0.0) / wavelength_um
+    slope_y, slope_x = np.gradient(phase, axis[1] - axis[0])
+    # Differences across an edge of a phase that ends there are none.
+    whole = inside if not mask.phased else inside & ~_beside(~inside)
+    light = np.where(whole, np.square(density * mask.amplitude(xi * inside, eta * inside)), 0.0)
+    light /= light.sum()
+    landing_x, landing_y = -slope_x / pupil.half_x, -slope_y / pupil.half_y
+    centre = float((light * landing_y).sum())
+    square = float((light * (landing_x**2 + (landing_y - centre) ** 2)).sum())
+    return replace(pupil, centroid_um=centre, rms_um=float(np.sqrt(square)))
+
+
+def _beside(cells: np.ndarray) -> np.ndarray:
+    """Return the cells that have one of these beside them."""
+    beside: np.ndarray = np.logical_or.reduce([np.roll(cells, s, axis) for axis in (0, 1) for s in (-1, 1)])
+    return beside
 
 
 def _shares(weight: np.ndarray, edge: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
@@ -309,7 +363,7 @@ def _through(nodes: PupilNodes, order: int, smooth: bool) -> FrequencyPupil:
     miss = least.values(phase) - nodes.phase[used]
     freedom = max(1 - least.unknowns / miss.size, 1e-3)
     share = nodes.share[used]
-    density, flat = least.density(nodes.xi[used], nodes.eta[used], nodes.weight[used])
+    density, flat, stretch, up = least.density(nodes.xi[used], nodes.eta[used], nodes.weight[used])
     light = share * nodes.weight[used] * least.values(density)  # D²df = D·weight·dξdη
     light /= light.sum()
     landing_x, landing_y = (-slope / half for slope, half in zip(least.slopes(phase), (half_x, half_y), strict=True))
@@ -326,6 +380,9 @@ def _through(nodes: PupilNodes, order: int, smooth: bool) -> FrequencyPupil:
         float(np.sqrt(max(light @ (landing_x**2 + (landing_y - centroid) ** 2), 0.0))),  # < 0 at a fold, refused below
         float(np.sqrt(share @ miss**2 / share.sum() / freedom)) if flat else inf,
         0,
+        turned=bool(nodes.xi @ nodes.fx < 0),
+        stretch=stretch,
+        up=up,
     )
 
 
@@ -359,12 +416,14 @@ class LeastSquares:
         along = np.einsum("na,na->n", self._along[:, :-1] @ by_y, self._across)
         return across, along
 
-    def density(self, xi: np.ndarray, eta: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, bool]:
-        """Return the coefficients of weight·|∂(ξ, η)/∂(x, y)|, and whether that map goes without a fold."""
+    def density(
+        self, xi: np.ndarray, eta: np.ndarray, weight: np.ndarray
+    ) -> tuple[np.ndarray, bool, np.ndarray, np.ndarray]:
+        """Return the coefficients of weight·|∂(ξ, η)/∂(x, y)|, whether that map goes without a fold, and its own."""
         stretch, up = self.solve(xi / self._x), self.solve(eta)  # ξ is odd in x, and ξ/x even
         (stretch_x, stretch_y), (up_x, up_y) = self.slopes(stretch), self.slopes(up)
         area = (self.values(stretch) + self._x * stretch_x) * up_y - self._x * stretch_y * up_x
-        return self.solve(weight * np.abs(area)), bool(area.min() * area.max() > 0)
+        return self.solve(weight * np.abs(area)), bool(area.min() * area.max() > 0), stretch, up
 
 
 def _outline(x: np.ndarray, y: np.ndarray, smooth: bool) -> tuple[np.ndarray, np.ndarray]:

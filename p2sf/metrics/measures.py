@@ -16,17 +16,20 @@ from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError, SamplingError
-from p2sf.lens.lens import Lens, check_aligned, check_unmasked, lens_range_um
+from p2sf.lens.lens import Lens, check_aligned, lens_range_um
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
 from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays
+from p2sf.metrics.masked_transfer import MaskedSlice
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
 from p2sf.paraxial.seidel import check_seidel, coefficients
 from p2sf.psf.methods import choose
 from p2sf.psf.polychromatic import chief_shifts_um
 from p2sf.psf.seidel import check_image
+from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.fit import fit
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
 METHODS = ("auto", "seidel", "fitted", "traced", "huygens")
@@ -43,7 +46,8 @@ class Mtf:
     """Contrast of sine patterns against cycles per mm on the sensor, all (n,).
 
     ``tangential``: of patterns that vary along y, the direction of the field; ``sagittal``: along x. Beside them those
-    of the same pupils without phase, which nothing exceeds. ``method`` names what described the pupil.
+    of the same pupils without phase, which nothing exceeds, and of clear pupils without phase, the same where no mask
+    stands in the stop. ``method`` names what described the pupil.
     """
 
     frequency_per_mm: np.ndarray
@@ -52,6 +56,8 @@ class Mtf:
     perfect_tangential: np.ndarray
     perfect_sagittal: np.ndarray
     method: str
+    clear_tangential: np.ndarray
+    clear_sagittal: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +136,6 @@ def pupil_of(lens: Lens, source: Source, method: str = "traced", clip: bool = Fa
         raise RequestError(
             'method "{method}" describes no pupil; choose {methods}', method=method, methods=Alternatives(METHODS)
         )
-    check_unmasked(lens, Message("a transfer function"))
     check_aligned(lens, Message("a transfer function"))
     if method == "auto":
         method = choose(lens, source, clip=clip).method
@@ -138,7 +143,7 @@ def pupil_of(lens: Lens, source: Source, method: str = "traced", clip: bool = Fa
         check_seidel(lens)
         six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         check_image(six)
-        return pupil_of_coefficients(six), method
+        return pupil_of_coefficients(six, mask_seen(lens, source)), method
     if method == "fitted":
         return pupil_of_fit(fit(lens, source)), method
     return pupil_of_rays(lens, source, clip), method
@@ -182,10 +187,19 @@ def mtf_of(
     given = np.asarray(frequency_per_mm, dtype=float)
     curves = [_transfer(parts, [both[axis] for both in slices], np.abs(given) / UM_PER_MM) for axis in (1, 0)]
     (tangential, perfect_tangential), (sagittal, perfect_sagittal) = curves
-    return Mtf(given, np.abs(tangential), np.abs(sagittal), perfect_tangential, perfect_sagittal, method)
+    clear = perfect_tangential, perfect_sagittal
+    if not all(part.pupil.mask.clear for part in parts):
+        plain = [replace(part, pupil=replace(part.pupil, mask=CLEAR)) for part in parts]
+        whole = [otf_slices(part.pupil.without_phase(), cancelled) for part in plain]
+        found = (_transfer(plain, [both[axis] for both in whole], np.abs(given) / UM_PER_MM)[1] for axis in (1, 0))
+        clear = next(found), next(found)
+    perfect = perfect_tangential, perfect_sagittal
+    return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear)
 
 
-def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _transfer(
+    parts: Parts, slices: Sequence[OtfSlice | MaskedSlice], frequency: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return Σ share·OTF about the centroid of all parts, and the same of the pupils without phase.
 
     Along x the centroid is that of the chief ray, 0.

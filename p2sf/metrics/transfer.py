@@ -20,6 +20,7 @@ from scipy import fft
 from p2sf.conventions import protected
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, Reach, reach_of, uniform_disc
+from p2sf.metrics.masked_transfer import MaskedSlice, masked_slices
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
@@ -80,11 +81,15 @@ class OtfSlice:
         return real + 1j * imaginary, perfect
 
 
-def otf_slices(pupil: FrequencyPupil, cancelled: Stop = never) -> tuple[OtfSlice, OtfSlice]:
+def otf_slices(
+    pupil: FrequencyPupil, cancelled: Stop = never
+) -> tuple["OtfSlice | MaskedSlice", "OtfSlice | MaskedSlice"]:
     """Return the transfer function along x and along y. Raises SamplingError where that takes too many samples.
 
     ``cancelled`` is polled between blocks of lines and ends the work with `Cancelled`.
     """
+    if not pupil.mask.clear:
+        return masked_slices(pupil, cancelled)
     across, along = _line_counts(reach_of(pupil))
     return (
         _slice(_row_sum, pupil, across, 2 * pupil.half_x, False, cancelled),

@@ -125,7 +125,7 @@ def _masked_batch(
     fields = sum_plane_waves(pupil_amplitude(weight, waves, dtype), kx, ky, axis, axis, nodes.even)
     fields += whole_fields(even, odd, pixels)
     fields /= amplitude + float(weight.sum())
-    return fields.real**2 + fields.imag**2, pieces[0][1]
+    return np.ascontiguousarray(fields.real**2 + fields.imag**2), pieces[0][1]
 
 
 def _pieces(terms: np.ndarray, pixels: int, pixel_um: float, mask: PupilMask) -> tuple[tuple[float, RowNodes], ...]:
