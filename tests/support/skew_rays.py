@@ -3,7 +3,7 @@
 It takes numbers from a `Lens` (radii, conics, aspheric terms, thicknesses, indices, stop, aperture) and shares no
 formula's code with `p2sf`: vectors of direction instead of optical cosines, an object-space ray that is found by
 tracing *backwards* from a point of the stop, and a paraxial entrance pupil from a paraxial ray of its own.
-Lengths in mm, the first vertex at the origin, light along +z.
+Lengths in mm, the first vertex at the origin, light along +z; behind an odd number of mirrors indices are negative.
 """
 
 from dataclasses import dataclass
@@ -84,9 +84,11 @@ def system_of(lens: Lens, wavelength_um: float) -> System:
     gaps = tuple(s.thickness for s in lens.surfaces)
 
     def at(wavelength: float, rim: float) -> System:
-        media = (lens.object_medium, *(s.medium for s in lens.surfaces))
-        index = tuple(float(medium.index(wavelength)) for medium in media)
-        return System(shapes, gaps, index, lens.stop_surface - 1, rim, wavelength / 1000)
+        index = [float(lens.object_medium.index(wavelength))]
+        for s in lens.surfaces:  # a mirror is n' = −n, with every direction written so that it points along +z
+            here = -index[-1] if s.reflects else np.sign(index[-1]) * float(s.medium.index(wavelength))
+            index.append(here)
+        return System(shapes, gaps, tuple(index), lens.stop_surface - 1, rim, wavelength / 1000)
 
     return at(wavelength_um, _rim(lens, at(lens.reference_wavelength_um, 1.0)))
 

@@ -188,9 +188,9 @@
 <message><source>Exit pupil</source><translation>Austrittspupille</translation></message>
 <message><source>Explore</source><translation>Erkunden</translation></message>
 <message><source>Explorer states (*.json)</source><translation>Zustände des Explorers (*.json)</translation></message>
+<message><source>Export</source><translation>Export</translation></message>
 <message><source>Export a set of PSFs</source><translation>Einen Satz PSFs exportieren</translation></message>
 <message><source>Export a set of PSFs…</source><translation>Einen Satz PSFs exportieren …</translation></message>
-<message><source>Export</source><translation>Export</translation></message>
 <message><source>Export…</source><translation>Exportieren …</translation></message>
 <message><source>FFT of {samples} × {samples} pupil samples</source><translation>FFT aus {samples} × {samples} Pupillenproben</translation></message>
 <message><source>FITS files need astropy, which is not installed; pip install 'p2sf[fits]'</source><translation>FITS-Dateien brauchen astropy, das nicht installiert ist; pip install 'p2sf[fits]'</translation></message>
@@ -247,12 +247,13 @@
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
 <message><source>How the two pictures are put beside each other</source><translation>Wie die beiden Bilder nebeneinander gestellt werden</translation></message>
 <message><source>Hubble Space Telescope as built, f/24</source><translation>Hubble-Weltraumteleskop, wie gebaut, f/24</translation></message>
+<message><source>Hubble Space Telescope as designed, f/24</source><translation>Hubble-Weltraumteleskop, wie entworfen, f/24</translation></message>
 <message><source>Hybrid achromat f/5, 50 mm: a singlet that diffracts</source><translation>Hybrid-Achromat f/5, 50 mm: eine Einzellinse, die beugt</translation></message>
 <message><source>Image</source><translation>Bild</translation></message>
 <message><source>Image height</source><translation>Bildhöhe</translation></message>
 <message><source>Image: Σ over the scene's points of brightness × PSF at that point, for red, green and blue; distortion and falling light included.</source><translation>Bild: Σ über die Punkte der Szene von Helligkeit × PSF an diesem Punkt, für Rot, Grün und Blau; Verzeichnung und Lichtabfall eingeschlossen.</translation></message>
-<message><source>Import a lens</source><translation>Ein Objektiv importieren</translation></message>
 <message><source>Import</source><translation>Import</translation></message>
+<message><source>Import a lens</source><translation>Ein Objektiv importieren</translation></message>
 <message><source>Import report</source><translation>Importbericht</translation></message>
 <message><source>Import report: everything the reader of the lens file took, replaced, passed over or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
 <message><source>In its own window, or back</source><translation>In einem eigenen Fenster, oder zurück</translation></message>
@@ -602,6 +603,7 @@
 <message><source>The stop: drag it along the axis within its air gap; the f-number stays.</source><translation>Die Blende: entlang der Achse in ihrem Luftabstand ziehen; die Blendenzahl bleibt.</translation></message>
 <message><source>The surface whose rim limits the light: the least |rim/y| on the way of the marginal ray, or the file's choice.</source><translation>Die Fläche, deren Rand das Licht begrenzt: das kleinste |Rand/y| auf dem Weg des Randstrahls, oder wie es die Datei sagt.</translation></message>
 <message><source>The surface's edge: drag it sideways to change the radius.</source><translation>Der Rand der Fläche: seitlich ziehen ändert den Radius.</translation></message>
+<message><source>The telescope that the prescription meant, and that its later instruments see</source><translation>Das Teleskop, das der Entwurf meinte und das seine späteren Instrumente sehen</translation></message>
 <message><source>The vertex: drag it along the axis to change the thickness before it; what follows moves with it.</source><translation>Der Scheitel: entlang der Achse ziehen ändert die Dicke davor; was folgt, wandert mit.</translation></message>
 <message><source>The wavefront as a surface; drag it or use the arrow keys to turn it</source><translation>Die Wellenfront als Fläche; durch Ziehen oder mit den Pfeiltasten zu drehen</translation></message>
 <message><source>The whole plot</source><translation>Das ganze Diagramm</translation></message>
