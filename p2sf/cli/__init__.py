@@ -22,6 +22,8 @@ COMMANDS = {
     "psf": ("images:psf", "The point spread function of one source, to a file or in a few figures."),
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
     "zernike": ("zernikes:zernike", "The exact wavefront as Zernike terms, in waves and shares of its variance."),
+    "measure": ("measuring:measure", "From a picture of points to the wavefronts that made it, with errors."),
+    "compare": ("measuring:compare", "Two measurements of the same points beside each other."),
     "tradeoff": ("studies:tradeoff", "What every method costs in time and in error, measured."),
     "validate": ("studies:validate", "Figures that other programs published, beside this program's own."),
     "paper": ("studies:paper", "Redo the paper's two figures on this machine, and judge its claims."),

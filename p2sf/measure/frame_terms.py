@@ -61,7 +61,8 @@ class FrameModel:
     ``unknowns``: of ``sensor_shift_um``, ``tilt_x_deg``, ``tilt_y_deg`` (by which the sensor recedes towards +x, +y);
     ``w40``, ``w31``, ``w22``, ``w20``, waves at ``height_mm``, growing with the field as 1, h, h² and h²; and
     ``spacing_um:k``, of the space behind surface k, the sensor staying at its distance from the last surface. Without a
-    lens the pupil is the paraxial one of the numerical aperture, and W has no other terms.
+    lens the pupil is the paraxial one of the numerical aperture, and W has no other terms. ``alone``: the model is of
+    one point, and field polynomials are waves at it, wherever it lies.
     """
 
     optics: Optics
@@ -69,6 +70,7 @@ class FrameModel:
     unknowns: tuple[str, ...] = (*FOCUS, *FIELD)
     lens: Lens | None = None
     depth_mm: float = float("inf")
+    alone: bool = False
 
     def __post_init__(self) -> None:
         surfaces = len(self.lens.surfaces) if self.lens is not None else 0
@@ -127,7 +129,7 @@ class FrameModel:
     ) -> PointPupil:
         x, y, height = place
         across, along = meridional
-        square, h = across**2 + along**2, height / self.height_mm
+        square, h = across**2 + along**2, 1.0 if self.alone else height / self.height_mm
         made = {
             "sensor_shift_um": focus,
             "tilt_x_deg": focus * (x * UM_PER_DEGREE_MM),
@@ -139,6 +141,14 @@ class FrameModel:
             **spacings,
         }
         return PointPupil(rows, phase, np.stack([made[name] for name in self.unknowns]), focus)
+
+    def six_of_lens(self, height_mm: float) -> np.ndarray:
+        """Return W40, W31, W22 and W20 + Wd of the lens where a chief ray lands at a height; 0 without a lens."""
+        if self.lens is None:
+            return np.zeros(4)
+        source = self._map().source(height_mm, self.optics.wavelength_um)
+        c = coefficients(self.lens, source.depth_mm, source.field_slope, source.wavelength_um)
+        return np.array([c.w40, c.w31, c.w22, c.w20 + c.wd], float)
 
     def fits(self, height_mm: float) -> tuple[FittedPencil, dict[str, np.ndarray]]:
         """Return the fit of a point at a height, and how its phase's coefficients change per µm of what moves.

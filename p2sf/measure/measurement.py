@@ -14,16 +14,17 @@ from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
 from p2sf.measure.frame import Frame
 from p2sf.measure.frame_fit import FrameFit, fit_frame
+from p2sf.measure.frame_start import six_of_unknowns
 from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint
-from p2sf.measure.point_fit import PointFit, fit_point
+from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import FoundPoint, find_points, in_grid, window_half, window_of
-from p2sf.measure.pupil_model import SIX
+from p2sf.measure.pupil_model import SIX, pupil_model
 from p2sf.messages import Message
 
 FEWEST = 5  # points of a frame whose field is fitted too
-PART_OF_POINTS = 0.6  # of the time, as progress is told
+WHOLE = 0.5  # of the time, as progress is told
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,18 +78,31 @@ def measured(
 ) -> Measurement:
     """Return what one frame, or several of the same points at known focus, tell of the lens that made them.
 
-    ``focus_um``: how much farther from the lens the sensor was at each frame. ``singly``: fit every point by itself;
-    ``lens``: as designed, from which the whole frame departs by ``unknowns``. A frame of fewer than five usable points
-    is fitted point by point only. Raises RequestError where no point can be used.
+    ``focus_um``: how much farther from the lens the sensor was at each frame. ``singly``: fit every point by itself.
+    ``lens``: as designed, from which the whole frame departs by ``unknowns``, and every point by four coefficients,
+    which are added to the lens's own. A frame of fewer than five usable points is fitted point by point only, without
+    the lens. Raises RequestError where no point can be used.
     """
     if len(frames) != len(focus_um):
         raise RequestError(
             "{frames} frames and {focus} focus positions; give one for each", frames=len(frames), focus=len(focus_um)
         )
+    pupil_model(model)  # refuses a name that is none
     points = in_grid(find_points(frames[0]))
     half = window_half(points)
     waves_per_um = optics.na**2 / (2 * optics.wavelength_um)
     windows = [_windows(frames, point, half, np.asarray(focus_um) * waves_per_um) for point in points]
+    placed = [
+        one
+        for point, pictures in zip(points, windows, strict=True)
+        for one in _placed(frames[0], point, pictures, focus_um)
+    ]
+    whole = None
+    if sum(bool(pictures) for pictures in windows) >= FEWEST:
+        height = max(float(np.hypot(point.x_mm, point.y_mm)) for point in placed)
+        known = FrameModel(optics, height, tuple(unknowns), lens, depth_mm)
+        told = (lambda share: progress(WHOLE * share)) if progress else None
+        whole = fit_frame(placed, known, progress=told, cancelled=cancelled)
     fits: list[PointFit | None] = [None] * len(points)
     failures: list[Message | None] = [None] * len(points)
     for k, (point, pictures) in enumerate(zip(points, windows, strict=True)):
@@ -96,23 +110,15 @@ def measured(
             raise Cancelled("the measurement was cancelled before it was done")
         if singly and pictures:
             try:
-                fits[k] = _fit(point, pictures, optics, model)
+                if whole is not None and lens is not None and model == SIX:
+                    fits[k] = _departure(whole, _placed(frames[0], point, pictures, focus_um), point)
+                else:
+                    fits[k] = _fit(point, pictures, optics, model, _expected(whole, point))
             except P2SFError as error:
                 failures[k] = error.message
         if progress:
-            progress(PART_OF_POINTS * (k + 1) / len(points))
-    made = Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures))
-    placed = [
-        FramePoint(replace(picture, defocus_waves=0.0), *_middle(frames[0], point), focus)
-        for point, pictures in zip(points, windows, strict=True)
-        for picture, focus in zip(pictures, focus_um, strict=False)
-    ]
-    if sum(bool(pictures) for pictures in windows) < FEWEST:
-        return made
-    height = max(float(np.hypot(point.x_mm, point.y_mm)) for point in placed)
-    whole = FrameModel(optics, height, tuple(unknowns), lens, depth_mm)
-    told = (lambda share: progress(PART_OF_POINTS + (1 - PART_OF_POINTS) * share)) if progress else None
-    return replace(made, whole=fit_frame(placed, whole, progress=told, cancelled=cancelled))
+            progress(WHOLE + (1 - WHOLE) * (k + 1) / len(points))
+    return Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures), whole)
 
 
 def _windows(frames: Sequence[Frame], point: FoundPoint, half: int, waves: np.ndarray) -> list[PointPicture]:
@@ -124,15 +130,55 @@ def _windows(frames: Sequence[Frame], point: FoundPoint, half: int, waves: np.nd
     return whole if len(whole) == len(found) else []
 
 
-def _fit(point: FoundPoint, pictures: Sequence[PointPicture], optics: Optics, model: str) -> PointFit:
+def _fit(
+    point: FoundPoint, pictures: Sequence[PointPicture], optics: Optics, model: str, near: np.ndarray | None
+) -> PointFit:
     """Return the fit of a point; for a model with a map its window is turned so that the field lies along +y."""
     azimuth = float(np.rad2deg(np.arctan2(point.x_mm, point.y_mm))) if np.hypot(point.x_mm, point.y_mm) else 0.0
     if model == SIX:
-        return fit_point(pictures, optics, model, azimuth)
+        return fit_point(pictures, optics, model, azimuth, near=near)
     quarter = round(azimuth / 90)
     if abs(azimuth - 90 * quarter) > 1.0:
         raise RequestError("a model with a pupil map is fitted to points straight above, below or beside the axis only")
     return fit_point([_turned(picture, quarter) for picture in pictures], optics, model)
+
+
+def _placed(
+    frame: Frame, point: FoundPoint, pictures: Sequence[PointPicture], focus_um: Sequence[float]
+) -> list[FramePoint]:
+    """Return a point's pictures as a frame's fit takes them."""
+    middle = frame.geometry.place_of(round(point.row), round(point.column))
+    pairs = zip(pictures, focus_um, strict=False)
+    return [FramePoint(replace(picture, defocus_waves=0.0), *middle, focus) for picture, focus in pairs]
+
+
+def _departure(whole: FrameFit, placed: Sequence[FramePoint], point: FoundPoint) -> PointFit:
+    """Return what a point tells beyond the lens's exact wavefront, added to the lens's own coefficients."""
+    model = replace(whole.model, unknowns=("w40", "w31", "w22", "w20"), alone=True)
+    own = model.six_of_lens(float(np.hypot(point.x_mm, point.y_mm)))
+    found = fit_frame(placed, model, six_of_unknowns(point.x_mm, point.y_mm, whole.model) @ whole.values)
+    left = max(1, sum(int(one.picture.usable.sum()) for one in placed) - found.values.size - found.frames.size)
+    return PointFit(
+        model=pupil_model(SIX),
+        optics=model.optics,
+        azimuth=float(np.arctan2(point.x_mm, point.y_mm)),
+        numbers=own + found.values,
+        covariance=found.covariance,
+        frames=found.frames,
+        modelled=found.modelled,
+        r2=found.r2,
+        chi2=found.chi2,
+        warnings=chi2_warning(found.chi2, left),
+    )
+
+
+def _expected(whole: FrameFit | None, point: FoundPoint) -> np.ndarray | None:
+    """Return W40, W31, W22 and W20 + Wd that the frame suggests for a point: all points then take the same twin."""
+    if whole is None:
+        return None
+    own = whole.model.six_of_lens(float(np.hypot(point.x_mm, point.y_mm)))
+    expected: np.ndarray = own + six_of_unknowns(point.x_mm, point.y_mm, whole.model) @ whole.values
+    return expected
 
 
 def _turned(picture: PointPicture, quarter: int) -> PointPicture:
@@ -141,10 +187,6 @@ def _turned(picture: PointPicture, quarter: int) -> PointPicture:
     variance = np.broadcast_to(picture.variance, picture.values.shape)
     values, noise, good = (np.rot90(part, -quarter) for part in (picture.values, variance, picture.usable))
     return replace(picture, values=values, variance=noise, good=good)
-
-
-def _middle(frame: Frame, point: FoundPoint) -> tuple[float, float]:
-    return frame.geometry.place_of(round(point.row), round(point.column))
 
 
 def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:

@@ -106,20 +106,23 @@ def fit_point(
     model: str = SIX,
     azimuth_deg: float = 0.0,
     loss: Loss = "linear",
+    near: np.ndarray | None = None,
 ) -> PointFit:
     """Return the wavefront that explains one or several pictures of one point, taken at known differences of focus.
 
     ``model``: "seidel" (W40, W31, W22, W20 + Wd), "26" or "46" numbers, which fit the pupil map too. ``azimuth_deg``:
     the field's direction on the sensor from +y towards +x; models with a map take 0 only, so turn the picture.
-    ``loss``: other than "linear", outliers count less (`scipy.optimize.least_squares`). One focus leaves the twin open
-    (`PointFit.others`). Raises RequestError for pictures in which no point is, or too few pixels.
+    ``loss``: other than "linear", outliers count less (`scipy.optimize.least_squares`). ``near``: W40, W31, W22 and
+    W20 + Wd expected, such as those of the lens as designed: tried too, and of solutions that explain the pictures as
+    well the nearest is taken. One focus leaves the twin open (`PointFit.others`). Raises RequestError for pictures in
+    which no point is, or too few pixels.
     """
     azimuth = float(np.deg2rad(azimuth_deg))
     wanted = pupil_model(model)
     _check(pictures, wanted, azimuth, loss)
-    found = _six(pictures, optics, azimuth, loss) if wanted.six else _with_map(pictures, optics, wanted, loss)
+    found = _six(pictures, optics, azimuth, loss, near) if wanted.six else _with_map(pictures, optics, wanted, loss)
     problem = Problem(pictures, optics, wanted, azimuth)
-    return _result(problem, found)
+    return _result(problem, found, near if wanted.six else None)
 
 
 def _check(pictures: Sequence[PointPicture], model: PupilModel, azimuth: float, loss: str) -> None:
@@ -139,15 +142,22 @@ def _check(pictures: Sequence[PointPicture], model: PupilModel, azimuth: float, 
         )
 
 
-def _six(pictures: Sequence[PointPicture], optics: Optics, azimuth: float, loss: Loss) -> list[_Minimum]:
+def _six(
+    pictures: Sequence[PointPicture], optics: Optics, azimuth: float, loss: Loss, near: np.ndarray | None
+) -> list[_Minimum]:
     """Return minima of the six model, the deepest first; more starts are tried where none explains the pictures."""
     coarse, fine = (Problem(pictures, optics, pupil_model(SIX), azimuth, part) for part in (True, False))
     every = starts(pictures, optics, azimuth, TRIED[-1])
     minima: list[_Minimum] = []
+    if near is not None:
+        expected = np.concatenate([near, every[0].frames.ravel()])
+        expected[5::PER_FRAME] += (near[1] - every[0].waves[1]) * np.cos(azimuth) / optics.cycles
+        expected[4::PER_FRAME] += (near[1] - every[0].waves[1]) * np.sin(azimuth) / optics.cycles
+        minima.append(_descended(fine, expected, loss))
     for some in (slice(0, TRIED[0]), slice(*TRIED)):
-        near = [_descended(coarse, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
-        near.sort(key=_cost)
-        minima += [_descended(fine, minimum.unknowns, loss) for minimum in _distinct(near, 4)[:KEPT]]
+        rough = [_descended(coarse, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
+        rough.sort(key=_cost)
+        minima += [_descended(fine, minimum.unknowns, loss) for minimum in _distinct(rough, 4)[:KEPT]]
         minima.sort(key=_cost)
         if 2 * minima[0].cost < fine.freedom * most_chi2(fine.freedom):
             break
@@ -226,7 +236,9 @@ def _with_waves(minimum: _Minimum, cycles: float, model: PupilModel) -> np.ndarr
     return np.concatenate([waves, frames.ravel()])
 
 
-def _result(problem: Problem, minima: Sequence[_Minimum]) -> PointFit:
+def _result(problem: Problem, minima: Sequence[_Minimum], near: np.ndarray | None) -> PointFit:
+    if near is not None:
+        minima = _nearest_first(problem, minima, near)
     best = minima[0]
     unknowns, numbers = best.unknowns, problem.numbers
     problem.prepare(unknowns)
@@ -254,6 +266,21 @@ def _result(problem: Problem, minima: Sequence[_Minimum]) -> PointFit:
     return replace(fit, warnings=_warnings(fit, problem))
 
 
+def _nearest_first(problem: Problem, minima: Sequence[_Minimum], near: np.ndarray) -> list[_Minimum]:
+    """Return minima, first the nearest of those that explain the pictures as well as the deepest, twins included."""
+    least = minima[0].cost
+    most = least + 0.5 * AS_GOOD * max(1.0, 2 * least / problem.freedom)
+    as_good = [minimum for minimum in minima if minimum.cost < most]
+    if len(problem.pictures) == 1:
+        known = problem.pictures[0].defocus_waves
+        for minimum in list(as_good):
+            unknowns = minimum.unknowns.copy()
+            unknowns[: problem.numbers] = problem.model.twin(unknowns[: problem.numbers], known)
+            as_good.append(_Minimum(minimum.cost, unknowns))
+    first = min(as_good, key=lambda minimum: float(np.abs(minimum.unknowns[: problem.numbers] - near).max()))
+    return [first, *(minimum for minimum in minima if minimum is not first)]
+
+
 def _inverse(slopes: np.ndarray, scales: np.ndarray) -> np.ndarray:
     """Return (JᵀJ)⁻¹ from the singular values of J in units of ``scales``; what is not determined at all is huge."""
     _, values, turns = np.linalg.svd(slopes * scales, full_matrices=False)
@@ -263,17 +290,22 @@ def _inverse(slopes: np.ndarray, scales: np.ndarray) -> np.ndarray:
     return covariance
 
 
+def chi2_warning(chi2: float, freedom: int) -> tuple[Message, ...]:
+    """Return a warning where a model leaves more than the noise; none where it does not."""
+    if chi2 <= most_chi2(freedom):
+        return ()
+    return (
+        Message(
+            "the model leaves {ratio:.2g} times the noise, and errors are enlarged by that; try more numbers, and "
+            "check the numerical aperture, the pixel and the noise",
+            ratio=chi2**0.5,
+        ),
+    )
+
+
 def _warnings(fit: PointFit, problem: Problem) -> tuple[Message, ...]:
     """Return what a reader has to know before using the numbers."""
-    out = []
-    if fit.chi2 > most_chi2(problem.freedom):
-        out.append(
-            Message(
-                "the model leaves {ratio:.2g} times the noise, and errors are enlarged by that; try more numbers, and "
-                "check the numerical aperture, the pixel and the noise",
-                ratio=fit.chi2**0.5,
-            )
-        )
+    out = list(chi2_warning(fit.chi2, problem.freedom))
     if len(fit.modelled) == 1:
         out.append(Message("one focus leaves the common sign of all even terms open; a second, known focus decides"))
     further = len(fit.others) - (len(fit.modelled) == 1)

@@ -40,7 +40,7 @@ class Optics:
     @property
     def parts(self) -> int:
         """Return how many points across a pixel average the light, to 1e-3 of the peak."""
-        return 1 if self.fill == 0 else max(3, ceil(3.4 * self.cycles * self.pixel_um * self.fill) + 1)
+        return 1 if self.fill == 0 else max(3, ceil(4 * self.cycles * self.pixel_um * self.fill) + 1)
 
     @property
     def coarse_parts(self) -> int:

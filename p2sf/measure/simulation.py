@@ -1,7 +1,6 @@
 """Frames of points through a lens, with pixels, noise, jitter and a tilted sensor: to try and to teach measuring.
 
-The light on pixels is that of `pixel_kernels`, which samples the pupil over direction cosines: another road than the
-sums that a fit uses.
+The light on pixels is the sum of a fit to exact rays, with more nodes and points per pixel than a measurement takes.
 """
 
 from dataclasses import dataclass, replace
@@ -13,12 +12,15 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.measure.frame import Frame, FrameGeometry
-from p2sf.pixel_kernels.frequency_grid import pupil_map
-from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
-from p2sf.pixel_kernels.pupil_stack import FrequencyPupil
+from p2sf.measure.lens_pupil import lens_rows
+from p2sf.measure.point_model import Optics, PixelSum, counts_for
 from p2sf.pixel_kernels.sensor_points import sensor_map
+from p2sf.pupil.zernike import basis
+from p2sf.raytrace.fit import FittedPencil, fit
 
-FINENESS = 2.0  # samples for every fringe
+RESIDUAL_WAVES = 2e-4  # of the fit to rays
+FINER = 2  # more points across a pixel
+AIRY_RADII = 8.0  # of the window about where rays land, in λ/NA
 
 
 @dataclass(frozen=True)
@@ -72,32 +74,47 @@ def simulated_frame(
         slopes = np.tan(np.deg2rad(exposure.tilt_deg))
         shift_mm = exposure.sensor_shift_um / UM_PER_MM + float(slopes @ (x, y))
         placed = with_sensor(lens, lens.sensor_mm + shift_mm)
-        pupil = pupil_map(placed, seen.source(float(np.hypot(x, y)), wave), "fitted", None)
-        _add(values, geometry, pupil, (x, y), exposure)
+        found = fit(placed, seen.source(float(np.hypot(x, y)), wave), residual_waves=RESIDUAL_WAVES)
+        _add(values, geometry, found, (x, y), exposure)
     return Frame(_exposed(values, exposure), geometry)
 
 
 def _add(
-    values: np.ndarray, geometry: FrameGeometry, pupil: FrequencyPupil, place: tuple[float, float], exposure: Exposure
+    values: np.ndarray, geometry: FrameGeometry, found: FittedPencil, place: tuple[float, float], exposure: Exposure
 ) -> None:
     """Add one point's light to the frame, its peak as asked."""
     from scipy.ndimage import gaussian_filter
 
-    x, y = place
-    row, column = geometry.pixel_at(x, y)
-    centre_x, centre_y = geometry.place_of(row, column)
-    shift = (x - centre_x) * UM_PER_MM, (y - centre_y) * UM_PER_MM
+    row, column = geometry.pixel_at(*place)
+    centre, steep = geometry.place_of(row, column), found.steepness
     pitch = geometry.pixel_um
-    half = half_width(pupil, pitch, float(np.hypot(*shift)) + 3 * exposure.jitter_um)
-    window = PixelWindow(half, pitch, samples_across(pupil, pitch, FINENESS))
-    kernel = pixel_kernel(pupil, float(np.arctan2(x, y)), window, shift).astype(float)
+    reach = (steep.radial + AIRY_RADII) / steep.spread + 4 * exposure.jitter_um
+    half = int(np.ceil(reach / pitch))
+    kernel = lens_light(found, place, half, pitch, centre)[::-1]
     if exposure.jitter_um:
         kernel = gaussian_filter(kernel, exposure.jitter_um / pitch, mode="constant")
-    kernel *= exposure.peak / kernel.max()
+    kernel = kernel * (exposure.peak / kernel.max())
     top, left = max(row - half, 0), max(column - half, 0)
     part = values[top : row + half + 1, left : column + half + 1]
-    begin = top - (row - half), left - (column - half)
-    part += kernel[begin[0] : begin[0] + part.shape[0], begin[1] : begin[1] + part.shape[1]]
+    down, along = top - (row - half), left - (column - half)
+    part += kernel[down : down + part.shape[0], along : along + part.shape[1]]
+
+
+def lens_light(
+    found: FittedPencil, place: tuple[float, float], half: int, pixel_um: float, centre: tuple[float, float]
+) -> np.ndarray:
+    """Return the light of a fit on (2·half + 1)² pixels, rows towards +y, in units that are the same for all windows.
+
+    The chief ray lands at ``place``, and the middle pixel's centre is ``centre``, mm from the axis.
+    """
+    spread = found.steepness.spread
+    optics = Optics(spread, 1.0, pixel_um)
+    counts = counts_for(found.steepness.radial, spread, 1.1 * half * pixel_um)
+    rows = lens_rows(found, float(np.arctan2(*place)), counts)
+    waves = found.phase @ basis(found.level.wave_order, rows.xi.ravel(), rows.eta.ravel())[: found.phase.size]
+    x, y = ((a - b) * UM_PER_MM for a, b in zip(place, centre, strict=True))
+    phase = -waves.reshape(rows.xi.shape) - rows.fx * x - rows.fy[:, None] * y
+    return PixelSum(rows, (2 * half + 1,) * 2, optics, optics.parts + FINER).light(phase)
 
 
 def _exposed(light: np.ndarray, exposure: Exposure) -> np.ndarray:

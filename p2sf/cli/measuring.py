@@ -1,0 +1,195 @@
+"""`p2sf measure` and `p2sf compare`: from pictures of points back to the wavefronts that made them."""
+
+from math import inf
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from cyclopts import Parameter
+
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, Output, check_output
+from p2sf.cli.screen import Row, print_json, print_table, warn
+from p2sf.conventions import NM_PER_UM
+from p2sf.errors import RequestError
+from p2sf.lens.lens import Lens
+from p2sf.lensfile.library import find_lens
+from p2sf.measure.comparison import Comparison, compared
+from p2sf.measure.frame import Frame, Noise
+from p2sf.measure.frame_fit import FrameFit
+from p2sf.measure.frame_terms import FIELD, FOCUS, lens_optics
+from p2sf.measure.measurement import Measurement, measured, write_measurement
+from p2sf.measure.point_model import Optics
+from p2sf.measure.reading import read_frame
+from p2sf.messages import Message
+from p2sf.request import Request, set_up
+
+Pictures = Annotated[list[Path], Parameter(help="Pictures of the same points, one for each focus position.")]
+LensOption = Annotated[str | None, Parameter(help="The lens as designed, from which the picture departs.")]
+PixelUm = Annotated[float | None, Parameter(help="Pixel pitch in µm, unless the file says it.")]
+FocusUm = Annotated[
+    list[float], Parameter(help="How much farther from the lens the sensor was at each picture, µm; 0 for the first.")
+]
+Field = Annotated[Path | None, Parameter(help="A picture of the same sensor: without light, or of even light.")]
+Numbers = Annotated[str, Parameter(help="What each point is fitted by: seidel, 26 or 46 numbers.")]
+Unknown = Annotated[
+    list[str],
+    Parameter(
+        help="What of the whole frame: sensor_shift_um, tilt_x_deg, tilt_y_deg, w40, w31, w22, w20, spacing_um:K."
+    ),
+]
+
+
+def measure(
+    pictures: Pictures,
+    /,
+    *,
+    lens: LensOption = None,
+    request: Asked = AS_IN_THE_FILE,
+    pixel_um: PixelUm = None,
+    focus_um: FocusUm | None = None,
+    model: Numbers = "seidel",
+    unknowns: Unknown | None = None,
+    dark: Field = None,
+    flat: Field = None,
+    gain: Annotated[float | None, Parameter(help="Electrons per count; without it shot noise is left out.")] = None,
+    read_noise: Annotated[float | None, Parameter(help="Of a dark pixel in counts; estimated otherwise.")] = None,
+    full_scale: Annotated[float | None, Parameter(help="Counts from which a pixel is saturated.")] = None,
+    channel: Annotated[str, Parameter(help="Of a colour picture: red, green or blue.")] = "green",
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Find the points of a picture and the wavefront of each, with errors; of five or more, what explains the frame.
+
+    Without a lens, the f-number and the wavelength are needed. One picture leaves the common sign of all even terms
+    open; a second at another focus decides. The numbers go to an .npz.
+    """
+    check_output(output, (".npz",))
+    noise = Noise(gain or inf, read_noise, full_scale or inf)
+    frames = [read_frame(path, pixel_um, dark=dark, flat=flat, noise=noise, channel=channel) for path in pictures]
+    design, optics = _scale(lens, request, frames[0])
+    shifts = focus_um or [0.0] * len(frames)
+    found = measured(
+        frames,
+        optics,
+        focus_um=shifts,
+        model=model,
+        lens=design,
+        depth_mm=request.depth_mm,
+        unknowns=unknowns or (*FOCUS, *FIELD),
+    )
+    if output:
+        write_measurement(found, output)
+    if as_json:
+        return print_json({"file": None if output is None else str(output), **record(found)})
+    return _show(found)
+
+
+def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | None, Optics]:
+    """Return the lens as asked, if any, and the scale of its PSFs."""
+    pitch = frame.geometry.pixel_um
+    if lens is not None:
+        setup = set_up(find_lens(lens), request)
+        return setup.lens, lens_optics(setup.lens, request.depth_mm, setup.source.wavelength_um, pitch)
+    for name in ("f_number", "wavelength_nm"):
+        if getattr(request, name) is None:
+            raise RequestError(
+                "{parameter} is not given; give it, or the lens by {lens}", parameter=name, lens="--lens"
+            )
+    assert request.f_number is not None and request.wavelength_nm is not None
+    return None, Optics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch)
+
+
+def record(found: Measurement) -> dict[str, Any]:
+    """Return a measurement as JSON names it."""
+    points = [
+        {
+            "x_mm": point.x_mm,
+            "y_mm": point.y_mm,
+            "place": point.place,
+            "flags": [str(flag) for flag in point.flags] + ([str(failure)] if failure else []),
+            **({} if one is None else _point(one)),
+        }
+        for point, one, failure in zip(found.points, found.fits, found.failures, strict=True)
+    ]
+    whole = None if found.whole is None else _whole(found.whole)
+    return {"points": points, "frame": whole, "na": found.optics.na, "pixel_um": found.optics.pixel_um}
+
+
+def _point(one: Any) -> dict[str, Any]:
+    columns = zip(one.names, one.numbers, one.errors, one.bounds, strict=True)
+    return {
+        "numbers": {name: {"value": v, "error": e, "bound": b} for name, v, e, b in columns},
+        "others": [other.tolist() for other in one.others],
+        "r2": one.r2.tolist(),
+        "chi2": one.chi2,
+        "warnings": [str(warning) for warning in one.warnings],
+    }
+
+
+def _whole(whole: FrameFit) -> dict[str, Any]:
+    columns = zip(whole.model.unknowns, whole.values, whole.errors, whole.bounds, strict=True)
+    return {
+        "unknowns": {
+            name: {"value": v, "error": e, "bound": b, "unit": whole.model.unit(name)} for name, v, e, b in columns
+        },
+        "twin": None if whole.twin is None else whole.twin.tolist(),
+        "height_mm": whole.model.height_mm,
+        "chi2": whole.chi2,
+        "least_r2": float(whole.r2.min()),
+    }
+
+
+def _show(found: Measurement) -> None:
+    used = [(point, one) for point, one in zip(found.points, found.fits, strict=True) if one is not None]
+    rows: list[Row] = []
+    for point, one in used[:MOST_ROWS]:
+        cells = [f"{v:.3f} ± {e:.3f}" for v, e in zip(one.numbers[:SHOWN], one.errors[:SHOWN], strict=True)]
+        rows.append((f"{point.x_mm:.3f}, {point.y_mm:.3f}", *cells, f"{one.r2.min():.4f}", f"{one.chi2:.2f}"))
+    names = used[0][1].names[:SHOWN] if used else ()
+    print_table(f"{len(found.points)} points, {len(used)} used", ("x, y in mm", *names, "R²", "χ²"), rows)
+    if len(used) > MOST_ROWS:
+        print(f"… and {len(used) - MOST_ROWS} more; --json or -o has all")
+    flags = [flag for point in found.points for flag in point.flags] + [why for why in found.failures if why]
+    for why in dict.fromkeys(flags):
+        warn(Message("{count} points not used: {why}", count=flags.count(why), why=why))
+    every = [warning for _, one in used for warning in one.warnings]
+    for template in dict.fromkeys(warning.template for warning in every):
+        alike = [warning for warning in every if warning.template == template]
+        warn(Message("at {count} of {all} points, {why}", count=len(alike), all=len(used), why=alike[0]))
+    if found.whole is not None:
+        print_table(*_frame_table(found.whole))
+
+
+def _frame_table(whole: FrameFit) -> tuple[str, tuple[str, ...], list[Row]]:
+    twin = whole.twin if whole.twin is not None else np.full(whole.values.size, np.nan)
+    rows: list[Row] = [
+        (name, f"{v:.4g} ± {e:.2g}", f"{b:.2g}", "" if np.isnan(t) else f"{t:.4g}", whole.model.unit(name))
+        for name, v, e, b, t in zip(whole.model.unknowns, whole.values, whole.errors, whole.bounds, twin, strict=True)
+    ]
+    head = f"\nThe whole frame: R² at least {whole.r2.min():.4f}, reduced χ² {whole.chi2:.2f}"
+    return head, ("unknown", "value", "bound", "twin", "unit"), rows
+
+
+MOST_ROWS, SHOWN = 20, 6
+
+
+def compare(first: Path, second: Path, /, *, as_json: Json = False) -> None:
+    """Compare two measurements of the same points: differences of all numbers, in standard deviations of both."""
+    found = compared(first, second)
+    if as_json:
+        return print_json(_comparison(found))
+    rows: list[Row] = [
+        (row.name, f"{row.first:.4g}", f"{row.second:.4g}", f"{row.second - row.first:.3g}", f"{row.sigmas:.1f}")
+        for row in found.rows
+    ]
+    head = f"{found.points} points in common"
+    return print_table(head, ("number", first.name, second.name, "difference", "σ"), rows)
+
+
+def _comparison(found: Comparison) -> dict[str, Any]:
+    return {
+        "points": found.points,
+        "rows": [
+            {"name": row.name, "first": row.first, "second": row.second, "sigmas": row.sigmas} for row in found.rows
+        ],
+    }

@@ -1,0 +1,53 @@
+"""`p2sf measure` finds, fits and writes; `p2sf compare` puts two of its files beside each other."""
+
+import numpy as np
+import pytest
+
+from p2sf.cli import main
+from p2sf.lens.lens import with_f_number
+from p2sf.lensfile.library import find_lens
+from p2sf.measure.frame import FrameGeometry
+from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
+
+SCALE = ("--pixel-um", "3.45", "--f-number", "4")
+
+
+@pytest.fixture(scope="module")
+def picture(tmp_path_factory):
+    """Return a picture of 3 × 2 points through the Cooke triplet at f/4, its sensor 20 µm too far."""
+    path = tmp_path_factory.mktemp("frames") / "points.npy"
+    places = grid_of_points(3, 2, 1.2, 0.6)
+    lens = with_f_number(find_lens("cooke_triplet"), 4.0)
+    np.save(path, simulated_frame(lens, places, FrameGeometry(300, 480, 3.45), Exposure(sensor_shift_um=20.0)).values)
+    return path
+
+
+def test_a_picture_beside_its_lens(picture, answer, tmp_path, capsys):
+    file = tmp_path / "coefficients.npz"
+    command = ("measure", str(picture), "--lens", "cooke_triplet", *SCALE, "--unknowns", "sensor_shift_um")
+    found = answer(*command, "-o", str(file))
+    shift = found["frame"]["unknowns"]["sensor_shift_um"]
+    assert abs(shift["value"] - 20.0) < 5 * shift["error"] and shift["unit"] == "µm"
+    assert len(found["points"]) == 6 and all(point["r2"][0] > 0.9 for point in found["points"])
+    assert main(["compare", str(file), str(file)]) == 0
+    out = capsys.readouterr().out
+    assert "6 points in common" in out and "sensor_shift_um" in out
+
+
+def test_what_is_missing_or_wrong_is_said(picture, tmp_path, capsys):
+    for wrong, words in (
+        ((), "--pixel-um"),
+        (("--pixel-um", "3.45"), "--f-number is not given"),
+        ((*SCALE,), "--wavelength-nm is not given"),
+        (("--pixel-um", "3.45", "--lens", "cooke_triplet", "--model", "27"), "choose seidel"),
+        ((*SCALE, "--wavelength-nm", "550", "--focus-um", "0", "--focus-um", "5"), "1 frames and 2 focus positions"),
+        ((*SCALE, "--wavelength-nm", "550", "-o", "x.csv"), "choose .npz"),
+    ):
+        assert main(["measure", str(picture), *wrong]) == 2
+        error = capsys.readouterr().err
+        assert error.startswith("p2sf: ") and words in error, error
+    np.save(tmp_path / "noise.npy", np.random.default_rng(0).normal(50, 5, (40, 40)))
+    assert main(["measure", str(tmp_path / "noise.npy"), *SCALE, "--wavelength-nm", "550"]) == 2
+    assert "no point stands out" in capsys.readouterr().err
+    assert main(["compare", str(picture), str(picture)]) == 2
+    assert "not a measurement" in capsys.readouterr().err
