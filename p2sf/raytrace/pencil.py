@@ -244,21 +244,26 @@ def opd_map(lens: Lens, source: Source, count: int = 64) -> np.ndarray:
     return values
 
 
-def spot(lens: Lens, source: Source | Sources, rings: int = 8, clip: bool = False) -> Spot:
+def spot(
+    lens: Lens, source: Source | Sources, rings: int = 8, clip: bool = False, passing: np.ndarray | None = None
+) -> Spot:
     """Return the spot diagram of ``rings`` hexapolar rings, and its RMS radius about the centroid; µm.
 
     A ray stands for the light of its cell, so both are means weighted with `Pencil.weight`, to the first power: the
-    energy of rays that are launched evenly into the solid angle is proportional to it. Raises GeometryError where no
-    ray reaches the sensor.
+    energy of rays that are launched evenly into the solid angle is proportional to it. ``passing``: the share of the
+    light that what stands in the stop lets through at each ray of `hexapolar`, (ray,); NaN is the place of rays with
+    none. Raises GeometryError where no ray reaches the sensor.
     """
     xi, eta = hexapolar(rings)
     rays = pencil(lens, source, xi, eta, clip)
     x, y = rays.dx * UM_PER_MM, rays.dy * UM_PER_MM
-    if not rays.passed.any():
+    light = np.where(rays.passed, rays.weight, 0.0)
+    if passing is not None:
+        light, x, y = light * passing, np.where(passing > 0, x, np.nan), np.where(passing > 0, y, np.nan)
+    if not light.any():
         raise GeometryError(
             "no ray reaches the sensor; choose a smaller field or leave {parameter} off", parameter="clip"
         )
-    light = np.where(rays.passed, rays.weight, 0.0)
     rounding = WEIGHT_ROUNDING if lens.aim == "stop" else MEAN_ROUNDING
     centre_x, centre_y = _centroid(x, light, rounding), _centroid(y, light, rounding)
     square = _mean((x - centre_x) ** 2 + (y - centre_y) ** 2, light)[..., 0]

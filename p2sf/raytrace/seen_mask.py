@@ -4,19 +4,25 @@ from dataclasses import replace
 
 import numpy as np
 
+from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import pupils
 from p2sf.pupil.mask import EDGE_HARMONICS, PupilMask, mask_slopes
+from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.ray_field import Steepness
+
+DARKEST = 1e-12  # of the light of the clear disc: less is lost in single precision
 
 
 def mask_seen(lens: Lens, source: Source) -> PupilMask:
     """Return the mask in the pupil coordinates of a source: turned with its azimuth, and where the pupil is inverted.
 
     A source off the plane ξ = 0 is described as one in that plane (`Source.azimuth_deg`), from where the mask, which
-    stays, looks turned the other way.
+    stays, looks turned the other way. Raises GeometryError for a filter that lets next to no light through.
     """
+    if lens.mask.shaded and not throughput(lens.mask).light > DARKEST:
+        raise GeometryError("the filter in the stop lets no light through; make its apodisation wider")
     if lens.mask.round:
         return lens.mask
     inverted = float(np.asarray(pupils(lens, source.wavelength_um).upright)) < 0

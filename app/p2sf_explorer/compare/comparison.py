@@ -133,7 +133,13 @@ def difference(a: Live, b: Live) -> Difference:
     pupil = a.pupil.waves - resampled(b.pupil.waves, a.pupil.waves.shape[0])
     least = min((a.pupil, b.pupil), key=lambda side: side.clear)
     common = pupil_map(pupil, np.isfinite(pupil), DIFFERENCE)
-    minus = replace(common, outline=least.outline, clear=least.clear)
+    minus = replace(
+        common,
+        outline=least.outline,
+        clear=least.clear,
+        iris=least.iris,
+        obstructions=(*a.pupil.obstructions, *b.pupil.obstructions),
+    )
     six = {name: float(getattr(a.setup.coefficients, name) - getattr(b.setup.coefficients, name)) for name in TERMS}
     return Difference((a.psf.values - b.psf.values) / peak, minus, six)
 

@@ -7,7 +7,9 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.paraxial.wavefront import steepest_chords
+from p2sf.paraxial.wavefront import steepest_chords, steepest_polar
+from p2sf.psf.disc_rows import takes_rows
+from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
 from p2sf.psf.huygens import all_reach, huygens_psf
 from p2sf.psf.plane_waves import counts_for
@@ -17,8 +19,11 @@ from p2sf.psf.seidel_stack import LARGEST_NODES, corner_reach
 from p2sf.psf.separable_sum import MOST_NODES as MOST_IN_ROWS
 from p2sf.psf.separable_sum import row_counts
 from p2sf.psf.traced import in_rows, traced_psf
-from p2sf.pupil.quadrature import chords_for
+from p2sf.pupil.mask import EDGE_HARMONICS, PupilMask, mask_slopes
+from p2sf.pupil.mask_nodes import edge_nodes
+from p2sf.pupil.quadrature import chords_for, nodes_for
 from p2sf.raytrace.fit import FittedPencil
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.state import State
 
@@ -27,6 +32,8 @@ MOST_NODES = {"seidel": 100_000, "fitted": 60_000, "traced": 30_000, "huygens": 
 FEW_SAMPLES = 128
 MOST_IN_PRODUCTS = 2**31  # nodes × samples a side of a sum in rows: some seconds
 MOST_ONE_BY_ONE = 2**32  # nodes × samples of a sum ray by ray: some ten seconds
+ONE_BY_ONE = 0.012  # of a product in rows: what a product of a sum node by node takes, which is of large matrices
+FEW_NODES = 16, 48  # radii and directions over the disc at which the nodes over vanes and blades are counted
 KEPT = 8
 KEPT_BYTES = 2**25  # of all samples that are kept, 32 MB: four of the largest pictures in float64
 
@@ -101,7 +108,7 @@ def by_rays(request: SumRequest, quality: str = "settled", cancelled: Callable[[
 
 def by_coefficients(request: SumRequest, six: Coefficients, quality: str) -> Psf:
     """Return the PSF of six coefficients; what they are predicted to miss is known of the lens's own only."""
-    psf = seidel_psf(six, *request.window, quality)
+    psf = seidel_psf(six, *request.window, quality, mask=mask_seen(request.lens, request.source))
     if request.by_hand:
         return psf
     from p2sf.psf.methods import seidel_error
@@ -113,29 +120,62 @@ def by_coefficients(request: SumRequest, six: Coefficients, quality: str) -> Psf
 class Size:
     """How many ``nodes`` a sum has, the mirror half not counted; 0 where that is not known beforehand.
 
-    ``in_rows``: it separates into products; ``most``: the largest number of nodes that is summed at all.
+    ``in_rows``: it separates into products; ``most``: the largest number of nodes that is summed at all; ``edges``:
+    nodes over what vanes and blades cover, which a sum in rows takes away one by one.
     """
 
     nodes: float
     in_rows: bool
     most: float
+    edges: float = 0.0
 
     def products(self, samples: int) -> float:
         """Return the cost of a picture of so many samples a side."""
-        return self.nodes * (samples if self.in_rows else samples**2)
+        return self.nodes * (samples if self.in_rows else samples**2) + self.edges * samples**2 * ONE_BY_ONE
 
 
 def size(request: SumRequest, fitted: FittedPencil | None) -> Size:
     """Return the size of a settled sum. ``fitted``: a coarse fit to exact rays; None where rays are lost."""
+    mask = mask_seen(request.lens, request.source)
     if request.six is not None:
-        return Size(coefficient_nodes(request.six, request.window), True, LARGEST_NODES)
+        return coefficient_size(request.six, request.window, mask)
     if fitted is None:
         return Size(0.0, request.method == "fitted", MOST_RAYS)
     one_by_one = request.clip or (request.method == "traced" and not in_rows(request.lens, request.source))
     if request.method == "huygens" or (request.method == "traced" and one_by_one):
         radii, directions = counts_for(fitted.steepness, *request.window)
         return Size(radii * directions / 2, False, MOST_RAYS)
-    return Size(row_nodes(fitted, request.window), True, MOST_IN_ROWS / 2)
+    counts = counts_for(fitted.steepness, *request.window)
+    if not takes_rows(mask):
+        return Size(counts[0] * counts[1] / (1 + mask.even), False, MOST_FITTED)
+    nodes = row_nodes(fitted, request.window) * (1 + mask.obscuration)
+    return Size(nodes, True, MOST_IN_ROWS / 2, covered_nodes(mask, counts))
+
+
+def coefficient_size(six: Coefficients, window: tuple[int, float], mask: PupilMask) -> Size:
+    """Return the size of a settled sum of six coefficients behind a mask: node by node with phases and maps."""
+    if mask.clear:
+        return Size(coefficient_nodes(six, window), True, LARGEST_NODES)
+    counts = coefficient_counts(six, window, mask)
+    if mask.phased or mask.amplitude_map is not None:
+        return Size(counts[0] * counts[1] / (1 + mask.even), False, 4 * LARGEST_NODES)
+    return Size(
+        coefficient_nodes(six, window) * (1 + mask.obscuration), True, LARGEST_NODES, covered_nodes(mask, counts)
+    )
+
+
+def coefficient_counts(six: Coefficients, window: tuple[int, float], mask: PupilMask) -> tuple[int, int]:
+    """Return the radii and directions that carry the phase of six coefficients behind a mask over a window."""
+    slopes, wavelength = mask_slopes(mask), float(six.wavelength_um)
+    slope, twist = (float(steep) + EDGE_HARMONICS * slopes.amplitude for steep in steepest_polar(six))
+    reach = corner_reach(float(six.na) / wavelength, *window)
+    return nodes_for(slope + slopes.path_radial_um / wavelength, reach, twist + slopes.path_angular_um / wavelength)
+
+
+def covered_nodes(mask: PupilMask, counts: tuple[int, int]) -> float:
+    """Return about how many nodes cover the vanes and blades of a mask, as dense as ``counts`` are over the disc."""
+    few = edge_nodes(mask, *FEW_NODES)
+    return 0.0 if few is None else few.xi.size * max(1.0, counts[0] * counts[1] / (FEW_NODES[0] * FEW_NODES[1]))
 
 
 def impossible(request: SumRequest, fitted: FittedPencil | None) -> float:
@@ -177,6 +217,17 @@ def coefficient_nodes(six: Coefficients, window: tuple[int, float]) -> float:
     reach = corner_reach(float(six.na) / float(six.wavelength_um), *window)
     rows, columns = chords_for(*steepest_chords(six), reach, reach / 2**0.5)
     return rows * columns / 4
+
+
+def moving_nodes(fitted: FittedPencil, window: tuple[int, float]) -> float:
+    """Return the cost of a preview behind the fit's mask, in nodes of rows."""
+    if fitted.mask.clear:
+        return row_nodes(fitted, window, "preview")
+    counts, worth = counts_for(fitted.steepness, *window), window[0] * ONE_BY_ONE
+    if not takes_rows(fitted.mask):
+        return worth * counts[0] * counts[1] / (1 + fitted.mask.even)
+    rows = row_nodes(fitted, window, "preview") * (1 + fitted.mask.obscuration)
+    return rows + worth * covered_nodes(fitted.mask, counts)
 
 
 def row_nodes(fitted: FittedPencil, window: tuple[int, float], quality: str = "settled") -> float:

@@ -6,7 +6,6 @@ from time import perf_counter
 from typing import Any
 
 from p2sf.errors import P2SFError
-from p2sf.lens.lens import check_unmasked
 from p2sf.messages import Message
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.psf.result import Psf
@@ -79,7 +78,6 @@ def live(
     """
     begun = perf_counter()
     setup = paraxial_setup(state)
-    check_unmasked(setup.lens, Message("the window"))
     drawing = layout(setup, state.optics.clip, state.display.rays_coloured, state.display.rays_count)
     placed = perf_counter()
     picture = rendered(state, setup, quality, kept_method, least, cache)

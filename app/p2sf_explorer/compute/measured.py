@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.metrics.energy import samples_across
@@ -53,6 +53,7 @@ def measure_request(live: Live) -> MeasureRequest:
 @lru_cache(maxsize=4)
 def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
     """Return the pupil of a request; P2SFError where there is none."""
+    check_unmasked(request.lens, Message("a transfer function"))
     if request.six:
         return (PupilPart(pupil_of_coefficients(Coefficients(*map(np.asarray, request.six)))),)
     return (PupilPart(pupil_of_rays(request.lens, request.source, request.clip)),)

@@ -13,18 +13,22 @@ from p2sf.messages import Message, Number
 from p2sf.paraxial.seidel import check_seidel
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import AIRY_RADIUS, check_focus, check_image, seidel_psf
+from p2sf.psf.seidel import AIRY_RADIUS, check_focus, check_image
 from p2sf.psf.traced import in_rows
+from p2sf.pupil.mask import PupilMask, mask_slopes
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Pencil, pencil
 from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.deferred_sums import (
+    ONE_BY_ONE,
     SumCache,
     SumRequest,
     by_rays,
+    coefficient_size,
     impossible,
     most_samples,
-    row_nodes,
+    moving_nodes,
     slow,
     sum_request,
 )
@@ -38,6 +42,7 @@ from p2sf_explorer.compute.preview import (
     first_fit,
     landing_um,
     preview,
+    preview_of_coefficients,
     preview_psf,
     preview_pupil,
 )
@@ -276,11 +281,19 @@ def moving(task: Task, quality: str) -> Rendered:
 
 def moving_coefficients(task: Task, window: Window, quality: str) -> Rendered:
     """Return the picture of six coefficients while it moves; the density of their rays where it has many waves."""
-    c = task.setup.coefficients
-    steep = float(steepest_slope(c)) + corner_waves(task, window)
-    if task.coarse or quality == "settled" or steep > STEEPEST_IN_ALL:
+    mask = mask_seen(task.setup.lens, task.setup.source)
+    if task.coarse or quality == "settled" or steep_coefficients(task, window, mask):
         return blurred(task, window, quality)
-    return Rendered(seidel_psf(c, *window, quality), task.why, False, task.method)
+    return Rendered(preview_of_coefficients(task.setup, window, quality), task.why, False, task.method)
+
+
+def steep_coefficients(task: Task, window: Window, mask: PupilMask) -> bool:
+    """Return whether a moving picture of six coefficients takes longer than a frame."""
+    c = task.setup.coefficients
+    if float(steepest_slope(c)) + corner_waves(task, window) > STEEPEST_IN_ALL:
+        return True
+    found = coefficient_size(c, window, mask)
+    return not found.in_rows and found.nodes * window[0] * ONE_BY_ONE > QUICK_NODES
 
 
 def too_coarse(task: Task, window: Window) -> bool:
@@ -288,7 +301,7 @@ def too_coarse(task: Task, window: Window) -> bool:
     if window[1] > COARSEST * task.extent.airy_um:
         return True
     if not task.exact:
-        return float(steepest_slope(task.setup.coefficients)) + corner_waves(task, window) > STEEPEST_IN_ALL
+        return steep_coefficients(task, window, mask_seen(task.setup.lens, task.setup.source))
     return task.traced is not None and not quickly(task, window)
 
 
@@ -305,10 +318,10 @@ def quickly(task: Task, window: Window) -> bool:
     if task.first_fit is None:
         return False
     larger = max(1.0, window[0] / PIXELS["settled"])
-    if row_nodes(task.first_fit, window, "preview") * larger >= QUICK_NODES or task.fitted is None:
+    if moving_nodes(task.first_fit, window) * larger >= QUICK_NODES or task.fitted is None:
         return False
     if task.fitted.error_waves > FAR:
-        few = row_nodes(task.fitted, window, "preview") * larger < QUICK_NODES / 3
+        few = moving_nodes(task.fitted, window) * larger < QUICK_NODES / 3
         return few and in_rows(task.setup.lens, task.setup.source)
     return True
 
@@ -343,7 +356,8 @@ def extent(setup: ParaxialSetup, method: str) -> Extent:
     if method != "seidel":
         return extent_of(setup, edge_pencil(setup))
     cycles = float(setup.coefficients.na) / setup.source.wavelength_um
-    return Extent(float(steepest_slope(setup.coefficients)) / cycles, AIRY_RADIUS / cycles)
+    slope = float(steepest_slope(setup.coefficients)) + mask_slope(setup)
+    return Extent(slope / cycles, AIRY_RADIUS / cycles)
 
 
 def extent_of(setup: ParaxialSetup, rays: Pencil) -> Extent:
@@ -351,7 +365,16 @@ def extent_of(setup: ParaxialSetup, rays: Pencil) -> Extent:
     data = ray_data(rays)
     cycles = np.hypot(data.fx, data.fy)[-2 * EDGE :]
     paraxial = float(setup.coefficients.na) / setup.source.wavelength_um
-    return Extent(landing_um(rays), AIRY_RADIUS / (float(np.nanmax(cycles)) if np.isfinite(cycles).any() else paraxial))
+    widest = float(np.nanmax(cycles)) if np.isfinite(cycles).any() else paraxial
+    return Extent(landing_um(rays) + mask_slope(setup) / widest, AIRY_RADIUS / widest)
+
+
+def mask_slope(setup: ParaxialSetup) -> float:
+    """Return the steepest slope of the phase of what stands in the stop, waves per pupil radius."""
+    if not setup.lens.mask.phased:
+        return 0.0
+    slopes = mask_slopes(setup.lens.mask)
+    return float(np.hypot(slopes.path_radial_um, slopes.path_angular_um)) / setup.source.wavelength_um
 
 
 def width_um(setup: ParaxialSetup, exact: bool, found: Extent, clip: bool) -> float:

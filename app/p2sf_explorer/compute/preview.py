@@ -8,17 +8,20 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
+from p2sf.lens.lens import check_unmasked
 from p2sf.messages import Message
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.plane_waves import Origin, psf_from_intensity
 from p2sf.psf.result import Psf
+from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.separable_sum import rows_for
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import LEVELS, FittedPencil, fit, fit_rays, level_rays, levels
 from p2sf.raytrace.pencil import Pencil, opd_on_sphere, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data
+from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 from p2sf.raytrace.vignetting import CLIPPED
-from p2sf_explorer.compute.pupil import ORDERS, PupilMap, whole_map
+from p2sf_explorer.compute.pupil import ORDERS, PupilMap, map_behind
 from p2sf_explorer.compute.setup import ParaxialSetup
 
 LEVEL = LEVELS[0]  # 26 numbers
@@ -74,6 +77,11 @@ def preview_psf(traced: Preview, pixels: int, pixel_um: float, fitted: FittedPen
     return psf_of_fit(fitted, setup.source.wavelength_um, (pixels, pixel_um), "preview", traced.begun)
 
 
+def preview_of_coefficients(setup: ParaxialSetup, window: tuple[int, float], quality: str = "preview") -> Psf:
+    """Return the PSF of the six coefficients behind the mask in the lens's stop."""
+    return seidel_psf(setup.coefficients, *window, quality, mask=mask_seen(setup.lens, setup.source))
+
+
 def best_fit(traced: Preview, first: FittedPencil | None = None) -> FittedPencil:
     """Return the smallest fit of small error: ``first``, or where `first_fit` does not suffice one to more rays."""
     fitted = first or first_fit(traced)
@@ -92,7 +100,14 @@ def first_fit(traced: Preview) -> FittedPencil:
     own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
     first, second = levels(traced.setup.lens.aim)[:TRIED]
     fitted = fit_rays(own, first, count)
-    return fitted if fitted.error_waves <= CLOSE else fit_rays(own, second, count, fitted.steepness)
+    if fitted.error_waves > CLOSE:
+        fitted = fit_rays(own, second, count, fitted.steepness)
+    lens, source = traced.setup.lens, traced.setup.source
+    mask, wavelength = mask_seen(lens, source), float(source.wavelength_um)
+    if mask.clear:
+        return fitted
+    steep = with_slopes(fitted.steepness, mask, wavelength)
+    return replace(fitted, mask=mask, wavelength_um=wavelength, steepness=steep)
 
 
 def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
@@ -101,6 +116,7 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
     A yes or no at each node makes a ragged edge, good enough while it moves. Raises GeometryError where none passes.
     """
     fitted, setup = best_fit(traced), traced.setup
+    check_unmasked(setup.lens, Message("a pupil that ends at rims or where rays are lost"))
     nodes = rows_for(fitted, pixels, pixel_um, "preview", every=True)
     if nodes is None:
         return None
@@ -120,7 +136,7 @@ def preview_pupil(traced: Preview) -> PupilMap:
     """Return the displayed wavefront over the pupil: the terms that fit that of the level's rays."""
     setup = traced.setup
     back = setup.lens.sensor_mm - setup.pupils.exit_from_last
-    return whole_map(_projection() @ opd_on_sphere(traced.rays, back / traced.rays.chief_kz), "preview")
+    return map_behind(setup, _projection() @ opd_on_sphere(traced.rays, back / traced.rays.chief_kz), "preview")
 
 
 @lru_cache(maxsize=1)

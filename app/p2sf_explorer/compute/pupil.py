@@ -6,22 +6,25 @@ passes light.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
 
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.mask_outline import obstructions, opening
 from p2sf.pupil.quadrature import DiscNodes, disc_nodes
 from p2sf.pupil.zernike import basis, powers, terms
-from p2sf.pupil.zernike_terms import family, zernike_terms
+from p2sf.pupil.zernike_terms import ZernikeTerm, family, zernike_terms, zernike_values
 from p2sf.raytrace.clear_rim import ClearRim, clear_rim
 from p2sf.raytrace.pencil import displayed_opd, pencil
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, decomposed
 from p2sf_explorer.compute.setup import ParaxialSetup
 
@@ -32,6 +35,7 @@ RIMS = {"preview": (40, 2), "settled": (128, 4)}  # directions and rounds of `cl
 RADII = {"preview": 7, "settled": 12}  # of the nodes over a clipped pupil
 TURN = np.linspace(0, 2 * np.pi, 241)
 CIRCLE = np.stack([np.sin(TURN), np.cos(TURN)])
+EDGE_STEP = 1e-9
 UNSHARP = 1 / 14**2 / 10  # waves²: a tenth of Maréchal's limit
 
 
@@ -41,7 +45,9 @@ class PupilMap:
 
     ``rms`` without piston and ``peak_to_valley``, in waves; ``outline``: ξ and η of the part that passes light, closed,
     (2, points); ``clear``: that part of the pupil's area; ``parts``: aberration → its part of the variance, waves²,
-    piston and tilt left out; ``rest``: what these parts leave.
+    piston and tilt left out; ``rest``: what these parts leave. Of a mask in the stop ``iris`` is its opening,
+    ``obstructions`` what stands in that, closed lines too, and ``shade`` the amplitude that passes, at the samples;
+    its phase is part of W, and what it covers counts nowhere.
     """
 
     waves: np.ndarray
@@ -52,6 +58,9 @@ class PupilMap:
     clear: float = 1.0
     parts: Mapping[str, float] = field(default_factory=dict)
     rest: float = 0.0
+    iris: np.ndarray = field(default_factory=lambda: CIRCLE)
+    obstructions: tuple[np.ndarray, ...] = ()
+    shade: np.ndarray | None = None
 
 
 @lru_cache(maxsize=8)
@@ -88,9 +97,10 @@ def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False
     """
     samples = pupil_samples(setup, exact, quality, clip)
     if samples[2] is not None:
+        check_unmasked(setup.lens, Message("a pupil that ends at rims or where rays are lost"))
         return _clear_map(samples, quality)
     kind = "exact rays" if exact else "what-if" if setup.altered else "six coefficients"
-    return whole_map(projection(quality) @ samples[1], quality, kind)
+    return map_behind(setup, projection(quality) @ samples[1], quality, kind)
 
 
 def pupil_samples(setup: ParaxialSetup, exact: bool, quality: str, clip: bool) -> Samples:
@@ -144,6 +154,134 @@ def whole_map(found: np.ndarray, quality: str, kind: str = "exact rays") -> Pupi
     parts = families((n, m, part) for (n, m), part in zip(terms(ORDERS[quality]), squares.tolist(), strict=True))
     shown, peak = _picture(found, quality, None)
     return PupilMap(shown, float(np.sqrt(squares[1:].sum())), peak, kind, parts=parts)
+
+
+@dataclass(frozen=True, eq=False)
+class MaskedPupil:
+    """What a mask in the stop leaves open, for the map: all that no lens and no wavelength changes.
+
+    The terms of `zernike` and the path from the chief ray's, µm, at ``nodes``, at the open sides of edges, and at nodes
+    of positive weights, over which ``columns`` (nodes, terms) times the roots of the weights are orthogonal ``terms``.
+    """
+
+    nodes: ClearNodes
+    at_nodes: "Basis"
+    at_edges: "Basis"
+    at_parts: "Basis"
+    root: np.ndarray
+    columns: np.ndarray
+    terms: tuple[ZernikeTerm, ...]
+    path_um: np.ndarray | float
+    open: np.ndarray
+    beyond: np.ndarray
+    shade: np.ndarray | None
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """The terms of a wavefront at points, (terms, points), and the path of a mask there, µm."""
+
+    terms: np.ndarray
+    path_um: np.ndarray | float
+
+    def waves(self, found: np.ndarray, per_um: float) -> np.ndarray:
+        """Return W behind the mask, waves: a delay makes the path longer, and W smaller."""
+        waves: np.ndarray = found @ self.terms - per_um * self.path_um
+        return waves
+
+
+def map_behind(setup: ParaxialSetup, found: np.ndarray, quality: str, kind: str = "exact rays") -> PupilMap:
+    """Return the map of a wavefront, given as `whole_map` takes it, behind the mask in the lens's stop."""
+    mask = mask_seen(setup.lens, setup.source)
+    if mask.clear:
+        return whole_map(found, quality, kind)
+    per_um, known = 1 / setup.source.wavelength_um, masked_pupil(mask, quality)
+    shown = _sampled(found, quality) - per_um * known.path_um
+    at_edges, waves = known.at_edges.waves(found, per_um), known.at_nodes.waves(found, per_um)
+    highest = np.max(shown, initial=at_edges.max(initial=-np.inf), where=known.open)
+    lowest = np.min(shown, initial=at_edges.min(initial=np.inf), where=known.open)
+    variance = float(known.nodes.weight @ (waves - float(known.nodes.weight @ waves)) ** 2)
+    parts, rest = masked_parts(known, found, per_um)
+    shown[known.beyond] = np.nan
+    return PupilMap(
+        shown,
+        float(np.sqrt(max(variance, 0.0))),
+        float(highest - lowest),
+        kind,
+        clear=known.nodes.share,
+        parts=parts,
+        rest=rest,
+        iris=opening(mask),
+        obstructions=obstructions(mask),
+        shade=known.shade,
+    )
+
+
+def masked_parts(known: MaskedPupil, found: np.ndarray, per_um: float) -> tuple[dict[str, float], float]:
+    """Return the parts of the variance behind a mask by aberrations, waves², and what they leave of it."""
+    waves = known.root * known.at_parts.waves(found, per_um)
+    amounts = known.columns.T @ waves
+    rest = waves - known.columns @ amounts
+    parts = families((t.n, t.m, part) for t, part in zip(known.terms, (amounts**2).tolist(), strict=True))
+    return parts, float(rest @ rest)
+
+
+@lru_cache(maxsize=8)
+def masked_pupil(mask: PupilMask, quality: str) -> MaskedPupil:
+    """Return what a mask leaves open.
+
+    Zernike's terms are made orthogonal over it (`p2sf.raytrace.zernike_fit`), vanes set aside: the nodes then have
+    positive weights, as the decomposition needs. Raises GeometryError where nothing is open.
+    """
+
+    def path_um(xi: np.ndarray, eta: np.ndarray) -> np.ndarray | float:
+        return mask.path_um(xi, eta) - mask.path_um(np.zeros(1), np.zeros(1)) if mask.phased else 0.0
+
+    def at(xi: np.ndarray, eta: np.ndarray) -> Basis:
+        return Basis(basis(ORDERS[quality], xi, eta), path_um(xi, eta))
+
+    nodes, parts = (mask_nodes(some, *RAYS[quality]) for some in (mask, replace(mask, vanes=0)))
+    terms = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.even or not nodes.even)
+    root = np.sqrt(parts.weight)
+    xi, eta, inside = disc(SAMPLES[quality])
+    covered = ~mask.opens(xi, eta)
+    return MaskedPupil(
+        nodes=nodes,
+        at_nodes=at(nodes.xi, nodes.eta),
+        at_edges=at(*_open_edges(mask)),
+        at_parts=at(parts.xi, parts.eta),
+        root=root,
+        columns=np.linalg.qr((zernike_values(terms, parts.xi, parts.eta) * root).T)[0],
+        terms=terms,
+        path_um=path_um(xi, eta),
+        open=inside & ~covered,
+        beyond=_all_around(covered) | _whole(SAMPLES[quality])[1],
+        shade=_shade(mask, SAMPLES[quality]),
+    )
+
+
+def _open_edges(mask: PupilMask) -> np.ndarray:
+    """Return ξ and η of points beside the edges of a mask, where these are open, (2, points)."""
+    edges = np.concatenate([opening(mask), *obstructions(mask)], axis=1)
+    beside = np.concatenate([edges * (1 - EDGE_STEP), edges * (1 + EDGE_STEP)], axis=1)
+    beside = beside[:, np.hypot(*beside) <= 1]
+    return beside[:, mask.opens(*beside)]
+
+
+def _all_around(covered: np.ndarray) -> np.ndarray:
+    """Return the covered samples whose neighbours on all sides are covered: the painted edge then has no gap."""
+    padded = np.pad(covered, 1, constant_values=True)
+    sides = [np.roll(padded, (row, column), (0, 1)) for row in (-1, 0, 1) for column in (-1, 0, 1)]
+    return np.logical_and.reduce(sides)[1:-1, 1:-1]
+
+
+def _shade(mask: PupilMask, count: int) -> np.ndarray | None:
+    """Return the amplitude that passes over its largest, at the samples; None where it is the same everywhere."""
+    if not mask.shaded:
+        return None
+    xi, eta, inside = disc(count)
+    amplitude = np.abs(mask.amplitude(xi, eta))
+    return np.minimum(amplitude / (float(amplitude[inside].max()) or 1.0), 1.0)
 
 
 def fit_nodes(quality: str) -> DiscNodes:

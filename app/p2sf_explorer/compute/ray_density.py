@@ -15,8 +15,11 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.result import Psf
+from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.aiming import SUM_AIM_ERROR
 from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.ranges import focused_distance
 from p2sf_explorer.compute.setup import ParaxialSetup
 
@@ -25,6 +28,10 @@ TOO_FAR = 2.0  # times the distance a lens is focused at
 MOST_LIGHT, AROUND = 0.9, 1.25  # nine tenths of the light of an even disc lie within 1/1.18 of its half width
 MOST_PIXELS = 128  # on a side: as many as the rays fill evenly
 TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated to the above
+
+WITHIN = 3  # parts of a cell's sides, at which a mask's edges are looked for
+SLOPE_STEP = 1e-4
+NOTHING = np.zeros(())
 
 Landing = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Two coordinates of each ray of the half disc, and its weight, (radii, directions)."""
@@ -40,7 +47,12 @@ def geometric_psf(
     begun, (pixels, pixel_um) = perf_counter(), window
     x, y, weight = exact_landing(setup, quality, clip) if exact else seidel_landing(setup, GRIDS[quality])
     blocks = max(1, pixels // MOST_PIXELS)
-    values = density(x, y, weight, pixels // blocks, pixel_um * blocks)
+    mask = mask_seen(setup.lens, setup.source)
+    if mask.clear:
+        values = density(x, y, weight, pixels // blocks, pixel_um * blocks)
+    else:
+        sides = behind(mask, setup, (x, y, weight))
+        values = sum((one_sided(*side, pixels // blocks, pixel_um * blocks) for side in sides), start=NOTHING)
     energy = float(values.sum())
     if not energy:
         raise GeometryError("no ray reaches the sensor; {remedy}", remedy=remedy(setup, clip))
@@ -78,6 +90,9 @@ def main_reach_um(setup: ParaxialSetup, exact: bool, clip: bool = False) -> floa
     x, y, weight = seidel_landing(setup, grid)
     if exact:
         x, y = traced_landing(setup.lens, setup.source, grid, clip)
+    mask = mask_seen(setup.lens, setup.source)
+    if not mask.clear:
+        x, y, weight = (np.stack(column) for column in zip(*behind(mask, setup, (x, y, weight)), strict=True))
     out = np.maximum(np.abs(x), np.abs(y)).ravel()
     order = np.argsort(out)
     light = np.cumsum(np.where(np.isfinite(out), weight.ravel(), 0.0)[order])
@@ -130,6 +145,44 @@ def polar(radii: int, directions: int) -> Landing:
     return protected(rho * np.sin(theta)), protected(rho * np.cos(theta)), weight
 
 
+def behind(mask: PupilMask, setup: ParaxialSetup, landing: Landing) -> tuple[Landing, Landing]:
+    """Return where the rays of both halves of the disc land behind a mask, and their weights, which sum to 1.
+
+    Its phase turns the rays as it does paraxial ones: by −∇(path)/(n′u′).
+    """
+    x, y, weight = landing
+    grid, made = (weight.shape[0], weight.shape[1]), []
+    for side in (1, -1):
+        across, up = path_slopes(mask, grid, side) / -float(setup.coefficients.reduced_slope)
+        made.append((side * x + across, y + up, weight * passing(mask, grid, side)))
+    total = sum(float(part[2].sum()) for part in made) or 1.0
+    right, left = ((across, up, light / total) for across, up, light in made)
+    return right, left
+
+
+@lru_cache(maxsize=16)
+def path_slopes(mask: PupilMask, grid: tuple[int, int], side: int) -> np.ndarray:
+    """Return ∂/∂ξ and ∂/∂η of a mask's path in the cells of the half disc, its left half for ``side`` −1.
+
+    In µm per pupil radius, (2, radii, directions), by central differences.
+    """
+    xi, eta, _ = polar(*grid)
+    if not mask.phased:
+        return np.zeros((2, *xi.shape))
+    across = mask.path_um(side * xi + SLOPE_STEP, eta) - mask.path_um(side * xi - SLOPE_STEP, eta)
+    up = mask.path_um(side * xi, eta + SLOPE_STEP) - mask.path_um(side * xi, eta - SLOPE_STEP)
+    return protected(np.stack([across, up]) / (2 * SLOPE_STEP))
+
+
+@lru_cache(maxsize=16)
+def passing(mask: PupilMask, grid: tuple[int, int], side: int) -> np.ndarray:
+    """Return what share of the light passes a mask in each cell of the half disc, its left half for ``side`` −1."""
+    radii, directions = grid
+    xi, eta, _ = polar(WITHIN * radii, WITHIN * directions)
+    light = mask.opens(side * xi, eta) * np.square(mask.amplitude(side * xi, eta))
+    return protected(light.reshape(radii, WITHIN, directions, WITHIN).mean(axis=(1, 3)))
+
+
 def finely(values: np.ndarray, grid: tuple[int, int]) -> np.ndarray:
     """Return values of coarse polar cells on the cells of a finer grid, straight lines in ρ and θ."""
     radii, directions = (_between(coarse, fine) for coarse, fine in zip(values.shape, grid, strict=True))
@@ -153,7 +206,14 @@ def _between(coarse: int, fine: int) -> np.ndarray:
 
 
 def density(x: np.ndarray, y: np.ndarray, weight: np.ndarray, pixels: int, pixel_um: float) -> np.ndarray:
-    """Return the share of the light that falls on each pixel, mirror half included; (pixels, pixels).
+    """Return the share of the light that falls on each pixel, mirror half included; (pixels, pixels)."""
+    return one_sided(x, y, weight, pixels, pixel_um, mirrored=True)
+
+
+def one_sided(
+    x: np.ndarray, y: np.ndarray, weight: np.ndarray, pixels: int, pixel_um: float, mirrored: bool = False
+) -> np.ndarray:
+    """Return the share of the light that falls on each pixel, of the rays alone or of their mirror half too.
 
     Each ray is shared by the four pixels about its place, in proportion to how near it is to each, so that rays which
     stand in a pattern of their own leave none in the picture (cloud in cell: Birdsall & Fuss 1969).
@@ -168,11 +228,13 @@ def density(x: np.ndarray, y: np.ndarray, weight: np.ndarray, pixels: int, pixel
         counted += np.bincount((at + step).ravel(), (light - right).ravel(), side * side)
         counted += np.bincount((at + step + 1).ravel(), right.ravel(), side * side)
     half = counted.reshape(side, side)[1 : pixels + 1, 1 : 2 * middle + 2]  # the chief ray's column in its middle
-    return (half + half[:, ::-1])[:, :pixels]
+    return (half + half[:, ::-1])[:, :pixels] if mirrored else half[:, :pixels]
 
 
 def over_unaberrated(psf: Psf, setup: ParaxialSetup) -> np.ndarray:
     """Return a ray density in units of the unaberrated peak, whose share of light on a sample is π(NA·pixel/λ)²."""
     share = np.pi * (float(setup.coefficients.na) * psf.pixel_um / setup.source.wavelength_um) ** 2
-    found: np.ndarray = psf.values * (float(psf.energy or 0.0) / share)
+    mask = mask_seen(setup.lens, setup.source)
+    spreading = 1.0 if mask.clear else throughput(mask).spreading  # a mask that dims the edge lowers its peak
+    found: np.ndarray = psf.values * (float(psf.energy or 0.0) / share * spreading)
     return found

@@ -1,11 +1,10 @@
 """Small PSFs of the present setup with something changed, for panels that show many of them."""
 
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.compute.deferred_sums import by_rays, sum_request
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import ALONE, NO_REASON, Task, too_coarse
-from p2sf_explorer.compute.preview import preview, preview_psf
+from p2sf_explorer.compute.preview import preview, preview_of_coefficients, preview_psf
 from p2sf_explorer.compute.ray_density import geometric_psf
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import State
@@ -45,7 +44,7 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     if too_coarse(task, window):
         return geometric_psf(setup, task.exact, window, "preview", state.optics.clip)
     if not task.exact:
-        return seidel_psf(setup.coefficients, *window, "preview")
+        return preview_of_coefficients(setup, window)
     traced = preview(setup, True) if state.optics.clip else task.traced
     if traced:
         return preview_psf(traced, *window, task.fitted)

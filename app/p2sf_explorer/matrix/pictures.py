@@ -15,9 +15,9 @@ from p2sf.messages import Message, Number
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import AIRY_RADIUS, seidel_psf
+from p2sf.psf.seidel import AIRY_RADIUS
 from p2sf.raytrace.aiming import Sources
-from p2sf.raytrace.pencil import Fan, Pencil, Spot, opd_fan, pencil, ray_fan, spot
+from p2sf.raytrace.pencil import Fan, Pencil, Spot, pencil
 from p2sf_explorer.compute.deferred_sums import by_rays, impossible, sum_request
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import MeasureRequest
@@ -30,14 +30,14 @@ from p2sf_explorer.compute.method import (
     rimmed,
     too_coarse,
 )
-from p2sf_explorer.compute.preview import Preview, points, preview_psf, preview_pupil
+from p2sf_explorer.compute.preview import Preview, points, preview_of_coefficients, preview_psf, preview_pupil
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.ray_density import geometric_psf
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.matrix.points import MatrixRequest, matrix_request
 from p2sf_explorer.matrix.tiles import Light, Lines, Points, Tile, Tiles, Waves, refused
 from p2sf_explorer.results.mtf import contrast_of
-from p2sf_explorer.results.rays import FAN_RAYS, RINGS, landed
+from p2sf_explorer.results.rays import FAN_RAYS, RINGS, landed, opd_fan_behind, ray_fan_behind, spot_behind
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State
 
@@ -210,15 +210,15 @@ def _few_rays(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Penci
 
 
 def _many_rays(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Spot:
-    return spot(lens, source, RINGS[quality], clip=clip)
+    return spot_behind(lens, source, RINGS[quality], clip)
 
 
 def _landing(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Fan:
-    return ray_fan(lens, source, FAN_RAYS, clip)
+    return ray_fan_behind(lens, source, FAN_RAYS, clip)
 
 
 def _paths(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Fan:
-    return opd_fan(lens, source, FAN_RAYS, clip)
+    return opd_fan_behind(lens, source, FAN_RAYS, clip)
 
 
 TRACES: dict[str, Callable[[Lens, SourceLike, bool, str], Traced]] = {
@@ -261,7 +261,7 @@ def _moving_psf(place: Place, task: Task, width_um: float) -> Tile:
     if too_coarse(task, window):
         return _light(place, _density(task, window, "preview"), settled=False)
     if not task.exact:
-        return _light(place, seidel_psf(place.setup.coefficients, *window, "preview"), settled=False)
+        return _light(place, preview_of_coefficients(place.setup, window), settled=False)
     rays = task.known
     psf = preview_psf(rays, *window, task.fitted) if rays else rimmed(task, window, "preview").psf
     return _light(place, psf, settled=False)

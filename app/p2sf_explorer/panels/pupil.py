@@ -1,8 +1,8 @@
 """The wavefront over the pupil: W in waves as a map, contours or a surface, or its phase modulo one wave."""
 
 import numpy as np
-from PySide6.QtCore import QRectF
-from PySide6.QtGui import QColor, QPainter, QPainterPath
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath
 
 from p2sf_explorer.charts.chart import Chart, Curve
 from p2sf_explorer.charts.colour_scale import ColourScale
@@ -27,7 +27,10 @@ AXES = {
     "paraxial": ("ξ, pupil radii", "η, pupil radii (towards the field)"),
     "stop": ("ξ, stop radii", "η, stop radii (towards the field)"),
 }
-TIP = "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's."
+TIP = (
+    "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's. What stands "
+    "in the stop is left out, and a filter's shade lies over the picture."
+)
 
 
 class Outside(Curve):
@@ -42,6 +45,43 @@ class Outside(Curve):
         painter.fillPath(path, QColor(getattr(chart.theme, self.token)))
 
 
+class Obstructions(Curve):
+    """What stands in the pupil, closed outlines that are filled."""
+
+    def __init__(self, token: str) -> None:
+        super().__init__(token)
+        self.outlines: tuple[np.ndarray, ...] = ()
+
+    def paint(self, painter: QPainter, chart: Chart) -> None:
+        """Fill the outlines."""
+        path = QPainterPath()
+        path.setFillRule(Qt.FillRule.WindingFill)  # where two overlap, both are dark
+        for outline in self.outlines:
+            path.addPolygon(polygon(*chart.to_pixels(*outline)))
+        painter.fillPath(path, QColor(getattr(chart.theme, self.token)))
+
+
+class Shade(Curve):
+    """A filter in the pupil: what it takes of the amplitude covers the picture, in the colour of what lies outside."""
+
+    def __init__(self, token: str) -> None:
+        super().__init__(token)
+        self.amplitude: np.ndarray | None = None
+
+    def paint(self, painter: QPainter, chart: Chart) -> None:
+        """Cover the square about the pupil by what does not pass."""
+        if self.amplitude is None:
+            return
+        taken = np.ascontiguousarray(255 * (1 - self.amplitude[::-1])).round().astype(np.uint8)
+        rows, columns = taken.shape
+        cover = QImage(taken.data, columns, rows, columns, QImage.Format.Format_Alpha8)
+        image = QImage(cover.size(), QImage.Format.Format_ARGB32_Premultiplied)
+        image.fill(QColor(getattr(chart.theme, self.token)))
+        image.setAlphaChannel(cover)
+        (left, bottom), (right, top) = chart.to_pixels(-1.0, -1.0), chart.to_pixels(1.0, 1.0)
+        painter.drawImage(QRectF(left, top, right - left, bottom - top), image)
+
+
 class PupilPanel:
     """A heat map or a surface of W with RMS and peak-to-valley; the chooser switches between them."""
 
@@ -51,8 +91,9 @@ class PupilPanel:
         self.mode.activated.connect(lambda: store.update(phase=self.mode.currentData()))
         self.widget.add_tool(self.mode)
         self.map = HeatMap(*AXES["paraxial"], self.widget)
-        self.outside = Outside("card")
-        self.map.chart.curves.append(self.outside)
+        self.shade, self.dark = Shade("card"), Obstructions("card")
+        self.outside, self.beyond_iris = Outside("card"), Outside("card")
+        self.map.chart.curves += [self.shade, self.dark, self.beyond_iris, self.outside]
         self.map.chart.add_curve("line").set_data(*CIRCLE)
         self.rim = self.map.chart.add_curve("muted")
         self.map.set_extent(1.0)
@@ -72,6 +113,8 @@ class PupilPanel:
         pupil = live.difference.pupil if live.difference else live.pupil
         self.outside.set_data(*pupil.outline)
         self.rim.set_data(*pupil.outline)
+        self.beyond_iris.set_data(*pupil.iris)
+        self.dark.outlines, self.shade.amplitude = pupil.obstructions, pupil.shade
         self.map.chart.name_axes(*AXES[live.setup.lens.aim])
         mode = live.state.display.phase if live.state.display.phase in SIGNED or not live.difference else "waves"
         select(self.mode, mode)

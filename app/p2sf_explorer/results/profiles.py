@@ -14,9 +14,12 @@ from p2sf.psf.fitted import fit
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import corner_reach
+from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, nodes_for
 from p2sf.pupil.transform import sum_on_line
 from p2sf.raytrace.fit import LEVELS
+from p2sf.raytrace.seen_mask import mask_seen
+from p2sf_explorer.compute.deferred_sums import coefficient_counts
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import (
     MeasureRequest,
@@ -115,7 +118,9 @@ def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray
     amplitude, kx, ky = nodes
     window = position.size, float(position[1] - position[0])
     across, along_y = sum_on_line(amplitude, kx, *window), sum_on_line(amplitude, ky, *window)
-    along_x = (across + across[::-1]) / 2  # the nodes are one half of a pupil that is even in ξ
+    if mask_seen(live.setup.lens, live.setup.source).even:
+        across = (across + across[::-1]) / 2  # the nodes are one half of a pupil that is even in ξ
+    along_x = across
     return along_x.real**2 + along_x.imag**2, along_y.real**2 + along_y.imag**2
 
 
@@ -124,6 +129,14 @@ def seidel_nodes(live: Live) -> Nodes | None:
     c, psf = live.setup.coefficients, live.psf
     slope, twist = (float(x) for x in steepest_polar(c))
     scale = -float(c.reduced_slope) / float(c.wavelength_um)
+    mask = mask_seen(live.setup.lens, live.setup.source)
+    if not mask.clear:
+        counts = coefficient_counts(c, (on_axes(psf), psf.pixel_um), mask)
+        if counts[0] * counts[1] > MOST_NODES:
+            return None
+        open_ = mask_nodes(mask, *counts)
+        phase = wavefront(c, open_.xi, open_.eta) - open_.path_um / float(c.wavelength_um)
+        return pupil_amplitude(light_of(open_), phase), scale * open_.xi, scale * open_.eta
     counts = nodes_for(slope, corner_reach(abs(scale), on_axes(psf), psf.pixel_um), twist)
     if counts[0] * counts[1] > MOST_NODES:
         return None
@@ -137,9 +150,19 @@ def fitted_nodes(live: Live) -> Nodes | None:
     counts = counts_for(found.steepness, on_axes(psf), psf.pixel_um)
     if counts[0] * counts[1] * found.numbers > MOST_NODES * LEVELS[0].numbers:
         return None
+    if not found.mask.clear:
+        open_ = mask_nodes(found.mask, *counts)
+        phase, fx, fy = found.at(open_.xi, open_.eta)
+        return pupil_amplitude(light_of(open_), phase + open_.path_um / found.wavelength_um), fx, fy
     nodes = disc_nodes(*counts)
     phase, fx, fy = found.at(nodes.xi, nodes.eta)
     return pupil_amplitude(nodes.weight, phase), fx, fy
+
+
+def light_of(nodes: ClearNodes) -> np.ndarray:
+    """Return the weights of nodes behind a mask, with its amplitude, of unit sum: the peak is of the same pupil."""
+    light: np.ndarray = nodes.weight * nodes.amplitude
+    return light / light.sum()
 
 
 def on_axes(psf: Psf) -> int:

@@ -1,12 +1,18 @@
 """Exact rays of the present source: spot diagram with its figures, ray fan, OPD fan."""
 
+from dataclasses import replace
+from math import inf
 from typing import SupportsFloat
 
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
-from p2sf.raytrace.pencil import Fan, Spot, opd_fan, ray_fan, spot
+from p2sf.pupil.mask import PupilMask
+from p2sf.raytrace.pencil import Fan, Sources, Spot, hexapolar, opd_fan, ray_fan, spot
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.first_order import Row
@@ -29,18 +35,53 @@ def lens_drawn(live: Live) -> Layout:
 
 def spots(live: Live) -> Spot:
     """Return where hexapolar rays meet the sensor, µm from the chief ray; fewer rays while a slider moves."""
-    setup = live.setup
-    return spot(setup.lens, setup.source, RINGS[live.quality], clip=live.state.optics.clip)
+    return spot_behind(live.setup.lens, live.setup.source, RINGS[live.quality], live.state.optics.clip)
 
 
 def ray_errors(live: Live) -> Fan:
     """Return transverse ray errors along the two axes of the pupil, µm."""
-    return ray_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
+    return ray_fan_behind(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
 
 
 def path_errors(live: Live) -> Fan:
     """Return optical path differences along the two axes of the pupil, waves."""
-    return opd_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
+    return opd_fan_behind(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
+
+
+def spot_behind(lens: Lens, source: Source | Sources, rings: int, clip: bool) -> Spot:
+    """Return where the hexapolar rays that the mask in the stop lets through meet the sensor, weighted by its light."""
+    mask = mask_of_rays(lens)
+    if mask.clear:
+        return spot(lens, source, rings, clip)
+    xi, eta = hexapolar(rings)
+    return spot(lens, source, rings, clip, mask.opens(xi, eta) * np.square(mask.amplitude(xi, eta)))
+
+
+def ray_fan_behind(lens: Lens, source: Source | Sources, count: int, clip: bool) -> Fan:
+    """Return transverse ray errors of the rays that the mask in the stop lets through, µm, NaN for the others."""
+    return behind(mask_of_rays(lens), ray_fan(lens, source, count, clip))
+
+
+def opd_fan_behind(lens: Lens, source: Source | Sources, count: int, clip: bool) -> Fan:
+    """Return path differences of the rays that the mask in the stop lets through, waves, NaN for the others."""
+    return behind(mask_of_rays(lens), opd_fan(lens, source, count, clip))
+
+
+def mask_of_rays(lens: Lens) -> PupilMask:
+    """Return the mask that rays of a source in the plane of the fields meet; GeometryError for one that bends them."""
+    if lens.mask.phased:
+        check_unmasked(lens, Message("a picture of rays"))
+    return mask_seen(lens, Source(inf, 0.0, lens.reference_wavelength_um))
+
+
+def behind(mask: PupilMask, fan: Fan) -> Fan:
+    """Return a fan without what a mask covers; its vanes, one of which may lie along the whole line, are set aside."""
+    if mask.clear:
+        return fan
+    bare, zero = replace(mask, vanes=0), np.zeros_like(fan.pupil)
+    along, across = bare.opens(zero, fan.pupil), bare.opens(fan.pupil, zero)
+    tangential, sagittal = np.where(along, fan.tangential, np.nan), np.where(across, fan.sagittal, np.nan)
+    return replace(fan, tangential=tangential, sagittal=sagittal)
 
 
 def landed(spot: Spot) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from p2sf.lens.lens import check_unmasked
 from p2sf.messages import Message, Number
 from p2sf.pupil.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, decomposed
@@ -21,6 +22,7 @@ class ZernikeView:
 
 def zernike(live: Live) -> ZernikeView:
     """Return the terms of the wavefront over the part of the pupil that passes light (handbook 3.4)."""
+    check_unmasked(live.setup.lens, Message("the decomposition of a wavefront"))
     exact = live.pupil.kind == "exact rays"
     nodes, waves, _ = pupil_samples(live.setup, exact, live.quality, live.state.optics.clip)
     fits = {order: decomposed(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}

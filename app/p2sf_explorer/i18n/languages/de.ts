@@ -689,7 +689,7 @@
 <message><source>W31 coma</source><translation>W31 Koma</translation></message>
 <message><source>W40 added</source><translation>W40 hinzu</translation></message>
 <message><source>W40 spherical aberration</source><translation>W40 sphärische Aberration</translation></message>
-<message><source>Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's.</source><translation>Wellenfront W über die Pupille: um wie viele Wellen der optische Weg eines Strahls kürzer als der des Hauptstrahls ist.</translation></message>
+<message><source>Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's. What stands in the stop is left out, and a filter's shade lies over the picture.</source><translation>Wellenfront W über der Pupille: um wie viele Wellen der optische Weg eines Strahls kürzer ist als der des Hauptstrahls. Was in der Blende steht, ist ausgespart, und der Schatten eines Filters liegt über dem Bild.</translation></message>
 <message><source>Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves.</source><translation>Wellenfrontkoeffizienten: der Höchstwert jedes Glieds von W(ρ, θ) an diesem Feld, in Wellen.</translation></message>
 <message><source>Wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>Wavelength λ in vacuum; the index of each glass n(λ) follows it. F, d and C are Fraunhofer's lines.</source><translation>Wellenlänge λ im Vakuum; der Brechungsindex n(λ) jedes Glases folgt ihr. F, d und C sind Fraunhofers Linien.</translation></message>
@@ -783,10 +783,12 @@
 <message><source>a number is too long or lists are nested too deep; this is no lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
+<message><source>a picture of rays</source><translation>ein Bild von Strahlen</translation></message>
 <message><source>a pixel of {pixel_um} µm; give a positive number</source><translation>ein Pixel von {pixel_um} µm; eine positive Zahl angeben</translation></message>
 <message><source>a point at ({x:.4g}, {y:.4g}) mm lies off the sensor; take a larger one</source><translation>ein Punkt bei ({x:.4g}, {y:.4g}) mm liegt neben dem Sensor; einen größeren nehmen</translation></message>
 <message><source>a profile through "{place}" is unknown; choose "chief" or "peak"</source><translation>ein Profil durch "{place}" ist unbekannt; "chief" oder "peak" wählen</translation></message>
 <message><source>a pupil grid of {size} samples; give an even count of at least 2</source><translation>ein Pupillengitter aus {size} Proben; eine gerade Anzahl ab 2 angeben</translation></message>
+<message><source>a pupil that ends at rims or where rays are lost</source><translation>eine Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
 <message><source>a question and its answer go together; give both ask: and tell:</source><translation>eine Frage und ihre Antwort gehören zusammen; ask: und tell: angeben</translation></message>
 <message><source>a radius of 0 with an index is a plane</source><translation>ein Radius 0 mit einem Index ist eine Ebene</translation></message>
 <message><source>a row has {count} columns; write radius, thickness, index, diameter</source><translation>eine Zeile hat {count} Spalten; Radius, Dicke, Index, Durchmesser schreiben</translation></message>
@@ -1510,6 +1512,7 @@
 <message><source>the file's model is incomplete ({reason}); save it again</source><translation>Das Modell der Datei ist unvollständig ({reason}); bitte neu speichern</translation></message>
 <message><source>the file's object is at {distance:.6g} mm; ask for this depth to see the file's image</source><translation>das Objekt der Datei liegt bei {distance:.6g} mm; mit diesem Objektabstand entsteht das Bild der Datei</translation></message>
 <message><source>the fill factor is {fill:g}; give a part above 0 and up to 1</source><translation>der Füllfaktor ist {fill:g}; einen Teil über 0 und bis 1 angeben</translation></message>
+<message><source>the filter in the stop lets no light through; make its apodisation wider</source><translation>das Filter in der Blende lässt kein Licht durch; seine Apodisation breiter machen</translation></message>
 <message><source>the fit was cancelled before it was done</source><translation>die Anpassung wurde abgebrochen, bevor sie fertig war</translation></message>
 <message><source>the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
 <message><source>the flat field is not brighter than the dark field; expose it longer</source><translation>das Hellbild ist nicht heller als das Dunkelbild; es länger belichten</translation></message>

@@ -1,0 +1,193 @@
+"""What the window computes behind a mask in the stop: the same pupil in picture, density, map, focus and sections."""
+
+from math import inf
+
+import numpy as np
+import pytest
+
+from p2sf.errors import P2SFError
+from p2sf.psf.compare import r_squared
+from p2sf.pupil.mask import PupilMask
+from p2sf_explorer.compute.autofocus import masked_focus
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.pupil import disc, pupil_of
+from p2sf_explorer.compute.ray_density import geometric_psf
+from p2sf_explorer.compute.setup import paraxial_setup
+from p2sf_explorer.results.profiles import fine_lines
+from p2sf_explorer.results.rays import ray_errors, spots
+from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.terms import TERMS
+
+MASKS = (
+    {"obscuration": 0.4},
+    {"blades": 6},
+    {"blades": 5, "roundness": 0.3},
+    {"obscuration": 0.3, "vanes": 3, "vane_angle_deg": 10.0},
+    {"apodisation": 0.7, "apodisation_power": 4},
+    {"cubic_um": 0.5},
+)
+UNEVEN = ({"blades": 3}, {"blades": 5, "blade_angle_deg": 20.0}, {"obscuration": 0.3, "vanes": 1, "vane_width": 0.2})
+
+
+def free(waves: dict[str, float], **mask):
+    """Return a free pupil with these coefficients."""
+    added = tuple(waves.get(term, 0.0) for term in TERMS)
+    return new_state(method="seidel", free_pupil=True, added_waves=added, **mask)
+
+
+def mapped(waves: dict[str, float], **mask):
+    """Return the settled map of a free pupil."""
+    return pupil_of(paraxial_setup(free(waves, **mask)), False, "settled")
+
+
+@pytest.mark.parametrize("mask", MASKS, ids=str)
+@pytest.mark.parametrize("method", ["seidel", "fitted"])
+def test_the_moving_picture_is_the_settled_one_on_fewer_samples(mask, method):
+    state = new_state(method=method, f_number=8.0, field_deg=5.0, **mask)
+    moving, settled = live(state, "preview").psf, live(state).psf
+    assert moving.method == settled.method == method
+    step = round(moving.pixel_um / settled.pixel_um)
+    assert step * settled.pixel_um == pytest.approx(moving.pixel_um)
+    same = settled.values[::step, ::step]
+    assert r_squared(moving.values, same / same.sum() * moving.values.sum()) > 0.999
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.7])
+def test_defocus_behind_a_ring_has_the_variance_of_the_ring(ratio):
+    """Of Wd·ρ² over ε² < ρ² < 1: Wd²(1 − ε²)²/12 (Mahajan 1991, §5.2); and all of it is defocus."""
+    pupil = mapped({"wd": 1.5}, obscuration=ratio)
+    assert pupil.rms == pytest.approx(1.5 * (1 - ratio**2) / np.sqrt(12), rel=1e-9)
+    assert pupil.clear == pytest.approx(1 - ratio**2, rel=1e-9)
+    assert pupil.peak_to_valley == pytest.approx(1.5 * (1 - ratio**2), rel=1e-3)  # at samples and edges
+    assert pupil.parts["defocus"] == pytest.approx(pupil.rms**2, rel=1e-9) and pupil.rest < 1e-12
+
+
+def test_a_cubic_plate_alone_has_the_variance_of_its_path():
+    """The mean of (ξ³ + η³)² over the disc is 2·⟨ρ⁶⟩·⟨sin⁶⟩ = 2·(1/4)·(5/16); W falls where the path is longer."""
+    pupil = mapped({}, cubic_um=2.0)
+    waves = 2.0 / (new_state().optics.wavelength_nm / 1000)
+    assert pupil.rms == pytest.approx(waves * np.sqrt(5 / 32), rel=1e-9)
+    xi, eta, inside = disc(pupil.waves.shape[0])
+    assert pupil.waves[inside] == pytest.approx(-waves * (xi**3 + eta**3)[inside], abs=1e-9)
+
+
+@pytest.mark.parametrize("mask", MASKS[:4], ids=str)
+def test_the_map_of_a_lens_is_that_of_its_rays_where_the_mask_is_open(mask):
+    """RMS and share against the samples of the whole pupil's map, which stand up to a 200th of a radius off an edge."""
+    state = new_state(field_deg=5.0, f_number=5.6)
+    whole = pupil_of(paraxial_setup(state), True, "settled")
+    masked = pupil_of(paraxial_setup(new_state(field_deg=5.0, f_number=5.6, **mask)), True, "settled")
+    xi, eta, inside = disc(whole.waves.shape[0])
+    open_ = PupilMask(**mask).opens(xi, eta) & inside
+    assert np.isfinite(masked.waves[open_]).all()
+    assert masked.waves[open_] == pytest.approx(whole.waves[open_], abs=1e-12)
+    assert masked.rms == pytest.approx(whole.waves[open_].std(), rel=5e-3)
+    assert masked.clear == pytest.approx(open_.sum() / inside.sum(), rel=2e-3)
+    assert masked.peak_to_valley == pytest.approx(np.ptp(whole.waves[open_]), rel=2e-2)
+    assert sum(masked.parts.values()) + masked.rest <= masked.rms**2 * 1.02  # without tilt; vanes are set aside
+    assert 0 < np.isnan(masked.waves).mean() < 1
+
+
+def test_where_nothing_is_drawn_there_is_nothing_open_and_one_sample_inside_the_edge_is_there():
+    masked = mapped({"wd": 1.0}, obscuration=0.5)
+    xi, eta, _ = disc(masked.waves.shape[0])
+    radius = np.hypot(xi, eta)
+    step = 2 / len(radius)
+    assert np.isnan(masked.waves[radius < 0.5 - 3 * step]).all()
+    assert np.isfinite(masked.waves[(radius > 0.5 - 0.5 * step) & (radius < 1)]).all()
+
+
+def density(state, window):
+    return geometric_psf(paraxial_setup(state), False, window)
+
+
+def test_the_ray_density_of_a_defocused_ring_is_a_ring():
+    """Rays of pure defocus map the pupil on the sensor: no light within ε of the blur, an even one beyond."""
+    state = free({"wd": 40.0}, obscuration=0.5)
+    setup = paraxial_setup(state)
+    reach = 2 * 40.0 * setup.source.wavelength_um / abs(float(setup.coefficients.reduced_slope))
+    psf = density(state, (128, 2.2 * reach / 128))
+    radius = np.hypot(psf.x_um, psf.x_um[:, None]) / reach
+    assert psf.values[radius < 0.45].sum() < 1e-3
+    half = np.sqrt((1 + 0.25) / 2)  # which halves the ring's area
+    assert psf.values[radius < half].sum() == pytest.approx(0.5, abs=0.02)
+    assert psf.energy == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("mask", [*UNEVEN, {"cubic_um": 4.0}], ids=str)
+def test_the_ray_density_lies_where_the_waves_lie(mask):
+    """Of many waves of defocus and the mask: turned over or mirrored it would not."""
+    state = free({"wd": 12.0}, **mask)
+    waves = live(state).psf
+    assert waves.method == "seidel"
+    rays = density(state, (waves.values.shape[0], waves.pixel_um)).values
+    right = np.corrcoef(blocks(rays), blocks(waves.values))[0, 1]
+    assert right > 0.85  # fringes and caustics are not of rays
+    for turned in (rays[::-1], rays[:, ::-1] if "blade_angle_deg" in mask else rays[::-1]):
+        assert np.corrcoef(blocks(turned), blocks(waves.values))[0, 1] < right
+
+
+def blocks(values: np.ndarray) -> np.ndarray:
+    """Return means over 32 × 32 blocks, in which the fringes of a blur are lost."""
+    side = values.shape[0] // 32
+    found: np.ndarray = values.reshape(32, side, 32, side).sum((1, 3)).ravel()
+    return found
+
+
+@pytest.mark.parametrize("ratio", [0.2, 0.6])
+def test_the_best_focus_of_a_ring_balances_spherical_aberration(ratio):
+    """Wd = −(1 + ε²)·W40 (Mahajan 1991, §5.2), and −W22/2 for astigmatism, whatever the ring."""
+    setup = paraxial_setup(free({"w40": 2.0, "w22": 0.6, "wd": 0.25, "w31": 3.0}, obscuration=ratio))
+    assert masked_focus(setup, True) == pytest.approx((1 + ratio**2) * 2.0 + 0.3 + 0.25, rel=1e-9)
+
+
+def test_a_path_that_is_a_defocus_is_focused_away():
+    """The exact rays of a lens behind a spider: the focus of its rays, to what vanes take from the pupil."""
+    clear, spider = (new_state(field_deg=3.0, f_number=5.6, obscuration=0.3, vanes=n, vane_width=0.001) for n in (0, 4))
+    first, second = (masked_focus(paraxial_setup(state), False) for state in (clear, spider))
+    assert first == pytest.approx(second, rel=1e-2) and first != second
+
+
+@pytest.mark.parametrize("mask", MASKS, ids=str)
+@pytest.mark.parametrize("method", ["seidel", "fitted"])
+def test_sections_of_the_psf_go_through_its_samples(mask, method):
+    answer = live(new_state(method=method, f_number=8.0, field_deg=5.0, **mask))
+    psf = answer.psf
+    lines = fine_lines(answer, psf.x_um[1:])  # as many on either side of the middle
+    middle, scale = psf.values.shape[0] // 2, psf.strehl / psf.values.max()
+    for line, samples in zip(lines, (psf.values[middle, 1:], psf.values[1:, middle]), strict=True):
+        assert line == pytest.approx(scale * samples, abs=2e-3 * psf.strehl)
+
+
+def test_only_rays_through_the_open_part_are_drawn_in_spots_and_fans():
+    answer = live(new_state(field_deg=5.0, obscuration=0.5, blades=6))
+    landed, fan = spots(answer), ray_errors(answer)
+    whole = spots(live(new_state(field_deg=5.0)))
+    assert 0 < np.isfinite(landed.x_um).sum() < np.isfinite(whole.x_um).sum()
+    assert landed.rms_um != whole.rms_um
+    assert np.array_equal(np.isnan(fan.tangential)[1:-1], np.abs(fan.pupil)[1:-1] < 0.5)  # at ±1 there are corners
+    inside = np.abs(fan.pupil) > np.cos(np.pi / 6) + 1e-9  # across, where the blades' edges are
+    assert np.array_equal(np.isnan(fan.sagittal), (np.abs(fan.pupil) < 0.5) | inside)
+
+
+@pytest.mark.parametrize("mask", [{"obscuration": 0.4}, {"cubic_um": 3.0}], ids=str)
+def test_the_window_is_wide_enough_for_what_the_mask_spreads(mask):
+    assert live(new_state(f_number=8.0, field_deg=5.0, **mask)).psf.energy > 0.9
+
+
+def test_rims_or_lost_rays_behind_a_mask_are_refused_in_a_sentence():
+    with pytest.raises(P2SFError, match="mask"):
+        live(new_state(field_deg=14.0, clip=True, obscuration=0.4))
+
+
+@pytest.mark.parametrize("method", ["seidel", "fitted", "auto"])
+def test_a_filter_that_lets_nothing_through_is_refused_in_a_sentence(method):
+    with pytest.raises(P2SFError, match="lets no light through"):
+        live(new_state(method=method, obscuration=0.78, apodisation=0.43, apodisation_power=8))
+
+
+def test_an_apodised_pupil_has_a_shade_and_a_clear_one_none():
+    pupil = mapped({}, apodisation=0.5)
+    xi, eta, inside = disc(pupil.waves.shape[0])
+    assert pupil.shade[inside] == pytest.approx(np.exp(-(xi**2 + eta**2) / 0.25)[inside], rel=1e-3)
+    assert mapped({}, apodisation=inf).shade is None
