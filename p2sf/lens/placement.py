@@ -109,6 +109,12 @@ class Placement:
         x, y, z = self.pivot
         return replace(self, pivot=(x, y, z - distance))
 
+    def scaled(self, factor: float) -> "Placement":
+        """Return the same break with lengths in units ``factor`` mm long, in mm."""
+        x, y, z = (factor * value for value in self.decentre)
+        across, up, along = (factor * value for value in self.pivot)
+        return replace(self, decentre_x=x, decentre_y=y, decentre_z=z, pivot=(across, up, along))
+
     def check(self, surface: int) -> None:
         """Raise GeometryError for numbers that cannot be; ``surface`` counts from 1."""
         if not all(map(isfinite, (*self.decentre, *self.tilt_deg, *self.pivot))):

@@ -8,6 +8,7 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.placement import Placement
 from p2sf.lens.shape_words import shape_words
 from p2sf.lens.shapes import RadialPolynomial, Shape
 from p2sf.lensfile import conjugates
@@ -105,7 +106,12 @@ def _bare_lens(raw: RawLens, media: list[Medium]) -> Lens:
         source=raw.source,
         wavelengths_nm=wavelengths,
         object_medium=media[0],
+        sensor_before=_scaled(raw.sensor_before, raw.unit_mm),
     )
+
+
+def _scaled(placements: tuple[Placement, ...], unit: float) -> tuple[Placement, ...]:
+    return tuple(placement.scaled(unit) for placement in placements)
 
 
 def _within_data(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
@@ -155,6 +161,8 @@ def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surfa
         raw.semi_diameter * unit if raw.semi_diameter > 0 else inf,
         _shape(raw, {power: value for power, value in terms.items() if power == 2 or power % 2}, unit, number),
         raw.diffraction.scaled(unit) if raw.diffraction else None,
+        before=_scaled(raw.before, unit),
+        after=_scaled(raw.after, unit),
     )
 
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass, field, replace
 from math import inf, pi
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
-from p2sf.errors import GlassError
+from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import MIRROR, Medium, measured_index
 from p2sf.lens.lens import Lens
 from p2sf.lens.shapes import Diffraction, RadialPolynomial
+from p2sf.lens.tilts import Breaks, decentred_surface
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -23,10 +24,11 @@ from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
 from p2sf.messages import Message
 
-TILTS = Message("is tilted or decentred")
+TILT_NAMES = ("XDE", "YDE", "ZDE", "ADE", "BDE", "CDE")
+TILTS = Message("is tilted or decentred otherwise than by XDE to CDE")
 SHAPES = Message("has a shape that is not a sphere, a conic or an asphere in powers of r")
 REFUSED = {
-    **dict.fromkeys("XDE YDE ZDE ADE BDE CDE XOD YOD ZOD GLB".split(), TILTS),
+    **dict.fromkeys("XOD YOD ZOD GLB RET".split(), TILTS),
     **dict.fromkeys("GRT HOE HX1 GRO GRS HX2 HY1 HY2 HZ1 HZ2".split(), Message("diffracts")),
     **dict.fromkeys("XTO YTO AAS CYL XYP ZRN RDX CUX UDS ODD ANA BIC SPL".split(), SHAPES),
     **dict.fromkeys("GRN GIR URN".split(), Message("is followed by a gradient index")),
@@ -43,8 +45,7 @@ HARMLESS = (
     (Message("edge and rectangle rims, obscurations in other shapes"), "REX REY ELX ELY ADX ADY ARO"),
     (
         Message("titles, sessions and computing settings"),
-        "LEN INI TEM PRE GO DER CLS VER OUT CON ASP SPH POL CA APE ROT REV DAR "
-        "BEN PIV RET CMT WID AFI AFC RFO RSI PFR PTP POR HCC SCC",
+        "LEN INI TEM PRE GO DER CLS VER OUT CON ASP SPH POL CA APE ROT PIV CMT WID AFI AFC RFO RSI PFR PTP POR HCC SCC",
     ),
 )
 REASON = {name: reason for reason, names in HARMLESS for name in names.split()}
@@ -133,6 +134,8 @@ class CodeVReading:
     fields: dict[str, list[float]] = field(default_factory=dict)
     special: dict[int, dict[str, float]] = field(default_factory=dict)
     phase: dict[int, dict[str, float]] = field(default_factory=dict)
+    tilts: dict[int, dict[str, float]] = field(default_factory=dict)  # numbers of XDE … CDE by the surface's id
+    returns: dict[int, str] = field(default_factory=dict)  # DAR, REV or BEN by the surface's id
     private: dict[str, Medium] = field(default_factory=dict)
     private_nm: list[float] | None = None
     in_private: bool = False
@@ -358,7 +361,27 @@ def _rim(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> N
 
 
 ONE_LETTER = {"WL", "NA", "K", *ORDERS}
+
+
+def _tilt(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    """Read XDE, YDE, ZDE, a length, or ADE, BDE, CDE, an angle in degrees."""
+    value = reading.number(command, 0, Message("tilt or decentre"))
+    if value and surface.number == 0:
+        raise reading.source.error(
+            "the object is tilted or decentred ({command}), which is not read; move the lens instead",
+            command.line,
+            command=command.name,
+        )
+    reading.tilts.setdefault(id(surface), {})[command.name[:3]] = value
+
+
+def _returns(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    reading.returns[id(surface)] = command.name[:3]
+
+
 ON_SURFACE = {
+    **dict.fromkeys(TILT_NAMES, _tilt),
+    **dict.fromkeys(("DAR", "REV", "BEN"), _returns),
     "STO": _stop,
     "SLB": _label,
     "GLA": read_glass,
@@ -387,7 +410,7 @@ IN_SYSTEM = {
 def read_codev(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a .seq file; LensFileError with its line for what P2SF does not trace.
 
-    Refused by surface number and name: tilts and decentres, diffractive, toric and other
+    Refused by surface number and name: tilts of unread kinds, diffractive, toric and other
     surfaces that are not spheres, conics or even aspheres.
     """
     listed = list(commands(source))
@@ -518,14 +541,14 @@ def _named(reading: CodeVReading, name: str, command: CodeVCommand) -> RawSurfac
 def _refuse_unless_zero(
     reading: CodeVReading, command: CodeVCommand, surface: RawSurface | None, reason: Message
 ) -> None:
-    """Raise LensFileError for a tilt, a decentre or a grating; one whose numbers are all zero does nothing."""
+    """Raise LensFileError for a tilt of an unread kind or a grating; one whose numbers are all zero does nothing."""
     if command.words and all(re.fullmatch(r"[+-]?0*\.?0*([eE][+-]?\d+)?", word) and word for word in command.words):
         return
     where = surface.name if surface and surface.number else Message("the lens")
     if reading.image is surface and surface is not None:
         where = Message("the image surface")
     raise reading.source.error(
-        "{surface} {reason} ({command}); only centred systems are read",
+        "{surface} {reason} ({command}), which is not read; give a lens without it",
         command.line,
         surface=where,
         reason=reason,
@@ -583,7 +606,28 @@ def _finish(reading: CodeVReading) -> None:
         raise reading.source.error("the stop is on the object or the image; put it on a surface between", first.line)
     for surface in raw.surfaces:
         _shape(reading, surface)
+    _place(reading)
     _gather_fields(reading)
+
+
+def _place(reading: CodeVReading) -> None:
+    """Give every surface, and the sensor, the breaks that its tilts and decentres mean."""
+    raw = reading.raw
+    for place, surface in enumerate(raw.surfaces):
+        numbers, kind = reading.tilts.get(id(surface), {}), reading.returns.get(id(surface), "")
+        if not kind and numbers.get("ZDE") and place:
+            raw.surfaces[place - 1].thickness += numbers.pop("ZDE")  # the same, and known to paraxial rays
+        surface.before, surface.after = _breaks(reading, surface, numbers, kind)
+    if reading.image is not None:
+        raw.sensor_before, _ = _breaks(reading, reading.image, reading.tilts.get(id(reading.image), {}), "")
+
+
+def _breaks(reading: CodeVReading, surface: RawSurface, numbers: dict[str, float], kind: str) -> Breaks:
+    values = [numbers.get(name, 0.0) for name in TILT_NAMES]
+    try:
+        return decentred_surface(kind, tuple(values[:3]), tuple(values[3:]))
+    except GeometryError as failure:
+        raise reading.source.error("{surface}: {error}", surface.line, surface=surface.name, error=failure) from failure
 
 
 def _tell_radii(reading: CodeVReading) -> None:

@@ -7,6 +7,7 @@ from math import inf
 from typing import Literal
 
 from p2sf.glass.media import Medium
+from p2sf.lens.placement import Placement
 from p2sf.lens.shapes import Diffraction, Shape
 from p2sf.messages import Message
 
@@ -52,6 +53,8 @@ class RawSurface:
     semi_diameter: float = inf
     shape: Shape | None = None
     diffraction: Diffraction | None = None
+    before: tuple[Placement, ...] = ()
+    after: tuple[Placement, ...] = ()
 
     @property
     def name(self) -> Message:
@@ -65,7 +68,7 @@ class RawSurface:
 class RawLens:
     """A whole file. Lengths in units of ``unit_mm``; wavelengths µm; field pairs (x, y) in the kind's unit.
 
-    ``primary`` counts wavelengths from 0.
+    ``primary`` counts wavelengths from 0. ``sensor_before``: how the image surface stands.
     """
 
     surfaces: list[RawSurface] = field(default_factory=list)
@@ -85,6 +88,7 @@ class RawLens:
     title: str = ""
     source: str = ""
     sensor_stated: bool = True
+    sensor_before: tuple[Placement, ...] = ()
 
     def add_vignetting(self, factors: Iterable[str]) -> None:
         """Take note of a line of vignetting factors; words that are no numbers say that rims give them."""

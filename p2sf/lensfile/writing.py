@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from math import inf, isfinite
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,9 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
 from p2sf.lens.even_terms import even_asphere
-from p2sf.lens.lens import Lens, Surface, check_aligned
+from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.shapes import Qbfs, RadialPolynomial
+from p2sf.lens.tilts import break_rows
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
 from p2sf.lensfile.columns import columns_of
 from p2sf.lensfile.conjugates import FAR, limiting_rim, trace
@@ -52,13 +54,23 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
             path,
             ending=ending,
         )
-    if ending != ".toml":
-        check_aligned(lens, Message("a file that ends in {ending}", ending=ending))
+    if ending == ".json":
+        _check_aligned(lens, Message("a file that ends in {ending}", ending=ending))
     text = writers[ending](lens)
     catalogue = lens_to_agf(lens) if ending == ".zmx" else ""
     if catalogue:
         write_text(catalogue, Path(path).with_suffix(".agf"))
     write_text(text, path)
+
+
+def _check_aligned(lens: Lens, what: Message) -> None:
+    """Raise LensFileError for a lens with tilts or decentres, which ``what`` cannot hold."""
+    if lens.misaligned:
+        raise LensFileError(
+            "parts of the lens are tilted or decentred, which {what} cannot say; save as TOML, or for Zemax at one "
+            "position",
+            what=what,
+        )
 
 
 def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
@@ -71,10 +83,10 @@ def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
     lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", "  DISZ INFINITY"]
     if lens.object_medium != AIR:
         lines.append(_zemax_glass(lens.object_medium))
-    for number, surface in enumerate(lens.surfaces, 1):
-        lines += _zemax_surface(lens, surface, number, stop)
-    count = len(lens.surfaces) + 1
-    lines += [f"SURF {count}", "  TYPE STANDARD", "  CURV 0.0", "  DISZ 0"]
+    rows = [row for number in range(1, len(lens.surfaces) + 1) for row in _zemax_rows(lens, number, stop)]
+    rows += [_zemax_break(*one) for placement in lens.sensor_before for one in break_rows(placement, 0.0)]
+    rows.append(["  TYPE STANDARD", "  CURV 0.0", "  DISZ 0"])
+    lines += [line for number, row in enumerate(rows, 1) for line in (f"SURF {number}", *row)]
     return "\n".join([*lines, *_zemax_configurations(lens, stop), ""])
 
 
@@ -115,9 +127,10 @@ def _zemax_numbers(lens: Lens, stop: int) -> dict[tuple[str, int], float | str]:
 
 
 def _check_zemax_columns(lens: Lens) -> None:
-    """Raise LensFileError for what differs between columns and no operand sets."""
+    """Raise LensFileError for what differs between columns and no operand sets, and for breaks beside columns."""
     if lens.positions is None:
         return
+    _check_aligned(lens, Message("a Zemax file with configurations"))
     for number, rows in enumerate(zip(*(column.surfaces for column in lens.positions.lenses), strict=True), 1):
         unnamed = [row.medium for row in rows if not isinstance(row.medium, CatalogueGlass | FormulaGlass)]
         different = len({row.medium for row in rows}) > 1
@@ -154,13 +167,33 @@ def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
     ]
 
 
+def _zemax_rows(lens: Lens, number: int, stop: int) -> list[list[str]]:
+    """Return the lines of a surface, and of the coordinate breaks before and behind it."""
+    surface, before = lens.surfaces[number - 1], lens.media[number - 1]
+    breaks = [row for placement in surface.before for row in break_rows(placement, 0.0)]
+    idle = surface.bare and surface.medium == before and number != stop and not isfinite(surface.semi_diameter)
+    if idle and breaks and not surface.after:  # as a coordinate break of a file is read
+        return [*(_zemax_break(*row) for row in breaks[:-1]), _zemax_break(*breaks[-1], surface.thickness)]
+    behind = [row for placement in surface.after for row in break_rows(placement, 0.0)]
+    own = _zemax_surface(lens, replace(surface, thickness=0.0) if behind else surface, number, stop)
+    rows = [*(_zemax_break(*row) for row in breaks), own, *(_zemax_break(*row) for row in behind[:-1])]
+    return [*rows, _zemax_break(*behind[-1], surface.thickness)] if behind else rows
+
+
+def _zemax_break(
+    x: float, y: float, a: float, b: float, c: float, order: float, behind: float, more: float = 0.0
+) -> list[str]:
+    """Return the lines of a coordinate break: decentres, tilts, order and the thickness behind it."""
+    numbers = [f"  PARM {place} {value!r}" for place, value in enumerate((x, y, a, b, c, int(order)), 1)]
+    return ["  TYPE COORDBRK", "  CURV 0.0", *numbers, f"  DISZ {behind + more!r}"]
+
+
 def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list[str]:
     kind, numbers = _zemax_shape(surface, number)
     rim = surface.semi_diameter
     if number == stop and lens.aperture.kind == "stop_semi_diameter":
         rim = lens.aperture.value
     return [
-        f"SURF {number}",
         *["  STOP"] * (number == stop),
         f"  TYPE {kind}",
         f"  CURV {surface.curvature!r}",

@@ -13,6 +13,7 @@ from typing import NoReturn
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
 from p2sf.lens.shapes import Diffraction, RadialPolynomial
+from p2sf.lens.tilts import coordinate_break
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -55,7 +56,7 @@ HARMLESS = (
     (Message("coatings, polarisation, scatter"), "COAT COFN POLS FIMP FLAP PFIL GFAC"),
     (
         Message("computing settings"),
-        "VERS GSTD NSCD RAIM ROPD POPS PUPD CONF HYPR RCMF ENVD GLRS YDAT SCBD AUTH NOTE",
+        "VERS GSTD NSCD RAIM ROPD POPS PUPD CONF HYPR RCMF ENVD GLRS YDAT AUTH NOTE",
     ),
     (
         Message("variables, pickups and solves, whose stored values are read"),
@@ -338,6 +339,12 @@ def _decentred_rim(reading: ZemaxReading, words: list[str]) -> None:
         )
 
 
+def _own_tilt(reading: ZemaxReading, words: list[str]) -> None:
+    """Refuse a tilt or decentre among a surface's own properties, whose line is not documented; zeros do nothing."""
+    if any(re.fullmatch(r"[+-]?\d*\.\d*([eE][+-]?\d+)?", word) and float(word) for word in words[1:]):
+        reading.refuse("{surface} is tilted or decentred by its properties (SCBD); give coordinate breaks instead")
+
+
 def _glass(reading: ZemaxReading, words: list[str]) -> None:
     """Read GLAS name mode pickup nd vd …; mode 1 to 3 with the name ___BLANK is a model glass."""
     name = words[1] if len(words) > 1 else ""
@@ -375,6 +382,7 @@ ON_SURFACE = {
     "CLAP": _clear_rim,
     "OBSC": _obscuration,
     "OBDC": _decentred_rim,
+    "SCBD": _own_tilt,
 }
 IN_SYSTEM = {
     "MODE": _mode,
@@ -393,7 +401,7 @@ IN_SYSTEM = {
 def read_zemax(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a .zmx file; LensFileError with its line for what P2SF does not trace.
 
-    Refused by surface number and name: gratings, coordinate breaks, toroids, gradients,
+    Refused by surface number and name: gratings, toroids, gradients,
     non-sequential parts, black boxes, decentred or non-circular clear rims, and any unknown type.
     """
     reading = ZemaxReading(source, notes)
@@ -602,15 +610,14 @@ def _finish(reading: ZemaxReading) -> None:
 
 
 def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
-    """Give an asphere its terms and a phase; LensFileError for a coordinate break that is not all zeros."""
+    """Give an asphere its terms and a phase; a coordinate break is a plane in the medium before it."""
     parameters = reading.parameters.get(surface.number, {})
     kind = reading.kinds.get(surface.number, "STANDARD")
-    if kind == "COORDBRK" and any(parameters.values()):
-        raise reading.source.error(
-            "{surface} is a coordinate break (tilt or decentre); only centred lenses are read",
-            surface.line,
-            surface=surface.name,
-        )
+    if kind == "COORDBRK":
+        placement = coordinate_break(parameters)
+        surface.keeps_medium, surface.before = True, () if placement.idle else (placement,)
+        surface.curvature = surface.conic = 0.0
+        return
     step = 1 if kind in ("ODDASPHE", "XOSPHERE") else 2
     if kind in ("EVENASPH", "ODDASPHE", "BINARY_2"):
         surface.aspheric = {step * place: value for place, value in parameters.items() if place and value}

@@ -188,7 +188,7 @@ CODEV_REFUSED = {
     "an aperture angle beyond a right one": ((("EPD   20.0", "NA 1.5"),), "1.5 is impossible in index 1"),
     "an object in the first vertex": ((("EPD   20.0", "NAO 0.1"), (FIRST, "SO 0.0 0.0")), "lies in the first vertex"),
     "a surface out of its turn": (((SURFACE, "S7 -128.2 95.5"),), "surface 7 stands where 3 is due"),
-    "a tilted image": ((("SI    0.0 0.5", "SI 0.0 0.5\n  ADE 3.0"),), "the image surface .*ADE"),
+    "a tilted image": ((("SI    0.0 0.5", "SI 0.0 0.5\n  XOD 3.0"),), "the image surface .*XOD"),
 }
 
 

@@ -165,8 +165,12 @@ def test_a_phase_in_centimetres_is_that_in_millimetres():
 
 
 REFUSED = {
-    "a tilt": (("  PIM", "  ADE 3.0"), "surface 3 is tilted or decentred"),
-    "a decentre": (("  PIM", "  YDE 3.0"), "surface 3 is tilted or decentred"),
+    "a tilt about another point": (
+        ("  PIM", "  YOD 3.0"),
+        "surface 3 is tilted or decentred otherwise than by",
+    ),
+    "a tilt in other axes": (("  PIM", "  GLB"), "surface 3 is tilted or decentred otherwise than by"),
+    "a tilt edge on": (("  PIM", "  ADE 90.0"), "surface 3: a tilt of -90° about x"),
     "a ruled grating": (("  PIM", "  DIF GRT"), "surface 3 diffracts by DIF GRT"),
     "a hologram": (("  PIM", "  DIF DOE; HX1 3.0"), "surface 3 diffracts"),
     "a phase in x and y": (("  PIM", "  DIF DOE; HCT XY"), "surface 3 diffracts by HCT XY"),

@@ -216,7 +216,10 @@ REFUSED = {
     "a grating": (("TYPE EVENASPH", "TYPE DGRATING"), "surface 3 has type DGRATING"),
     "a black box": (("TYPE EVENASPH", "TYPE BLACKBOX"), "surface 3 has type BLACKBOX, a black box"),
     "an unknown type": (("TYPE EVENASPH", "TYPE US_MINE"), "surface 3 has type US_MINE"),
-    "a tilt": (("TYPE EVENASPH", "TYPE COORDBRK"), "surface 3 is a coordinate break"),
+    "a tilt of its own": (
+        ("  MAZH 0 0", "  SCBD 1 0 0 0.0 0.0 9.0E+1 0.0 0.0"),
+        "surface 3 is tilted or decentred by its",
+    ),
     "non-sequential": (("MODE SEQ", "MODE NSC"), "mode NSC is not sequential"),
     "a decentred rim": (("  MAZH 0 0", "  OBDC 0 3.5"), "surface 3 has a rim decentred"),
     "a power too high": (("PARM 1 0", "PARM 21 1e-3"), r"surface 3: aspheric term r\^42; powers from 1 to 40"),

@@ -746,6 +746,8 @@
 <message><source>[sensor] lacks {missing}; add it</source><translation>in [sensor] fehlt {missing}; hinzufügen</translation></message>
 <message><source>a Fresnel surface</source><translation>eine Fresnel-Fläche</translation></message>
 <message><source>a PSF of {pixels} samples; give a whole number from 1</source><translation>eine PSF aus {pixels} Proben; eine ganze Zahl ab 1 angeben</translation></message>
+<message><source>a Zemax file with configurations</source><translation>eine Zemax-Datei mit Konfigurationen</translation></message>
+<message><source>a bend (BEN) about more than one axis is not read; write the tilt behind it by itself</source><translation>eine Knickung (BEN) um mehr als eine Achse wird nicht gelesen; die Kippung dahinter für sich schreiben</translation></message>
 <message><source>a black box that hides its surfaces</source><translation>eine Black Box, die ihre Flächen verbirgt</translation></message>
 <message><source>a blur of {size} pixels with {samples} samples each needs a {side}² transform; bring the depths nearer to focus, stop down, or ask for larger pixels</source><translation>eine Unschärfe von {size} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²; die Abstände dem Fokus nähern, abblenden oder größere Pixel verlangen</translation></message>
 <message><source>a blur of {waves:.0f} waves per pupil radius behind a mask; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius hinter einer Maske; den Sensor näher an das Bild bringen oder abblenden</translation></message>
@@ -1074,6 +1076,7 @@
 <message><source>is followed by a gradient index</source><translation>wird von einem Gradientenindex gefolgt</translation></message>
 <message><source>is stopped by the rim of surface {surface}</source><translation>wird vom Rand der Fläche {surface} aufgehalten</translation></message>
 <message><source>is tilted or decentred</source><translation>ist gekippt oder dezentriert</translation></message>
+<message><source>is tilted or decentred otherwise than by XDE to CDE</source><translation>ist anders als durch XDE bis CDE gekippt oder dezentriert</translation></message>
 <message><source>is totally reflected at surface {surface}</source><translation>wird an Fläche {surface} total reflektiert</translation></message>
 <message><source>its PSFs, as a map</source><translation>seine PSFs als Karte</translation></message>
 <message><source>its central hole is open here</source><translation>ihr Loch in der Mitte ist hier offen</translation></message>
@@ -1220,6 +1223,7 @@
 <message><source>paraxial, axis</source><translation>paraxial, Achse</translation></message>
 <message><source>partial dispersion</source><translation>Teildispersion</translation></message>
 <message><source>parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop</source><translation>Teile des Objektivs sind gekippt oder dezentriert, und seine Pupille ist keine paraxiale Scheibe; {parameter} stop wählen</translation></message>
+<message><source>parts of the lens are tilted or decentred, which {what} cannot say; save as TOML, or for Zemax at one position</source><translation>Teile des Objektivs sind gekippt oder dezentriert, was {what} nicht sagen kann; als TOML speichern oder für Zemax in einer Stellung</translation></message>
 <message><source>passes</source><translation>kommt durch</translation></message>
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
@@ -1560,6 +1564,7 @@
 <message><source>the model leaves {ratio:.2g} times the noise, and errors are enlarged by that; try more numbers, and check the numerical aperture, the pixel and the noise</source><translation>das Modell lässt das {ratio:.2g}-Fache des Rauschens übrig, um das die Fehler vergrößert sind; mehr Zahlen versuchen, und numerische Apertur, Pixel und Rauschen prüfen</translation></message>
 <message><source>the noise is {noise:g}; give the standard deviation of the picture's noise, above 0</source><translation>das Rauschen ist {noise:g}; die Standardabweichung des Bildrauschens angeben, über 0</translation></message>
 <message><source>the object height</source><translation>die Objekthöhe</translation></message>
+<message><source>the object is tilted or decentred ({command}), which is not read; move the lens instead</source><translation>das Objekt ist gekippt oder dezentriert ({command}), was nicht gelesen wird; stattdessen das Objektiv bewegen</translation></message>
 <message><source>the object lies in the entrance pupil, so no cone of light is defined; move the object</source><translation>das Objekt liegt in der Eintrittspupille, also ist kein Lichtkegel festgelegt; das Objekt verschieben</translation></message>
 <message><source>the object lies in the first vertex, where an aperture angle fills no stop; move it</source><translation>das Objekt liegt im ersten Scheitel, wo ein Öffnungswinkel keine Blende füllt; verschieben</translation></message>
 <message><source>the object stands in a medium, which an ISET file cannot say; save as TOML</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
@@ -1664,6 +1669,7 @@
 <message><source>tilt</source><translation>Verkippung</translation></message>
 <message><source>tilt of the 3D view</source><translation>Neigung der 3D-Ansicht</translation></message>
 <message><source>tilt of the wavefront's surface</source><translation>Neigung der Wellenfrontfläche</translation></message>
+<message><source>tilt or decentre</source><translation>Kippung oder Dezentrierung</translation></message>
 <message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
 <message><source>time</source><translation>Zeit</translation></message>
 <message><source>time of a PSF among many, µs</source><translation>Zeit einer PSF unter vielen, µs</translation></message>
@@ -1973,10 +1979,11 @@
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
 <message><source>{surface} has type {kind}, {description}; only the types {known} are read</source><translation>{surface} hat den Typ {kind}, {description}; nur die Typen {known} werden gelesen</translation></message>
 <message><source>{surface} has {count:g} terms and a normalisation radius of {radius:g} in its extra data (XDAT); give up to {most} terms and a positive radius</source><translation>{surface} hat {count:g} Glieder und einen Normierungsradius von {radius:g} in den Zusatzdaten (XDAT); bis zu {most} Glieder und einen positiven Radius angeben</translation></message>
-<message><source>{surface} is a coordinate break (tilt or decentre); only centred lenses are read</source><translation>{surface} ist ein Koordinatenbruch (Kippung oder Dezentrierung); nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>{surface} is a special surface of type {kind}, which is not read; only ODD is</source><translation>{surface} ist eine Sonderfläche vom Typ {kind}, die nicht gelesen wird; nur ODD wird gelesen</translation></message>
 <message><source>{surface} is an ideal lens made by a hologram, which has no prescription; put a real lens in its place</source><translation>{surface} ist eine ideale Linse aus einem Hologramm, ohne Konstruktionsdaten; bitte eine wirkliche Linse einsetzen</translation></message>
+<message><source>{surface} is tilted or decentred by its properties (SCBD); give coordinate breaks instead</source><translation>{surface} ist durch ihre Eigenschaften (SCBD) gekippt oder dezentriert; stattdessen Koordinatenbrüche angeben</translation></message>
 <message><source>{surface} is tilted or decentred; only centred lenses are read</source><translation>{surface} ist gekippt oder dezentriert; nur zentrierte Objektive werden gelesen</translation></message>
+<message><source>{surface} {reason} ({command}), which is not read; give a lens without it</source><translation>{surface} {reason} ({command}), was nicht gelesen wird; ein Objektiv ohne das angeben</translation></message>
 <message><source>{surface} {reason} ({command}); only centred systems are read</source><translation>{surface} {reason} ({command}); nur zentrierte Systeme werden gelesen</translation></message>
 <message><source>{surface}: coefficient {name} of a special surface is not known; K, AR1 to AR30 and NRADIUS after SPS ODD are</source><translation>{surface}: Koeffizient {name} einer Sonderfläche ist nicht bekannt; K, AR1 bis AR30 und NRADIUS nach SPS ODD sind es</translation></message>
 <message><source>{surface}: glass "{name}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it</source><translation>{surface}: das Glas "{name}" ist weder ein Name noch ein sechsstelliger Code wie 517642 oder 517.642; berichtigen</translation></message>
