@@ -57,8 +57,13 @@ class CameraOptions:
 
     Attributes
     ----------
+    zoom
+        Of a lens that zooms: where its ring stands, a number on its own scale or the name of a column of its file.
+    focus_position
+        Of a lens that focuses inside: where the ring of its focus stands, as for zoom.
     focus_mm
-        Put the sensor at the paraxial image of this distance, mm; inf is allowed.
+        Put the sensor at the paraxial image of this distance, mm; inf is allowed. A lens that focuses inside moves its
+        ring instead.
     sensor_shift_um
         Move the sensor on top of that, µm, away from the lens.
     f_number
@@ -69,6 +74,8 @@ class CameraOptions:
         Fill the rim of the real stop with exact rays (its former name is real), or the paraxial entrance pupil.
     """
 
+    zoom: float | str | None = None
+    focus_position: float | str | None = None
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
     f_number: float | None = None
@@ -255,6 +262,7 @@ def about_rows(meta: dict[str, Any], held: dict[str, Any]) -> list[Row]:
         ("interpolant", meta["interpolant"], ""),
         ("nodes, depth × field × wavelength", " × ".join(map(str, meta["nodes"])), ""),
         *((name.split("_")[0], covers[name], name.split("_")[1]) for name in covers),
+        *(("position", place, "") for place in [meta.get("position")] if place),
         ("exact rays fill", FILLED[meta["aim"]], ""),
         ("sensor from the last vertex", meta["sensor_mm"], "mm"),
         ("glasses", ", ".join(glass["glass"] for glass in meta["glasses"]), ""),

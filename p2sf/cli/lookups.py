@@ -22,7 +22,15 @@ if TYPE_CHECKING:
 
     Database = ExactDatabase | GridDatabase | FittedDatabase
 
-FROM_THE_LENS = {"object_height_mm": None, "focus_mm": None, "f_number": None, "stop": "file", "aim": None}
+FROM_THE_LENS = {
+    "object_height_mm": None,
+    "zoom": None,
+    "focus_position": None,
+    "focus_mm": None,
+    "f_number": None,
+    "stop": "file",
+    "aim": None,
+}
 
 
 def is_database(name: str) -> bool:
@@ -110,6 +118,7 @@ def description(stored: Stored, source: Source) -> dict[str, Any]:
         "wavelength_nm": source.wavelength_um * NM_PER_UM,
         "sensor_mm": meta["sensor_mm"],
         "aim": meta["aim"],
+        **({"position": meta["position"]} if meta.get("position") else {}),
     }
     lens = {key: value for key, value in meta["lens"].items() if key != "toml"}
     kept = {key: meta[key] for key in ("method", "interpolant", "errors_waves")}
@@ -122,4 +131,5 @@ def _heading(stored: Stored, source: Source) -> str:
     lens, field = stored.meta["lens"], degrees_from_slope(source.field_slope)
     depth = "∞" if isinf(source.depth_mm) else f"{source.depth_mm:g} mm"
     place = f"object at {depth}, field {field:.6g}°, {source.wavelength_um * NM_PER_UM:.7g} nm"
-    return f"{lens['title'] or lens['name']}: {place}"
+    turned = f", {stored.meta['position']}" if stored.meta.get("position") else ""
+    return f"{lens['title'] or lens['name']}{turned}: {place}"

@@ -27,8 +27,8 @@ CHART = "chart:"
 TELL_EVERY_S = 1.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
 SCENE_HELP = (
-    "A scene as TOML: tolerance = 0.05, measure (relative, r2, mtf, psnr), f_number, focus_mm, aim, clip; "
-    "[sensor] rows, columns, pixel_um, centre_mm; [depth] near_mm, far_mm or map; "
+    "A scene as TOML: tolerance = 0.05, measure (relative, r2, mtf, psnr), f_number, zoom, focus_position, focus_mm, "
+    "aim, clip; [sensor] rows, columns, pixel_um, centre_mm; [depth] near_mm, far_mm or map; "
     "[[channel]] name, wavelengths_nm, weights, by default red, green and blue."
 )
 TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")

@@ -31,6 +31,10 @@ AimName = Annotated[
     AimChoice | None,
     Parameter(help="Fill the real stop with exact rays (its former name is real), or the paraxial entrance pupil."),
 ]
+Ring = Annotated[
+    float | str | None,
+    Parameter(help="Where a ring of the lens stands: a number on its own scale, or a column of its file."),
+]
 Pixels = Annotated[Whole, Parameter(help="Samples along each side of the compared window.")]
 Named = Annotated[str | None, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
 Complete = Annotated[
@@ -56,6 +60,8 @@ def tradeoff(
     wavelengths_nm: Waves = None,
     stop: StopName = "file",
     aim: AimName = None,
+    zoom: Ring = None,
+    focus_position: Ring = None,
     pixels: Pixels = 64,
     complete: Complete = False,
     quick: Quick = False,
@@ -76,7 +82,8 @@ def tradeoff(
     check_output(output, WRITTEN)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     depths = depths_mm or [inf]
-    asked = set_up(find_lens(lens), Request(depth_mm=depths[0], stop=stop, aim=aim)).lens
+    request = Request(depth_mm=depths[0], zoom=zoom, focus_position=focus_position, stop=stop, aim=aim)
+    asked = set_up(find_lens(lens), request).lens
     rows = tradeoff.tradeoff(asked, fields_deg, depths, wavelengths_nm, pixels=pixels)
     head, *lines = tradeoff.table(rows)
     title = f"{asked.title or asked.name}: each method against the Huygens sum, {pixels} × {pixels} samples"

@@ -11,8 +11,9 @@ from p2sf.database.render import Database, database_psf
 from p2sf.files.writing import plain
 from p2sf.glass.media import Medium
 from p2sf.glass.pages import data_version
-from p2sf.io.record import versions
+from p2sf.io.record import position_of, versions
 from p2sf.lens.lens import Lens, with_aim
+from p2sf.lens.positions import alone
 from p2sf.lens.source import Source
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
 from p2sf.notebook import html_table
@@ -62,7 +63,8 @@ class Stored:
     def __repr__(self) -> str:
         nodes = " × ".join(map(str, self.meta["nodes"]))
         kind, axes = f"{self.meta['method']}, {self.meta['interpolant']}", "(depth × field × wavelength)"
-        return f"<PSF database of {self.meta['lens']['name']}: {kind}, {nodes} nodes {axes}, aim {self.meta['aim']}>"
+        name = self.meta["lens"]["name"] + (f", {self.meta['position']}" if self.meta.get("position") else "")
+        return f"<PSF database of {name}: {kind}, {nodes} nodes {axes}, aim {self.meta['aim']}>"
 
     def _repr_html_(self) -> str:
         covers = [(name, low, inf if high is None else high) for name, (low, high) in self.meta["covers"].items()]
@@ -71,7 +73,7 @@ class Stored:
 
 def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict[str, Any]:
     """Return what a file says about a database of this lens, as plain JSON values."""
-    stop, toml, space = stop or find_stop(lens), lens_to_toml(lens), database.space
+    stop, toml, space = stop or find_stop(lens), lens_to_toml(alone(lens)), database.space
     low, high = (float(degrees_from_slope(space.field_slopes[k])) for k in (0, -1))
     record: dict[str, Any] = plain(
         {
@@ -88,6 +90,7 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
             "glasses": [{"glass": label, "data": source} for label, source in _glasses(lens)],
             "stop": {"surface": int(stop.surface), "semi_diameter_mm": float(stop.semi_diameter)},
             "sensor_mm": lens.sensor_mm,
+            **position_of(lens),
             "aim": lens.aim,
             "covers": {
                 "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],

@@ -42,6 +42,7 @@ def describe(setup: Setup) -> dict:
                 "stop_semi_diameter_mm": setup.stop.semi_diameter,
                 "stop_chosen_by": setup.stop.chosen_by,
                 "aim": setup.lens.aim,
+                **position_of(setup.lens),
             },
             "units": UNITS,
             "conventions": CONVENTIONS,
@@ -56,6 +57,11 @@ def lens_hash(lens: Lens) -> str:
     from p2sf.lensfile.toml import lens_to_toml
 
     return hashlib.sha256(lens_to_toml(lens).encode()).hexdigest()
+
+
+def position_of(lens: Lens) -> dict[str, str]:
+    """Return where the rings of a lens stand that zooms or focuses inside; nothing for another."""
+    return {"position": str(lens.positions.words)} if lens.positions else {}
 
 
 def versions() -> dict[str, str]:
@@ -88,4 +94,5 @@ def caption(meta: dict) -> str:
     lens = meta.get("lens", {})
     name = lens.get("title") or lens.get("name") or "point spread function"
     peak = "" if psf["strehl"] is None else f" · Strehl {psf['strehl']:.3g}"
+    name += f", {setup['position']}" if setup.get("position") else ""
     return f"{name}\n{where}{psf['wavelength_um'] * NM_PER_UM:g} nm · {psf['method']}{peak}"

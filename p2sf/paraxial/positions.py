@@ -132,5 +132,11 @@ def each_column(lens: Lens, edit: Callable[[Lens], Lens]) -> Lens:
     """Return the lens with an edit made in all of its columns, its rings where they are."""
     if lens.positions is None:
         return edit(lens)
-    columns = tuple(edit(column) for column in lens.positions.lenses)
+    return with_columns(lens, tuple(edit(column) for column in lens.positions.lenses))
+
+
+def with_columns(lens: Lens, columns: tuple[Lens, ...]) -> Lens:
+    """Return a lens with positions with other columns, its rings where they are."""
+    if lens.positions is None:
+        return lens
     return _called(lens, _placed(replace(lens.positions, lenses=columns), lens.positions.place))

@@ -11,7 +11,8 @@ from p2sf.scene.scene import RGB, Channel, Scene
 from p2sf.scene.sensor import Sensor
 
 KEYS = {
-    "": {"name", "tolerance", "measure", "focus_mm", "f_number", "aim", "clip", "sensor", "depth", "channel"},
+    "": {"name", "tolerance", "measure", "zoom", "focus_position", "focus_mm", "f_number", "aim", "clip"}
+    | {"sensor", "depth", "channel"},
     "sensor": {"rows", "columns", "pixel_um", "centre_mm"},
     "depth": {"near_mm", "far_mm", "map"},
     "channel": {"name", "wavelengths_nm", "weights"},
@@ -58,6 +59,7 @@ def scene_from(table: dict, path: Path) -> Scene:
     far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", "inf")))
     given: dict[str, Any] = {key: table[key] for key in ("name", "measure", "aim") if key in table}
     given |= {key: _number(key, table[key]) for key in ("tolerance", "focus_mm", "f_number") if key in table}
+    given |= {key: _place(key, table[key]) for key in ("zoom", "focus_position") if key in table}
     if "clip" in table:
         given["clip"] = _flag("clip", table["clip"])
     return Scene(
@@ -70,6 +72,11 @@ def scene_from(table: dict, path: Path) -> Scene:
         depth_map=str(path.parent / depth["map"]) if "map" in depth else None,
         **given,
     )
+
+
+def _place(key: str, value: Any) -> float | str:
+    """Return a place on a ring of the lens: a number, or the name of a column."""
+    return value if isinstance(value, str) else _number(key, value)
 
 
 def _flag(key: str, value: Any) -> bool:

@@ -72,7 +72,8 @@ class Scene:
     and with "psnr" the least peak signal-to-noise ratio in dB of a picture of white noise, between black and white, the
     hardest there is: what is missing at low frequencies, where pictures have most of their light, is less.
     ``focus_mm`` puts the sensor at the paraxial image of that distance and ``f_number`` sets
-    the stop, None leaves both as the lens file has them. ``aim`` is how exact rays fill the pupil, as `Request` has
+    the stop, None leaves both as the lens file has them. ``zoom`` and ``focus_position`` turn the rings of a lens that
+    has them, as `Request` has it. ``aim`` is how exact rays fill the pupil, as `Request` has
     it, and with ``clip`` the rims of all surfaces clip them. ``depth_map`` names a picture of depths in mm.
     """
 
@@ -85,6 +86,8 @@ class Scene:
     focus_mm: float | None = None
     f_number: float | None = None
     aim: AimChoice | None = None
+    zoom: float | str | None = None
+    focus_position: float | str | None = None
     clip: bool = False
     depth_map: str | None = None
     name: str = "scene"
@@ -160,7 +163,18 @@ class Scene:
 
     def camera(self, lens: Lens) -> Lens:
         """Return the lens with the scene's focus and f-number."""
-        return set_up(lens, Request(focus_mm=self.focus_mm, f_number=self.f_number, aim=self.aim)).lens
+        return set_up(lens, self.request).lens
+
+    @property
+    def request(self) -> Request:
+        """Return how the camera is set."""
+        return Request(
+            zoom=self.zoom,
+            focus_position=self.focus_position,
+            focus_mm=self.focus_mm,
+            f_number=self.f_number,
+            aim=self.aim,
+        )
 
 
 def depth_of(vergence_per_mm: float) -> float:

@@ -29,7 +29,8 @@ from PySide6.QtWidgets import QApplication, QWidget
 from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots, screen_scale
-from p2sf_explorer.compute.setup import with_lens
+from p2sf_explorer.compute.quantities import OF_THE_LENS
+from p2sf_explorer.compute.setup import prescription, ranges, with_lens
 from p2sf_explorer.shell import window as shell
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State, changed, new_state
@@ -203,7 +204,9 @@ def stages(options: argparse.Namespace, lenses: tuple[str, ...], clock: Clock) -
             for lens in lenses:
                 state = with_lens(new_state(theme="light", method=method), lens)
                 title = f"{size[0]}×{size[1]} {method:6} {lens:16}"
-                together += measure(title, state, size, SLIDERS[:1] if options.quick else SLIDERS, clock)
+                rings = tuple(q.key for q in OF_THE_LENS if q.there(ranges(prescription(state))))
+                keys = (*rings, *SLIDERS)
+                together += measure(title, state, size, keys[:1] if options.quick else keys, clock)
             found, asked = (median(together), quantiles(together, n=20)[-1]), ASKED[size]
             print(f"{size[0]}×{size[1]} {method}: median and 95 % {found[0]:.1f} and {found[1]:.1f} ms, asked {asked}")
 

@@ -1,6 +1,7 @@
 """The settings that differ between A and B. No Qt in here."""
 
 from collections.abc import Callable
+from functools import partial
 from math import isclose
 from typing import Any
 
@@ -38,7 +39,7 @@ def contrasts(state: State) -> tuple[Contrast, ...]:
     for quantity in QUANTITIES:
         first, second = (quantity.shown(side, limit) for side, limit in zip((a, b), limits, strict=True))
         if not isclose(first, second, rel_tol=SAME):
-            found.append((quantity.title, *distinct(quantity.write, first, second)))
+            found.append((quantity.title, *distinct(partial(quantity.text, ranges=limits[0]), first, second)))
     for name, label, described in OTHERS:
         mine, other = entry(a, name), entry(b, name)
         if mine != other:

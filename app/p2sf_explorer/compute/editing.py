@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from math import copysign, exp, inf, isclose, isfinite, sqrt
 from typing import Any
 
@@ -10,11 +10,14 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.glass.media import AIR, Medium, model_glass, parse_medium
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_f_number, with_sensor
+from p2sf.lens.positions import KEPT, Positions
 from p2sf.lensfile.toml import lens_to_toml
+from p2sf.messages import Message
 from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.positions import each_column, with_columns
 from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
 from p2sf_explorer.compute.autofocus import best_shift_um
-from p2sf_explorer.compute.setup import load, paraxial_setup, prescription
+from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, turned
 from p2sf_explorer.state.scales import INFINITE, MM_PER_UNIT, read_number
 from p2sf_explorer.state.state import State, changed
 
@@ -27,9 +30,13 @@ def edited_state(state: State, lens: Lens) -> State:
     """Return the state with this lens in place of its own, unedited if it is as its file has it.
 
     The sensor is kept in focus as ``state.display.keep_focus`` says, unless nothing but the sensor has been edited.
-    Raises P2SFError where the lens has no picture at the state's source, so that no state has a bad lens.
+    Of a lens with positions, what varies is edited in the present column, and anything else in all of them; in each the
+    sensor follows its own paraxial image. Raises P2SFError where the lens has no picture at the state's source, so that
+    no state has a bad lens, and for what varies between columns.
     """
     before = prescription(state)
+    if before.positions is not None:
+        return _with_lens(state, _edited_columns(before, lens, state))
     if state.display.keep_focus == "off" or with_sensor(lens, before.sensor_mm) == before:
         return _with_lens(state, lens)
     followed = with_sensor(lens, followed_sensor(before, lens, state.optics.depth_mm))
@@ -42,6 +49,60 @@ def _with_lens(state: State, lens: Lens) -> State:
     edited = changed(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
     paraxial_setup(edited)
     return edited
+
+
+def _edited_columns(before: Lens, lens: Lens, state: State) -> Lens:
+    """Return the lens with an edit made in its columns, each in focus as it was."""
+    columns = before.positions.lenses if before.positions else ()
+    edited = lens if lens.positions is not before.positions else _in_columns(before, lens)
+    bare = with_sensor(lens, before.sensor_mm) == before
+    if state.display.keep_focus == "off" or bare or edited.positions is None:
+        return edited
+    depth = state.optics.depth_mm
+    followed = (
+        with_sensor(after, followed_sensor(column, after, depth))
+        for column, after in zip(columns, edited.positions.lenses, strict=True)
+    )
+    return with_columns(edited, tuple(followed))
+
+
+def _in_columns(before: Lens, after: Lens) -> Lens:
+    """Return the lens with what an edit changed written into its columns: all of them, or the present one.
+
+    GeometryError, naming the surface, for an edit between columns of what is not the same in all of them.
+    """
+    positions = before.positions
+    if positions is None:
+        return after
+    columns = list(positions.lenses)
+    for number, (old, new) in enumerate(zip(before.surfaces, after.surfaces, strict=True)):
+        for name in changes(old, new):
+            for place in _edited_places(positions, [getattr(c.surfaces[number], name) for c in columns], number + 1):
+                columns[place] = with_surface(columns[place], number + 1, **{name: getattr(new, name)})
+    for name in set(changes(before, after)) - {"surfaces", *KEPT}:
+        for place in _edited_places(positions, [getattr(column, name) for column in columns], None):
+            columns[place] = replace(columns[place], **{name: getattr(after, name)})
+    return with_columns(before, tuple(columns))
+
+
+def changes(before: Any, after: Any) -> tuple[str, ...]:
+    """Return the fields in which two values of one dataclass differ."""
+    return tuple(f.name for f in fields(before) if getattr(before, f.name) != getattr(after, f.name))
+
+
+def _edited_places(positions: Positions, values: list[Any], surface: int | None) -> range | tuple[int]:
+    """Return the columns that an edit of these values is for."""
+    if all(value == values[0] for value in values):
+        return range(len(values))
+    if positions.column is not None:
+        return (positions.column,)
+    where = Message("surface {surface}", surface=surface) if surface else Message("the lens")
+    raise GeometryError(
+        "{where}: this is not the same in all columns, and {position} lies between them; "
+        "put the ring on a column, marked ▾, to edit it there",
+        where=where,
+        position=positions.words,
+    )
 
 
 def followed_sensor(before: Lens, after: Lens, depth_mm: float) -> float:
@@ -71,7 +132,7 @@ def best_focused(state: State, lens: Lens) -> tuple[State, Lens]:
 
 def _as_filed(state: State, lens: Lens) -> bool:
     try:
-        return load(state.optics.lens) == lens
+        return turned(load(state.optics.lens), state) == lens
     except P2SFError:  # the file is gone or broken; the edited lens stands for itself
         return False
 
@@ -164,6 +225,8 @@ def with_stop(lens: Lens, number: int) -> Lens:
 
     Where there is no f-number to keep, the new stop is open to its own rim, and GeometryError if it has none.
     """
+    if lens.positions is not None:
+        return each_column(lens, lambda column: with_stop(column, number))
     moved = replace(lens, stop_surface=number)
     if lens.aperture.kind != "stop_semi_diameter" or number == lens.stop_surface:
         return moved
@@ -231,6 +294,8 @@ def radius_through(surface: Surface, height_mm: float, sag_mm: float) -> float:
 
 def inserted(lens: Lens, number: int) -> Lens:
     """Return the lens with a plane in the middle of the space after surface ``number``: optically the same lens."""
+    if lens.positions is not None:
+        return each_column(lens, lambda column: inserted(column, number))
     before = lens.surfaces[number - 1]
     half = before.thickness / 2
     plane = Surface(thickness=half, medium=before.medium)
@@ -244,6 +309,8 @@ def deleted(lens: Lens, number: int) -> Lens:
 
     The medium before the surface reaches on to the next one.
     """
+    if lens.positions is not None:
+        return each_column(lens, lambda column: deleted(column, number))
     stop, before = lens.stop_surface, lens.surfaces[: number - 1]
     if len(lens.surfaces) == 1:
         raise GeometryError("a lens needs at least one surface; insert another before deleting this one")

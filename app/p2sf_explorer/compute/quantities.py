@@ -4,9 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
+from typing import Any
 
+from p2sf.lens.positions import Kind
 from p2sf.pupil.mask import FEWEST_BLADES, LARGEST_OBSCURATION, MOST_POWER, MOST_VANES
-from p2sf_explorer.compute.setup import Ranges
+from p2sf_explorer.compute.setup import Ranges, focus_place, zoom_place
 from p2sf_explorer.state.scales import (
     INFINITE,
     Linear,
@@ -35,7 +37,7 @@ class Quantity:
 
     ``shown`` gives the value to display for a state and its lens (a file's default spelled out); ``buttons``
     are (label, value, tooltip); ``ticks`` are (value, label), those whose label matters most first, and ``marks``
-    values that stand out, such as the fields that the file states.
+    values that stand out, such as the fields that the file states. ``ring``: that of the lens which it turns.
     """
 
     key: str
@@ -48,6 +50,29 @@ class Quantity:
     buttons: tuple[tuple[str, float | None, str], ...] = ()
     ticks: Callable[[Ranges], tuple[tuple[float, str], ...]] = lambda ranges: ()
     marks: Callable[[State, Ranges], tuple[float, ...]] = lambda state, ranges: ()
+    ring: Kind | None = None
+
+    def entries(self, value: float | None) -> dict[str, Any]:
+        """Return the entries of the state that set the quantity: a ring of focus is turned by hand or by a distance."""
+        return {self.key: value} | ({"focus_mm": None} if self.ring == "focus" else {})
+
+    def there(self, ranges: Ranges) -> bool:
+        """Return whether a lens has this quantity."""
+        return self.ring is None or ranges.ring(self.ring) is not None
+
+    def text(self, value: float, ranges: Ranges) -> str:
+        """Return a value as a person reads it, with the unit of the lens's own ring."""
+        axis = ranges.ring(self.ring) if self.ring else None
+        return f"{self.write(value)} {axis.unit}".strip() if axis else self.write(value)
+
+    def typed(self, text: str, ranges: Ranges) -> float:
+        """Return the value that a person typed, on a ring also the name of a column; P2SFError."""
+        axis = ranges.ring(self.ring) if self.ring else None
+        if axis is None:
+            return self.read(text)
+        named = dict(zip(map(str.casefold, axis.columns), axis.at, strict=True))
+        plain = text.strip().casefold()
+        return named[plain] if plain in named else axis.place(self.read(plain.removesuffix(axis.unit.casefold())))
 
 
 def _plain(key: str) -> Callable[[State, Ranges], float]:
@@ -294,12 +319,56 @@ CUBIC = _in_the_stop(
     _reader("cubic phase", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
     tuple((value, f"{signed(value, 0)} µm") for value in (0.0, -LARGE_CUBIC_UM, LARGE_CUBIC_UM)),
 )
+
+
+def _ring(kind: Kind, key: str, title: str, tip: str, place: Callable[[State], float | None]) -> Quantity:
+    """Return the quantity of a ring of the lens; of a lens without it one that stands at 0."""
+
+    def scale(ranges: Ranges) -> Linear:
+        axis = ranges.ring(kind)
+        return Linear(axis.low, axis.high) if axis else Linear(0.0, 1.0)
+
+    def shown(state: State, ranges: Ranges) -> float:
+        axis, there = ranges.ring(kind), place(state)
+        return 0.0 if axis is None else axis.low if there is None else there
+
+    def columns(ranges: Ranges) -> tuple[tuple[float, str], ...]:
+        axis = ranges.ring(kind)
+        return tuple(zip(axis.at, axis.columns, strict=True)) if axis else ()
+
+    def marks(state: State, ranges: Ranges) -> tuple[float, ...]:
+        return tuple(at for at, _ in columns(ranges))
+
+    return Quantity(key, title, tip, scale, _on_a_ring, _reader(title.lower()), shown, (), columns, marks, kind)
+
+
+def _on_a_ring(value: float) -> str:
+    return signed(value, 1) if abs(value) >= 10 else signed(value, 2)
+
+
+ZOOM = _ring(
+    "zoom",
+    "zoom",
+    "Zoom",
+    "Zoom: where the ring of the lens stands, on its own scale. ▾ are the columns of the lens file, between which the "
+    "lens is interpolated.",
+    zoom_place,
+)
+FOCUS_RING = _ring(
+    "focus",
+    "focus_position",
+    "Focus",
+    "Focus: where the ring stands that moves groups inside the lens; a focus distance turns it, too. ▾ are the columns "
+    "of the lens file.",
+    focus_place,
+)
+OF_THE_LENS = (ZOOM, FOCUS_RING)
 OF_THE_SOURCE = (DEPTH, FIELD, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
 OF_THE_MASK = (
     *(OBSCURATION, BLADES, ROUNDNESS, BLADE_ANGLE, VANES, VANE_WIDTH, VANE_ANGLE),
     *(APODISATION, APODISATION_POWER, CUBIC),
 )
-QUANTITIES = (*OF_THE_SOURCE, *OF_THE_MASK)
+QUANTITIES = (*OF_THE_LENS, *OF_THE_SOURCE, *OF_THE_MASK)
 
 
 def visible_colour(wavelength_nm: float) -> str:

@@ -10,10 +10,13 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM
+from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens, check_aligned, with_mask
+from p2sf.lens.positions import Axis, Kind
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
+from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -26,7 +29,7 @@ from p2sf_explorer.compute.ranges import (
     telling_field,
     wavelength_range,
 )
-from p2sf_explorer.state.limits import MASK
+from p2sf_explorer.state.limits import MASK, RINGS
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.state.what_if import altered
@@ -76,6 +79,11 @@ class Ranges:
     shift_um: float
     stated_deg: tuple[float, ...] = ()
     mask: PupilMask = CLEAR
+    rings: tuple[Axis, ...] = ()
+
+    def ring(self, kind: Kind) -> Axis | None:
+        """Return the ring of a kind, None where the lens has none."""
+        return next((axis for axis in self.rings if axis.kind == kind), None)
 
 
 def load(name: str) -> Lens:
@@ -95,8 +103,52 @@ def _load(name: str, _changed: int) -> Lens:
 
 
 def prescription(state: State) -> Lens:
-    """Return the state's lens before it is opened and focused: as edited, else as its file has it; LensFileError."""
-    return load(state.optics.lens) if state.optics.lens_text is None else _edited(state.optics.lens_text)
+    """Return the state's lens before it is opened and focused: as edited, else as its file has it, its rings turned.
+
+    LensFileError for a file that cannot be read.
+    """
+    lens = load(state.optics.lens) if state.optics.lens_text is None else _edited(state.optics.lens_text)
+    return lens if lens.positions is None else turned(lens, state)
+
+
+def turned(lens: Lens, state: State) -> Lens:
+    """Return a lens with its rings where the state has them.
+
+    A ring that the lens does not have is passed over, and one is turned to its end at most: a state may be of another
+    lens, or of an earlier one in the same file.
+    """
+    optics, rings = state.optics, lens.positions
+    if rings is None:
+        return lens
+    by_hand = optics.focus_position if optics.focus_mm is None else None
+    return _turned(lens, _within(rings.axis("zoom"), optics.zoom), _within(rings.axis("focus"), by_hand))
+
+
+def _within(axis: Axis | None, place: float | None) -> float | None:
+    return None if axis is None or place is None else min(max(place, axis.low), axis.high)
+
+
+@lru_cache(maxsize=64)
+def _turned(lens: Lens, zoom: float | None, focus_position: float | None) -> Lens:
+    return lens_at(lens, zoom, focus_position)
+
+
+def zoom_place(state: State) -> float | None:
+    """Return where the ring of zoom stands; None without one."""
+    rings = prescription(state).positions
+    return rings.at("zoom") if rings else None
+
+
+def focus_place(state: State) -> float | None:
+    """Return where the ring of focus stands, which a focus distance turns by itself; None without a ring."""
+    lens = prescription(state)
+    if lens.positions is None or lens.positions.axis("focus") is None:
+        return None
+    try:
+        lens = _axial(lens, _request(state, None)).setup.lens
+    except P2SFError:  # no picture either: whoever wants it says why
+        pass
+    return lens.positions.at("focus") if lens.positions else None
 
 
 @lru_cache(maxsize=128)
@@ -220,6 +272,7 @@ def ranges(lens: Lens) -> Ranges:
         shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,
         stated_deg=lens.fields_deg,
         mask=lens.mask,
+        rings=lens.positions.axes if lens.positions else (),
     )
 
 
@@ -256,5 +309,6 @@ def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
         focus_mm=None,
         sensor_shift_um=0.0,
         f_number=None,
+        **dict.fromkeys(RINGS),
         **dict.fromkeys(MASK),
     )

@@ -23,6 +23,7 @@ from p2sf_explorer.compute.editing import (
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.files.saving import ask_save_lens
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.glass_completion import GlassDelegate
 from p2sf_explorer.panels.lens_sliders import bending_slider, show_bending, show_stop, stop_slider
@@ -159,7 +160,8 @@ class LensTablePanel:
         self._mark()
         count = len(rows.texts)
         surfaces = tr("{count} surfaces", count=count) if count > 1 else tr("1 surface")
-        self.widget.set_readout(f"{surfaces} · {tr('edited')}" if rows.edited else surfaces)
+        parts = [surfaces, *([said(rows.lens.positions.words)] if rows.lens.positions else ())]
+        self.widget.set_readout(" · ".join([*parts, tr("edited")] if rows.edited else parts))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

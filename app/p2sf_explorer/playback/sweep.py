@@ -88,4 +88,4 @@ def changes(state: State, value: float) -> dict[str, Any]:
     """Return the entries of the state that put its swept slider at a value."""
     if state.playback.slider.startswith(ADDED):
         return {"added_waves": with_added(state, state.playback.slider.removeprefix(ADDED), value)}
-    return {state.playback.slider: value}
+    return next(quantity for quantity in QUANTITIES if quantity.key == state.playback.slider).entries(value)

@@ -4,8 +4,10 @@ from math import inf, isfinite, isinf
 
 import numpy as np
 
+from p2sf.lens.positions import Kind
 from p2sf.messages import Message, Number
 from p2sf.paraxial.first_order import magnification
+from p2sf.paraxial.positions import focused_vergence
 from p2sf.paraxial.pupils import Stop, f_number
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import ParaxialSetup
@@ -14,6 +16,7 @@ from p2sf_explorer.state.scales import MM_PER_UNIT, significant
 Row = tuple[str, Message, str]
 """A name, a value with its unit, a definition."""
 
+FARTHEST_MM = 1e6  # a focus beyond a kilometre is one at infinity
 INFINITE, NONE = Message("∞"), Message("–")
 OF_A: Row = ("A", Message(""), "The figures below and the sentence above are those of A, which the controls move.")
 
@@ -62,6 +65,24 @@ def rows(live: Live) -> tuple[Row, ...]:
             "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.",
         ),
     )
+
+
+def ring_note(live: Live, kind: Kind) -> Message:
+    """Return what follows from a ring of the lens: its column, focal length and f-number, or the distance in focus."""
+    s = live.setup
+    axis = s.lens.positions.axis(kind) if s.lens.positions else None
+    place = s.lens.positions.at(kind) if s.lens.positions else None
+    if axis is None or place is None:
+        return NONE
+    between = Message("between columns")
+    column = Message("{name}", name=axis.words(place)) if place in axis.at else between
+    if kind == "zoom":
+        speed = aperture(float(f_number(s.lens, s.source.wavelength_um, s.stop)))
+        focal = Number(significant(s.focal_length_mm, 3))
+        return Message("f′ {focal} mm, {speed} · {column}", focal=focal, speed=speed, column=column)
+    vergence = focused_vergence(s.lens)
+    focused = distance(1 / vergence) if vergence > 1 / FARTHEST_MM else INFINITE
+    return Message("focused at {distance} · {column}", distance=focused, column=column)
 
 
 def length(mm: float) -> Message:

@@ -1,11 +1,12 @@
-"""Commands beside the window's own actions: panels, lenses, presets, colours, themes, languages."""
+"""Commands beside the window's own actions: panels, columns of a zoom, lenses, presets, colours, themes, languages."""
 
 from collections.abc import Callable, Iterator
 from functools import partial
 
 from PySide6.QtWidgets import QMenu
 
-from p2sf_explorer.compute.setup import shipped, title
+from p2sf_explorer.compute.quantities import OF_THE_LENS
+from p2sf_explorer.compute.setup import prescription, ranges, shipped, title
 from p2sf_explorer.i18n.language import languages
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
@@ -25,12 +26,20 @@ def choices(
 ) -> tuple[Command, ...]:
     """Return a command for every panel, lens, preset and appearance that a person may choose."""
     panels = (*_panels(open_panel, "Panel"), *_panels(take_stage, "On the stage"))
-    return (*panels, *_lenses(open_lens), *_presets(store), *appearances(store))
+    return (*panels, *_rings(store), *_lenses(open_lens), *_presets(store), *appearances(store))
 
 
 def _panels(show: Panel, group: str) -> Iterator[Command]:
     for entry in REGISTRY:
         yield Command(entry.title, partial(show, entry.key), (), group)
+
+
+def _rings(store: Store) -> Iterator[Command]:
+    """Yield a command for every column of a lens that zooms or focuses inside."""
+    limits = ranges(prescription(store.state))
+    for quantity in OF_THE_LENS:
+        for at, name in quantity.ticks(limits):
+            yield Command(name, partial(store.update, **quantity.entries(at)), (), quantity.title)
 
 
 def _lenses(open_lens: Callable[[str], object]) -> Iterator[Command]:

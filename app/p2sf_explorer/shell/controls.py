@@ -15,13 +15,14 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compare.contrasts import AIM_WORDS
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.quantities import OF_THE_SOURCE
+from p2sf_explorer.compute.quantities import OF_THE_LENS, OF_THE_SOURCE
 from p2sf_explorer.compute.setup import prescription, ranges
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
-from p2sf_explorer.results.first_order import OF_A, rows
+from p2sf_explorer.results.first_order import OF_A, ring_note, rows
 from p2sf_explorer.shell.no_answer import UNKNOWN
 from p2sf_explorer.shell.quantity_rows import PupilShape, QuantityRow
+from p2sf_explorer.state.limits import RINGS
 from p2sf_explorer.state.scales import signed
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
@@ -85,6 +86,7 @@ class AimRow(QWidget):
         select(self.aim, state.optics.aim)
 
 
+ABOVE = (*OF_THE_LENS, *OF_THE_SOURCE)  # the pupil's shape
 WIDTH = 292  # pixels of the column at scale 1
 
 
@@ -99,7 +101,7 @@ class Controls(QWidget):
         self.setObjectName("controls")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.shape = PupilShape(store, self)
-        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in OF_THE_SOURCE} | self.shape.rows
+        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in ABOVE} | self.shape.rows
         for row in self.rows.values():
             row.swept.connect(self.swept)
             row.grasped.connect(self.grasped)
@@ -114,7 +116,7 @@ class Controls(QWidget):
         self.sentence.setObjectName("sentence")
         self.detail.setObjectName("muted")
         column = self._column()
-        for quantity in OF_THE_SOURCE:
+        for quantity in ABOVE:
             column.addWidget(self.rows[quantity.key])
         column.addWidget(self.shape)
         column.addWidget(self.stopping)
@@ -159,7 +161,8 @@ class Controls(QWidget):
     def show_state(self, state: State) -> None:
         """Follow a state."""
         limits = ranges(prescription(state))
-        for quantity in OF_THE_SOURCE:
+        for quantity in ABOVE:
+            self.rows[quantity.key].setVisible(quantity.there(limits))
             self.rows[quantity.key].show_state(state, limits)
         self.shape.show_state(state, limits)
         self.stopping.show_state(state)
@@ -171,6 +174,8 @@ class Controls(QWidget):
         image = float(live.setup.coefficients.image_height)
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
+        for quantity in OF_THE_LENS:
+            self.rows[quantity.key].show_note(said(ring_note(live, quantity.ring or "zoom")))
         apart = live.state.compare.shown != "a"  # B or A − B is on screen, and this column stays A's
         dominant = said(live.dominant)
         self.sentence.setText(unbroken(f"A: {dominant}" if apart else dominant))
@@ -179,7 +184,8 @@ class Controls(QWidget):
 
     def show_none(self) -> None:
         """Show no figures and no dominant term, where a state has no answer."""
-        self.rows["field_deg"].show_note(UNKNOWN)
+        for key in ("field_deg", *RINGS):
+            self.rows[key].show_note(UNKNOWN)
         self.sentence.clear()
         self.detail.clear()
         self.facts.show_rows(tuple((name, Message(UNKNOWN), tip) for name, _, tip in self.facts.rows))
@@ -189,6 +195,6 @@ class Controls(QWidget):
         self._rows.setContentsMargins(*(theme.px(margin) for margin in (12, 10, 12, 12)))
         self._rows.setSpacing(theme.px(SPACE - 1))
         self.facts.restyle(theme)
-        for quantity in OF_THE_SOURCE:
+        for quantity in ABOVE:
             self.rows[quantity.key].restyle(theme)
         self.shape.restyle(theme)

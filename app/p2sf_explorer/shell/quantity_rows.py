@@ -60,7 +60,7 @@ class QuantityRow(QWidget):
         line.addWidget(self.play, 0, Qt.AlignmentFlag.AlignTop)
         column.addLayout(line)
         column.addWidget(self.note)
-        self.note.setVisible(self.quantity is FIELD)
+        self.note.setVisible(self.quantity is FIELD or self.quantity.ring is not None)
         kept = self.play.sizePolicy()
         kept.setRetainSizeWhenHidden(True)  # so that all sliders are of one length
         self.play.setSizePolicy(kept)
@@ -92,19 +92,19 @@ class QuantityRow(QWidget):
     def _on_scrub(self, by: float) -> None:
         """Move the value from where it was when the hand took hold of the number."""
         if self._scale:
-            self._store.update(**{self.quantity.key: self._scale.moved(self._before, by)})
+            self._store.update(**self.quantity.entries(self._scale.moved(self._before, by)))
 
     def _button(self, label: str, value: float | None, tip: str) -> QPushButton:
         button = QPushButton(tr(label), self)
         button.setObjectName("small")
         button.setToolTip(tr(tip))
-        button.clicked.connect(lambda: self._store.update(**{self.quantity.key: value}))
+        button.clicked.connect(lambda: self._store.update(**self.quantity.entries(value)))
         return button
 
     def reset(self) -> None:
         """Go back to the lens's own value."""
         fresh = default_state(self._store.state.optics.lens, self._store.state.optics.lens_text)
-        self._store.update(**{self.quantity.key: entry(fresh, self.quantity.key)})
+        self._store.update(**self.quantity.entries(entry(fresh, self.quantity.key)))
 
     def show_state(self, state: State, limits: Ranges) -> None:
         """Follow a state: slider, number, ticks; no signal goes back."""
@@ -123,7 +123,8 @@ class QuantityRow(QWidget):
         self.slider.blockSignals(True)
         self.slider.setValue(round(STEPS * scale.travel(value)))
         self.slider.blockSignals(False)
-        self.edit.set_text(tr(self.quantity.write(value)) if value < 0 else self.quantity.write(value))
+        text = self.quantity.text(value, limits)
+        self.edit.set_text(tr(text) if value < 0 else text)
 
     def _set_ticks(self, scale: Scale, limits: Ranges) -> None:
         inside = [(v, name) for v, name in self.quantity.ticks(limits) if scale.low <= v <= scale.high]
@@ -149,7 +150,7 @@ class QuantityRow(QWidget):
         if not self._scale:
             return
         value = self._scale.value(step / STEPS)
-        self._store.update(**{self.quantity.key: value})
+        self._store.update(**self.quantity.entries(value))
         if isinstance(self._scale, Stepped):  # the handle stands at a number, also where it has stayed the same
             self.slider.blockSignals(True)
             self.slider.setValue(round(STEPS * self._scale.travel(value)))
@@ -157,12 +158,12 @@ class QuantityRow(QWidget):
 
     def _on_text(self, text: str) -> None:
         try:
-            value = self.quantity.read(text)
+            value = self.quantity.typed(text, self._limits) if self._limits else self.quantity.read(text)
         except P2SFError as error:
             self._store.refused.emit(error)
             self.edit.set_text(self.edit.last)
         else:
-            self._store.update(**{self.quantity.key: value})
+            self._store.update(**self.quantity.entries(value))
             if entry(self._store.state, self.quantity.key) != value:
                 self.edit.set_text(self.edit.last)  # refused: the number stays that of the picture
 

@@ -31,6 +31,8 @@ MOST_LISTED = 5  # values of a list
 RANGES: dict[str, tuple[float, float, Message, str]] = {
     "depth_mm": (1e-3, inf, Message("source depth"), "mm"),
     "focus_mm": (1e-3, inf, Message("focus distance"), "mm"),
+    "zoom": (-1e6, 1e6, Message("zoom"), ""),
+    "focus_position": (-1e6, 1e6, Message("focus"), ""),
     "sensor_shift_um": (-1e6, 1e6, Message("sensor shift"), "µm"),
     "field_deg": (-89.0, 89.0, Message("field angle"), "°"),
     "wavelength_nm": (100.0, 20000.0, Message("wavelength"), "nm"),
@@ -81,13 +83,16 @@ COUNTS = ("blades", "vanes", "apodisation_power")
 MASK = (*SMOOTH_MASK, *COUNTS)
 """Entries named as the fields of `p2sf.pupil.mask.PupilMask`; None: as the lens file has it."""
 CLEAR_PUPIL = {"obscuration": 0.0, "blades": 0, "vanes": 0, "apodisation": inf, "cubic_um": 0.0}
-DRAGGED = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number", *SMOOTH_MASK)
+RINGS = ("zoom", "focus_position")
+"""Where the rings of a lens stand that zooms or focuses inside; None: where the file begins."""
+OF_THE_SOURCE = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
+DRAGGED = (*OF_THE_SOURCE, *RINGS, *SMOOTH_MASK)
 SLIDERS = (*DRAGGED, *COUNTS)
 LINKABLE = (*SLIDERS, "method", "added_waves")
 ADDED = "added_"  # before a term's name: the slider that adds waves to it
 PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
 KINDS = {str: Message("a text"), bool: Message("true or false"), int: Message("a whole number")}
-OPTIONAL = ("focus_mm", "f_number", *MASK, "photo_pixel_um", "scale_percent")
+OPTIONAL = ("focus_mm", "f_number", *RINGS, *MASK, "photo_pixel_um", "scale_percent")
 PLAIN: dict[str, type] = {
     "clip": bool,
     "vanes": int,

@@ -105,7 +105,8 @@ class Optics:
 
     ``lens_text`` is the TOML text of a lens edited in the window, None while the lens is as ``lens`` names it.
     ``focus_mm``, ``f_number`` and what stands in the stop, ``obscuration`` to ``cubic_um`` as in `PupilMask`, are None
-    where the lens file's value holds. ``aim`` is that of `p2sf.lens.lens.Lens`.
+    where the lens file's value holds. ``aim`` is that of `p2sf.lens.lens.Lens`. ``zoom`` and ``focus_position`` are
+    places on the rings of a lens that has them, None where its file begins; with ``focus_mm`` that ring follows.
     """
 
     lens: str = "double_gauss_28"
@@ -116,6 +117,8 @@ class Optics:
     field_deg: float = 10.0
     wavelength_nm: float = 587.5618
     f_number: float | None = None
+    zoom: float | None = None
+    focus_position: float | None = None
     stop: str = "file"
     aim: str = USUAL_AIM
     clip: bool = False

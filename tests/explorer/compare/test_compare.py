@@ -7,15 +7,19 @@ from pytest import approx
 
 from p2sf.lens.lens import AIMS
 from p2sf.lensfile.library import lenses_folder
+from p2sf.lensfile.toml import lens_to_toml
 from p2sf.messages import Message
 from p2sf_explorer.compare.comparison import answers, resampled, window_of
 from p2sf_explorer.compare.contrasts import contrasts
 from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.results.mtf import contrast
 from p2sf_explorer.results.profiles import profiles
+from p2sf_explorer.state.limits import RINGS
 from p2sf_explorer.state.pinning import OPTICS, optics, pin, side_b, swapped, unpin, with_links
 from p2sf_explorer.state.state import ENTRIES, changed, entry, new_state
 from p2sf_explorer.state.terms import TERMS
+from tests.support.zooms import focusing_zoom
 
 VIEWS = {"profiles": profiles, "mtf": contrast}
 A = new_state(method="seidel", f_number=4.0, field_deg=5.0, theme="light")
@@ -96,12 +100,20 @@ UNLIKE = {
 }
 
 
-@pytest.mark.parametrize("name", OPTICS)
+@pytest.mark.parametrize("name", [name for name in OPTICS if name not in RINGS])
 def test_whatever_makes_another_picture_is_named(name):
     """B differs from A in one entry of what makes a picture: the strip must not call the two the same."""
     value = (lenses_folder() / f"{A.optics.lens}.toml").read_text("utf-8") if name == "lens_text" else UNLIKE[name]
     title, a, b = contrasts(changed(pin(A), **{name: value}))[0]
     assert title and a != b
+
+
+@pytest.mark.parametrize(("name", "title"), [("zoom", "Zoom"), ("focus_position", "Focus")])
+def test_a_turned_ring_is_named(name, title):
+    place, words = {"zoom": (47.5, "47.5 mm"), "focus_position": (2.5, "2.50")}[name]
+    pinned = pin(with_lens(A, A.optics.lens, lens_to_toml(focusing_zoom())))
+    ((found, a, b), *_) = contrasts(changed(pinned, **{name: place}))
+    assert found == title and str(a) == words and a != b
 
 
 def test_two_methods_are_put_on_one_grid():

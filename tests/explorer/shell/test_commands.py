@@ -5,13 +5,15 @@ from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QApplication, QWidget
 
-from p2sf_explorer.compute.setup import shipped, title
+from p2sf.lensfile.toml import lens_to_toml
+from p2sf_explorer.compute.setup import shipped, title, with_lens
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.command_palette import Palette, named, ranked, score
 from p2sf_explorer.shell.help import HelpPage
 from p2sf_explorer.state.what_if import PRESETS
 from p2sf_explorer.widgets.command import Command
+from tests.support.zooms import focusing_zoom
 
 
 @pytest.mark.parametrize(
@@ -136,6 +138,7 @@ def reachable(window) -> list:
 
 
 def test_every_control_is_reached_by_tab_and_shows_its_focus(window):
+    window.store.replace(with_lens(window.store.state, "double_gauss_28", lens_to_toml(focusing_zoom())))
     window.store.update(show_pupil_shape=True, blades=6, vanes=3, apodisation=0.8)  # for which every row is shown
     window.store.update(field_deg=11.0)
     window.store.undo()  # so that Redo is enabled

@@ -221,6 +221,7 @@
 <message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
 <message><source>Focus distance</source><translation>Fokus auf</translation></message>
 <message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. beyond ∞: nearer to the lens than the image of infinity. ▾ is where the source is.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s. hinter ∞: näher am Objektiv als das Bild von Unendlich. ▾ zeigt, wo die Quelle steht.</translation></message>
+<message><source>Focus: where the ring stands that moves groups inside the lens; a focus distance turns it, too. ▾ are the columns of the lens file.</source><translation>Fokus: wo der Ring steht, der Gruppen im Objektiv bewegt; auch ein Fokusabstand dreht ihn. ▾ sind die Spalten der Objektivdatei.</translation></message>
 <message><source>Fold or unfold the pupil shape</source><translation>Pupillenform ein- oder ausklappen</translation></message>
 <message><source>Frame</source><translation>Ausschnitt</translation></message>
 <message><source>Free pupil</source><translation>Freie Pupille</translation></message>
@@ -741,6 +742,7 @@
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
 <message><source>Zoom lens 3×, 20 to 60 mm</source><translation>Zoomobjektiv 3×, 20 bis 60 mm</translation></message>
 <message><source>Zoom out</source><translation>Verkleinern</translation></message>
+<message><source>Zoom: where the ring of the lens stands, on its own scale. ▾ are the columns of the lens file, between which the lens is interpolated.</source><translation>Zoom: wo der Ring des Objektivs steht, auf seiner eigenen Skala. ▾ sind die Spalten der Objektivdatei, zwischen denen das Objektiv interpoliert wird.</translation></message>
 <message><source>Z{number}: {waves} λ · {share}</source><translation>Z{number}: {waves} λ · {share}</translation></message>
 <message><source>[aperture] states {count} of {names}; keep exactly one</source><translation>[aperture] gibt {count} von {names} an; genau eines behalten</translation></message>
 <message><source>[sensor] lacks {missing}; add it</source><translation>in [sensor] fehlt {missing}; hinzufügen</translation></message>
@@ -860,6 +862,7 @@
 <message><source>bending X = {shape}, R = {radii} mm</source><translation>Durchbiegung X = {shape}, R = {radii} mm</translation></message>
 <message><source>best</source><translation>best</translation></message>
 <message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
+<message><source>between columns</source><translation>zwischen Spalten</translation></message>
 <message><source>beyond ∞</source><translation>hinter ∞</translation></message>
 <message><source>black body 5600 K</source><translation>Schwarzer Körper 5600 K</translation></message>
 <message><source>blade angle</source><translation>Lamellenwinkel</translation></message>
@@ -1015,11 +1018,13 @@
 <message><source>fitted while the slider moves, {method} when it rests</source><translation>fitted, solange der Regler sich bewegt, {method}, wenn er ruht</translation></message>
 <message><source>fitted: polynomial from real rays</source><translation>fitted: Polynom aus wahren Strahlen</translation></message>
 <message><source>fitted: {numbers} numbers from {rays} rays, predicted R² ≥ {r_squared}; the six Seidel coefficients would miss {tolerance:g}</source><translation>fitted: {numbers} Zahlen aus {rays} Strahlen, vorhergesagt R² ≥ {r_squared}; die sechs Seidel-Koeffizienten verfehlten {tolerance:g}</translation></message>
+<message><source>focus</source><translation>Fokus</translation></message>
 <message><source>focus behind the sensor, mm</source><translation>Fokus hinter dem Sensor, mm</translation></message>
 <message><source>focus distance</source><translation>Fokusabstand</translation></message>
 <message><source>focus positions {columns}; between them the lens is interpolated</source><translation>Fokusstellungen {columns}; dazwischen wird das Objektiv interpoliert</translation></message>
 <message><source>focus {place}</source><translation>Fokus {place}</translation></message>
 <message><source>focus, µm</source><translation>Fokus, µm</translation></message>
+<message><source>focused at {distance} · {column}</source><translation>fokussiert auf {distance} · {column}</translation></message>
 <message><source>formula number</source><translation>Formelnummer</translation></message>
 <message><source>formula {formula} of {name} gives no real index there; check its coefficients</source><translation>Formel {formula} von {name} ergibt dort keinen reellen Index; ihre Koeffizienten prüfen</translation></message>
 <message><source>found</source><translation>gefunden</translation></message>
@@ -1027,6 +1032,7 @@
 <message><source>free some space or choose another disk</source><translation>Platz schaffen oder einen anderen Datenträger wählen</translation></message>
 <message><source>frequency on the sensor, 1/mm</source><translation>Ortsfrequenz auf dem Sensor, 1/mm</translation></message>
 <message><source>from</source><translation>von</translation></message>
+<message><source>f′ {focal} mm, {speed} · {column}</source><translation>f′ {focal} mm, {speed} · {column}</translation></message>
 <message><source>geometric limit, by the landing points of rays</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen</translation></message>
 <message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
@@ -1422,7 +1428,6 @@
 <message><source>surface {surface}: normalisation radius {radius} mm; give a positive number</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine positive Zahl angeben</translation></message>
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>surface {surface}: semi-diameter {semi_diameter} mm; give a positive number</source><translation>Fläche {surface}: Halbmesser {semi_diameter} mm; eine positive Zahl angeben</translation></message>
-<message><source>surface {surface}: the medium behind it is not one in all columns; it is that of the nearest, {near}</source><translation>Fläche {surface}: das Medium dahinter ist nicht in allen Spalten dasselbe; es ist das der nächsten, {near}</translation></message>
 <message><source>surface {surface}: thickness {thickness} mm; give a finite number</source><translation>Fläche {surface}: Dicke {thickness} mm; eine endliche Zahl angeben</translation></message>
 <message><source>surface {surface}: {message}</source><translation>Fläche {surface}: {message}</translation></message>
 <message><source>surface {surface}: {name} differs between x and y; only round lenses are read</source><translation>Fläche {surface}: {name} unterscheidet sich zwischen x und y; nur runde Objektive werden gelesen</translation></message>
@@ -1500,9 +1505,6 @@
 <message><source>the file holds no list of surfaces; {remedy}</source><translation>die Datei enthält keine Liste von Flächen; {remedy}</translation></message>
 <message><source>the file holds no surface (S) between object and image</source><translation>die Datei enthält keine Fläche (S) zwischen Objekt und Bild</translation></message>
 <message><source>the file holds no surface between object and image</source><translation>die Datei enthält keine Fläche zwischen Objekt und Bild</translation></message>
-<message><source>the file holds several positions (zoom or focus); the first column is read</source><translation>die Datei enthält mehrere Stellungen (Zoom oder Fokus); die erste Spalte wird gelesen</translation></message>
-<message><source>the file holds several zoom positions; the first, as its surfaces show it, is read</source><translation>die Datei enthält mehrere Zoomstellungen; die erste, wie ihre Flächen sie zeigen, wird gelesen</translation></message>
-<message><source>the file holds {count} configurations; the one its surface lines show, number {current}, is read</source><translation>die Datei enthält {count} Konfigurationen; die ihrer Flächenzeilen, Nummer {current}, wird gelesen</translation></message>
 <message><source>the file holds {count} positions, of which {read} are so many zooms at every distance; these are read</source><translation>die Datei enthält {count} Stellungen, von denen {read} bei jedem Abstand gleich viele Zoomstellungen sind; diese werden gelesen</translation></message>
 <message><source>the file holds {count} positions; the first {most} are read</source><translation>die Datei enthält {count} Stellungen; die ersten {most} werden gelesen</translation></message>
 <message><source>the file holds {count} surfaces; at most {most} are read</source><translation>die Datei enthält {count} Flächen; höchstens {most} werden gelesen</translation></message>
@@ -1760,6 +1762,7 @@
 <message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
 <message><source>z, mm</source><translation>z, mm</translation></message>
+<message><source>zoom</source><translation>Zoom</translation></message>
 <message><source>zoom positions {columns}; between them the lens is interpolated</source><translation>Zoomstellungen {columns}; dazwischen wird das Objektiv interpoliert</translation></message>
 <message><source>zoom {place}</source><translation>Zoom {place}</translation></message>
 <message><source>zoom, pan or see the whole of the plot under the pointer; also + −, arrows, Home</source><translation>das Diagramm unter dem Zeiger vergrößern, verschieben, ganz zeigen; auch + −, Pfeile, Pos1</translation></message>
@@ -2006,6 +2009,7 @@
 <message><source>{where} is nested too deep or holds too long a number; save it again</source><translation>{where} ist zu tief verschachtelt oder enthält eine zu lange Zahl; neu speichern</translation></message>
 <message><source>{where} is not a state of the explorer; give a .json the explorer has written</source><translation>{where} ist kein Zustand des Explorers; ein .json angeben, das der Explorer geschrieben hat</translation></message>
 <message><source>{where}, line {line}: not JSON ({why}); correct it or save it again</source><translation>{where}, Zeile {line}: kein JSON ({why}); berichtigen oder neu speichern</translation></message>
+<message><source>{where}: this is not the same in all columns, and {position} lies between them; put the ring on a column, marked ▾, to edit it there</source><translation>{where}: dies ist nicht in allen Spalten gleich, und {position} liegt dazwischen; den Ring auf eine Spalte stellen, mit ▾ bezeichnet, um es dort zu ändern</translation></message>
 <message><source>{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if</source><translation>{why}, also stellt ein anderer Ort des Sensors nicht scharf; Wd am Regler einstellen oder das Was-wäre-wenn zurücksetzen</translation></message>
 <message><source>|f′| over the entrance pupil.</source><translation>|f′| durch die Eintrittspupille.</translation></message>
 <message><source>±{half} µm depth of focus</source><translation>±{half} µm Fokustiefe</translation></message>
