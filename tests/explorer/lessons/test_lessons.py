@@ -147,7 +147,7 @@ def test_a_lens_may_lie_beside_its_lesson():
         ("solo w31+w22", "solo w22+w31", 5, "solo"),
         ("solo w31+w22", "free_pupil perhaps", 5, "free_pupil"),
         ("set: f_number 12", "sett: f_number 12", 8, "no entry of a step"),
-        ("move: f_number", "move: zoom", 9, '"zoom" is no slider'),
+        ("move: f_number", "move: shutter", 9, '"shutter" is no slider'),
         ("tell: So.\n", "", 7, "question and its answer"),
         ("claim: strehl above 0.9", "claim: strehl is high", 14, "is no claim"),
         ("claim: strehl above 0.9", "claim: stroll above 0.9", 14, 'measure "stroll"'),
