@@ -28,11 +28,12 @@ if TYPE_CHECKING:
     )
     from p2sf.errors import P2SFError
     from p2sf.io.psf_plot import draw_psf
-    from p2sf.lens.lens import Lens
+    from p2sf.lens.lens import Lens, with_mask
     from p2sf.lens.source import Source
     from p2sf.paraxial.positions import lens_at
     from p2sf.psf.from_opd import psf_of_opd
     from p2sf.psf.result import Psf
+    from p2sf.pupil.mask import PupilMap, PupilMask
     from p2sf.scene.scene import Scene
     from p2sf.scene.sensor import Sensor
 
@@ -41,6 +42,8 @@ __all__ = [
     "Lens",
     "P2SFError",
     "Psf",
+    "PupilMap",
+    "PupilMask",
     "Scene",
     "Sensor",
     "Source",
@@ -59,16 +62,20 @@ __all__ = [
     "psf_of_opd",
     "render",
     "tradeoff",
+    "with_mask",
     "zernike",
 ]
 _ELSEWHERE = {
     "Lens": "p2sf.lens.lens",
     "P2SFError": "p2sf.errors",
     "Psf": "p2sf.psf.result",
+    "PupilMap": "p2sf.pupil.mask",
+    "PupilMask": "p2sf.pupil.mask",
     "Scene": "p2sf.scene.scene",
     "Sensor": "p2sf.scene.sensor",
     "Source": "p2sf.lens.source",
     "lens_at": "p2sf.paraxial.positions",
+    "with_mask": "p2sf.lens.lens",
     "draw_psf": "p2sf.io.psf_plot",
     "psf_of_opd": "p2sf.psf.from_opd",
 }

@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, is_number, slope_from_degrees
 from p2sf.errors import GlassError, RequestError
-from p2sf.lens.lens import Aperture, Lens, indices, with_aim, with_f_number, with_sensor
+from p2sf.lens.lens import Aperture, Lens, indices, with_aim, with_f_number, with_mask, with_sensor
 from p2sf.lens.source import Source
 from p2sf.messages import Message, ParameterName
 from p2sf.parameters import check_angle, check_finite, check_positive, unit_behind
@@ -25,10 +25,23 @@ from p2sf.paraxial.pupils import (
     paraxial_rays,
     rim_radii,
 )
+from p2sf.pupil.mask import PupilMask
 
 StopChoice = Literal["file", "auto"]
 AimChoice = Literal["stop", "paraxial", "real"]
 """As `Lens.aim`; "real" is the former name of "stop"."""
+MASK = (
+    "obscuration",
+    "vanes",
+    "vane_width",
+    "vane_angle_deg",
+    "blades",
+    "roundness",
+    "blade_angle_deg",
+    "apodisation",
+    "apodisation_power",
+    "cubic_um",
+)
 FIELDS = ("field_deg", "object_height_mm", "image_height_mm")
 
 
@@ -63,6 +76,26 @@ class Request:
         Take the stop from the file, or let the narrowest rim decide (auto).
     aim
         Fill the rim of the real stop with exact rays (its former name is real), or the paraxial entrance pupil.
+    obscuration
+        Radius of a dark disc in the middle of the stop over the rim's, 0 to 0.99.
+    vanes
+        How many vanes run from the middle of the stop to its rim.
+    vane_width
+        Width of a vane over the diameter of the stop.
+    vane_angle_deg
+        Direction of the first vane, degrees from +y towards +x.
+    blades
+        How many blades the iris has; 0 for a round one.
+    roundness
+        Curvature of the blades' edges over the rim's: 0 straight, 1 a circle.
+    blade_angle_deg
+        Direction of the iris's first corner, degrees from +y towards +x.
+    apodisation
+        Radius over the rim's where the amplitude has fallen to 1/e; inf for none.
+    apodisation_power
+        2 for a Gaussian, a larger even number for a super-Gaussian.
+    cubic_um
+        α of the path α(ξ³ + η³) that a cubic phase plate adds, µm.
     """
 
     depth_mm: float = inf
@@ -77,6 +110,16 @@ class Request:
     f_number: float | None = None
     stop: StopChoice = "file"
     aim: AimChoice | None = None
+    obscuration: float | None = None
+    vanes: int | None = None
+    vane_width: float | None = None
+    vane_angle_deg: float | None = None
+    blades: int | None = None
+    roundness: float | None = None
+    blade_angle_deg: float | None = None
+    apodisation: float | None = None
+    apodisation_power: int | None = None
+    cubic_um: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("depth_mm", "focus_mm"):
@@ -123,9 +166,16 @@ def set_up(lens: Lens, request: Request) -> Setup:
         indices(lens, wavelength)
     except GlassError as error:
         raise _of_the_request(error, request) from None
+    lens = with_mask(lens, mask_of(lens, request))
     placed = with_sensor(aimed(_opened(lens, request.f_number), request.aim), sensor_position(lens, request))
     used, stop = _stopped(placed, request, wavelength)
     return with_field(Setup(used, Source(request.depth_mm, 0.0, wavelength), stop, lens), request)
+
+
+def mask_of(lens: Lens, request: Request) -> PupilMask:
+    """Return the lens's mask with what a request states of it; RequestError for what no mask can have."""
+    stated = {name: getattr(request, name) for name in MASK if getattr(request, name) is not None}
+    return replace(lens.mask, **stated) if stated else lens.mask
 
 
 def _of_the_request(error: GlassError, request: Request) -> GlassError:

@@ -167,15 +167,19 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     from p2sf.paraxial.seidel import check_seidel, coefficients
     from p2sf.psf.pixel_integrals import critical_pixel_um, integrated
     from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
+    from p2sf.raytrace.seen_mask import mask_seen
 
     source = setup.source
     check_seidel(setup.lens)
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
     pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.pixels))
     finest = float(critical_pixel_um(six.wavelength_um, six.na))
-    sampling = picture.sampling or "mdft"
+    sampling, mask = picture.sampling or "mdft", mask_seen(setup.lens, source)
     return integrated(
-        lambda count, pixel_um: seidel_psf(six, count, pixel_um, sampling=sampling), picture.pixels, pitch, finest
+        lambda count, pixel_um: seidel_psf(six, count, pixel_um, sampling=sampling, mask=mask),
+        picture.pixels,
+        pitch,
+        finest,
     )
 
 

@@ -64,8 +64,12 @@ ROWS = (
 def trace_spot(setup: Setup, rings: int, clip: bool) -> tuple[np.ndarray, dict[str, Any]]:
     """Return the arriving rays' (x, y) in µm from the chief ray, shape (rays, 2), and the spot's figures."""
     from p2sf.raytrace import pencil as raytrace
+    from p2sf.raytrace.seen_mask import mask_seen
 
-    found = raytrace.spot(setup.lens, setup.source, rings, clip)
+    xi, eta = raytrace.hexapolar(rings)
+    mask = mask_seen(setup.lens, setup.source)
+    passing = None if mask.clear else np.where(mask.opens(xi, eta), mask.amplitude(xi, eta) ** 2, 0.0)
+    found = raytrace.spot(setup.lens, setup.source, rings, clip, passing)
     all_points = np.stack([found.x_um, found.y_um], axis=-1)
     points = all_points[np.isfinite(all_points).all(axis=-1)]
     na = float(numerical_aperture(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop))

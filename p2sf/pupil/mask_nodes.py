@@ -3,7 +3,7 @@
 The field is linear in the pupil. A round stop with an obscuration is integrated by Gauss–Legendre in ρ² from ε² to 1;
 an iris by sectors between the directions of its corners, up to the outline; a vane is a strip with negative weights,
 integrated along and across itself. So no edge falls between nodes, and the sums converge as those of the disc.
-Amplitude and phase are factors at the nodes (handbook 4.5).
+Amplitude and phase are factors at the nodes (handbook 4.6).
 """
 
 from dataclasses import dataclass

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+import p2sf
 from p2sf.cli import main
 from p2sf.cli.cautions import long_sum
 from p2sf.io.psf_files import read_psf
@@ -106,3 +107,15 @@ def test_a_sum_of_seconds_is_announced_with_its_time():
     setup = set_up(find_lens("double_gauss_28"), Request(field_deg=60.0))
     assert "rise 1490 waves per pupil radius here, so their sum takes some 9 s" in str(long_sum(setup))
     assert long_sum(set_up(find_lens("double_gauss_28"), Request(field_deg=14.0))) is None
+
+
+def test_a_mask_is_stated_by_options(capsys):
+    """As with the lens's own mask; what no mask can be is named by its option."""
+    window = ["--method", "huygens", "--pixels", "16", "--pixel-um", "0.5", "--json"]
+    assert main(["psf", "cooke_triplet", "--obscuration", "0.4", "--blades", "5", *window]) == 0
+    stated = json.loads(capsys.readouterr().out)["strehl"]
+    lens = p2sf.with_mask(p2sf.load_lens("cooke_triplet"), p2sf.PupilMask(obscuration=0.4, blades=5))
+    source = p2sf.Source(wavelength_nm=lens.reference_wavelength_um * 1000)
+    assert stated == pytest.approx(p2sf.render(lens, source, "huygens", pixels=16, pixel_um=0.5).strehl, rel=1e-6)
+    assert main(["psf", "cooke_triplet", "--blades", "2"]) == 2
+    assert "--blades is 2" in capsys.readouterr().err

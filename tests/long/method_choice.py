@@ -13,7 +13,7 @@ from math import inf
 import numpy as np
 
 from p2sf.errors import GeometryError, P2SFError
-from p2sf.lens.lens import Lens, with_f_number, with_sensor
+from p2sf.lens.lens import Lens, with_f_number, with_mask, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.first_order import cardinal_points, image_distance
@@ -23,6 +23,7 @@ from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import QUICK_LEVELS, Choice, choose, render
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import levels
 
 PIXELS = 64
@@ -68,6 +69,21 @@ def random_point(rng: np.random.Generator) -> tuple[Lens, Source]:
     return lens, Source(depth, field, wavelength)
 
 
+def random_mask(rng: np.random.Generator) -> PupilMask:
+    """Return a mask such as cameras and telescopes have: one to three parts of it."""
+    parts = [
+        {"obscuration": float(rng.uniform(0.1, 0.9))},
+        {"vanes": int(rng.integers(1, 6)), "vane_width": float(rng.uniform(0.005, 0.05))},
+        {"blades": int(rng.integers(3, 12)), "roundness": float(rng.uniform(0, 1))},
+        {"apodisation": float(rng.uniform(0.4, 1.5)), "apodisation_power": 2 * int(rng.integers(1, 5))},
+        {"cubic_um": float(rng.normal())},
+        {"zernike_um": tuple(rng.normal(0, 0.1, 11).tolist())},
+    ]
+    chosen = rng.choice(len(parts), rng.integers(1, 4), replace=False)
+    values = {name: value for k in chosen for name, value in parts[k].items()}
+    return PupilMask(**values, turn_deg=float(rng.choice([0.0, rng.uniform(0, 360)])))
+
+
 def trial(lens: Lens, source: Source, tolerance: float) -> Trial | None:
     """Return the outcome of one point; None where it has no PSF or would take a reference seconds."""
     try:
@@ -98,11 +114,13 @@ def _cheaper(lens: Lens, source: Source, choice: Choice, pixel: float):
                 yield fitted_psf(lens, source, PIXELS, pixel, level.numbers)
 
 
-def trials(points: int, seed: int = 1):
-    """Yield ``points`` outcomes, the tolerances in turn."""
+def trials(points: int, seed: int = 1, masks: bool = False):
+    """Yield ``points`` outcomes, the tolerances in turn; ``masks``: behind random masks."""
     rng, found = np.random.default_rng(seed), 0
     while found < points:
-        outcome = trial(*random_point(rng), TOLERANCES[found % len(TOLERANCES)])
+        lens, source = random_point(rng)
+        lens = with_mask(lens, random_mask(rng)) if masks else lens
+        outcome = trial(lens, source, TOLERANCES[found % len(TOLERANCES)])
         if outcome:
             found += 1
             yield outcome
@@ -126,8 +144,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--points", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--masks", action="store_true", help="put random masks into the stops")
     given = parser.parse_args()
-    outcomes = list(trials(given.points, given.seed))
+    outcomes = list(trials(given.points, given.seed, given.masks))
     for outcome in outcomes:
         if outcome.wrong:
             print("WRONG", replace(outcome, source=outcome.source))

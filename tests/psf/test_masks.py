@@ -47,7 +47,7 @@ def besinc(v: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("ratio", [0.01, 0.1, 0.5, 0.9, 0.99])
 @pytest.mark.parametrize(("quality", "rounding"), [("settled", 1e-10), ("preview", 1e-4)])
 def test_the_annular_airy_pattern(ratio, quality, rounding):
-    """Of a perfect lens: [2J₁(v)/v − ε²·2J₁(εv)/(εv)]²/(1 − ε²)² (Born & Wolf 1999, §8.6.2)."""
+    """Of a perfect lens: [2J₁(v)/v − ε²·2J₁(εv)/(εv)]²/(1 − ε²)² (Born & Wolf 1999, ch. 8)."""
     psf = seidel_psf(waves(), 65, 0.9, quality, mask=PupilMask(obscuration=ratio))
     axis = centred_axis(65, 0.9)
     v = 2 * np.pi * NA / WAVELENGTH_UM * np.hypot(axis, axis[:, None])

@@ -1305,6 +1305,7 @@
 <message><source>rim</source><translation>Rand</translation></message>
 <message><source>rim offset</source><translation>Versatz des Rands</translation></message>
 <message><source>rim rays of the field point</source><translation>Randstrahlen des Feldpunkts</translation></message>
+<message><source>rims and holes of mirrors hide {share:.3g} of the pupil's radius, so no light passes; make them smaller</source><translation>Ränder und Löcher der Spiegel verdecken {share:.3g} des Pupillenradius, sodass kein Licht durchkommt; sie kleiner machen</translation></message>
 <message><source>rims clip</source><translation>mit Rändern</translation></message>
 <message><source>rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or leave {parameter} off</source><translation>Ränder nehmen {lost} von {rays} Strahlen weg, und {method} beschreibt die ganze Pupille; traced oder huygens wählen oder {parameter} auslassen</translation></message>
 <message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
