@@ -184,8 +184,7 @@ class PupilShape(QWidget):
         self._store, self.in_stop = store, CLEAR
         self.heading, self.summary, self.reset = QToolButton(self), Readout(self), QPushButton(tr("file"), self)
         self.heading.setObjectName("heading")
-        self.heading.setText(tr(TITLE))
-        self.heading.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.heading.setAccessibleName(tr(TITLE))
         self.heading.setToolTip(tr(SHAPE_TIP))
         self.heading.clicked.connect(self._turn)
         self.reset.setObjectName("small")
@@ -213,7 +212,9 @@ class PupilShape(QWidget):
         """Follow a state: what there is, and where it is unfolded the rows of it; no signal goes back."""
         unfolded = state.display.show_pupil_shape
         self.in_stop = mask = masked(prescription(state), state).mask
-        self.heading.setArrowType(Qt.ArrowType.DownArrow if unfolded else Qt.ArrowType.RightArrow)
+        self.heading.setText(
+            tr("▾ Pupil shape") if unfolded else tr("▸ Pupil shape")
+        )  # these arrows grow with the type
         self.summary.set_text(", ".join(parts_of(mask)) or tr("clear"))
         self.reset.setVisible(bool(state.optics.mask))
         wanted = wanted_rows(mask) if unfolded else ()

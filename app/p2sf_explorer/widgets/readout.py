@@ -131,9 +131,8 @@ class Sentence(QLabel):
         return QSize(self.minimumSizeHint().width(), self.heightForWidth(self.width()))
 
     def minimumSizeHint(self) -> QSize:
-        """Return the smallest useful size."""
-        metrics = self.fontMetrics()
-        return QSize(10 * metrics.averageCharWidth(), metrics.lineSpacing())
+        """Return the smallest useful size: a line that is cut off says something else."""
+        return QSize(10 * self.fontMetrics().averageCharWidth(), self.heightForWidth(self.width()))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the text."""

@@ -2,6 +2,7 @@
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.shell.quantity_rows import PupilShape, wanted_rows
 from p2sf_explorer.state.limits import MASK
@@ -74,3 +75,10 @@ def test_file_takes_everything_back(window, shape, qtbot):
     qtbot.mouseClick(shape.reset, Qt.MouseButton.LeftButton)
     assert window.store.state.optics == State(optics=window.store.state.optics).optics
     assert not window.store.state.optics.mask and not shape.reset.isVisible()
+
+
+def test_unfolded_it_cuts_no_sentence_below(window, shape):
+    window.store.update(method="auto", blades=6, vanes=3, apodisation=0.8)
+    QApplication.processEvents()
+    for part in (window.controls.sentence, window.controls.detail):
+        assert part.text() and part.height() >= part.heightForWidth(part.width())

@@ -2031,5 +2031,7 @@
 <message><source>∞</source><translation>∞</translation></message>
 <message><source>⌀ {diameter} at {place:z.2f} mm</source><translation>⌀ {diameter} bei {place:z.2f} mm</translation></message>
 <message><source>▶</source><translation>▶</translation></message>
+<message><source>▸ Pupil shape</source><translation>▸ Pupillenform</translation></message>
+<message><source>▾ Pupil shape</source><translation>▾ Pupillenform</translation></message>
 </context>
 </TS>
