@@ -9,7 +9,7 @@ from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import RULES, GridDatabase, traced_grid
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
-from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.lens import Lens, check_aligned, check_unmasked
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import coefficients
@@ -40,6 +40,7 @@ def build_database(
             interpolants=Alternatives(INTERPOLANTS),
         )
     check_aligned(lens, Message("a database"))
+    check_unmasked(lens, Message("a database"))
     stop = stop or find_stop(lens)
     return build_exact(lens, space, stop) if interpolant == "exact" else _grid(lens, space, interpolant, stop)
 

@@ -11,7 +11,7 @@ from p2sf.database.departure import scattered
 from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
-from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.lens import Lens, check_aligned, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
@@ -41,6 +41,7 @@ def build_fitted(
     Raises DatabaseError where MOST_NODES are not enough, GeometryError where rays do not reach the sensor.
     """
     check_aligned(lens, Message("a database"))
+    check_unmasked(lens, Message("a database"))
     stop = stop or find_stop(lens)
     seidel = build_exact(lens, space, stop)
     axes = axes_of(space, seidel)

@@ -7,6 +7,7 @@ import pytest
 from scipy.ndimage import map_coordinates
 from scipy.special import j1
 
+import p2sf
 from p2sf.conventions import centred_axis
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_mask
@@ -190,3 +191,12 @@ def test_throughput_of_a_gaussian():
     found = throughput(PupilMask(apodisation=0.6))
     assert found.amplitude == pytest.approx(0.36 * (1 - np.exp(-1 / 0.36)), abs=1e-12)
     assert found.light == pytest.approx(0.18 * (1 - np.exp(-2 / 0.36)), abs=1e-12)
+
+
+def test_what_knows_no_mask_says_so():
+    lens = with_mask(find_lens("cooke_triplet"), EVEN[0])
+    for kind in ("seidel", "fitted"):
+        with pytest.raises(GeometryError, match="mask"):
+            p2sf.build_database(lens, [1000.0, 2000.0], [0.0, 5.0], [550.0, 560.0], method=kind)
+    with pytest.raises(GeometryError, match="mask"):
+        p2sf.zernike(lens)
