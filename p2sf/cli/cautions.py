@@ -5,6 +5,7 @@ from math import inf
 import numpy as np
 
 from p2sf.cli.screen import text, warn
+from p2sf.lens.lens import Lens
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import coefficients
@@ -17,6 +18,10 @@ STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `seidel_psf` re
 # Measured for 64 × 64 samples: the nodes, and with them the time, grow with the square of the slope.
 SECONDS_PER_SQUARE_WAVE = 4e-6
 
+STRAIGHT = Message(
+    "parts of the lens are tilted or decentred; all paraxial figures and the six coefficients are those of the lens "
+    "set straight, and leave out what that adds: coma on the axis, a tilted field"
+)
 TOO_COARSE = Message(
     "unknown: samples so far apart add up to no share; give a smaller {parameter}",
     parameter=ParameterName("pixel_um"),
@@ -26,8 +31,13 @@ TOO_COARSE = Message(
 def caution(setup: Setup, seidel: bool) -> None:
     """Print warnings about a setup; call before the work, since one of them is how long that will take."""
     own = long_sum(setup) if seidel else crossed_surfaces(setup)
-    for message in (setup.stop.warning, virtual_image(setup), own):
+    for message in (setup.stop.warning, virtual_image(setup), own, set_straight(setup.lens) if seidel else None):
         warn(message)
+
+
+def set_straight(lens: Lens) -> Message | None:
+    """Return a warning that paraxial quantities leave out the tilts and decentres of a lens, None where it has none."""
+    return STRAIGHT if lens.misaligned else None
 
 
 def crossed_surfaces(setup: Setup) -> Message | None:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from p2sf.cli.cautions import set_straight
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.lensfile.library import find_lens
@@ -50,7 +51,7 @@ def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = 
     facts = first_order(setup)
     if as_json:
         return print_json(facts)
-    for message in (setup.stop.warning, *lens_checks(setup.prescription)):
+    for message in (setup.stop.warning, set_straight(setup.lens), *lens_checks(setup.prescription)):
         warn(message)
     chosen = {"file": "as the file says", "auto": "the narrowest rim"}[setup.stop.chosen_by]
     notes = {"stop_surface": chosen}
@@ -95,6 +96,7 @@ def coefficients_command(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, 
     if as_json:
         return print_json({**wave_record(six, setup), "per_surface": sums.tolist()})
     warn(setup.stop.warning)
+    warn(set_straight(setup.lens))
     rows: list[Row] = [(label, float(getattr(six, name)), "waves") for name, label in WAVES]
     rows.append(("numerical aperture n'|u'|", float(six.na), ""))
     rows.append(("image distance, from the last vertex", float(six.image_distance), "mm"))

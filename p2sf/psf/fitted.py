@@ -16,6 +16,7 @@ from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intens
 from p2sf.psf.prediction import predicted_error
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import too_many
+from p2sf.psf.skew_rows import skew_rows_for
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
@@ -66,6 +67,11 @@ def psf_of_fit(
 def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
     """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and the nodes it took."""
     dtype = np.float64 if quality == "settled" else np.float32
+    skew = skew_rows_for(found, pixels, pixel_um, quality) if found.level.skew and found.mask.clear else None
+    if skew is not None:
+        phase, fx = found.at_points(skew.xi, skew.eta)
+        intensity = skew.intensity(phase, fx, found.weight_at(skew.xi, skew.eta), pixels, pixel_um, dtype)
+        return intensity, Message("{nodes}, {precision}", nodes=skew.words, precision=intensity.dtype.name)
     in_rows = takes_rows(found.mask) and not found.level.skew
     parts = discs(found, pixels, pixel_um, quality) if in_rows else None
     if parts is None:

@@ -207,11 +207,15 @@ def sum_rows(amplitude: np.ndarray, fx: np.ndarray, fy: np.ndarray, pixels: int,
     y as of a centred grid; x = 0, 1 … samples either side of the middle, which are alike. Precision follows
     ``amplitude``. The sum goes along the rows first, then across them, where the parts even and odd in y give ±y.
     """
-    half = pixels // 2
-    parts = sum_across(amplitude, 2 * np.pi * pixel_um * fx, half + 1).reshape(len(fy), -1)
-    tables = cosine_sine(np.outer(pixel_um * np.arange(half + 1), fy), amplitude.real.dtype)
-    even, odd = ((table @ parts).reshape(-1, 2, half + 1) for table in tables)
-    field = np.empty((pixels, half + 1), amplitude.dtype)
+    return sum_up(sum_across(amplitude, 2 * np.pi * pixel_um * fx, pixels // 2 + 1), fy, pixels, pixel_um)
+
+
+def sum_up(parts: np.ndarray, fy: np.ndarray, pixels: int, pixel_um: float) -> np.ndarray:
+    """Return Σ parts·exp(2πi fy·y) over the rows, (pixels, count), of their sums (rows, 2, count), re and im."""
+    half, count = pixels // 2, parts.shape[-1]
+    tables = cosine_sine(np.outer(pixel_um * np.arange(half + 1), fy), parts.dtype)
+    even, odd = ((table @ parts.reshape(len(fy), -1)).reshape(-1, 2, count) for table in tables)
+    field = np.empty((pixels, count), np.result_type(parts.dtype, np.complex64))
     most, above, below = pixels - half, field[half:], field[:half][::-1]
     np.subtract(even[:most, 0], odd[:most, 1], out=above.real)
     np.add(even[:most, 1], odd[:most, 0], out=above.imag)

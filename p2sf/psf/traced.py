@@ -24,12 +24,13 @@ from p2sf.psf.plane_waves import Origin, counts_for, psf_from_intensity, resolve
 from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import FrequencyRows
+from p2sf.psf.skew_rows import SkewRows, skew_rows_for
 from p2sf.pupil.mask_nodes import edge_nodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.aiming import SUM_AIM_ERROR
-from p2sf.raytrace.fit import FittedPencil, fit, levels
+from p2sf.raytrace.fit import FittedPencil, fit, levels_for
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.ray_field import RayData, ray_data
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.vignetting import masked_blur
 from p2sf.threads import one_blas_thread
@@ -63,6 +64,8 @@ def traced_psf(
         one_by_one = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, clip)
         return replace(one_by_one, method="traced", predicted_error=EDGE_ERROR)
     dtype = np.float64 if quality == "settled" else np.float32
+    if isinstance(parts, SkewRows):
+        return _skew_psf(lens, source, parts, (pixels, pixel_um), dtype, started)
     found, nodes = parts[0].found, parts[0].rows
     edges = _edges(lens, source, found, (pixels, pixel_um), dtype)
     intensity = intensity_over(parts, lambda disc: exact_rows(lens, source, disc), edges, pixels, pixel_um, dtype)
@@ -76,11 +79,15 @@ def traced_psf(
 
 def in_rows(lens: Lens, source: Source) -> bool:
     """Return whether a fit puts the rays of the whole pupil in rows, so that `traced_psf` is fast."""
-    return not lens.misaligned and takes_rows(mask_seen(lens, source)) and _fit(lens, source) is not None
+    mask = mask_seen(lens, source)
+    return (mask.clear if lens.misaligned else takes_rows(mask)) and _fit(lens, source) is not None
 
 
-def _parts(lens: Lens, source: Source, window: tuple[int, float], quality: str) -> tuple[Disc, ...] | None:
-    found = None if lens.misaligned else _fit(lens, source)
+def _parts(lens: Lens, source: Source, window: tuple[int, float], quality: str) -> tuple[Disc, ...] | SkewRows | None:
+    """Return the pupil as discs in rows, or without symmetry as such rows; None where it is not to be put in rows."""
+    found = _fit(lens, source)
+    if lens.misaligned:
+        return None if found is None or not found.mask.clear else skew_rows_for(found, *window, quality)
     return None if found is None or not takes_rows(found.mask) else discs(found, *window, quality)
 
 
@@ -88,12 +95,36 @@ def _parts(lens: Lens, source: Source, window: tuple[int, float], quality: str) 
 def _fit(lens: Lens, source: Source) -> FittedPencil | None:
     """Return the fit that puts rays in rows; None where rays are lost, or no polynomial is accurate enough."""
     try:
-        found = fit(lens, source, levels(lens.aim)[FEWEST].numbers)
+        found = fit(lens, source, levels_for(lens)[FEWEST].numbers)
         if found.error_waves >= RESIDUAL_WAVES:
             found = fit(lens, source, residual_waves=RESIDUAL_WAVES)
     except GeometryError:  # rays are lost
         return None
     return None if found.error_waves > RESIDUAL_WAVES else found
+
+
+def _skew_psf(
+    lens: Lens, source: Source, nodes: SkewRows, window: tuple[int, float], dtype: DTypeLike, started: float
+) -> Psf:
+    """Return the PSF of exact rays through rows of a pupil without symmetry."""
+    shape, found = nodes.xi.shape, _fit(lens, source)
+    rays = ray_data(pencil(lens, source, nodes.xi.ravel(), nodes.eta.ravel(), aim_error=SUM_AIM_ERROR))
+    phase, fx, light = (x.reshape(shape) for x in (_on_row(rays, nodes.fy, shape[1]), rays.fx, rays.weight))
+    intensity = nodes.intensity(phase, fx, light, *window, dtype)
+    sampling = Message("{nodes}, {precision}", nodes=nodes.words, precision=intensity.dtype.name)
+    tolerance = SETTLED_TOLERANCE if dtype == np.float64 else None
+    blur = None if found is None or not resolved(found.steepness.spread, window[1]) else found.blur_um2
+    made = Origin("traced", 0, (found.rays if found else 0) + nodes.xi.size, sampling, started, tolerance, TRACED_ERROR)
+    return psf_from_intensity(intensity, window[1], source.wavelength_um, blur, made)
+
+
+def _on_row(rays: RayData, fy: np.ndarray, columns: int) -> np.ndarray:
+    """Return the phases that rays have at the frequency of their row, not at their own: w falls by y as fy rises."""
+    miss = np.repeat(fy, columns)
+    miss -= rays.fy
+    miss *= rays.y_um
+    phase: np.ndarray = rays.phase - miss
+    return phase
 
 
 def _edges(
@@ -113,9 +144,6 @@ def exact_rows(lens: Lens, source: Source, disc: Disc) -> tuple[FrequencyRows, n
     shape = nodes.xi.shape
     xi, eta = (disc.radius * x.ravel() for x in (nodes.xi, nodes.eta))
     rays = ray_data(pencil(lens, source, xi, eta, aim_error=SUM_AIM_ERROR))
-    miss = np.repeat(nodes.fy, shape[1])
-    miss -= rays.fy
-    miss *= rays.y_um
     if found.level.weighted:
         nodes = nodes.lit(rays.weight.reshape(shape) / found.weight_at(nodes.xi, nodes.eta))
-    return nodes, (rays.phase - miss).reshape(shape), rays.fx.reshape(shape)
+    return nodes, _on_row(rays, nodes.fy, shape[1]).reshape(shape), rays.fx.reshape(shape)

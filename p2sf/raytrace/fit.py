@@ -168,10 +168,15 @@ class FittedPencil:
         return self.phase @ even[: len(self.phase)], self.fx @ odd, self.fy @ even[: len(self.fy)]
 
     def at_points(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return phase and fx as `at` does, but by Horner's rule, at points of any shape; for a symmetric fit."""
-        square = xi * xi
-        phase = evaluate(columns(self.phase, self.level.wave_order), square, eta)
-        return phase, xi * evaluate(columns(self.fx, self.level.map_order, True), square, eta)
+        """Return phase and fx as `at` does, but by Horner's rule, at points of any shape."""
+        square, ((own, _), (across, _), _) = xi * xi, self.level.counts
+        phase = evaluate(columns(self.phase[:own], self.level.wave_order), square, eta)
+        fx = xi * evaluate(columns(self.fx[:across], self.level.map_order, True), square, eta)
+        if self.level.skew is not None:
+            wave, maps = self.level.skew
+            phase += xi * evaluate(columns(self.phase[own:], wave, True), square, eta)
+            fx += evaluate(columns(self.fx[across:], maps), square, eta)
+        return phase, fx
 
     def weight_at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return the light of unit pupil area at points of any shape, as `Pencil.weight` has it: 1 for uniform ones."""

@@ -13,9 +13,12 @@ from p2sf.glass.media import ConstantIndex, catalogue_glass
 from p2sf.io.photo_files import read_photo
 from p2sf.io.psf_files import read_psf
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import lens_to_toml
 from p2sf.lensfile.writing import SILICA_LABEL, write_lens
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
@@ -229,3 +232,11 @@ def test_fused_silica_keeps_its_dispersion_through_a_zemax_file(tmp_path):
     again = load_lens(tmp_path / "a.zmx")
     assert float(again.media[1].index(0.5875618)) == pytest.approx(1.458464, abs=1e-5)  # Malitson 1965 at the d line
     assert float(again.media[1].index(0.3)) == pytest.approx(1.48779, abs=1e-5)
+
+
+def test_a_misaligned_lens_is_told_to_be_set_straight_by_paraxial_figures(tmp_path, capsys):
+    text = lens_to_toml(displaced(find_lens("double_gauss_28"), 3, 5, Placement(decentre_y=0.1)))
+    (tmp_path / "bad.toml").write_text(text, encoding="utf-8")
+    for command in ("info", "coefficients"):
+        main([command, str(tmp_path / "bad.toml")])
+        assert "those of the lens set straight" in capsys.readouterr().err

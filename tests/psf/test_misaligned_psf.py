@@ -12,8 +12,11 @@ from p2sf.lens.misalignment import displaced, folding, with_tilted_sensor
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.psf.fitted import fitted_intensity
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
+from p2sf.psf.plane_waves import counts_for
+from p2sf.psf.skew_rows import skew_rows_for
 from p2sf.psf.traced import traced_psf
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.fit import SKEW, fit
@@ -146,3 +149,25 @@ def test_the_area_over_frequencies_of_a_fit_without_symmetry(bad):
     _, *along = (a - b for a, b in zip(found.at(xi, eta + step), found.at(xi, eta - step), strict=True))
     expected = (across[0] * along[1] - across[1] * along[0]) / (2 * step) ** 2
     assert found.jacobian(xi, eta) == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("field", [(0.0, 0.0), (3.0, 4.0), (-9.0, 8.0)])
+def test_rows_of_a_pupil_without_symmetry_sum_what_its_nodes_do(bad, field):
+    """Two quadratures of one fit, each converged well below 1e-4."""
+    found = fit(bad, Source(field_deg=field), SKEW[2].numbers)
+    plain = fitted_intensity(found, counts_for(found.steepness, *WINDOW), *WINDOW)
+    for window in (WINDOW, (32, 1.0)):  # an even count has a column more on one side
+        rows = skew_rows_for(found, *window, "settled")
+        phase, fx = found.at_points(rows.xi, rows.eta)
+        light = found.weight_at(rows.xi, rows.eta)
+        intensity = rows.intensity(phase, fx, light, *window, np.float64)
+        some = plain[: window[0], : window[0]]
+        assert np.linalg.norm(intensity - some) < 1e-5 * np.linalg.norm(some)
+        assert rows.weight.sum() == pytest.approx(1.0, abs=1e-6)
+
+
+def test_traced_in_rows_is_the_reference(bad):
+    source = Source(field_deg=(3, 4))
+    traced = traced_psf(bad, source, *WINDOW)
+    assert "equal frequency" in str(traced.sampling)
+    assert distance(traced, huygens_psf(bad, source, *WINDOW)) < 1e-3

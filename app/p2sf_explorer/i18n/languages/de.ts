@@ -1230,6 +1230,7 @@
 <message><source>partial dispersion</source><translation>Teildispersion</translation></message>
 <message><source>parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop</source><translation>Teile des Objektivs sind gekippt oder dezentriert, und seine Pupille ist keine paraxiale Scheibe; {parameter} stop wählen</translation></message>
 <message><source>parts of the lens are tilted or decentred, which {what} cannot say; save as TOML, or for Zemax at one position</source><translation>Teile des Objektivs sind gekippt oder dezentriert, was {what} nicht sagen kann; als TOML speichern oder für Zemax in einer Stellung</translation></message>
+<message><source>parts of the lens are tilted or decentred; all paraxial figures and the six coefficients are those of the lens set straight, and leave out what that adds: coma on the axis, a tilted field</source><translation>Teile des Objektivs sind gekippt oder dezentriert; alle paraxialen Werte und die sechs Koeffizienten sind die des gerade gestellten Objektivs und lassen aus, was das hinzufügt: Koma auf der Achse, ein gekipptes Feld</translation></message>
 <message><source>passes</source><translation>kommt durch</translation></message>
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
