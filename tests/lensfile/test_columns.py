@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.glass.media import ConstantIndex
+from p2sf.glass.media import ConstantIndex, parse_medium
 from p2sf.lens.lens import Aperture, Lens, with_sensor
-from p2sf.lens.positions import Axis, with_positions
+from p2sf.lens.positions import PARAMETER, Axis, with_positions
 from p2sf.lens.shapes import RadialPolynomial
+from p2sf.lensfile.library import find_lens, lenses_folder
 from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml, write_toml
 from p2sf.paraxial.first_order import abcd
 from p2sf.paraxial.positions import lens_at
@@ -75,6 +76,25 @@ def test_each_column_has_the_first_order_data_of_its_own_file(name, column):
     assert found.aperture == Aperture("f_number", (3.5, 4, 4.5)[column])
     assert found.fields_deg == ((0, 20), (0, 12.5), (0, 7))[column]
     assert found.sensor_mm == pytest.approx((45, 52.5, 67.5)[column])
+
+
+@pytest.mark.parametrize("name", ["zoom_3x", "macro_floating"])
+def test_shipped_lenses_have_in_each_column_the_first_order_data_of_their_numbers(name):
+    text, lens = (lenses_folder() / f"{name}.toml").read_text(encoding="utf-8"), find_lens(name)
+    (axis,) = lens.positions.axes
+    for column, place in enumerate(axis.at):
+        found, expected, before = lens_at(lens, **{PARAMETER[axis.kind]: place}), np.eye(2), 1.0
+        rows = tomllib.loads(text)["surface"]
+        for number, row in enumerate(rows):
+            radius, gap = (x[column] if isinstance(x, list) else x for x in (row["radius"], row["thickness"]))
+            after = float(parse_medium(row.get("glass", "air")).index(0.5876))
+            expected = np.array([[1.0, 0.0], [-(after - before) / radius, 1.0]]) @ expected
+            if number < len(rows) - 1:
+                expected = np.array([[1.0, gap / after], [0.0, 1.0]]) @ expected
+            before = after
+        # The difference of two products of some dozen factors near 1, in units of C.
+        np.testing.assert_allclose(abcd(found, 0.5876), expected, rtol=1e-12, atol=1e-14)
+        assert found.sensor_mm == gap
 
 
 @pytest.mark.parametrize("lens", [two_group_zoom(), focusing_zoom()])

@@ -334,7 +334,8 @@ def _ring(kind: Kind, key: str, title: str, tip: str, place: Callable[[State], f
 
     def columns(ranges: Ranges) -> tuple[tuple[float, str], ...]:
         axis = ranges.ring(kind)
-        return tuple(zip(axis.at, axis.columns, strict=True)) if axis else ()
+        first, *between, last = zip(axis.at, axis.columns, strict=True) if axis else ((0.0, ""),) * 2
+        return (first, last, *between) if axis else ()
 
     def marks(state: State, ranges: Ranges) -> tuple[float, ...]:
         return tuple(at for at, _ in columns(ranges))

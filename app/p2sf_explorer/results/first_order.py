@@ -79,7 +79,7 @@ def ring_note(live: Live, kind: Kind) -> Message:
     if kind == "zoom":
         speed = aperture(float(f_number(s.lens, s.source.wavelength_um, s.stop)))
         focal = Number(significant(s.focal_length_mm, 3))
-        return Message("f′ {focal} mm, {speed} · {column}", focal=focal, speed=speed, column=column)
+        return Message("EFL {focal} mm, {speed} · {column}", focal=focal, speed=speed, column=column)
     vergence = focused_vergence(s.lens)
     focused = distance(1 / vergence) if vergence > 1 / FARTHEST_MM else INFINITE
     return Message("focused at {distance} · {column}", distance=focused, column=column)

@@ -16,19 +16,20 @@ from p2sf_explorer.playback.filming import frame_of
 from p2sf_explorer.playback.play_bar import seconds
 from p2sf_explorer.playback.sweep import changes, present, sweep
 from p2sf_explorer.state.limits import PLAYABLE
-from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.terms import NAMES
 
 
 @pytest.mark.parametrize("key", PLAYABLE[1:])
 def test_every_slider_can_be_swept_from_end_to_end_and_back(key):
-    state = new_state(playback_slider=key, playback_seconds=2.0)
+    lens = {"zoom": "zoom_3x", "focus_position": "macro_floating"}.get(key, "double_gauss_28")
+    state = new_state(lens=lens, playback_slider=key, playback_seconds=2.0)
     way = sweep(state)
     assert (way.at(0.0), way.at(2.0), way.at(4.0)) == approx((way.first, way.last, way.first))
     assert way.at(1.0) == approx(way.at(3.0))
     for part in (0.0, 0.3, 1.0):
         assert way.part(way.value(part)) == approx(part)
-    assert present(new_state(**{"playback_slider": key, **changes(state, way.value(0.25))})) == approx(way.value(0.25))
+    assert present(changed(state, **changes(state, way.value(0.25)))) == approx(way.value(0.25))
 
 
 def test_half_way_is_even_in_what_the_slider_is_even_in():
