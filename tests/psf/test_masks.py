@@ -22,7 +22,6 @@ from p2sf.pupil.mask import PupilMap, PupilMask
 from p2sf.pupil.mask_nodes import edge_nodes, mask_nodes, throughput
 from p2sf.raytrace.pencil import pupil_rays, trace
 from p2sf.raytrace.seen_mask import mask_seen
-from tests.long.method_choice import trials
 from tests.support.masked_sum import masked_sum
 from tests.support.waves import NA, WAVELENGTH_UM, r_squared, waves
 
@@ -201,8 +200,3 @@ def test_what_knows_no_mask_says_so():
             p2sf.build_database(lens, [1000.0, 2000.0], [0.0, 5.0], [550.0, 560.0], method=kind)
     with pytest.raises(GeometryError, match="mask"):
         p2sf.zernike(lens)
-
-
-def test_no_random_mask_breaks_the_promise_of_a_choice():
-    """A short run; ``python -m tests.long.method_choice --masks`` tries more."""
-    assert not [outcome for outcome in trials(8, seed=3, masks=True) if outcome.wrong]
