@@ -27,7 +27,7 @@ LAYERS = (
     "p2sf_explorer.compute p2sf_explorer.store",
     "p2sf_explorer.charts p2sf_explorer.files p2sf_explorer.workers",
     "p2sf_explorer.results p2sf_explorer.layout_view p2sf_explorer.handbook",
-    "p2sf_explorer.matrix p2sf_explorer.widgets",
+    "p2sf_explorer.matrix p2sf_explorer.measuring p2sf_explorer.widgets",
     "p2sf_explorer.compare p2sf_explorer.lessons p2sf_explorer.scene3d p2sf_explorer.exactness",
     "p2sf_explorer.panels p2sf_explorer.playback p2sf_explorer.exporting",
     "p2sf_explorer.docking",
@@ -38,7 +38,14 @@ LAYERS = (
 )
 FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}
 QT = {"PySide6", "pyqtgraph", "pyvista"}
-WITHOUT_QT = ("p2sf", "p2sf_explorer.state", "p2sf_explorer.compute", "p2sf_explorer.results", "p2sf_explorer.matrix")
+WITHOUT_QT = (
+    "p2sf",
+    "p2sf_explorer.state",
+    "p2sf_explorer.compute",
+    "p2sf_explorer.results",
+    "p2sf_explorer.matrix",
+    "p2sf_explorer.measuring",
+)
 
 
 def sources() -> list[Path]:

@@ -36,6 +36,7 @@ WHY = {
     "solid": Message("This is A: bodies in space have no difference that could be shown."),
     "import": Message("This is A: it is what was read from its file."),
     "image": Message("This is A: light that A has less of than B cannot be shown as a photograph."),
+    "measured": Message("This is A: a picture is measured beside one lens."),
     "database": Message("This is A: a database belongs to one lens."),
     "accuracy": Message("This is A: each lens is measured against its own rays."),
 }

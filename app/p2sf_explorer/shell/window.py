@@ -488,7 +488,11 @@ class MainWindow(QMainWindow):
         found = dropped(event.mimeData())
         if not found:
             return
-        if "image" in self._visible() and is_photo(found):
+        if "measured" in self._visible() and is_photo(found):
+            from p2sf_explorer.panels.measured import MeasuredPanel
+
+            self._panel("measured", MeasuredPanel).drop.take(Path(found))
+        elif "image" in self._visible() and is_photo(found):
             from p2sf_explorer.panels.image import ImagePanel
 
             self._panel("image", ImagePanel).drop.take(Path(found))

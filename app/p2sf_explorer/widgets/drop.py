@@ -16,6 +16,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from p2sf.io.photo_files import READABLE
+from p2sf.measure.reading import ENDINGS
 from p2sf.messages import Message
 from p2sf_explorer.files.embedded_state import text_inside
 from p2sf_explorer.files.opening import is_file
@@ -73,6 +74,8 @@ class PhotoDrop(QObject):
 
     photo = Signal(str)
     refused = Signal(object)
+    endings: tuple[str, ...] = READABLE
+    why = "{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that"
 
     def __init__(self, widget: QWidget):
         super().__init__(widget)
@@ -86,7 +89,7 @@ class PhotoDrop(QObject):
             self.frame.hide()
         if not isinstance(event, QDragEnterEvent | QDropEvent):
             return False
-        path = dropped_picture(event.mimeData())
+        path = dropped_picture(event.mimeData(), self.endings)
         if path is None:
             event.ignore()
             return True
@@ -99,11 +102,17 @@ class PhotoDrop(QObject):
 
     def take(self, path: Path) -> None:
         """Take a picture as if it had been dropped here."""
-        if path.suffix.lower() in READABLE:
+        if path.suffix.lower() in self.endings:
             self.photo.emit(str(path))
         else:
-            why = "{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that"
-            self.refused.emit(Message(why, file=path.name))
+            self.refused.emit(Message(self.why, file=path.name))
+
+
+class MeasuredDrop(PhotoDrop):
+    """The same for pictures to be measured, which have more formats."""
+
+    endings = ENDINGS
+    why = "{file} is no PNG, TIFF, FITS, npy, npz or listing; save the picture as one of these and drop that"
 
 
 def is_photo(path: str) -> bool:
@@ -111,10 +120,10 @@ def is_photo(path: str) -> bool:
     return Path(path).suffix.lower() in (*READABLE, *OTHER_PICTURES) and text_inside(path) is None
 
 
-def dropped_picture(data: QMimeData) -> str | None:
+def dropped_picture(data: QMimeData, endings: tuple[str, ...] = READABLE) -> str | None:
     """Return the path of the first dropped file with the ending of a picture; None where there is none."""
     paths = (url.toLocalFile() for url in data.urls())
-    return next((path for path in paths if Path(path).suffix.lower() in (*READABLE, *OTHER_PICTURES)), None)
+    return next((path for path in paths if Path(path).suffix.lower() in (*endings, *OTHER_PICTURES)), None)
 
 
 def dropped(data: QMimeData) -> str | None:

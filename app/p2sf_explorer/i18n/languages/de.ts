@@ -98,6 +98,8 @@
 <message><source>Both halves move apart as it comes closer: sharp from infinity to more than half of life size</source><translation>Beide Hälften rücken beim Nahen auseinander: scharf von unendlich bis über die halbe Lebensgröße</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
 <message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
+<message><source>By which the sensor recedes from the lens towards +x.</source><translation>Um die der Sensor nach +x vom Objektiv zurückweicht.</translation></message>
+<message><source>By which the sensor recedes from the lens towards +y.</source><translation>Um die der Sensor nach +y vom Objektiv zurückweicht.</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
 <message><source>C II lateral colour</source><translation>C II Farbquerfehler</translation></message>
 <message><source>Cancel</source><translation>Abbrechen</translation></message>
@@ -109,6 +111,8 @@
 <message><source>Choose a PNG, TIFF, JPEG or HEIF to photograph, up to 12 megapixels</source><translation>Ein PNG, TIFF, JPEG oder HEIF zum Fotografieren wählen, bis zu 12 Megapixel</translation></message>
 <message><source>Choose a lesson</source><translation>Eine Lektion wählen</translation></message>
 <message><source>Choose a photo</source><translation>Ein Foto wählen</translation></message>
+<message><source>Choose a picture of points</source><translation>Ein Bild von Punkten wählen</translation></message>
+<message><source>Choose a picture of points to measure</source><translation>Ein Bild von Punkten wählen, um es zu vermessen</translation></message>
 <message><source>Choose a shipped lens…</source><translation>Mitgeliefertes Objektiv wählen …</translation></message>
 <message><source>Chromatic shift</source><translation>Farblängsfehler</translation></message>
 <message><source>Cividis</source><translation>Cividis</translation></message>
@@ -167,6 +171,7 @@
 <message><source>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</source><translation>Einen Regler ziehen: Objektiv, Pupille und PSF folgen. Über einem Namen steht seine Definition.</translation></message>
 <message><source>Drag or use the arrow keys to turn the surface; a double-click goes back</source><translation>Ziehen oder die Pfeiltasten drehen die Fläche; ein Doppelklick führt zurück</translation></message>
 <message><source>Drag the line or click, or use the left and right arrow keys: the sensor follows.</source><translation>Die Linie ziehen, klicken oder die Pfeiltasten links und rechts: der Sensor folgt.</translation></message>
+<message><source>Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF.</source><translation>Ein Bild von Punkten hier ablegen oder eines wählen: ein Schirm heller Punkte, Sterne oder eine PSF.</translation></message>
 <message><source>Drop every edit and take the lens as its file has it</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
 <message><source>Drop to open the link</source><translation>Loslassen öffnet den Link</translation></message>
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
@@ -217,6 +222,7 @@
 <message><source>First order</source><translation>Erste Ordnung</translation></message>
 <message><source>First-order data</source><translation>Daten erster Ordnung</translation></message>
 <message><source>First-order data: everything that follows from paraxial rays alone; hover over a row for its definition.</source><translation>Daten erster Ordnung: alles, was allein aus paraxialen Strahlen folgt; über einer Zeile steht ihre Definition.</translation></message>
+<message><source>Fit departures from the lens on screen; without it, the lens gives the scale only</source><translation>Abweichungen vom gezeigten Objektiv anpassen; ohne das gibt es nur den Maßstab</translation></message>
 <message><source>Focal length f′</source><translation>Brennweite f′</translation></message>
 <message><source>Focus</source><translation>Fokus</translation></message>
 <message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
@@ -245,6 +251,7 @@
 <message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo to have it photographed.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
 <message><source>How many rays come from each point</source><translation>Wie viele Strahlen von jedem Punkt ausgehen</translation></message>
 <message><source>How many, evenly spread; this forgets values that were typed</source><translation>Wie viele, gleichmäßig verteilt; vergisst eingegebene Werte</translation></message>
+<message><source>How much farther from the lens the sensor stood than in the window.</source><translation>Wie viel weiter vom Objektiv der Sensor stand als im Fenster.</translation></message>
 <message><source>How much of a pixel's area is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
 <message><source>How the two pictures are put beside each other</source><translation>Wie die beiden Bilder nebeneinander gestellt werden</translation></message>
@@ -308,6 +315,8 @@
 <message><source>Map over depth and field</source><translation>Karte über Abstand und Feld</translation></message>
 <message><source>Matrix</source><translation>Matrix</translation></message>
 <message><source>Matrix: the same picture at several fields, and at several wavelengths, depths or sensor shifts, or of A and B. A click on a picture, or Enter, makes its point the present one, which a frame marks; dashed: the nearest to it.</source><translation>Matrix: dasselbe Bild bei mehreren Feldern und mehreren Wellenlängen, Abständen oder Sensorversätzen, oder von A und B. Ein Klick auf ein Bild, oder Enter, macht seinen Punkt zum jetzigen, den ein Rahmen zeigt; gestrichelt: der nächste an ihm.</translation></message>
+<message><source>Measured</source><translation>Gemessen</translation></message>
+<message><source>Measured: the points of a photograph, the wavefront that explains each with its errors, and what all of them tell of the lens and of how the sensor stands. Pictures are √ of brightness over the picture's peak, all on one scale.</source><translation>Gemessen: die Punkte einer Aufnahme, die Wellenfront, die jeden erklärt, mit ihren Fehlern, und was alle zusammen über das Objektiv und die Lage des Sensors sagen. Die Bilder zeigen √ der Helligkeit über der Spitze des Bildes, alle auf einer Skala.</translation></message>
 <message><source>Method</source><translation>Methode</translation></message>
 <message><source>Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
 <message><source>Microscope objective 10×, NA 0.25</source><translation>Mikroskopobjektiv 10×, NA 0,25</translation></message>
@@ -341,6 +350,9 @@
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
 <message><source>Obscuration</source><translation>Abschattung</translation></message>
 <message><source>Obscuration ε: radius of the dark disc in the middle of the stop over the rim's radius. It takes ε² of the light, narrows the core and feeds the rings.</source><translation>Abschattung ε: Radius der dunklen Scheibe in der Mitte der Blende über dem Radius des Randes. Sie nimmt ε² des Lichtes, macht den Kern schmaler und die Ringe heller.</translation></message>
+<message><source>Of the whole field, the same at every point.</source><translation>Des ganzen Feldes, an jedem Punkt gleich.</translation></message>
+<message><source>Of the whole field: at the farthest point, growing with the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Abstand von der Achse.</translation></message>
+<message><source>Of the whole field: at the farthest point, growing with the square of the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Quadrat des Abstands von der Achse.</translation></message>
 <message><source>On the stage</source><translation>Auf die Bühne</translation></message>
 <message><source>One glass and a diffractive side: rings whose colours run the other way undo the lens's own</source><translation>Ein Glas und eine beugende Seite: Ringe, deren Farben umgekehrt laufen, heben die der Linse auf</translation></message>
 <message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
@@ -380,6 +392,7 @@
 <message><source>Paraxial image of this depth, from the last vertex; from the principal points 1/s′ = 1/f′ − 1/s.</source><translation>Paraxiales Bild dieses Abstands, vom letzten Scheitel; von den Hauptpunkten aus 1/s′ = 1/f′ − 1/s.</translation></message>
 <message><source>Paste a link</source><translation>Link einfügen</translation></message>
 <message><source>Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.</source><translation>Spitze der PSF über der derselben Pupille mit W = 0; nahe 1 etwa exp(−(2πσ)²), σ der RMS von W.</translation></message>
+<message><source>Peak waves ± one standard deviation; in brackets the lens's own.</source><translation>Wellen (Spitze) ± eine Standardabweichung; in Klammern die des Objektivs.</translation></message>
 <message><source>Perfect lens</source><translation>Ideale Linse</translation></message>
 <message><source>Perfect lens and pixels</source><translation>Ideale Linse und Pixel</translation></message>
 <message><source>Periskop-type symmetric lens, f/11, 100 mm</source><translation>Symmetrisches Objektiv vom Periskop-Typ, f/11, 100 mm</translation></message>
@@ -394,12 +407,15 @@
 <message><source>Picture of one panel</source><translation>Bild einer Ansicht</translation></message>
 <message><source>Pictures (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)</source><translation>Bilder (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)</translation></message>
 <message><source>Pictures (*.png *.tif *.tiff)</source><translation>Bilder (*.png *.tif *.tiff)</translation></message>
+<message><source>Pictures of points (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)</source><translation>Bilder von Punkten (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)</translation></message>
+<message><source>Picture…</source><translation>Bild …</translation></message>
 <message><source>Pin B</source><translation>B merken</translation></message>
 <message><source>Pin a marker here</source><translation>Hier eine Marke setzen</translation></message>
 <message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>
 <message><source>Pin what is on screen as B, to compare with it, or unpin it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen, oder B entfernen (Strg+B)</translation></message>
 <message><source>Pixel</source><translation>Pixel</translation></message>
 <message><source>Pixel pitch</source><translation>Pixelabstand</translation></message>
+<message><source>Pixel pitch of the picture; listings and this program's PSFs state their own</source><translation>Pixelabstand des Bildes; Listen und PSFs dieses Programms nennen ihren eigenen</translation></message>
 <message><source>Pixel pitch of the sensor.</source><translation>Pixelabstand des Sensors.</translation></message>
 <message><source>Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch).</source><translation>Pixelabstand des Sensors; seine Nyquist-Frequenz ist 1/(2 Abstand).</translation></message>
 <message><source>Pixels a side</source><translation>Pixel je Seite</translation></message>
@@ -476,6 +492,7 @@
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
 <message><source>Roundness</source><translation>Rundung</translation></message>
 <message><source>Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.</source><translation>Rundung der Lamellenkanten: ihre Krümmung mal dem Radius des Randes, 0 gerade, 1 ein Kreis.</translation></message>
+<message><source>R²</source><translation>R²</translation></message>
 <message><source>R² not predicted</source><translation>R² nicht vorhergesagt</translation></message>
 <message><source>R² {r} vs Huygens</source><translation>R² {r} gegen Huygens</translation></message>
 <message><source>R² ≥ 0.9</source><translation>R² ≥ 0,9</translation></message>
@@ -495,6 +512,8 @@
 <message><source>Save the lens</source><translation>Objektiv speichern</translation></message>
 <message><source>Save the lens as .toml, .zmx or ISET .json (Ctrl+Shift+S)</source><translation>Das Objektiv als .toml, .zmx oder ISET-.json speichern (Strg+Umschalt+S)</translation></message>
 <message><source>Save the lens as it is now…</source><translation>Objektiv speichern, wie es jetzt ist …</translation></message>
+<message><source>Save the measurement</source><translation>Die Messung speichern</translation></message>
+<message><source>Save the numbers and their errors as .npz</source><translation>Die Zahlen und ihre Fehler als .npz speichern</translation></message>
 <message><source>Save the picture</source><translation>Das Bild speichern</translation></message>
 <message><source>Save the picture as PNG or TIFF, the state beside it</source><translation>Das Bild als PNG oder TIFF speichern, daneben den Zustand</translation></message>
 <message><source>Save the report</source><translation>Bericht speichern</translation></message>
@@ -532,6 +551,7 @@
 <message><source>Show or hide what stands beside the stage</source><translation>Zeigen oder verbergen, was neben der Bühne steht</translation></message>
 <message><source>Show the answer</source><translation>Antwort zeigen</translation></message>
 <message><source>Show the answer (Alt+Down)</source><translation>Antwort zeigen (Alt+Abwärts)</translation></message>
+<message><source>Show this point's fitted pupil in the window, as a free pupil; undo brings the lens back</source><translation>Die angepasste Pupille dieses Punktes im Fenster zeigen, als freie Pupille; Rückgängig holt das Objektiv zurück</translation></message>
 <message><source>Siemens star</source><translation>Siemensstern</translation></message>
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
 <message><source>Smaller type</source><translation>Kleinere Schrift</translation></message>
@@ -552,6 +572,7 @@
 <message><source>Steps</source><translation>Schritte</translation></message>
 <message><source>Stop</source><translation>Blende</translation></message>
 <message><source>Stop filming and leave no file</source><translation>Aufnahme abbrechen und keine Datei hinterlassen</translation></message>
+<message><source>Stop measuring</source><translation>Das Messen anhalten</translation></message>
 <message><source>Stop radius</source><translation>Blendenradius</translation></message>
 <message><source>Stop shift: the stop's distance behind the surface before it, within its air gap; the f-number stays.</source><translation>Blendenverschiebung: der Abstand der Blende hinter der Fläche davor, in ihrem Luftabstand; die Blendenzahl bleibt.</translation></message>
 <message><source>Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|.</source><translation>Blende: die Fläche, deren Rand das Licht begrenzt; in der Datei genannt, oder gefunden als kleinstes |Rand/y|.</translation></message>
@@ -619,6 +640,7 @@
 <message><source>These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.</source><translation>Diese PSFs sind die Dichte der Strahlen; das meiste, was Beugung zu so breiten beiträgt, verbergen die Pixel.</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
 <message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
+<message><source>This is A: a picture is measured beside one lens.</source><translation>Das ist A: Ein Bild wird neben einem Objektiv vermessen.</translation></message>
 <message><source>This is A: a spot is places of rays, not amounts; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
 <message><source>This is A: bodies in space have no difference that could be shown.</source><translation>Dies ist A: Körper im Raum haben keine Differenz, die sich zeigen ließe.</translation></message>
 <message><source>This is A: curves of several fields or colours are many already; MTF and Field show A − B.</source><translation>Das ist A: Kurven mehrerer Felder oder Farben sind schon viele; MTF und Feld zeigen A − B.</translation></message>
@@ -645,6 +667,7 @@
 <message><source>Three plastic elements and six aspheres in 4.4 mm of length, as in the first phone cameras</source><translation>Drei Kunststofflinsen und sechs Asphären auf 4,4 mm Länge, wie in den ersten Telefonkameras</translation></message>
 <message><source>Through focus</source><translation>Fokusreihe</translation></message>
 <message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Fokusreihe: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
+<message><source>To pupil</source><translation>Als Pupille</translation></message>
 <message><source>To the next part of the window</source><translation>Zum nächsten Teil des Fensters</translation></message>
 <message><source>To the previous part of the window</source><translation>Zum vorigen Teil des Fensters</translation></message>
 <message><source>Tolerance</source><translation>Toleranz</translation></message>
@@ -685,11 +708,15 @@
 <message><source>W11 distortion</source><translation>W11 Verzeichnung</translation></message>
 <message><source>W20 added</source><translation>W20 hinzu</translation></message>
 <message><source>W20 field curvature</source><translation>W20 Bildfeldwölbung</translation></message>
+<message><source>W20 of the frame</source><translation>W20 der Aufnahme</translation></message>
 <message><source>W22 added</source><translation>W22 hinzu</translation></message>
 <message><source>W22 astigmatism</source><translation>W22 Astigmatismus</translation></message>
+<message><source>W22 of the frame</source><translation>W22 der Aufnahme</translation></message>
 <message><source>W31 added</source><translation>W31 hinzu</translation></message>
 <message><source>W31 coma</source><translation>W31 Koma</translation></message>
+<message><source>W31 of the frame</source><translation>W31 der Aufnahme</translation></message>
 <message><source>W40 added</source><translation>W40 hinzu</translation></message>
+<message><source>W40 of the frame</source><translation>W40 der Aufnahme</translation></message>
 <message><source>W40 spherical aberration</source><translation>W40 sphärische Aberration</translation></message>
 <message><source>Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's. What stands in the stop is left out, and a filter's shade lies over the picture.</source><translation>Wellenfront W über der Pupille: um wie viele Wellen der optische Weg eines Strahls kürzer ist als der des Hauptstrahls. Was in der Blende steht, ist ausgespart, und der Schatten eines Filters liegt über dem Bild.</translation></message>
 <message><source>Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves.</source><translation>Wellenfrontkoeffizienten: der Höchstwert jedes Glieds von W(ρ, θ) an diesem Feld, in Wellen.</translation></message>
@@ -949,6 +976,7 @@
 <message><source>diameter</source><translation>Durchmesser</translation></message>
 <message><source>did you mean {glasses}?</source><translation>ist {glasses} gemeint?</translation></message>
 <message><source>did you mean {name}?</source><translation>ist {name} gemeint?</translation></message>
+<message><source>difference</source><translation>Differenz</translation></message>
 <message><source>difference, % of the peak</source><translation>Differenz, % der Spitze</translation></message>
 <message><source>diffractive</source><translation>diffraktiv</translation></message>
 <message><source>diffracts</source><translation>beugt</translation></message>
@@ -1134,7 +1162,10 @@
 <message><source>max {value} µm</source><translation>max. {value} µm</translation></message>
 <message><source>max {value} λ</source><translation>max. {value} λ</translation></message>
 <message><source>measure "{measure}" is unknown; choose one of {choices}</source><translation>das Maß "{measure}" ist unbekannt; eines von {choices} wählen</translation></message>
+<message><source>measured</source><translation>gemessen</translation></message>
+<message><source>measuring</source><translation>misst</translation></message>
 <message><source>measuring what each method takes here</source><translation>es wird gemessen, wie lange jedes Verfahren hier braucht</translation></message>
+<message><source>measuring, {percent} %</source><translation>misst, {percent} %</translation></message>
 <message><source>medium {name} cannot be written to a file; give an index, a glass name or nd and vd</source><translation>das Medium {name} lässt sich nicht in eine Datei schreiben; einen Index, einen Glasnamen oder nd und vd angeben</translation></message>
 <message><source>medium {name} has no line in a Zemax file; save as TOML, or give nd and vd</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei; als TOML speichern oder nd und vd angeben</translation></message>
 <message><source>meets surface {surface} {height:.4g} mm from its vertex, beyond its rim of {rim:g} mm</source><translation>trifft Fläche {surface} {height:.4g} mm neben ihrem Scheitel, außerhalb ihres Randes von {rim:g} mm</translation></message>
@@ -1148,6 +1179,7 @@
 <message><source>misses surface {surface}</source><translation>verfehlt Fläche {surface}</translation></message>
 <message><source>mm</source><translation>mm</translation></message>
 <message><source>mode {mode} is not sequential; export the sequential lens</source><translation>der Modus {mode} ist nicht sequentiell; das sequentielle Objektiv exportieren</translation></message>
+<message><source>model</source><translation>Modell</translation></message>
 <message><source>move the slider that has the focus</source><translation>den Regler bewegen, der den Fokus hat</translation></message>
 <message><source>much fainter than the others</source><translation>viel schwächer als die anderen</translation></message>
 <message><source>nd is {value}; give an index between 1 and 4</source><translation>nd ist {value}; einen Index zwischen 1 und 4 angeben</translation></message>
@@ -1183,6 +1215,7 @@
 <message><source>none</source><translation>keine</translation></message>
 <message><source>normalisation radius</source><translation>Normierungsradius</translation></message>
 <message><source>not converged: agrees to {reached:.1e} only</source><translation>nicht konvergiert: stimmt nur auf {reached:.1e} überein</translation></message>
+<message><source>not used because</source><translation>nicht verwendet, weil</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
 <message><source>nothing is pinned as B (Ctrl+B)</source><translation>nichts ist als B gemerkt (Strg+B)</translation></message>
 <message><source>nothing varies from column to column; list the values of what does</source><translation>nichts ändert sich von Spalte zu Spalte; die Werte dessen auflisten, was sich ändert</translation></message>
@@ -1384,6 +1417,7 @@
 <message><source>stop ▪</source><translation>Blende ▪</translation></message>
 <message><source>stop, sensor</source><translation>Blende, Sensor</translation></message>
 <message><source>stop_surface is {number}; write a surface from 1 to {count}</source><translation>stop_surface ist {number}; eine Fläche von 1 bis {count} schreiben</translation></message>
+<message><source>stopped</source><translation>angehalten</translation></message>
 <message><source>stops</source><translation>Blenden</translation></message>
 <message><source>substituted</source><translation>ersetzt</translation></message>
 <message><source>sum</source><translation>Summe</translation></message>
@@ -1674,6 +1708,8 @@
 <message><source>tilt of the 3D view</source><translation>Neigung der 3D-Ansicht</translation></message>
 <message><source>tilt of the wavefront's surface</source><translation>Neigung der Wellenfrontfläche</translation></message>
 <message><source>tilt or decentre</source><translation>Kippung oder Dezentrierung</translation></message>
+<message><source>tilt to +x</source><translation>Kippung nach +x</translation></message>
+<message><source>tilt to +y</source><translation>Kippung nach +y</translation></message>
 <message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
 <message><source>time</source><translation>Zeit</translation></message>
 <message><source>time of a PSF among many, µs</source><translation>Zeit einer PSF unter vielen, µs</translation></message>
@@ -1750,6 +1786,7 @@
 <message><source>write the number {number} without quotation marks</source><translation>die Zahl {number} ohne Anführungszeichen schreiben</translation></message>
 <message><source>write {number} with a decimal point, not "{found}"</source><translation>{number} mit Dezimalpunkt schreiben, nicht "{found}"</translation></message>
 <message><source>write {units} or no unit</source><translation>{units} oder keine Einheit schreiben</translation></message>
+<message><source>x, mm</source><translation>x, mm</translation></message>
 <message><source>x, of the edge</source><translation>x, des Randes</translation></message>
 <message><source>x, µm</source><translation>x, µm</translation></message>
 <message><source>x, µm from the chief ray</source><translation>x, µm vom Hauptstrahl</translation></message>
@@ -1805,6 +1842,7 @@
 <message><source>{error}; the field list holds the axis only</source><translation>{error}; die Feldliste enthält nur die Achse</translation></message>
 <message><source>{f:g}/mm</source><translation>{f:g}/mm</translation></message>
 <message><source>{f_number}, stop ⌀ {diameter} mm</source><translation>{f_number}, Blende ⌀ {diameter} mm</translation></message>
+<message><source>{file} is no PNG, TIFF, FITS, npy, npz or listing; save the picture as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, FITS, npy, npz und keine Liste; das Bild als eines davon speichern und das ablegen</translation></message>
 <message><source>{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, JPEG oder HEIF; das Foto als eines davon speichern und dieses ablegen</translation></message>
 <message><source>{first} and {second} have no number in common; measure the same points by the same model</source><translation>{first} und {second} haben keine Zahl gemeinsam; dieselben Punkte mit demselben Modell messen</translation></message>
 <message><source>{frames} frames and {focus} focus positions; give one for each</source><translation>{frames} Aufnahmen und {focus} Fokuslagen; für jede eine angeben</translation></message>
@@ -1997,12 +2035,16 @@
 <message><source>{term} muted</source><translation>{term} stumm</translation></message>
 <message><source>{term} solo</source><translation>{term} solo</translation></message>
 <message><source>{there} of words, and the lesson has {count}; say each in its place</source><translation>{there} mit Worten, und die Lektion hat {count}; jeden an seiner Stelle sagen</translation></message>
+<message><source>{used} of {all} points</source><translation>{used} von {all} Punkten</translation></message>
 <message><source>{value:.1f} nm</source><translation>{value:.1f} nm</translation></message>
 <message><source>{value:z.1f} µm</source><translation>{value:z.1f} µm</translation></message>
 <message><source>{value:z.2f} µm</source><translation>{value:z.2f} µm</translation></message>
 <message><source>{value:z.3f} mm</source><translation>{value:z.3f} mm</translation></message>
 <message><source>{value:z.4f} mm</source><translation>{value:z.4f} mm</translation></message>
 <message><source>{value} mm</source><translation>{value} mm</translation></message>
+<message><source>{value} ± {error} {unit}</source><translation>{value} ± {error} {unit}</translation></message>
+<message><source>{value} ± {error} λ</source><translation>{value} ± {error} λ</translation></message>
+<message><source>{value} ± {error} λ ({own})</source><translation>{value} ± {error} λ ({own})</translation></message>
 <message><source>{value} µm</source><translation>{value} µm</translation></message>
 <message><source>{waves:.0f} nm</source><translation>{waves:.0f} nm</translation></message>
 <message><source>{what} "{word}" is not a number; correct it</source><translation>{what} "{word}" ist keine Zahl; berichtigen</translation></message>
@@ -2019,6 +2061,7 @@
 <message><source>× depths</source><translation>× Abstände</translation></message>
 <message><source>× sensor shifts</source><translation>× Sensorversatz</translation></message>
 <message><source>× wavelengths</source><translation>× Wellenlängen</translation></message>
+<message><source>Δ ≤ {percent} %</source><translation>Δ ≤ {percent} %</translation></message>
 <message><source>Δn at d unknown, the file does not tell the index it wants</source><translation>Δn bei d unbekannt, die Datei nennt den gewünschten Index nicht</translation></message>
 <message><source>Δn at d {value:+.5f}</source><translation>Δn bei d {value:+.5f}</translation></message>
 <message><source>η, pupil radii (towards the field)</source><translation>η, Pupillenradien (zum Feld hin)</translation></message>
@@ -2028,6 +2071,7 @@
 <message><source>ξ, pupil radii</source><translation>ξ, Pupillenradien</translation></message>
 <message><source>ξ, stop radii</source><translation>ξ, Blendenradien</translation></message>
 <message><source>σx {sigma_x:.3g} µm, σy {sigma_y:.3g} µm, centre {centre:.3g} µm</source><translation>σx {sigma_x:.3g} µm, σy {sigma_y:.3g} µm, Mitte {centre:.3g} µm</translation></message>
+<message><source>χ²</source><translation>χ²</translation></message>
 <message><source>← → ↑ ↓, Page Up/Down</source><translation>← → ↑ ↓, Bild auf/ab</translation></message>
 <message><source>∞</source><translation>∞</translation></message>
 <message><source>⌀ {diameter} at {place:z.2f} mm</source><translation>⌀ {diameter} bei {place:z.2f} mm</translation></message>

@@ -1,0 +1,196 @@
+"""Pictures of points beside the lens on screen: what a measurement depends on, and what the panel shows of it.
+
+A measurement takes seconds: only `question` runs on the live path, and a worker runs `answer`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from p2sf.conventions import NM_PER_UM
+from p2sf.lens.lens import Lens
+from p2sf.measure.frame_terms import lens_optics
+from p2sf.measure.measurement import Measurement, measured
+from p2sf.measure.point_fit import PointFit
+from p2sf.measure.point_model import Optics
+from p2sf.measure.points import window_of
+from p2sf.measure.reading import read_frame
+from p2sf.messages import Message, Number
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.files.opening import stamp
+from p2sf_explorer.results.first_order import Row
+from p2sf_explorer.state.scales import signed, significant
+from p2sf_explorer.state.terms import TERMS
+from p2sf_explorer.state.what_if import UNTOUCHED
+
+NAMES = {
+    "sensor_shift_um": "sensor shift",
+    "tilt_x_deg": "tilt to +x",
+    "tilt_y_deg": "tilt to +y",
+    "w40": "W40 of the frame",
+    "w31": "W31 of the frame",
+    "w22": "W22 of the frame",
+    "w20": "W20 of the frame",
+}
+DEFINITIONS = {
+    "sensor_shift_um": "How much farther from the lens the sensor stood than in the window.",
+    "tilt_x_deg": "By which the sensor recedes from the lens towards +x.",
+    "tilt_y_deg": "By which the sensor recedes from the lens towards +y.",
+    "w40": "Of the whole field, the same at every point.",
+    "w31": "Of the whole field: at the farthest point, growing with the distance from the axis.",
+    "w22": "Of the whole field: at the farthest point, growing with the square of the distance from the axis.",
+    "w20": "Of the whole field: at the farthest point, growing with the square of the distance from the axis.",
+}
+
+
+PointLine: TypeAlias = tuple[tuple[str, str, str, str], Message | None]
+"""The figures of a point, and why it was not used, if it was not."""
+
+
+@dataclass(frozen=True)
+class MeasurementRequest:
+    """Everything a measurement depends on; ``stamp`` changes with the file."""
+
+    path: str
+    stamp: tuple[int, int]
+    pixel_um: float
+    lens: Lens
+    depth_mm: float
+    wavelength_um: float
+    beside: bool
+
+
+@dataclass(frozen=True)
+class LensRequest:
+    """What a measurement takes from the window: lens and wavelength; where its source lies does not matter."""
+
+    lens: Lens
+    depth_mm: float
+    wavelength_nm: float
+
+
+@dataclass(frozen=True, eq=False)
+class PointPictures:
+    """A point's picture, its model and their difference, (y, x) each, over the picture's peak, background taken off."""
+
+    measured: np.ndarray
+    modelled: np.ndarray
+    difference: np.ndarray
+    pixel_um: float
+
+    @property
+    def largest(self) -> float:
+        """Return the largest difference, of the peak."""
+        return float(np.abs(self.difference).max())
+
+
+def question(live: Live) -> LensRequest:
+    """Return what the window gives to a measurement."""
+    source = live.setup.source
+    return LensRequest(live.setup.lens, source.depth_mm, source.wavelength_um * NM_PER_UM)
+
+
+def request(path: str, pixel_um: float, asked: LensRequest, beside: bool) -> MeasurementRequest:
+    """Return the measurement of a file beside the lens on screen, or with its scale alone."""
+    return MeasurementRequest(
+        path, stamp(path), pixel_um, asked.lens, asked.depth_mm, asked.wavelength_nm / NM_PER_UM, beside
+    )
+
+
+def answer(asked: MeasurementRequest, cancelled: Callable[[], bool], progress: Callable[[float], None]) -> Measurement:
+    """Return the measurement of a picture. Raises P2SFError for one that cannot be read or holds no point."""
+    frame = read_frame(asked.path, asked.pixel_um)
+    optics = scale(asked, frame.geometry.pixel_um)
+    lens = asked.lens if asked.beside else None
+    depth = asked.depth_mm if asked.beside else inf
+    return measured([frame], optics, lens=lens, depth_mm=depth, progress=progress, cancelled=cancelled)
+
+
+def scale(asked: MeasurementRequest, pixel_um: float) -> Optics:
+    """Return the scale of the lens's PSFs on the picture's pixels."""
+    return lens_optics(asked.lens, asked.depth_mm, asked.wavelength_um, pixel_um)
+
+
+def shown(found: Measurement, number: int) -> PointPictures | None:
+    """Return a point's pictures on one scale; None for a point that was not fitted."""
+    fit, frame = found.fits[number], found.frames[0]
+    window = window_of(frame, found.points[number], found.half)
+    if fit is None or window is None:
+        return None
+    background = float(fit.frames[0, 3])
+    light, model = np.nan_to_num(window.values - background), fit.modelled[0] - background
+    peak = max(float(np.max(light)), 1e-30)
+    return PointPictures(light / peak, model / peak, (light - model) / peak, frame.geometry.pixel_um)
+
+
+def point_lines(found: Measurement) -> tuple[PointLine, ...]:
+    """Return x, y, R² and reduced χ² of every point, and what speaks against it; the brightest first."""
+    lines: list[PointLine] = []
+    for point, fit, failure in zip(found.points, found.fits, found.failures, strict=True):
+        why = (*point.flags, *((failure,) if failure else ()), None)[0]
+        r2, chi2 = (f"{fit.r2[0]:.4f}", f"{fit.chi2:.2f}") if fit else ("", "")
+        lines.append(((_plain(point.x_mm), _plain(point.y_mm), r2, chi2), why))
+    return tuple(lines)
+
+
+def _plain(value: float) -> str:
+    return signed(value, 3)
+
+
+def point_rows(found: Measurement, number: int, own: tuple[float, ...] | None) -> tuple[Row, ...]:
+    """Return the coefficients of a point with their errors, the lens's ``own`` beside, and what else was fitted."""
+    fit = found.fits[number]
+    if fit is None:
+        return ()
+    beside = own if own is not None else (None,) * len(fit.numbers)
+    columns = zip(fit.names, fit.numbers.tolist(), fit.errors.tolist(), beside, strict=False)
+    return tuple(
+        (name, _value(value, error, lens), "Peak waves ± one standard deviation; in brackets the lens's own.")
+        for name, value, error, lens in columns
+    )
+
+
+def _value(value: float, error: float, lens: float | None) -> Message:
+    said = Number(signed(value, 3)), Number(significant(error, 2))
+    if lens is None:
+        return Message("{value} ± {error} λ", value=said[0], error=said[1])
+    return Message("{value} ± {error} λ ({own})", value=said[0], error=said[1], own=Number(signed(lens, 3)))
+
+
+def whole_rows(found: Measurement) -> tuple[Row, ...]:
+    """Return what explains the whole frame, with errors; empty where too few points were found."""
+    whole = found.whole
+    if whole is None:
+        return ()
+    columns = zip(whole.model.unknowns, whole.values.tolist(), whole.errors.tolist(), strict=True)
+    return tuple(
+        (
+            NAMES[name],
+            Message(
+                "{value} ± {error} {unit}",
+                value=Number(significant(value, 3)),
+                error=Number(significant(error, 2)),
+                unit="λ" if whole.model.unit(name) == "waves" else whole.model.unit(name),
+            ),
+            DEFINITIONS[name],
+        )
+        for name, value, error in columns
+    )
+
+
+def own_six(found: Measurement, number: int) -> tuple[float, ...] | None:
+    """Return W40, W31, W22 and W20 + Wd of the lens at a point's place; None without a lens."""
+    whole, point = found.whole, found.points[number]
+    if whole is None or whole.model.lens is None:
+        return None
+    return tuple(whole.model.six_of_lens(float(np.hypot(point.x_mm, point.y_mm))).tolist())
+
+
+def as_free_pupil(fit: PointFit) -> dict[str, Any]:
+    """Return the entries of the State that show a point's fitted pupil: W20 + Wd goes into Wd."""
+    w40, w31, w22, focus = (round(float(value), 4) for value in fit.numbers[:4])
+    waves = {"w40": w40, "w31": w31, "w22": w22, "wd": focus}
+    return UNTOUCHED | {"added_waves": tuple(waves.get(term, 0.0) for term in TERMS), "free_pupil": True}

@@ -1,0 +1,312 @@
+"""A picture of points, measured: its points, picture beside model, coefficients with errors beside the lens's own."""
+
+from pathlib import Path
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QBoxLayout,
+    QCheckBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from p2sf.errors import P2SFError
+from p2sf.measure.measurement import Measurement, write_measurement
+from p2sf.messages import Message
+from p2sf_explorer.charts.overlay import Overlay
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.measuring.measurement import (
+    LensRequest,
+    MeasurementRequest,
+    PointLine,
+    PointPictures,
+    answer,
+    as_free_pupil,
+    own_six,
+    point_lines,
+    point_rows,
+    request,
+    shown,
+    whole_rows,
+)
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.drop import MeasuredDrop
+from p2sf_explorer.widgets.plan_note import small_button
+from p2sf_explorer.widgets.readout import FactTable, scrolled
+from p2sf_explorer.widgets.tiles import TilesChart, tile
+from p2sf_explorer.workers.worker import LatestWins
+
+TIP = (
+    "Measured: the points of a photograph, the wavefront that explains each with its errors, and what all of them tell "
+    "of the lens and of how the sensor stands. Pictures are √ of brightness over the picture's peak, all on one scale."
+)
+PICTURES = "Pictures of points (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)"
+EMPTY = "Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF."
+HEADS = ("x, mm", "y, mm", "R²", "χ²", "not used because")
+PARTS = ("measured", "model", "difference")
+LOW = 300  # pixels of the body's height below which there is no room for a list
+PITCH_UM = 3.45  # of a usual industrial camera
+
+
+class MeasuredPanel:
+    """Controls in a row; below them three pictures of the point chosen, the list of points, and the numbers."""
+
+    def __init__(self, store: Store):
+        self._store = store
+        self.widget = Card("Measured", TIP)
+        self.open = small_button("Picture…", "Choose a picture of points to measure", self._ask_picture)
+        self.stop_button = small_button("Stop", "Stop measuring", self._stop)
+        self.save = small_button("Save…", "Save the numbers and their errors as .npz", self._ask_save)
+        self.take = small_button(
+            "To pupil",
+            "Show this point's fitted pupil in the window, as a free pupil; undo brings the lens back",
+        )
+        self.pixel = QDoubleSpinBox()
+        self.beside = QCheckBox(tr("this lens"))
+        self.note = QLabel()
+        self.chart, self.list = TilesChart(framed=False), PointList()
+        self.table = FactTable()
+        self._lay_out()
+        self.overlay = Overlay(self.body)
+        self._asked: LensRequest | None = None
+        self._path = ""
+        self._request: MeasurementRequest | None = None
+        self._found: Measurement | None = None
+        self._refusal = ""
+        self.worker = LatestWins(self.widget)
+        self._connect()
+        self._show_readout()
+
+    def _lay_out(self) -> None:
+        self.pixel.setRange(0.05, 1000.0)
+        self.pixel.setDecimals(3)
+        self.pixel.setSuffix(" µm")
+        self.pixel.setValue(PITCH_UM)
+        self.pixel.setKeyboardTracking(False)
+        self.pixel.setToolTip(tr("Pixel pitch of the picture; listings and this program's PSFs state their own"))
+        self.pixel.setAccessibleName(tr("Pixel pitch"))
+        self.beside.setChecked(True)
+        self.beside.setToolTip(tr("Fit departures from the lens on screen; without it, the lens gives the scale only"))
+        controls = QWidget()
+        row = QHBoxLayout(controls)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(4)
+        for part in (self.open, self.stop_button, self.save, self.take, self.pixel, self.beside):
+            row.addWidget(part)
+        row.addStretch(1)
+        self.body = MeasuredBody(self.chart, self.list, self.table)
+        whole = QWidget()
+        column = QVBoxLayout(whole)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addWidget(controls)
+        column.addWidget(self.body, 1)
+        self.widget.set_body(whole)
+        self.note.setObjectName("muted")
+        self.note.setWordWrap(True)
+        self.widget.add_footer(self.note)
+
+    def _connect(self) -> None:
+        self.worker.finished.connect(self._on_answer)
+        self.worker.failed.connect(self._on_failure)
+        self.worker.progressed.connect(self._on_progress)
+        self.list.itemSelectionChanged.connect(self._paint_point)
+        self.pixel.valueChanged.connect(self._measure)
+        self.beside.toggled.connect(self._measure)
+        self.take.clicked.connect(self._take)
+        self.drop = MeasuredDrop(self.widget)
+        self.drop.photo.connect(self.open_picture)
+        self.drop.refused.connect(self._store.refused)
+
+    def show(self, live: Live) -> None:
+        """Take the lens on screen; a picture is measured again where it has changed and nothing is dragged."""
+        self._asked = live.views["measured"]
+        if live.quality == "settled" and self._path and self._wanted() != self._request:
+            self._measure()
+
+    def open_picture(self, path: str) -> None:
+        """Measure a picture."""
+        self._path = path
+        self._measure()
+
+    def _wanted(self) -> MeasurementRequest | None:
+        if self._asked is None or not self._path:
+            return None
+        return request(self._path, self.pixel.value(), self._asked, self.beside.isChecked())
+
+    def _measure(self) -> None:
+        asked = self._wanted()
+        if asked is None or asked == self._request:
+            return
+        self._request, self._refusal = asked, ""
+        self.worker.submit(asked, lambda cancelled, progress: answer(asked, cancelled.is_set, progress))
+        self._show_readout()
+
+    def _stop(self) -> None:
+        self.worker.cancel()
+        self.note.setText(tr("stopped"))
+        self._show_readout(tr("stopped"))
+
+    def _on_progress(self, key: MeasurementRequest, share: float) -> None:
+        if key == self._request:
+            self._show_readout(local(tr("measuring, {percent} %", percent=f"{100 * share:.0f}")))
+
+    def _on_answer(self, key: MeasurementRequest, found: Measurement) -> None:
+        if key != self._request:
+            return
+        self._found, self._refusal = found, ""
+        self.list.show_lines(point_lines(found))
+        self._show_readout()
+        self._paint_point()
+
+    def _on_failure(self, key: MeasurementRequest, why: Message) -> None:
+        if key == self._request:
+            self._refusal, self._found = said(why), None
+            self._show_readout()
+
+    def _show_readout(self, text: str = "") -> None:
+        working = self.worker.busy
+        self.stop_button.setVisible(working)
+        self.save.setVisible(not working)
+        for button in (self.save, self.take):
+            button.setEnabled(self._found is not None and self._found.used > 0)
+        self.overlay.say(self._refusal or ("" if self._found else tr("measuring") if self._path else tr(EMPTY)), 0)
+        name = Path(self._path).name
+        if self._found is not None and not text:
+            count = tr("{used} of {all} points", used=self._found.used, all=len(self._found.points))
+            text = tr("measuring") if working else f"{name} · {count}"
+        self.widget.set_readout(text or name)
+
+    def _paint_point(self) -> None:
+        found, number = self._found, self.list.chosen()
+        if found is None or number is None:
+            return
+        self.table.show_rows((*point_rows(found, number, own_six(found, number)), *whole_rows(found)))
+        self.take.setEnabled(found.fits[number] is not None)
+        parts = shown(found, number)
+        if parts is None:
+            self.chart.show_tiles((), 1.0)
+            return
+        self._paint_pictures(parts)
+        fit = found.fits[number]
+        self.note.setText("\n".join(said(warning) for warning in fit.warnings) if fit else "")
+
+    def _paint_pictures(self, parts: PointPictures) -> None:
+        pictures = [
+            np.sqrt(np.clip(values, 0.0, 1.0)) for values in (parts.measured, parts.modelled, abs(parts.difference))
+        ]
+        self.chart.set_range((-0.5, 2.5), (-0.5, 0.5))
+        self.chart.show_tiles([tile(values, float(k), 0.0) for k, values in enumerate(pictures)], 0.95)
+        heads = (tr(name) for name in PARTS)
+        signed = parts.measured, parts.modelled, parts.difference
+        self.chart.means(zip(heads, signed, strict=True), parts.pixel_um)
+        most = local(tr("Δ ≤ {percent} %", percent=f"{100 * parts.largest:.1f}"))
+        names = [tr("measured"), tr("model"), most]
+        self.chart.show_notes([(float(k), float("inf"), name, "muted", 0) for k, name in enumerate(names)])
+
+    def _take(self) -> None:
+        number = self.list.chosen()
+        fit = self._found.fits[number] if self._found is not None and number is not None else None
+        if fit is not None:
+            self._store.update(**as_free_pupil(fit))
+
+    def _ask_picture(self) -> None:
+        path, _ = QFileDialog.getOpenFileName(self.widget, tr("Choose a picture of points"), "", tr(PICTURES))
+        if path:
+            self.open_picture(path)
+
+    def _ask_save(self) -> None:
+        path, _ = QFileDialog.getSaveFileName(
+            self.widget, tr("Save the measurement"), "coefficients.npz", "npz (*.npz)"
+        )
+        if path:
+            self.save_as(path if Path(path).suffix else f"{path}.npz")
+
+    def save_as(self, path: str) -> None:
+        """Write the measurement; say why it cannot be written."""
+        if self._found is None:
+            return
+        try:
+            write_measurement(self._found, path)
+        except P2SFError as error:
+            self._store.refused.emit(error.message)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        for part in (self.chart, self.table):
+            part.restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.worker.stop()
+
+
+class MeasuredBody(QWidget):
+    """Pictures above list and numbers; where that is too low, pictures beside the numbers, without the list."""
+
+    def __init__(self, chart: TilesChart, points: "PointList", table: FactTable):
+        super().__init__()
+        self.list = points
+        self._whole = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
+        self._whole.setContentsMargins(0, 0, 0, 0)
+        below = QHBoxLayout()
+        below.addWidget(points, 1)
+        below.addWidget(scrolled(table, at_foot=False), 1)
+        self._whole.addWidget(chart, 2)
+        self._whole.addLayout(below, 3)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Turn to where there is room."""
+        super().resizeEvent(event)
+        low = self.height() < LOW
+        self.list.setHidden(low)
+        direction = QBoxLayout.Direction.LeftToRight if low else QBoxLayout.Direction.TopToBottom
+        self._whole.setDirection(direction)
+
+
+class PointList(QTableWidget):
+    """The points, one row each, of which one is chosen."""
+
+    def __init__(self) -> None:
+        super().__init__(0, len(HEADS))
+        self.setHorizontalHeaderLabels([tr(head) for head in HEADS])
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setTabKeyNavigation(False)
+        self.verticalHeader().setDefaultSectionSize(20)
+        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self.horizontalHeader().setStretchLastSection(True)
+        self.setAccessibleName(tr("Points"))
+
+    def show_lines(self, lines: tuple[PointLine, ...]) -> None:
+        """Show a row for each point, and choose the first."""
+        self.blockSignals(True)
+        self.setRowCount(len(lines))
+        for row, (figures, why) in enumerate(lines):
+            for column, text in enumerate(figures):
+                item = QTableWidgetItem(local(text))
+                item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+                self.setItem(row, column, item)
+            self.setItem(row, len(figures), QTableWidgetItem(said(why) if why else ""))
+        self.blockSignals(False)
+        self.selectRow(0)
+
+    def chosen(self) -> int | None:
+        """Return the number of the chosen point, None without one."""
+        rows = self.selectionModel().selectedRows()
+        return rows[0].row() if rows else None

@@ -1,0 +1,56 @@
+"""The Measured panel measures a picture beside the lens on screen, and takes a fitted pupil into the window."""
+
+import numpy as np
+import pytest
+
+from p2sf.lens.lens import with_f_number
+from p2sf.lensfile.library import find_lens
+from p2sf.measure.frame import FrameGeometry
+from p2sf.measure.measurement import read_measurement
+from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
+
+SHIFT_UM = 20.0
+
+
+@pytest.fixture(scope="module")
+def picture(tmp_path_factory):
+    """Return a picture of 3 × 2 points through the Cooke triplet at f/4, its sensor 20 µm too far."""
+    path = tmp_path_factory.mktemp("frames") / "points.npy"
+    lens = with_f_number(find_lens("cooke_triplet"), 4.0)
+    exposure = Exposure(sensor_shift_um=SHIFT_UM)
+    np.save(path, simulated_frame(lens, grid_of_points(3, 2, 1.2, 0.6), FrameGeometry(300, 480, 3.45), exposure).values)
+    return path
+
+
+@pytest.fixture
+def panel(window):
+    window.store.update(lens="cooke_triplet", f_number=4.0, wavelength_nm=550.0, tab="measured")
+    yield window.panels["measured"]
+    window.store.update(tab="profiles")
+
+
+def test_a_picture_is_measured_and_taken_into_the_window(panel, picture, window, qtbot, tmp_path):
+    panel.open_picture(str(picture))
+    assert panel.overlay.text and not panel.save.isVisibleTo(panel.widget)
+    qtbot.waitUntil(lambda: panel._found is not None, timeout=60000)
+    assert panel.list.rowCount() == 6 and not panel.overlay.text
+    values = dict(zip((row[0] for row in panel.table.rows), panel.table.values, strict=True))
+    assert values["W40"].endswith("λ (3.862)")
+    shift, error = (float(text) for text in values["sensor shift"].removesuffix(" µm").split(" ± "))
+    assert abs(shift - SHIFT_UM) < 5 * error < 30
+    panel.save_as(str(tmp_path / "coefficients.npz"))
+    assert read_measurement(tmp_path / "coefficients.npz")[1]["lens"] == "cooke_triplet"
+    panel.list.selectRow(3)
+    panel.take.click()
+    what_if = window.store.state.what_if
+    assert what_if.free_pupil and what_if.added_waves[0] == pytest.approx(panel._found.fits[3].numbers[0], abs=1e-4)
+    window.store.undo()
+    assert not window.store.state.what_if.free_pupil
+
+
+def test_what_is_no_picture_of_points_is_said(panel, qtbot, tmp_path):
+    np.save(tmp_path / "noise.npy", np.random.default_rng(0).normal(50, 5, (40, 40)))
+    panel.open_picture(str(tmp_path / "noise.npy"))
+    qtbot.waitUntil(lambda: bool(panel._refusal), timeout=30000)
+    assert "o point stands out" in panel._refusal
+    assert not panel.save.isEnabled() and not panel.take.isEnabled()
