@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from p2sf.io.psf_plot import draw_psf
     from p2sf.lens.lens import Lens, with_mask
     from p2sf.lens.source import Source
+    from p2sf.notebook_widget import widget
     from p2sf.paraxial.positions import lens_at
     from p2sf.psf.from_opd import psf_of_opd
     from p2sf.psf.result import Psf
@@ -62,6 +63,7 @@ __all__ = [
     "psf_of_opd",
     "render",
     "tradeoff",
+    "widget",
     "with_mask",
     "zernike",
 ]
@@ -78,6 +80,7 @@ _ELSEWHERE = {
     "with_mask": "p2sf.lens.lens",
     "draw_psf": "p2sf.io.psf_plot",
     "psf_of_opd": "p2sf.psf.from_opd",
+    "widget": "p2sf.notebook_widget",
 }
 
 

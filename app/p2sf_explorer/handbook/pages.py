@@ -15,6 +15,7 @@ PAGES = {
     "tutorial": "Tutorial",
     "import": "Import a lens",
     "export": "Export",
+    "notebook": "In a notebook",
     "theory": "Theory",
     "numerics": "Numerical accuracy",
     "speed": "Speed",

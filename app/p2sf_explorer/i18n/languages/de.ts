@@ -265,6 +265,7 @@
 <message><source>Import a lens</source><translation>Ein Objektiv importieren</translation></message>
 <message><source>Import report</source><translation>Importbericht</translation></message>
 <message><source>Import report: everything the reader of the lens file took, replaced, passed over or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
+<message><source>In a notebook</source><translation>Im Notebook</translation></message>
 <message><source>In its own window, or back</source><translation>In einem eigenen Fenster, oder zurück</translation></message>
 <message><source>Inferno</source><translation>Inferno</translation></message>
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
@@ -1104,6 +1105,7 @@
 <message><source>infinity</source><translation>unendlich</translation></message>
 <message><source>inner radius</source><translation>Innenradius</translation></message>
 <message><source>interpolant "{interpolant}" is unknown; choose {interpolants}</source><translation>die Interpolation "{interpolant}" ist unbekannt; {interpolants} wählen</translation></message>
+<message><source>ipywidgets is not installed; run pip install 'p2sf[notebook]'</source><translation>ipywidgets ist nicht installiert; pip install 'p2sf[notebook]' ausführen</translation></message>
 <message><source>is a Fresnel surface</source><translation>ist eine Fresnel-Fläche</translation></message>
 <message><source>is a lens module that hides its surfaces</source><translation>ist ein Linsenmodul, das seine Flächen verbirgt</translation></message>
 <message><source>is an ideal lens without a prescription</source><translation>ist eine ideale Linse ohne Konstruktionsdaten</translation></message>
