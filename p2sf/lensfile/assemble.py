@@ -161,6 +161,7 @@ def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surfa
         raw.semi_diameter * unit if raw.semi_diameter > 0 else inf,
         _shape(raw, {power: value for power, value in terms.items() if power == 2 or power % 2}, unit, number),
         raw.diffraction.scaled(unit) if raw.diffraction else None,
+        inner_radius=raw.inner_radius * unit,
         before=_scaled(raw.before, unit),
         after=_scaled(raw.after, unit),
     )

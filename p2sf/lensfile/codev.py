@@ -19,7 +19,7 @@ from p2sf.lens.tilts import Breaks, decentred_surface
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import HOLE, RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
 from p2sf.messages import Message
@@ -350,14 +350,16 @@ def _diffracts(reading: CodeVReading, command: CodeVCommand, surface: RawSurface
 
 
 def _rim(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
-    """Read CIR radius; an edge is not a clear rim, obscurations and holes are noted and left out."""
+    """Read CIR radius; an edge is not a clear rim, and within an obscuration or a hole rays are lost."""
     kind = next((word.upper() for word in command.words if word.upper() in ("EDG", "OBS", "HOL")), "")
-    if kind in ("OBS", "HOL"):
-        reading.notes.add("caution", "its obscuration or hole is left out", surface.number, command.line)
-    if kind in ("EDG", "OBS", "HOL"):
+    if kind == "EDG":
         return
     value = reading.number(command, len(command.words) - 1, Message("clear rim")) if command.words else 0.0
-    surface.semi_diameter = value if value > 0 else inf
+    if kind:
+        surface.inner_radius = max(value, 0.0)
+        reading.notes.add("caution", HOLE, surface.number, command.line, radius=value)
+    else:
+        surface.semi_diameter = value if value > 0 else inf
 
 
 ONE_LETTER = {"WL", "NA", "K", *ORDERS}

@@ -34,6 +34,9 @@ class RawGlass:
     line: int | None = None
 
 
+HOLE = "rays within a radius of {radius:g} are lost, a hole or an obscuration, where rims clip"
+
+
 @dataclass
 class RawSurface:
     """One surface while it is being read. ``glass`` None is air; ``keeps_medium`` repeats the one before it.
@@ -51,6 +54,7 @@ class RawSurface:
     conic: float = 0.0
     aspheric: dict[int, float] = field(default_factory=dict)
     semi_diameter: float = inf
+    inner_radius: float = 0.0
     shape: Shape | None = None
     diffraction: Diffraction | None = None
     before: tuple[Placement, ...] = ()

@@ -171,7 +171,8 @@ def _zemax_rows(lens: Lens, number: int, stop: int) -> list[list[str]]:
     """Return the lines of a surface, and of the coordinate breaks before and behind it."""
     surface, before = lens.surfaces[number - 1], lens.media[number - 1]
     breaks = [row for placement in surface.before for row in break_rows(placement, 0.0)]
-    idle = surface.bare and surface.medium == before and number != stop and not isfinite(surface.semi_diameter)
+    open_wide = not isfinite(surface.semi_diameter) and not surface.inner_radius
+    idle = surface.bare and surface.medium == before and number != stop and open_wide
     if idle and breaks and not surface.after:  # as a coordinate break of a file is read
         return [*(_zemax_break(*row) for row in breaks[:-1]), _zemax_break(*breaks[-1], surface.thickness)]
     behind = [row for placement in surface.after for row in break_rows(placement, 0.0)]
@@ -202,6 +203,7 @@ def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list
         *[_zemax_glass(surface.medium)] * (surface.medium != AIR),
         *[f"  CONI {surface.conic!r}"] * bool(surface.conic),
         f"  DIAM {rim if isfinite(rim) else 0!r} {int(isfinite(rim))} 0 0 1",
+        *[f"  OBSC 0 {surface.inner_radius!r}"] * bool(surface.inner_radius),
     ]
 
 
@@ -313,6 +315,11 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     stop = lens.stop_surface or limiting_rim(lens, wave)[0]
     rows = []
     for number, surface in enumerate(lens.surfaces, 1):
+        if surface.inner_radius:
+            raise LensFileError(
+                "surface {surface} has a hole or an obscuration, which an ISET file cannot say; save as TOML",
+                surface=number,
+            )
         row = _iset_row(_iset_surface(surface, number), _iset_index(surface.medium, wave, spectral))
         plain = not surface.bare or surface.medium != lens.media[number - 1]
         if number == stop:

@@ -17,7 +17,7 @@ from p2sf.lens.tilts import coordinate_break
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import HOLE, RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number, whole
 from p2sf.messages import Message
@@ -315,20 +315,29 @@ def _semi_diameter(reading: ZemaxReading, words: list[str]) -> None:
 
 
 def _clear_rim(reading: ZemaxReading, words: list[str]) -> None:
-    """Read CLAP inner outer: the outer radius is the rim; an inner one, a central obscuration, is noted."""
-    if reading.number(words, 1, Message("inner radius"), 0.0) > 0:
-        reading.notes.add("caution", "its central hole is open here", reading.surface.number, reading.line)
+    """Read CLAP inner outer: light passes between the two radii."""
+    _inner_radius(reading, reading.number(words, 1, Message("inner radius"), 0.0))
     outer = reading.number(words, 2, Message("outer radius"), 0.0)
     reading.surface.semi_diameter = outer if outer > 0 else reading.surface.semi_diameter
 
 
 def _obscuration(reading: ZemaxReading, words: list[str]) -> None:
+    """Read OBSC inner outer: no light passes between the two radii; a ring that is open in its middle is left out."""
+    if reading.number(words, 1, Message("inner radius"), 0.0) == 0:
+        _inner_radius(reading, reading.number(words, 2, Message("outer radius"), 0.0))
+        return
     reading.notes.add(
         "caution",
         "its obscuration is left out, so the picture shows the full aperture",
         reading.surface.number,
         reading.line,
     )
+
+
+def _inner_radius(reading: ZemaxReading, radius: float) -> None:
+    if radius > 0:
+        reading.surface.inner_radius = radius
+        reading.notes.add("caution", HOLE, reading.surface.number, reading.line, radius=radius)
 
 
 def _decentred_rim(reading: ZemaxReading, words: list[str]) -> None:

@@ -23,8 +23,9 @@ GLAS = "GLAS N-BK7 0 0 1.5 4.0E+1 0 0 0 0 0 0"
 
 TOLD = {
     "telecentric": (("FTYP 0 0 2 3", "FTYP 0 1 2 3"), "telecentric object space"),
-    "a central hole": (("  DISZ 6.0\n", "  DISZ 6.0\n  CLAP 1.0 9.0\n"), "its central hole is open here"),
-    "an obscuration": (("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 0 3.0\n"), "its obscuration is left out"),
+    "a central hole": (("  DISZ 6.0\n", "  DISZ 6.0\n  CLAP 1.0 9.0\n"), "a hole or an obscuration"),
+    "an obscuration": (("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 0 3.0\n"), "a hole or an obscuration"),
+    "a ring": (("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 2.0 3.0\n"), "its obscuration is left out"),
     "partial dispersion": ((GLAS, "GLAS ___BLANK 1 0 1.52 64.0 0.02"), "deviation in partial dispersion is left out"),
 }
 REFUSED = {
@@ -61,6 +62,26 @@ def test_what_no_lens_can_be_is_refused(what):
 
 def test_wavelengths_in_one_line_replace_those_before():
     assert read(ZEMAX, ("PWAV 2", "WAVL 0.5 0.6\nPWAV 2")).lens.wavelengths_nm == (500.0, 600.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        (ZEMAX, ("  DISZ 6.0\n", "  DISZ 6.0\n  CLAP 1.5 9.0\n")),
+        (ZEMAX, ("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 0 1.5\n")),
+        ("doublet.seq", ("  PIM", "  CIR OBS 1.5")),
+        ("doublet.seq", ("  PIM", "  CIR HOL 1.5")),
+    ],
+)
+def test_what_is_dark_in_the_middle_is_read_and_written_back(name, change, tmp_path):
+    lens = read(name, change).lens
+    (number,) = (n for n, surface in enumerate(lens.surfaces) if surface.inner_radius)
+    assert lens.surfaces[number].inner_radius == 1.5
+    write_lens(lens, tmp_path / "back.zmx")
+    again = load_lens(tmp_path / "back.zmx").surfaces[number]
+    assert (again.inner_radius, again.semi_diameter) == (1.5, lens.surfaces[number].semi_diameter)
+    with pytest.raises(LensFileError, match="surface"):
+        write_lens(lens, tmp_path / "back.json")
 
 
 def test_an_outer_rim_bounds_the_light_and_one_of_zero_does_not():

@@ -1115,10 +1115,8 @@
 <message><source>is tilted or decentred otherwise than by XDE to CDE</source><translation>ist anders als durch XDE bis CDE gekippt oder dezentriert</translation></message>
 <message><source>is totally reflected at surface {surface}</source><translation>wird an Fläche {surface} total reflektiert</translation></message>
 <message><source>its PSFs, as a map</source><translation>seine PSFs als Karte</translation></message>
-<message><source>its central hole is open here</source><translation>ihr Loch in der Mitte ist hier offen</translation></message>
 <message><source>its diffraction</source><translation>ihre Beugung</translation></message>
 <message><source>its obscuration is left out, so the picture shows the full aperture</source><translation>ihre Abschattung ist weggelassen, das Bild zeigt also die volle Öffnung</translation></message>
-<message><source>its obscuration or hole is left out</source><translation>ihre Abschattung oder ihr Loch ist weggelassen</translation></message>
 <message><source>its rim ({keyword}) is not round; the round semi-diameter stands in</source><translation>ihr Rand ({keyword}) ist nicht rund; der runde Halbmesser tritt an seine Stelle</translation></message>
 <message><source>its shape</source><translation>ihre Form</translation></message>
 <message><source>its thickness follows from others ({keyword}), and is here the same in all configurations</source><translation>ihre Dicke folgt aus anderen ({keyword}) und ist hier in allen Konfigurationen dieselbe</translation></message>
@@ -1325,6 +1323,7 @@
 <message><source>rays fill the real stop</source><translation>Strahlen füllen die wirkliche Blende</translation></message>
 <message><source>rays meet surface {surface} before surface {before}, beyond the edge of the glass, where no light can go; choose a smaller field or aperture</source><translation>Strahlen treffen Fläche {surface} vor Fläche {before}, jenseits des Glasrandes, wo kein Licht hingelangt; kleineres Feld oder kleinere Öffnung wählen</translation></message>
 <message><source>rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; stop the lens down or reduce the field</source><translation>Strahlen aus verschiedenen Teilen der Pupille kommen in einer Richtung an, und die Summe ihres Lichts hat keine Grenze; abblenden oder das Feld verkleinern</translation></message>
+<message><source>rays within a radius of {radius:g} are lost, a hole or an obscuration, where rims clip</source><translation>Strahlen innerhalb eines Radius von {radius:g} gehen verloren, ein Loch oder eine Abschattung, wo Fassungen abschneiden</translation></message>
 <message><source>read</source><translation>gelesen</translation></message>
 <message><source>reads another file, which is not at hand</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
 <message><source>real image heights are taken as paraxial ones; distortion makes the angles differ</source><translation>wahre Bildhöhen gelten als paraxiale; durch Verzeichnung weichen die Winkel ab</translation></message>
@@ -1427,6 +1426,7 @@
 <message><source>sum of thicknesses</source><translation>Summe der Dicken</translation></message>
 <message><source>sum {sum} λ</source><translation>Summe {sum} λ</translation></message>
 <message><source>summing the reference: {part} %</source><translation>die Referenz wird summiert: {part} %</translation></message>
+<message><source>surface {surface} has a hole or an obscuration, which an ISET file cannot say; save as TOML</source><translation>Fläche {surface} hat ein Loch oder eine Abschattung, was eine ISET-Datei nicht ausdrücken kann; als TOML sichern</translation></message>
 <message><source>surface</source><translation>Fläche</translation></message>
 <message><source>surface is not a list of tables; head every surface with [[surface]]</source><translation>surface ist keine Liste von Tabellen; jede Fläche mit [[surface]] überschreiben</translation></message>
 <message><source>surface number</source><translation>Flächennummer</translation></message>
