@@ -145,11 +145,6 @@ def test_a_key_puts_the_panel_into_its_own_window_and_back(window, qtbot):
     assert window.store.state.display.windows == () and window.panels["pupil"].widget.window() is window
 
 
-def test_a_tab_behind_is_not_computed(window):
-    window.open_panel("seidel")
-    assert set(window.live.views) == {"layout", "psf", "seidel"}
-
-
 def test_windows_go_into_the_state_file_and_back():
     state = new_state(windows=("mtf", "spot"))
     assert state_from_json(state_to_json(state)) == state
