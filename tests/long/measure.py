@@ -1,0 +1,250 @@
+"""Measuring what was simulated: ``python -m tests.long.measure points 200``; free, rdmpy, frames, deblur.
+
+Pictures of points come from a sum over other pupil nodes, with other points across a pixel, than a fit takes; frames go
+the whole way from the picture: points are found, cut out and fitted. Every table states its counts. CPU seconds.
+"""
+
+import sys
+from dataclasses import dataclass
+from time import process_time
+
+import numpy as np
+
+from p2sf.image import plan_lattice
+from p2sf.image.blur_operator import BlurOperator
+from p2sf.image.charts import draw_chart
+from p2sf.image.deblur import psnr, wiener
+from p2sf.lens.lens import Lens, with_f_number, with_sensor
+from p2sf.lensfile.library import find_lens
+from p2sf.measure.frame import FrameGeometry
+from p2sf.measure.frame_terms import FIELD, FOCUS, lens_optics
+from p2sf.measure.measurement import measured
+from p2sf.measure.point_fit import PointFit, fit_point
+from p2sf.measure.point_model import Optics
+from p2sf.measure.point_problem import PointPicture
+from p2sf.measure.pupil_model import PupilModel, pupil_model
+from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.transform import sum_plane_waves
+from p2sf.scene import Channel, Scene, Sensor, plan
+
+OPTICS = Optics(0.125, 0.55, 2.2)  # pixels of λ/2NA
+PIXELS = 40
+SECOND_FOCUS = 1.5  # waves
+NOISE, PEAK = 0.01, 1000.0
+MOST_WAVES = 3.0
+NODES = 48, 144
+PARTS = 6  # points across a pixel
+# RDMPy's calibration of its own simulated lens, as published: spherical, coma, astigmatism, field curvature, waves.
+RDMPY_GIVEN, RDMPY_FOUND = np.array([1.58, -1.12, -2.1, 1.6]), np.array([0.72, 0.11, 1.78, 1.60])
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """Nodes of the whole disc."""
+
+    xi: np.ndarray
+    eta: np.ndarray
+    weight: np.ndarray
+
+
+def whole_disc() -> Nodes:
+    half = disc_nodes(*NODES)
+    return Nodes(np.append(half.xi, -half.xi), np.append(half.eta, half.eta), np.tile(half.weight / 2, 2))
+
+
+def light(waves: np.ndarray, fx: np.ndarray, fy: np.ndarray, nodes: Nodes, place: np.ndarray) -> np.ndarray:
+    """Return the light on pixels, (y, x), with Gauss–Legendre points across each: a plain sum over nodes."""
+    point, share = np.polynomial.legendre.leggauss(PARTS)
+    axis = ((np.arange(PIXELS) - PIXELS // 2)[:, None] + point / 2).ravel() * OPTICS.pixel_um
+    amplitude = nodes.weight * np.exp(2j * np.pi * waves)
+    field = sum_plane_waves(amplitude, fx, fy, axis - place[0], axis - place[1], even=False)
+    square = (np.abs(field) ** 2).reshape(PIXELS, PARTS, PIXELS, PARTS)
+    return np.einsum("ypxq,p,q->yx", square, share / 2, share / 2)
+
+
+def pictures(
+    model: PupilModel, numbers: np.ndarray, place: np.ndarray, foci: tuple[float, ...], rng: np.random.Generator
+) -> list[PointPicture]:
+    """Return noisy pictures of a point at known focus positions."""
+    nodes = whole_disc()
+    parts, across, along = model.split(numbers)
+    waves = parts @ model.waves(nodes.xi, nodes.eta)
+    fx, fy = OPTICS.cycles * nodes.xi, OPTICS.cycles * nodes.eta
+    if model.mapped:
+        odd, even = model.maps(nodes.xi, nodes.eta)
+        fx, fy = OPTICS.cycles * (across @ odd), OPTICS.cycles * (along @ even)
+    made = []
+    for focus in foci:
+        found = light(waves + focus * (nodes.xi**2 + nodes.eta**2), fx, fy, nodes, place)
+        counts = found * (PEAK / found.max()) + 100 + rng.normal(0, NOISE * PEAK, found.shape)
+        made.append(PointPicture(counts, (NOISE * PEAK) ** 2, focus))
+    return made
+
+
+def random_six(rng: np.random.Generator) -> np.ndarray:
+    """Return W40, W31, W22 and W20 + Wd, each within 3 waves, whose wavefront stays within 3 waves too."""
+    nodes = whole_disc()
+    terms = pupil_model("seidel").waves(nodes.xi, nodes.eta)
+    while True:
+        six = rng.uniform(-MOST_WAVES, MOST_WAVES, 4)
+        if np.abs(six @ terms).max() <= MOST_WAVES:
+            return six
+
+
+def six_coefficients(trials: int) -> None:
+    """Print errors of the six model, with one focus and with two, beside the Cramér–Rao bound."""
+    for foci in ((0.0,), (0.0, SECOND_FOCUS)):
+        rng, errors, bounds, seconds, wrong = np.random.default_rng(1), [], [], [], 0
+        for _ in range(trials):
+            six, place = random_six(rng), rng.uniform(-1, 1, 2) * OPTICS.pixel_um
+            taken = pictures(pupil_model("seidel"), six, place, foci, rng)
+            began = process_time()
+            found = fit_point(taken, OPTICS)
+            seconds.append(process_time() - began)
+            solutions = [found.numbers, *found.others[:1]] if len(foci) == 1 else [found.numbers]
+            best = min(solutions, key=lambda numbers: float(np.abs(numbers - six).max()))
+            errors.append(best - six)
+            bounds.append(found.bounds)
+            wrong += int((np.sign(best) != np.sign(six))[np.abs(six) > 0.1].any())
+        report(f"six, {len(foci)} focus, {trials} trials", np.array(errors), np.array(bounds), seconds)
+        print(f"  wrong signs (of numbers over 0.1 waves; with one focus in both twins): {wrong}")
+
+
+def report(title: str, errors: np.ndarray, bounds: np.ndarray, seconds: list[float]) -> None:
+    size = np.abs(errors)
+    print(
+        f"{title}: error median {np.median(size):.4f}, 95 % {np.quantile(size, 0.95):.4f} waves; bound median "
+        f"{np.median(bounds):.4f}, expected median of |error| at the bound {0.6745 * np.median(bounds):.4f}; within "
+        f"1σ {np.mean(size < bounds):.0%}; CPU median {np.median(seconds):.2f}, 95 % {np.quantile(seconds, 0.95):.2f} s"
+    )
+
+
+def free_pupils(trials: int) -> None:
+    """Print RMS wavefront errors of 26 numbers at two foci, over directions: what a picture tells."""
+    model, rng, errors, seconds, bounds = pupil_model("26"), np.random.default_rng(2), [], [], []
+    orders = np.array([int(name[2]) for name in model.wave_names])
+    for _ in range(trials):
+        waves = rng.normal(0, 0.25, orders.size) / (orders - 1) ** 2
+        maps = model.paraxial_map + rng.normal(0, 0.005, len(model.map_names))
+        numbers = np.concatenate([waves, maps])
+        taken = pictures(model, numbers, rng.uniform(-1, 1, 2) * OPTICS.pixel_um, (0.0, SECOND_FOCUS), rng)
+        began = process_time()
+        found = fit_point(taken, OPTICS, "26")
+        seconds.append(process_time() - began)
+        errors.append(rms_over_directions(found, numbers))
+        count = len(model.wave_names)
+        bounds.append(float(np.sqrt(np.trace(found.covariance[:count, :count]))))
+    print(
+        f"26 numbers, 2 foci, {trials} trials: RMS wavefront error median {np.median(errors):.4f}, 95 % "
+        f"{np.quantile(errors, 0.95):.4f} waves; bound median {np.median(bounds):.4f}; CPU median "
+        f"{np.median(seconds):.2f}, 95 % {np.quantile(seconds, 0.95):.2f} s"
+    )
+
+
+def rms_over_directions(found: PointFit, truth: np.ndarray) -> float:
+    """Return the RMS difference of two wavefronts where light goes the same way, without piston and tilt."""
+    model, nodes = found.model, whole_disc()
+
+    def at(numbers: np.ndarray, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        waves, across, along = model.split(numbers)
+        odd, even = model.maps(xi, eta)
+        return waves @ model.waves(xi, eta), across @ odd, along @ even
+
+    wanted, fx, fy = at(truth, nodes.xi, nodes.eta)
+    xi, eta = nodes.xi.copy(), nodes.eta.copy()
+    for _ in range(8):
+        _, gx, gy = at(found.numbers, xi, eta)
+        xi, eta = xi - (gx - fx), eta - (gy - fy)
+    rest = at(found.numbers, xi, eta)[0] - wanted
+    root = np.sqrt(nodes.weight)
+    planes = np.stack([np.ones_like(fx), fx, fy]) * root
+    rest = rest * root - np.linalg.lstsq(planes.T, rest * root, rcond=None)[0] @ planes
+    return float(np.linalg.norm(rest))
+
+
+def rdmpy() -> None:
+    """Print RDMPy's published case beside ours: its numbers on one picture, with one focus and with two."""
+    model, rng = pupil_model("seidel"), np.random.default_rng(0)
+    six = np.array([RDMPY_GIVEN[0], RDMPY_GIVEN[1], RDMPY_GIVEN[2], RDMPY_GIVEN[3]])
+    print("W40, W31, W22, W20 in waves           error (largest)   wrong signs   CPU s")
+    print(f"given            {np.round(RDMPY_GIVEN, 2)}")
+    lost = int((np.sign(RDMPY_FOUND) != np.sign(RDMPY_GIVEN)).sum())
+    print(f"RDMPy, published {RDMPY_FOUND}   {np.abs(RDMPY_FOUND - RDMPY_GIVEN).max():.2f}   {lost}   8 to 11 (s)")
+    for foci in ((0.0,), (0.0, SECOND_FOCUS)):
+        taken = pictures(model, six, np.array([0.4, -0.7]), foci, rng)
+        began = process_time()
+        found = fit_point(taken, OPTICS)
+        took = process_time() - began
+        for name, numbers in (("ours", found.numbers), *(("  twin", twin) for twin in found.others[:1])):
+            wrong = int((np.sign(numbers) != np.sign(six)).sum())
+            print(
+                f"{name}, {len(foci)} focus   {np.round(numbers, 3)}   {np.abs(numbers - six).max():.3f}   {wrong}   "
+                f"{took:.2f}"
+            )
+
+
+def frames(trials: int) -> None:
+    """Print what 9 × 7 points through the Cooke triplet at f/4 tell of the sensor and the field, 1 % noise."""
+    lens, pitch = with_f_number(find_lens("cooke_triplet"), 4.0), 3.45
+    optics = lens_optics(lens, np.inf, lens.reference_wavelength_um, pitch)
+    places, geometry = grid_of_points(9, 7, 12.0, 9.0), FrameGeometry(2900, 3800, pitch)
+    rng, misses, sizes, seconds = np.random.default_rng(3), [], [], []
+    for trial in range(trials):
+        shift, tilt = rng.uniform(-30, 30), rng.uniform(-0.1, 0.1, 2)
+        exposure = Exposure(sensor_shift_um=shift, tilt_deg=tuple(tilt.tolist()), seed=trial)
+        frame = simulated_frame(lens, places, geometry, exposure)
+        began = process_time()
+        found = measured([frame], optics, lens=lens, singly=False).whole
+        seconds.append(process_time() - began)
+        misses.append(found.values - np.array([shift, *tilt, 0.0, 0.0, 0.0, 0.0]))
+        sizes.append(found.bounds)
+        print(f"  {trial}: {np.round(misses[-1], 4)} bounds {np.round(sizes[-1], 4)} χ² {found.chi2:.3f}", flush=True)
+    miss, size = np.array(misses), np.array(sizes)
+    print(f"frames of 63 points, {trials} trials, CPU median {np.median(seconds):.1f} s")
+    for k, name in enumerate((*FOCUS, *FIELD)):
+        print(f"  {name:16} RMS error {np.sqrt(np.mean(miss[:, k] ** 2)):.4f}, bound {np.median(size[:, k]):.4f}")
+    print(f"  errors within 1σ: {np.mean(np.abs(miss) < size):.0%} of {miss.size}")
+
+
+def deblurred(lens: Lens, taken: np.ndarray, noise: float, side: int) -> np.ndarray:
+    planned = plan(lens, Scene(Sensor(side, side, 12.0, (0.0, 4.0)), (Channel("green", (550.0,), (1.0,)),)))
+    return wiener(taken, plan_lattice(planned, planned.vergences[0]), noise)
+
+
+def deblur() -> None:
+    """Print what sharpening by the PSFs of the measured lens loses against those of the true one."""
+    lens, pitch, side, noise = with_f_number(find_lens("cooke_triplet"), 4.0), 3.45, 256, 0.005
+    built = with_sensor(lens, lens.sensor_mm + 0.12)
+    optics = lens_optics(lens, np.inf, lens.reference_wavelength_um, pitch)
+    frame = simulated_frame(built, grid_of_points(5, 4, 6.0, 4.5), FrameGeometry(1500, 2000, pitch), Exposure())
+    found = measured([frame], optics, lens=lens, unknowns=("sensor_shift_um",), singly=False).whole
+    shift = float(found.values[0])
+    seen = with_sensor(lens, lens.sensor_mm + shift / 1000)
+    truth = draw_chart("landscape", side, side)[..., 1:2]
+    planned = plan(built, Scene(Sensor(side, side, 12.0, (0.0, 4.0)), (Channel("green", (550.0,), (1.0,)),)))
+    blurred = BlurOperator(plan_lattice(planned, planned.vergences[0]), (side, side)).forward(truth)
+    taken = blurred + np.random.default_rng(1).normal(0, noise, blurred.shape).astype(np.float32)
+    inside = (slice(24, -24),) * 2
+    levels = [psnr(deblurred(one, taken, noise, side)[inside], truth[inside]) for one in (built, seen, lens)]
+    print(f"deblurring, sensor 120 µm too far, measured {shift:.2f} µm")
+    print(f"  as blurred {psnr(taken[inside], truth[inside]):.2f} dB")
+    print("  by PSFs of the lens as it is {:.2f} dB, as measured {:.2f} dB, as designed {:.2f} dB".format(*levels))
+
+
+def main(arguments: list[str]) -> None:
+    """Run one trial, or all with few counts."""
+    count = int(arguments[1]) if len(arguments) > 1 else 20
+    trials = {
+        "points": lambda: six_coefficients(count),
+        "free": lambda: free_pupils(count),
+        "rdmpy": rdmpy,
+        "frames": lambda: frames(count),
+        "deblur": deblur,
+    }
+    for name in arguments[:1] or trials:
+        trials[name]()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
