@@ -18,7 +18,7 @@ LAYERS = (
     "p2sf.paraxial",
     "p2sf.lensfile p2sf.request p2sf.raytrace",
     "p2sf.psf p2sf.pixel_kernels",
-    "p2sf.metrics",
+    "p2sf.metrics p2sf.tolerance",
     "p2sf.database p2sf.io p2sf.scene",
     "p2sf.database_files p2sf.image p2sf.representations",
     "p2sf.interchange p2sf.measure p2sf.studies",

@@ -947,6 +947,7 @@
 <message><source>column {name} is missing</source><translation>die Spalte {name} fehlt</translation></message>
 <message><source>columns is {found}; write at least two names, as in ["wide", "tele"]</source><translation>columns ist {found}; mindestens zwei Namen schreiben, etwa ["wide", "tele"]</translation></message>
 <message><source>coma</source><translation>Koma</translation></message>
+<message><source>compensators {places} are not among the {count} tolerances</source><translation>Kompensatoren {places} sind nicht unter den {count} Toleranzen</translation></message>
 <message><source>computing settings</source><translation>Recheneinstellungen</translation></message>
 <message><source>configuration</source><translation>Konfiguration</translation></message>
 <message><source>configurations differ in {names}, which are not read; all have those of the surfaces</source><translation>Konfigurationen unterscheiden sich in {names}, was nicht gelesen wird; alle haben das der Flächen</translation></message>
@@ -1532,6 +1533,7 @@
 <message><source>the environment variable {name} is {value}; give a whole number from 1 on</source><translation>die Umgebungsvariable {name} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>the export was cancelled; nothing was written</source><translation>der Export wurde abgebrochen; nichts wurde geschrieben</translation></message>
 <message><source>the field is stated {count} times, by {names}; keep one</source><translation>das Feld ist {count}-mal angegeben, durch {names}; eines behalten</translation></message>
+<message><source>the fields of tolerances have several wavelengths; give them one</source><translation>die Felder von Toleranzen haben mehrere Wellenlängen; ihnen eine geben</translation></message>
 <message><source>the file asks for telecentric object space; chief rays pass the centre of its stop instead</source><translation>die Datei verlangt einen telezentrischen Objektraum; Hauptstrahlen gehen stattdessen durch die Mitte ihrer Blende</translation></message>
 <message><source>the file cannot be read ({reason}); check its path and permissions</source><translation>die Datei ist nicht lesbar ({reason}); Pfad und Rechte prüfen</translation></message>
 <message><source>the file cannot be written ({reason}); choose another place</source><translation>die Datei ist nicht schreibbar ({reason}); einen anderen Ort wählen</translation></message>
@@ -1664,6 +1666,7 @@
 <message><source>the tolerance is measured as "{measure}"; choose {choices}</source><translation>die Toleranz ist als "{measure}" gemessen; {choices} wählen</translation></message>
 <message><source>the tolerance is {tolerance:g} dB; give the least peak signal-to-noise ratio, a positive number</source><translation>die Toleranz ist {tolerance:g} dB; das kleinste Spitzen-Signal-Rausch-Verhältnis angeben, eine positive Zahl</translation></message>
 <message><source>the tolerance is {tolerance:g}; give a number between 0 and 1</source><translation>die Toleranz ist {tolerance:g}; eine Zahl zwischen 0 und 1 angeben</translation></message>
+<message><source>the tolerance of {kind} at surface {surface} is {amount}; give a finite number, 0 or more</source><translation>die Toleranz von {kind} an Fläche {surface} ist {amount}; eine endliche Zahl angeben, 0 oder mehr</translation></message>
 <message><source>the tolerance of {tolerance:g} ({measure}) is tighter than the {least:g} relative error that polynomial pupils can promise; loosen it or render single PSFs with {parameter} huygens</source><translation>die Toleranz von {tolerance:g} ({measure}) ist enger als der relative Fehler {least:g}, den Polynompupillen versprechen können; sie lockern oder einzelne PSFs mit {parameter} huygens rechnen</translation></message>
 <message><source>the transfer function was stopped</source><translation>die Übertragungsfunktion wurde angehalten</translation></message>
 <message><source>the wavefront changes by {step:.3g} waves from one cell to the next, and more than {most:g} is ambiguous; give it on a finer grid, without jumps of whole waves</source><translation>die Wellenfront ändert sich von einer Zelle zur nächsten um {step:.3g} Wellen, und mehr als {most:g} ist mehrdeutig; auf einem feineren Gitter angeben, ohne Sprünge um ganze Wellen</translation></message>
@@ -1719,6 +1722,7 @@
 <message><source>titles, sessions and computing settings</source><translation>Titel, Sitzungen und Recheneinstellungen</translation></message>
 <message><source>to</source><translation>bis</translation></message>
 <message><source>to the next or the previous control</source><translation>zum nächsten oder vorigen Bedienteil</translation></message>
+<message><source>tolerance "{kind}" is unknown; choose one of {kinds}</source><translation>die Toleranz "{kind}" ist unbekannt; eine von {kinds} wählen</translation></message>
 <message><source>tolerance R²</source><translation>Toleranz R²</translation></message>
 <message><source>tolerances and merit function</source><translation>Toleranzen und Gütefunktion</translation></message>
 <message><source>top and bottom of the photo cut off</source><translation>Foto oben und unten abgeschnitten</translation></message>

@@ -1,0 +1,150 @@
+"""Thousands of builds with random errors, by quadratic forms: their wavefront error, Strehl ratio and yield."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from p2sf.errors import RequestError
+from p2sf.threads import one_blas_thread
+from p2sf.tolerance.differentials import Differentials
+
+TOGETHER = 500  # builds at a time
+ROUNDS = 2  # of Gauss and Newton's method for compensators, whose effect is nearly linear
+
+
+@dataclass(frozen=True, eq=False)
+class Builds:
+    """Builds drawn at random: ``errors`` (builds, errors) in the units of the tolerances, compensators included.
+
+    ``rms_waves`` (builds, fields): of the wavefront without piston and tilt. ``strehl``: |mean of exp(2πiW)|² without
+    these. ``boresight_um`` (builds, fields, 2): how far the image has moved.
+    """
+
+    errors: np.ndarray
+    rms_waves: np.ndarray
+    strehl: np.ndarray
+    boresight_um: np.ndarray
+
+    def share_within(self, rms_waves: float | None = None, strehl: float | None = None) -> tuple[float, float]:
+        """Return the share of builds that keep a limit in all fields, and its standard error.
+
+        That is √(y(1 − y)/n), for a share of 0 or 1 the one at half a build from there.
+        """
+        kept = np.ones(len(self.errors), bool)
+        if rms_waves is not None:
+            kept &= (self.rms_waves <= rms_waves).all(1)
+        if strehl is not None:
+            kept &= (self.strehl >= strehl).all(1)
+        count = kept.size
+        share = float(kept.mean())
+        inner = min(max(share, 0.5 / count), 1 - 0.5 / count)
+        return share, sqrt(inner * (1 - inner) / count)
+
+
+@one_blas_thread
+def simulate(known: Differentials, builds: int = 10_000, compensators: Sequence[int] = (), seed: int = 0) -> Builds:
+    """Return ``builds`` with every error anywhere within its tolerance, all alike likely.
+
+    ``compensators``: places of the tolerances that are set, whatever their amount, so that the mean square of the
+    wavefronts of all fields is least. Raises RequestError for a place that there is not.
+    """
+    count = len(known.tolerances)
+    if not all(0 <= place < count for place in compensators):
+        raise RequestError(
+            "compensators {places} are not among the {count} tolerances", places=tuple(compensators), count=count
+        )
+    rng = np.random.default_rng(seed)
+    errors = rng.uniform(-1, 1, (builds, count)) * known.amounts
+    errors[:, list(compensators)] = 0.0
+    return evaluate(known, errors, compensators)
+
+
+def evaluate(known: Differentials, errors: np.ndarray, compensators: Sequence[int] = ()) -> Builds:
+    """Return the builds with these errors, (builds, errors), and with the compensators set."""
+    form, errors = _Form(known), np.array(errors, dtype=float)
+    rms, strehl = (np.empty((len(errors), len(known.sources))) for _ in range(2))
+    for begin in range(0, len(errors), TOGETHER):
+        some = slice(begin, begin + TOGETHER)
+        waves = form.waves(errors[some])
+        for _ in range(ROUNDS if compensators else 0):
+            waves, change = form.compensated(waves, errors[some], tuple(compensators))
+            errors[some][:, list(compensators)] += change
+        rms[some], strehl[some] = form.quality(waves)
+    boresight = np.einsum("be,efx->bfx", errors, known.chief_um)
+    return Builds(errors, rms, strehl, boresight)
+
+
+def sensitivities(known: Differentials, compensators: Sequence[int] = ()) -> Builds:
+    """Return builds with one error each, at plus and then at minus its tolerance: (2·errors) builds, and the lens last.
+
+    That of a compensator is 0.
+    """
+    amounts = known.amounts
+    amounts[list(compensators)] = 0.0
+    alone = np.stack([np.diag(amounts), -np.diag(amounts)], axis=1).reshape(-1, amounts.size)
+    return evaluate(known, np.concatenate([alone, np.zeros((1, amounts.size))]), compensators)
+
+
+class _Form:
+    """The quadratic form of all fields' waves, with what piston and tilt take out of them."""
+
+    def __init__(self, known: Differentials):
+        self.shape = known.phase.shape
+        count = len(known.tolerances)
+        self.pairs = np.triu_indices(count)
+        factor = np.where(self.pairs[0] == self.pairs[1], 0.5, 1.0)
+        root = np.sqrt(known.weight)
+        self.out = [_orthonormal(root[k], known.fx[k], known.fy[k]) for k in range(self.shape[0])]
+        self.root = root.ravel()
+        # Scaled by the root of each ray's light, sums of squares are mean squares; piston and tilt are taken out once.
+        self.still = self._projected(known.phase[None])[0]
+        self.first = self._projected(known.first)
+        self.second = self._projected(known.second[self.pairs] * factor[:, None, None])
+        self.by_one = known.second
+        self.flat = self._projected
+
+    def _projected(self, waves: np.ndarray) -> np.ndarray:
+        """Return waves (…, fields, rays) times the roots of the light, without piston and tilt, (…, fields·rays)."""
+        scaled = waves * self.root.reshape(self.shape)
+        for field, out in enumerate(self.out):
+            scaled[:, field] -= (scaled[:, field] @ out) @ out.T
+        flat: np.ndarray = scaled.reshape(len(waves), -1)
+        return flat
+
+    def waves(self, errors: np.ndarray) -> np.ndarray:
+        """Return the scaled waves of builds, (builds, fields·rays)."""
+        products = errors[:, self.pairs[0]] * errors[:, self.pairs[1]]
+        waves: np.ndarray = self.still + errors @ self.first + products @ self.second
+        return waves
+
+    def compensated(
+        self, waves: np.ndarray, errors: np.ndarray, places: tuple[int, ...]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the waves after a step that makes their mean square least, and the step, (builds, compensators)."""
+        slopes = np.stack([self.first[place] + errors @ self._slope(place) for place in places], axis=1)
+        normal = slopes @ slopes.swapaxes(1, 2)
+        step = -np.linalg.solve(normal, (slopes @ waves[..., None]))[..., 0]
+        moved = errors.copy()
+        moved[:, list(places)] += step
+        return self.waves(moved), step
+
+    def _slope(self, place: int) -> np.ndarray:
+        return self._projected(self.by_one[place].copy())
+
+    def quality(self, waves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return RMS in waves and Strehl ratio, (builds, fields)."""
+        by_field = waves.reshape(-1, *self.shape)
+        rms = np.sqrt((by_field * by_field).sum(-1))
+        root = self.root.reshape(self.shape)
+        angle = 2 * np.pi * by_field / root
+        light = root * root
+        strehl = (np.cos(angle) * light).sum(-1) ** 2 + (np.sin(angle) * light).sum(-1) ** 2
+        return rms, strehl
+
+
+def _orthonormal(root: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
+    """Return an orthonormal basis of piston and tilts, (rays, 3), where rays are scaled by the root of the light."""
+    basis: np.ndarray = np.linalg.qr(np.stack([root, root * fx, root * fy], axis=1))[0]
+    return basis

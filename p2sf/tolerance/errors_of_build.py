@@ -1,0 +1,122 @@
+"""What may be off in a built lens, by how much, and the lens that comes of it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import isfinite, isinf
+from typing import Literal
+
+from p2sf.errors import GeometryError
+from p2sf.glass.media import AIR, ConstantIndex
+from p2sf.lens.lens import Lens
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
+
+Kind = Literal["decentre_x", "decentre_y", "tilt_x", "tilt_y", "radius", "thickness", "index"]
+UNITS: dict[Kind, str] = {
+    "decentre_x": "mm",
+    "decentre_y": "mm",
+    "tilt_x": "°",
+    "tilt_y": "°",
+    "radius": "%",
+    "thickness": "mm",
+    "index": "",
+}
+MOVES: tuple[Kind, ...] = ("decentre_x", "decentre_y", "tilt_x", "tilt_y")
+Grade = Literal["commercial", "precision", "high"]
+# ± amounts in the units above, of the order that makers offer under these names.
+GRADES: dict[Grade, dict[Kind, float]] = {
+    "commercial": {"decentre_x": 0.1, "tilt_x": 0.05, "radius": 0.5, "thickness": 0.15, "index": 1e-3},
+    "precision": {"decentre_x": 0.03, "tilt_x": 0.017, "radius": 0.1, "thickness": 0.05, "index": 5e-4},
+    "high": {"decentre_x": 0.01, "tilt_x": 0.005, "radius": 0.03, "thickness": 0.01, "index": 2e-4},
+}
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """One number of a lens that may be off by up to ``amount`` either way, in the unit of its kind (`UNITS`).
+
+    ``first``, ``last``: the surfaces, from 1, that are decentred or tilted as one piece about the first vertex; of the
+    other kinds ``first`` alone counts: the radius, the thickness behind, the index of the glass behind.
+
+    Raises GeometryError for surfaces or an amount that cannot be.
+    """
+
+    kind: Kind
+    first: int
+    amount: float
+    last: int = 0
+
+    def __post_init__(self) -> None:
+        if self.kind not in UNITS:
+            raise GeometryError(
+                'tolerance "{kind}" is unknown; choose one of {kinds}', kind=self.kind, kinds=tuple(UNITS)
+            )
+        if not (isfinite(self.amount) and self.amount >= 0):
+            raise GeometryError(
+                "the tolerance of {kind} at surface {surface} is {amount}; give a finite number, 0 or more",
+                kind=self.kind,
+                surface=self.first,
+                amount=self.amount,
+            )
+
+    @property
+    def piece(self) -> tuple[int, int]:
+        """Return the first and the last surface."""
+        return self.first, max(self.first, self.last)
+
+
+def usual_tolerances(lens: Lens, grade: Grade = "precision") -> tuple[Tolerance, ...]:
+    """Return the tolerances of a grade for all that can be off: every surface, thickness and glass."""
+    amounts, found = GRADES[grade], []
+    for number, surface in enumerate(lens.surfaces, 1):
+        works = not surface.bare or surface.medium != lens.media[number - 1]
+        if works:
+            found += [Tolerance(kind, number, amounts["decentre_x"]) for kind in ("decentre_x", "decentre_y")]
+            found += [Tolerance(kind, number, amounts["tilt_x"]) for kind in ("tilt_x", "tilt_y")]
+        if not isinf(surface.radius):
+            found.append(Tolerance("radius", number, amounts["radius"]))
+        if number < len(lens.surfaces):
+            found.append(Tolerance("thickness", number, amounts["thickness"]))
+        if not surface.reflects and surface.medium != AIR:
+            found.append(Tolerance("index", number, amounts["index"]))
+    return tuple(found)
+
+
+def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float], wavelength_um: float) -> Lens:
+    """Return the lens with these errors, one for each tolerance in its unit; indices are those at one wavelength.
+
+    Errors of one piece are one break of the coordinates, and pieces named later are moved on top of earlier ones.
+    """
+    surfaces, moves = list(lens.surfaces), dict[tuple[int, int], dict[str, float]]()
+    for tolerance, error in zip(tolerances, errors, strict=True):
+        place = tolerance.first - 1
+        if not 1 <= tolerance.first <= tolerance.piece[1] <= len(surfaces):
+            raise GeometryError(
+                "surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}",
+                first=tolerance.piece[0],
+                last=tolerance.piece[1],
+                count=len(surfaces),
+            )
+        surface = surfaces[place]
+        if not error:
+            continue
+        if tolerance.kind == "radius":
+            surfaces[place] = replace(surface, radius=surface.radius * (1 + error / 100))
+        elif tolerance.kind == "thickness":
+            surfaces[place] = replace(surface, thickness=surface.thickness + error)
+        elif tolerance.kind == "index":
+            index = float(surface.medium.index(wavelength_um)) + error
+            surfaces[place] = replace(surface, medium=ConstantIndex(index))
+        else:
+            piece = moves.setdefault(tolerance.piece, {})
+            piece[tolerance.kind] = piece.get(tolerance.kind, 0.0) + error
+    built = replace(lens, surfaces=tuple(surfaces))
+    for (first, last), numbers in moves.items():
+        built = displaced(built, first, last, placed(numbers))
+    return built
+
+
+def placed(errors: dict[str, float]) -> Placement:
+    """Return the break of a piece with these decentres and tilts."""
+    x, y, a, b = (errors.get(kind, 0.0) for kind in MOVES)
+    return Placement(decentre_x=x, decentre_y=y, tilt_x_deg=a, tilt_y_deg=b)

@@ -1,0 +1,178 @@
+"""Tolerances: derivatives against exact rays, laws, builds, compensators and yields."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from p2sf.errors import GeometryError, RequestError
+from p2sf.lens.source import Source
+from p2sf.tolerance import GRADES, Builds, Tolerance, build, differentials, sensitivities, simulate, usual_tolerances
+from p2sf.tolerance.builds import evaluate
+from tests.long.tolerances import agreement, gauss
+from tests.support.tolerances import exact_quality
+
+UM = 0.5875618
+FIELDS = Source(), Source(field_deg=7)
+FEW = (
+    Tolerance("decentre_y", 3, 0.05),
+    Tolerance("tilt_x", 3, 0.05),
+    Tolerance("tilt_y", 5, 0.05),
+    Tolerance("decentre_x", 8, 0.05, 9),
+    Tolerance("tilt_x", 8, 0.05, 9),
+    Tolerance("decentre_y", 8, 0.05),
+    Tolerance("radius", 1, 0.3),
+    Tolerance("thickness", 4, 0.1),
+    Tolerance("index", 1, 1e-3),
+)
+
+
+@pytest.fixture(scope="module")
+def lens():
+    return gauss(5.6)
+
+
+@pytest.fixture(scope="module")
+def known(lens):
+    return differentials(lens, FIELDS, FEW)
+
+
+def straight(known, waves: np.ndarray) -> np.ndarray:
+    """Return waves (fields, rays) without piston and tilt."""
+    out = []
+    for field, one in enumerate(waves):
+        root = np.sqrt(known.weight[field])
+        terms = np.stack([np.ones_like(root), known.fx[field], known.fy[field]], 1) * root[:, None]
+        out.append(one * root - terms @ np.linalg.lstsq(terms, one * root, rcond=None)[0])
+    return np.array(out)
+
+
+def phases(lens, tolerances, errors) -> np.ndarray:
+    built = build(lens, tolerances, errors, UM)
+    return np.array([one.phase for one in (differentials(built, [source], ()) for source in FIELDS)])[:, 0]
+
+
+LARGE = tuple(replace(tolerance, amount=8 * tolerance.amount) for tolerance in FEW)
+
+
+@pytest.fixture(scope="module")
+def far():
+    """Return the differentials of the lens at full aperture, for errors that are felt by pairs."""
+    return differentials(gauss(), FIELDS, LARGE)
+
+
+@pytest.mark.parametrize("pair", [(0, 1), (0, 3), (0, 6), (1, 4), (2, 3), (3, 4), (4, 5), (6, 7), (7, 8)], ids=str)
+def test_mixed_derivatives_are_those_of_exact_rays(far, pair):
+    """By four lenses with both errors, whose differences leave fourth derivatives: per cent of the largest."""
+    one, two = pair
+    steps, exact = [0.6 * LARGE[k].amount for k in pair], 0.0
+    for a, b in ((1, 1), (-1, -1), (1, -1), (-1, 1)):
+        errors = np.zeros(len(LARGE))
+        errors[one], errors[two] = a * steps[0], b * steps[1]
+        exact = exact + a * b * phases(far.lens, LARGE, errors) / 4
+    exact, found = straight(far, exact), straight(far, far.second[one, two] * steps[0] * steps[1])
+    assert np.abs(found - exact).max() < 0.03 * np.abs(exact).max() + 2e-5
+    assert pair == (4, 5) or np.abs(exact).max() > 1e-3, "a tilt of a piece and a decentre of its plane hardly meet"
+
+
+def test_a_lens_moved_as_a_whole_has_the_same_waves(lens):
+    """Light from infinity does not know where it is."""
+    whole = tuple(Tolerance(kind, 1, 0.1, len(lens.surfaces)) for kind in ("decentre_x", "decentre_y"))
+    known = differentials(lens, FIELDS, whole)
+    assert np.abs([straight(known, one) for one in known.first]).max() < 1e-7
+    assert known.chief_um[0] == pytest.approx(np.array([[1000.0, 0.0], [1000.0, 0.0]]), abs=1e-5)
+
+
+def test_a_shift_of_the_sensor_is_defocus(lens):
+    """∂W = n′(K_z − K_z chief)/λ per mm."""
+    known = differentials(lens, FIELDS[:1], (Tolerance("thickness", len(lens.surfaces), 0.01),))
+    kx, ky = (f[0] * UM for f in (known.fx, known.fy))
+    expected = (np.sqrt(1 - kx**2 - ky**2) - 1) * 1000 / UM
+    assert known.first[0, 0] == pytest.approx(expected, rel=1e-7)
+
+
+def test_builds_are_those_of_exact_rays(lens, known):
+    errors = np.random.default_rng(2).uniform(-1, 1, (6, len(FEW))) * known.amounts
+    found = evaluate(known, errors)
+    for number, one in enumerate(errors):
+        rms, strehl = exact_quality(build(lens, FEW, one, UM), FIELDS)
+        assert found.rms_waves[number] == pytest.approx(rms, rel=5e-3)
+        assert found.strehl[number] == pytest.approx(strehl, abs=3e-3)
+
+
+def test_most_builds_agree_with_exact_rays_focused_anew():
+    """500 builds are tried by ``python -m tests.long.tolerances``."""
+    assert agreement(gauss(8.0), "precision", (0.0, 7.0), 6, 200).agree >= 0.95
+
+
+def test_a_compensator_makes_the_mean_square_least(lens):
+    tolerances = (*FEW, Tolerance("thickness", len(lens.surfaces), 0.2))
+    known, place = differentials(lens, FIELDS, tolerances), len(FEW)
+    found = simulate(known, 20, (place,), seed=3)
+    least = (found.rms_waves**2).sum(1)
+    for shift in (-0.003, 0.003):
+        moved = found.errors.copy()
+        moved[:, place] += shift
+        assert ((evaluate(known, moved).rms_waves ** 2).sum(1) > least).all()
+    assert np.abs(found.errors[:, place]).max() > 0.01
+
+
+def test_a_decentre_either_way_is_alike_on_the_axis(known):
+    found = sensitivities(known)
+    assert found.rms_waves[0, 0] == pytest.approx(found.rms_waves[1, 0], rel=1e-6)
+    assert found.rms_waves[-1] == pytest.approx(evaluate(known, np.zeros((1, len(FEW)))).rms_waves[0])
+
+
+def test_a_yield_has_the_error_of_a_binomial_share():
+    strehl = np.r_[np.full(90, 0.9), np.full(10, 0.5)][:, None]
+    found = Builds(np.zeros((100, 0)), 1 - strehl, strehl, np.zeros((100, 1, 2)))
+    assert found.share_within(strehl=0.8) == (0.9, pytest.approx(0.03))
+    assert found.share_within(rms_waves=0.2, strehl=0.4)[0] == 0.9
+    assert found.share_within(strehl=0.1) == (1.0, pytest.approx(np.sqrt(0.005 * 0.995 / 100)))
+
+
+def test_two_draws_agree_to_their_statistical_error(known):
+    one, two = (simulate(known, 3000, seed=seed) for seed in (1, 2))
+    limit = float(np.median(one.rms_waves.max(1)))
+    (a, da), (b, db) = (found.share_within(rms_waves=limit) for found in (one, two))
+    assert a == pytest.approx(0.5, abs=0.01) and abs(a - b) < 4 * np.hypot(da, db)
+    assert (np.abs(one.errors) <= known.amounts).all()
+
+
+def test_usual_tolerances_are_of_all_that_can_be_off(lens):
+    found = usual_tolerances(lens, "high")
+    assert {one.kind for one in found} == {
+        "decentre_x",
+        "decentre_y",
+        "tilt_x",
+        "tilt_y",
+        "radius",
+        "thickness",
+        "index",
+    }
+    assert not any(one.first == lens.stop_surface and one.kind != "thickness" for one in found), "the stop is bare"
+    assert {one.amount for one in found if one.kind == "radius"} == {GRADES["high"]["radius"]}
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda lens: Tolerance("colour", 1, 0.1), 'tolerance "colour" is unknown'),
+        (lambda lens: Tolerance("radius", 1, -0.1), "the tolerance of radius at surface 1 is -0.1"),
+        (lambda lens: build(lens, [Tolerance("tilt_x", 3, 0.1, 99)], [0.1], UM), "surfaces 3 to 99 do not exist"),
+        (lambda lens: build(lens, [Tolerance("tilt_x", 3, 90.0)], [90.0], UM), "surface 3: a tilt of 90°"),
+        (
+            lambda lens: differentials(lens, [Source(), Source(wavelength_nm=500)], FEW),
+            "the fields of tolerances have several wavelengths",
+        ),
+        (lambda lens: differentials(replace(lens), [Source(field_deg=60)], ()), "the chief ray|do not reach"),
+    ],
+)
+def test_what_cannot_be_is_refused(lens, make, said):
+    with pytest.raises(GeometryError, match=said):
+        make(lens)
+
+
+def test_a_compensator_that_there_is_not_is_refused(known):
+    with pytest.raises(RequestError, match="compensators 99 are not among the 9"):
+        simulate(known, 10, (99,))
