@@ -191,7 +191,7 @@ def _path_change(
         return length
     if tolerance.kind == "radius":
         return _push(found, place, _radius_shift(found, place))
-    change = np.zeros_like(found.points[0, 0])
+    change: np.ndarray = np.zeros(found.points.shape[-1])
     for surface in range(place, tolerance.piece[1]):
         mount, own = _mount(lens, tolerances, number, moved, error, surface)
         change += _push(found, surface, _rigid(found, surface, tolerance, mount, own))
