@@ -30,7 +30,7 @@ UNIT = {"sensor_shift_um": "µm", "tilt_x_deg": "°", "tilt_y_deg": "°", **dict
 
 @dataclass(frozen=True, eq=False)
 class FramePoint:
-    """One point of a frame: its window, the place of the window's middle pixel in mm, and the frame's known focus.
+    """One point of a frame: its window, where in mm its chief ray lands, about, and the frame's known focus.
 
     ``focus_um``: how much farther from the lens the sensor was than at the frame that the numbers are of.
     """

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.errors import Cancelled, P2SFError, RequestError
 from p2sf.files.atomic import DAMAGED, read_arrays
 from p2sf.files.writing import write_beside
@@ -103,6 +104,8 @@ def measured(
         known = FrameModel(optics, height, tuple(unknowns), lens, depth_mm)
         told = (lambda share: progress(WHOLE * share)) if progress else None
         whole = fit_frame(placed, known, progress=told, cancelled=cancelled)
+        if lens is not None:  # centroids lie a pixel or so from where chief rays land, which coma moves them by
+            whole = fit_frame(_replaced(whole), known, whole.values, cancelled=cancelled)
     fits: list[PointFit | None] = [None] * len(points)
     failures: list[Message | None] = [None] * len(points)
     for k, (point, pictures) in enumerate(zip(points, windows, strict=True)):
@@ -150,6 +153,12 @@ def _placed(
     middle = frame.geometry.place_of(round(point.row), round(point.column))
     pairs = zip(pictures, focus_um, strict=False)
     return [FramePoint(replace(picture, defocus_waves=0.0), *middle, focus) for picture, focus in pairs]
+
+
+def _replaced(whole: FrameFit) -> list[FramePoint]:
+    """Return the points of a fit where their chief rays land, as it found."""
+    pairs = zip(whole.points, whole.frames[:, :2] / UM_PER_MM, strict=True)
+    return [replace(point, x_mm=point.x_mm + x, y_mm=point.y_mm + y) for point, (x, y) in pairs]
 
 
 def _departure(whole: FrameFit, placed: Sequence[FramePoint], point: FoundPoint) -> PointFit:
