@@ -142,7 +142,7 @@ def test_a_bench_row_of_aspherical_data_needs_its_numbers():
 @pytest.mark.parametrize("word", ["OBS", "HOL"])
 def test_an_obscuration_of_a_codev_file_is_told(word):
     text = read(DOUBLET, ("CIR EDG", f"CIR {word}")).report.text
-    assert "its obscuration or hole is left out" in text
+    assert "rays within a radius of" in text
 
 
 def test_a_psf_of_an_unknown_ending_is_refused_with_the_known(tmp_path):

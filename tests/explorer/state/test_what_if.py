@@ -71,7 +71,8 @@ OF_THE_LENS = {
     "first_order",
     "ybar",
     "import",
-}  # data of the lens: nobody expects other waves in them
+    "measured",
+}  # data of the lens or of a photograph: nobody expects other waves in them
 
 
 def test_the_warning_names_every_tab_that_does_not_follow():
