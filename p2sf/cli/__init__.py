@@ -21,6 +21,10 @@ COMMANDS = {
     "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
     "psf": ("images:psf", "The point spread function of one source, to a file or in a few figures."),
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
+    "tolerance": (
+        "tolerances:tolerance",
+        "Which errors of a built lens hurt, and the yield of random builds.",
+    ),
     "zernike": ("zernikes:zernike", "The exact wavefront as Zernike terms, in waves and shares of its variance."),
     "measure": ("measuring:measure", "From a picture of points to the wavefronts that made it, with errors."),
     "compare": ("measuring:compare", "Two measurements of the same points beside each other."),

@@ -2,15 +2,22 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import sqrt
 
 import numpy as np
 
+from p2sf.conventions import protected
 from p2sf.errors import RequestError
+from p2sf.pupil import zernike
+from p2sf.pupil.quadrature import whole_disc
 from p2sf.threads import one_blas_thread
-from p2sf.tolerance.differentials import Differentials
+from p2sf.tolerance.differentials import FINE, NODES, Differentials
 
 TOGETHER = 500  # builds at a time
+FEW_RAYS_RMS = 0.15  # waves up to which the rays of the differentials carry exp(2πiW)
+SUMMED_RMS = 2.0  # waves up to which more rays carry it
+ORDER, HARMONICS = 8, 5  # of the polynomials by which a change of the wavefront is known at those
 ROUNDS = 2  # of Gauss and Newton's method for compensators, whose effect is nearly linear
 
 
@@ -19,7 +26,8 @@ class Builds:
     """Builds drawn at random: ``errors`` (builds, errors) in the units of the tolerances, compensators included.
 
     ``rms_waves`` (builds, fields): of the wavefront without piston and tilt. ``strehl``: |mean of exp(2πiW)|² without
-    these. ``boresight_um`` (builds, fields, 2): how far the image has moved.
+    these, and beyond `SUMMED_RMS` exp(−(2π·RMS)²), nothing (Mahajan 1983). ``boresight_um``
+    (builds, fields, 2): how far the image has moved.
     """
 
     errors: np.ndarray
@@ -103,7 +111,18 @@ class _Form:
         self.first = self._projected(known.first)
         self.second = self._projected(known.second[self.pairs] * factor[:, None, None])
         self.by_one = known.second
-        self.flat = self._projected
+        self.finer = _finer()
+        self.fine_light, phase, fx, fy = known.fine
+        self.fine_still = np.stack([self._fine(known, k, phase[k], fx[k], fy[k]) for k in range(self.shape[0])])
+
+    @staticmethod
+    def _fine(known: Differentials, field: int, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
+        """Return the waves of the lens at many rays less the piston and tilt that the fewer rays of a field have."""
+        root = np.sqrt(known.weight[field])
+        terms = np.stack([root, root * known.fx[field], root * known.fy[field]], axis=1)
+        piston, across, along = np.linalg.lstsq(terms, root * known.phase[field], rcond=None)[0]
+        left: np.ndarray = phase - piston - across * fx - along * fy
+        return left
 
     def _projected(self, waves: np.ndarray) -> np.ndarray:
         """Return waves (…, fields, rays) times the roots of the light, without piston and tilt, (…, fields·rays)."""
@@ -137,11 +156,33 @@ class _Form:
         """Return RMS in waves and Strehl ratio, (builds, fields)."""
         by_field = waves.reshape(-1, *self.shape)
         rms = np.sqrt((by_field * by_field).sum(-1))
-        root = self.root.reshape(self.shape)
-        angle = 2 * np.pi * by_field / root
-        light = root * root
-        strehl = (np.cos(angle) * light).sum(-1) ** 2 + (np.sin(angle) * light).sum(-1) ** 2
+        root, strehl = self.root.reshape(self.shape), np.exp(-((2 * np.pi * rms) ** 2))
+        still = self.still.reshape(self.shape)
+        for field, light in enumerate(root * root):
+            near = rms[:, field] <= FEW_RAYS_RMS
+            strehl[near, field] = _strehl(by_field[near, field] / root[field], light)
+            far = ~near & (rms[:, field] <= SUMMED_RMS)
+            change = (by_field[far, field] - still[field]) / root[field]
+            strehl[far, field] = _strehl(self.fine_still[field] + change @ self.finer, self.fine_light[field])
         return rms, strehl
+
+
+def _strehl(waves: np.ndarray, light: np.ndarray) -> np.ndarray:
+    """Return |Σ light·exp(2πi·waves)|² over the last axis."""
+    angle = 2 * np.pi * waves
+    strehl: np.ndarray = (np.cos(angle) @ light) ** 2 + (np.sin(angle) @ light) ** 2
+    return strehl
+
+
+@lru_cache(maxsize=1)
+def _finer() -> np.ndarray:
+    """Return the matrix (rays, many rays) that continues a smooth change from the few rays to the many."""
+    kept = np.array([m <= HARMONICS for odd in (False, True) for _, m in zernike.terms(ORDER, odd)])
+    few, many = (
+        np.concatenate([zernike.basis(ORDER, xi, eta, odd) for odd in (False, True)])[kept]
+        for xi, eta, _ in (whole_disc(*NODES), whole_disc(*FINE))
+    )
+    return protected(np.linalg.pinv(few) @ many)
 
 
 def _orthonormal(root: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> np.ndarray:

@@ -30,6 +30,7 @@ from p2sf.threads import one_blas_thread
 from p2sf.tolerance.errors_of_build import MOVES, Tolerance, build, placed
 
 NODES = 6, 12  # radii and directions of the rays
+FINE = 16, 40  # those of the lens without errors, which carry exp(2πiW) where the lens itself has waves of aberration
 STEP = 0.6  # of a tolerance: the root mean square of an error that is anywhere within it
 LEAST_STEP = 1e-5
 
@@ -40,7 +41,8 @@ class Differentials:
 
     ``weight``: shares of the light of each ray. ``fx``, ``fy``: its frequencies, cycles per µm. ``first``:
     (errors, fields, rays) waves per unit, ``second``: (errors, errors, fields, rays). ``chief_um``:
-    (errors, fields, 2), how far the chief ray moves on the sensor, µm per unit.
+    (errors, fields, 2), how far the chief ray moves on the sensor, µm per unit. ``fine``: light,
+    phase, fx and fy, (4, fields, rays), of more rays through the lens without errors.
     """
 
     lens: Lens
@@ -53,6 +55,7 @@ class Differentials:
     first: np.ndarray
     second: np.ndarray
     chief_um: np.ndarray
+    fine: np.ndarray
 
     @property
     def amounts(self) -> np.ndarray:
@@ -72,7 +75,15 @@ def differentials(lens: Lens, sources: Sequence[Source], tolerances: Sequence[To
     steps = np.array([max(STEP * tolerance.amount, LEAST_STEP) for tolerance in known])
     parts = [_of_source(lens, source, known, steps) for source in sources]
     weight, phase, fx, fy, first, second, chief = (np.stack(column, axis) for column, axis in _columns(parts))
-    return Differentials(lens, tuple(sources), known, weight, phase, fx, fy, first, second, chief)
+    fine = np.stack([_fine(lens, source) for source in sources], 1)
+    return Differentials(lens, tuple(sources), known, weight, phase, fx, fy, first, second, chief, fine)
+
+
+def _fine(lens: Lens, source: Source) -> np.ndarray:
+    """Return light, phase, fx and fy of many rays through the lens without errors, (4, rays)."""
+    found = _fly(lens, source, FINE)
+    weight = whole_disc(*FINE)[2] * found.weight
+    return np.stack([weight / weight.sum(), found.phase, found.fx, found.fy])
 
 
 def _columns(parts: list[tuple[np.ndarray, ...]]) -> list[tuple[list[np.ndarray], int]]:
@@ -101,9 +112,9 @@ class _Flight:
     landing: np.ndarray
 
 
-def _fly(lens: Lens, source: Source) -> _Flight:
+def _fly(lens: Lens, source: Source, counts: tuple[int, int] = NODES) -> _Flight:
     lens = seen_from(lens, source.azimuth_deg)
-    xi, eta, _ = whole_disc(*NODES)
+    xi, eta, _ = whole_disc(*counts)
     rays = pupil_rays(lens, source, np.append(xi, 0.0), np.append(eta, 0.0))
     beam, points, along = start(rays), [], []
 

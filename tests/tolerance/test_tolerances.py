@@ -29,7 +29,7 @@ FEW = (
 
 @pytest.fixture(scope="module")
 def lens():
-    return gauss(5.6)
+    return gauss(8.0)
 
 
 @pytest.fixture(scope="module")

@@ -1085,6 +1085,7 @@
 <message><source>glass {name} is not known by name; its nd {nd:g} and vd {vd:g} of the same row are taken</source><translation>Glas {name} ist dem Namen nach unbekannt; nd {nd:g} und vd {vd:g} derselben Zeile gelten</translation></message>
 <message><source>glass {name} of {path} has nd {nd:.5f} by its coefficients and {listed:.5f} by its name line; the catalogue is damaged, replace it</source><translation>das Glas {name} aus {path} hat nd {nd:.5f} nach seinen Koeffizienten und {listed:.5f} nach seiner Namenszeile; der Katalog ist beschädigt, ersetzen</translation></message>
 <message><source>glass's nd or vd</source><translation>nd oder vd des Glases</translation></message>
+<message><source>grade is "{grade}"; write one of {grades}</source><translation>grade ist "{grade}"; eines von {grades} schreiben</translation></message>
 <message><source>green</source><translation>Grün</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an asphere in powers of r</source><translation>hat eine Form, die keine Kugel, kein Kegelschnitt und keine Asphäre in Potenzen von r ist</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an even asphere</source><translation>hat eine Form, die weder Kugel noch Kegelschnitt noch gerade Asphäre ist</translation></message>
@@ -1702,6 +1703,7 @@
 <message><source>this is a folder; name a lens file in it</source><translation>das ist ein Ordner; eine Objektivdatei darin nennen</translation></message>
 <message><source>this is a glass catalogue, not a lens; give it beside a lens file</source><translation>das ist ein Glaskatalog, kein Objektiv; neben einer Objektivdatei angeben</translation></message>
 <message><source>this is not JSON ({reason}); correct the line</source><translation>das ist kein JSON ({reason}); die Zeile berichtigen</translation></message>
+<message><source>this is not TOML ({reason}); correct the line</source><translation>das ist kein TOML ({reason}); die Zeile berichtigen</translation></message>
 <message><source>this is not TOML ({reason}); {remedy}</source><translation>das ist kein TOML ({reason}); {remedy}</translation></message>
 <message><source>this is the older surfaceArray form, convert it in ISET</source><translation>das ist die ältere Form surfaceArray, in ISET umwandeln</translation></message>
 <message><source>this lens</source><translation>dieses Objektiv</translation></message>
@@ -1779,6 +1781,7 @@
 <message><source>worst R² ≥ {r}</source><translation>kleinstes R² ≥ {r}</translation></message>
 <message><source>wrapped</source><translation>gefaltet</translation></message>
 <message><source>write a finite number</source><translation>eine endliche Zahl schreiben</translation></message>
+<message><source>write a finite number, 0 or more</source><translation>eine endliche Zahl schreiben, 0 oder mehr</translation></message>
 <message><source>write a number</source><translation>eine Zahl schreiben</translation></message>
 <message><source>write a number from 0</source><translation>eine Zahl ab 0 schreiben</translation></message>
 <message><source>write a number that is not 0, inf for a plane</source><translation>eine Zahl schreiben, die nicht 0 ist, inf für eine Ebene</translation></message>
@@ -1895,6 +1898,7 @@
 <message><source>{name} is "{word}"; give a number</source><translation>{name} ist "{word}"; eine Zahl angeben</translation></message>
 <message><source>{name} is an empty list; write at least one number</source><translation>{name} ist eine leere Liste; mindestens eine Zahl schreiben</translation></message>
 <message><source>{name} is missing; {remedy}</source><translation>{name} fehlt; {remedy}</translation></message>
+<message><source>{name} is no list of tables; head every one with [[{name}]]</source><translation>{name} ist keine Liste von Tabellen; jede mit [[{name}]] überschreiben</translation></message>
 <message><source>{name} is {found}; write a list of numbers as in [1.0, 2.0]</source><translation>{name} ist {found}; eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
 <message><source>{name} is {found}; write a list of tables, each with decentre or tilt_deg</source><translation>{name} ist {found}; eine Liste von Tabellen schreiben, jede mit decentre oder tilt_deg</translation></message>
 <message><source>{name} is {found}; write a square list of rows of numbers</source><translation>{name} ist {found}; eine quadratische Liste von Zeilen von Zahlen schreiben</translation></message>
@@ -1943,6 +1947,7 @@
 <message><source>{parameter} is {value}, which is for {method} seidel; leave it out</source><translation>{parameter} ist {value}, was für {method} seidel gilt; weglassen</translation></message>
 <message><source>{parameter} is {value}; give 0 for none, or a whole number from {low} to {high}</source><translation>{parameter} ist {value}; 0 für keine oder eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give a number from {low:g} to {high:g}{unit}, or a column of the lens: {columns}</source><translation>{parameter} ist {value}; eine Zahl von {low:g} bis {high:g}{unit} angeben, oder eine Spalte des Objektivs: {columns}</translation></message>
+<message><source>{parameter} is {value}; give a number, 0 or more</source><translation>{parameter} ist {value}; eine Zahl angeben, 0 oder mehr</translation></message>
 <message><source>{parameter} is {value}; give a whole number from 1 on</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>

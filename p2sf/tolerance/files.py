@@ -1,0 +1,91 @@
+"""A file of one's own tolerances, in TOML.
+
+grade = "precision"              # where the rest comes from: commercial, precision, high, or "none"
+
+[[tolerance]]                    # in place of the grade's, or beside them
+kind = "decentre_y"              # decentre_x, decentre_y (mm), tilt_x, tilt_y (°), radius (%), thickness (mm), index
+first = 3                        # the surface; of decentres and tilts the first of a piece
+last = 4                         # left out: that surface alone
+amount = 0.02                    # either way
+
+[[compensator]]                  # what is set at assembly; left out: the back focus
+kind = "thickness"
+first = 11
+"""
+
+import os
+import tomllib
+from collections.abc import Sequence
+from math import isfinite
+from typing import Any, cast
+
+from p2sf.errors import GeometryError, LensFileError
+from p2sf.lens.lens import Lens
+from p2sf.lensfile.source_text import read_text
+from p2sf.lensfile.toml_table import Constraint, Table
+from p2sf.messages import Message
+from p2sf.tolerance.errors_of_build import GRADES, Grade, Kind, Tolerance, usual_tolerances
+
+AMOUNT = Constraint(lambda x: isfinite(x) and x >= 0, Message("write a finite number, 0 or more"))
+COMPENSATING_MM = 0.2  # over which the effect of the back focus is looked at
+
+
+def back_focus(lens: Lens) -> Tolerance:
+    """Return the distance from the last surface to the sensor, as a compensator."""
+    return Tolerance("thickness", len(lens.surfaces), COMPENSATING_MM)
+
+
+def with_compensators(
+    tolerances: Sequence[Tolerance], compensators: Sequence[Tolerance]
+) -> tuple[tuple[Tolerance, ...], tuple[int, ...]]:
+    """Return the tolerances with the compensators behind them, in place of their own, and where these are."""
+    named = {(one.kind, one.piece) for one in compensators}
+    kept = tuple(one for one in tolerances if (one.kind, one.piece) not in named)
+    return (*kept, *compensators), tuple(range(len(kept), len(kept) + len(compensators)))
+
+
+def read_tolerances(
+    path: str | os.PathLike, lens: Lens, grade: Grade = "precision"
+) -> tuple[tuple[Tolerance, ...], tuple[Tolerance, ...]]:
+    """Return the tolerances and the compensators of a file; LensFileError says line, value and remedy."""
+    text = read_text(path)
+    try:
+        top = Table(str(path), text, tomllib.loads(text))
+    except tomllib.TOMLDecodeError as error:
+        raise LensFileError("this is not TOML ({reason}); correct the line", path, reason=str(error)) from None
+    top.check_keys(("grade", "tolerance", "compensator"))
+    named = top.string("grade", grade)
+    if named not in (*GRADES, "none"):
+        top.fail('grade is "{grade}"; write one of {grades}', "grade", grade=named, grades=(*GRADES, "none"))
+    usual = () if named == "none" else usual_tolerances(lens, cast(Grade, named))
+    own = [_tolerance(table, lens, None) for table in _tables(top, "tolerance")]
+    compensators = [_tolerance(table, lens, COMPENSATING_MM) for table in _tables(top, "compensator")]
+    replaced = {(one.kind, one.piece) for one in own}
+    kept = tuple(one for one in usual if (one.kind, one.piece) not in replaced)
+    return (*kept, *own), tuple(compensators) or (back_focus(lens),)
+
+
+def _tables(top: Table, key: str) -> list[Table]:
+    rows = top.values.get(key, [])
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        top.fail("{name} is no list of tables; head every one with [[{name}]]", key, name=key)
+    return [Table(top.path, top.text, row, key) for row in rows]
+
+
+def _tolerance(table: Table, lens: Lens, usual: float | None) -> Tolerance:
+    table.check_keys(("kind", "first", "last", "amount"))
+    numbers: dict[str, Any] = {key: table.count(key) for key in ("first", "last") if key in table.values}
+    first = numbers.get("first") or 0
+    last = numbers.get("last") or first
+    if not 1 <= first <= last <= len(lens.surfaces):
+        table.fail(
+            "surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}",
+            "first",
+            first=first,
+            last=last,
+            count=len(lens.surfaces),
+        )
+    try:
+        return Tolerance(cast(Kind, table.string("kind")), first, table.number("amount", AMOUNT, usual), last)
+    except GeometryError as error:
+        table.fail(error.message, "kind")

@@ -1,0 +1,72 @@
+"""`p2sf tolerance`: what hurts, compensators, yields, and a file of one's own tolerances."""
+
+import pytest
+
+from p2sf.cli import main
+from p2sf.errors import LensFileError
+from p2sf.lensfile.library import find_lens
+from p2sf.tolerance import Tolerance, usual_tolerances
+from p2sf.tolerance.files import back_focus, read_tolerances, with_compensators
+
+LENS = ("tolerance", "double_gauss_28", "--f-number", "8", "--field-deg", "5")
+OWN = """grade = "{grade}"
+[[tolerance]]
+kind = "decentre_y"
+first = 3
+last = 4
+amount = 0.05
+{more}
+"""
+
+
+def test_what_hurts_most_comes_first_and_more_of_it_hurts_more(answer):
+    found, worse = (answer(*LENS, "--builds", 200, "--grade", grade) for grade in ("high", "commercial"))
+    adds = [row["adds_waves"] for row in found["errors"]]
+    assert adds == sorted(adds, reverse=True) and len(adds) > 50
+    assert found["compensators"][0] | {"rms": 0} == {"kind": "thickness", "first": 11, "rms": 0}
+    assert worse["percentiles"]["90"]["rms_waves"] > found["percentiles"]["90"]["rms_waves"]
+    assert found["nominal"] == worse["nominal"] and found["fields_deg"] == [pytest.approx(5.0)]
+
+
+def test_a_yield_is_said_with_its_error(capsys):
+    main([*LENS, "--builds", "500", "--strehl", "0.5", "--rms-waves", "0.3"])
+    said = capsys.readouterr().out
+    assert "% keep RMS ≤ 0.3 and Strehl ratio ≥ 0.5 in all fields" in said and "±" in said
+
+
+def test_a_file_of_ones_own(tmp_path):
+    lens, path = find_lens("double_gauss_28"), tmp_path / "own.toml"
+    path.write_text(OWN.format(grade="none", more='[[compensator]]\nkind = "tilt_x"\nfirst = 8'), encoding="utf-8")
+    listed, compensators = read_tolerances(path, lens)
+    assert listed == (Tolerance("decentre_y", 3, 0.05, 4),)
+    assert [(one.kind, one.first) for one in compensators] == [("tilt_x", 8)]
+    path.write_text(OWN.format(grade="high", more=""), encoding="utf-8")
+    listed, compensators = read_tolerances(path, lens)
+    assert listed[:-1] == usual_tolerances(lens, "high") and compensators == (back_focus(lens),)
+    every, places = with_compensators(listed, compensators)
+    assert [every[place].kind for place in places] == ["thickness"] and len(every) == len(listed) + 1
+
+
+@pytest.mark.parametrize(
+    ("text", "said", "line"),
+    [
+        ("grade = 'best'", 'grade is "best"; write one of', 1),
+        ("[[tolerance]]\nkind = 'colour'\nfirst = 1\namount = 1", 'tolerance "colour" is unknown', 2),
+        ("[[tolerance]]\nkind = 'radius'\nfirst = 99\namount = 1", "surfaces 99 to 99 do not exist", 3),
+        ("[[tolerance]]\nkind = 'radius'\nfirst = 1", "amount is missing; write a finite number", 1),
+        ("[tolerance]\nfirst = 1", r"head every one with \[\[tolerance\]\]", None),
+        ("tolerances = 1", 'key "tolerances" is unknown; did you mean "tolerance"', 1),
+        ("grade = ", "this is not TOML", None),
+    ],
+)
+def test_a_file_that_cannot_be_is_refused(tmp_path, text, said, line):
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(LensFileError, match=said) as error:
+        read_tolerances(tmp_path / "own.toml", find_lens("double_gauss_28"))
+    assert line is None or error.value.line == line
+
+
+@pytest.mark.parametrize("wrong", [("--strehl", "-1"), ("--builds", "0"), ("--set", "nothing.toml")])
+def test_what_cannot_be_is_one_sentence(capsys, wrong):
+    assert main([*LENS, *wrong]) == 2
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
