@@ -7,7 +7,7 @@ are a polynomial too.
 """
 
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -65,7 +65,7 @@ class Level:
         """Return how many coefficients phase and maps have, without those of a weight."""
         return sum(map(sum, self.counts))
 
-    @property
+    @cached_property
     def counts(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
         """Return how many terms phase, fx and fy have: those of their symmetry, and of the other, which come behind."""
         wave, maps = self.skew or (0, 0)  # no terms are odd at order 0
@@ -169,13 +169,15 @@ class FittedPencil:
 
     def at_points(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return phase and fx as `at` does, but by Horner's rule, at points of any shape."""
-        square, ((own, _), (across, _), _) = xi * xi, self.level.counts
-        phase = evaluate(columns(self.phase[:own], self.level.wave_order), square, eta)
-        fx = xi * evaluate(columns(self.fx[:across], self.level.map_order, True), square, eta)
-        if self.level.skew is not None:
-            wave, maps = self.level.skew
-            phase += xi * evaluate(columns(self.phase[own:], wave, True), square, eta)
-            fx += evaluate(columns(self.fx[across:], maps), square, eta)
+        square, level = xi * xi, self.level
+        if level.skew is None:
+            phase = evaluate(columns(self.phase, level.wave_order), square, eta)
+            return phase, xi * evaluate(columns(self.fx, level.map_order, True), square, eta)
+        ((own, _), (across, _), _), (wave, maps) = level.counts, level.skew
+        phase = evaluate(columns(self.phase[:own], level.wave_order), square, eta)
+        phase += xi * evaluate(columns(self.phase[own:], wave, True), square, eta)
+        fx = xi * evaluate(columns(self.fx[:across], level.map_order, True), square, eta)
+        fx += evaluate(columns(self.fx[across:], maps), square, eta)
         return phase, fx
 
     def weight_at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
