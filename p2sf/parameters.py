@@ -29,6 +29,7 @@ PARAMETERS = {
         Parameter("focus_mm", "Focus distance", "mm"),
         Parameter("sensor_shift_um", "Sensor shift", "µm"),
         Parameter("field_deg", "Field", "°"),
+        Parameter("field_x_deg", "Field in x", "°"),
         Parameter("field_slope", "Field"),
         Parameter("azimuth_deg", "Azimuth", "°"),
         Parameter("object_height_mm", "the object height", "mm"),

@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, is_number, slope_from_degrees
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, is_number
 from p2sf.errors import GlassError, RequestError
 from p2sf.lens.lens import Aperture, Lens, indices, with_aim, with_f_number, with_mask, with_sensor
 from p2sf.lens.source import Source
@@ -54,7 +54,9 @@ class Request:
     depth_mm
         Object distance from the first vertex, mm; inf is allowed.
     field_deg
-        Chief-ray angle at the entrance pupil, degrees, at finite depth too.
+        Chief-ray angle at the entrance pupil, degrees, at finite depth too; in y where there is one in x as well.
+    field_x_deg
+        Chief-ray angle in x, degrees, for sources beside the plane of x = 0, which a misaligned lens tells apart.
     object_height_mm
         Object height instead of an angle, mm; a positive one lies at −y.
     image_height_mm
@@ -100,6 +102,7 @@ class Request:
 
     depth_mm: float = inf
     field_deg: float | None = None
+    field_x_deg: float | None = None
     object_height_mm: float | None = None
     image_height_mm: float | None = None
     wavelength_nm: float | None = None
@@ -129,6 +132,7 @@ class Request:
         for name in ("object_height_mm", "image_height_mm", "sensor_shift_um"):
             check_finite(name, getattr(self, name))
         check_angle("field_deg", self.field_deg)
+        check_angle("field_x_deg", self.field_x_deg)
         _check_one_field(self)
         _check_one_focus(self)
         _check_stop(self.stop)
@@ -198,7 +202,13 @@ def with_field(setup: Setup, request: Request) -> Setup:
     Raises as `set_up` does.
     """
     slope = field_slope(setup.lens, request, setup.source.wavelength_um, setup.stop)
-    return replace(setup, source=replace(setup.source, field_slope=slope))
+    azimuth = _direction(request).azimuth_deg
+    return replace(setup, source=replace(setup.source, field_slope=slope, azimuth_deg=azimuth))
+
+
+def _direction(request: Request) -> Source:
+    """Return a source at the two angles of a request."""
+    return Source(field_deg=(request.field_x_deg or 0.0, request.field_deg or 0.0))
 
 
 def set_up_source(
@@ -288,7 +298,7 @@ def field_slope(lens: Lens, request: Request, wavelength_um: float, stop: Stop) 
     elif request.image_height_mm is not None:
         slope = field_from_image_height(lens, wavelength_um, request.image_height_mm, stop)
     else:
-        slope = slope_from_degrees(request.field_deg or 0.0)
+        slope = np.asarray(_direction(request).field_slope)
     paraxial_rays(lens, request.depth_mm, wavelength_um, stop)  # names the depths and stops that have no chief ray
     _check_slope(request, float(slope))
     return float(slope)
@@ -336,6 +346,14 @@ def _check_one_field(request: Request) -> None:
             "the field is stated {count} times, by {names}; keep one",
             count=len(stated),
             names=Message("{others} and {last}", others=tuple(others), last=last),
+        )
+    height = next((name for name in FIELDS[1:] if getattr(request, name) is not None), None)
+    if height and request.field_x_deg is not None:
+        raise RequestError(
+            "{parameter} is given with {height}; give {angle} with it, or leave it out",
+            parameter="field_x_deg",
+            height=ParameterName(height),
+            angle=ParameterName("field_deg"),
         )
     if request.object_height_mm is not None and isinf(request.depth_mm):
         raise RequestError(

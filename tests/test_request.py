@@ -75,6 +75,16 @@ def test_an_angle_is_an_angle_at_finite_depth_too():
     assert asked(depth_mm=600, field_deg=9.5).field_deg == pytest.approx(9.5, rel=ROUND_OFF)
 
 
+def test_two_angles_are_a_slope_and_the_direction_it_runs_in():
+    setup = asked(field_deg=4.0, field_x_deg=-3.0)
+    across, along = np.tan(np.deg2rad([-3.0, 4.0]))
+    assert setup.source.field_slope == pytest.approx(np.hypot(across, along), rel=ROUND_OFF)
+    assert np.tan(np.deg2rad(setup.source.azimuth_deg)) == pytest.approx(across / along, rel=ROUND_OFF)
+    assert setup.source.field_xy_deg == pytest.approx((-3.0, 4.0), rel=ROUND_OFF)
+    assert asked(field_x_deg=5.0).source.field_xy_deg == pytest.approx((5.0, 0.0), abs=1e-14)
+    assert asked(field_deg=-4.0, field_x_deg=0.0).source == asked(field_deg=-4.0).source
+
+
 def test_an_f_number_opens_the_lens():
     assert float(f_number(asked(f_number=4.5).lens, 0.5875618)) == pytest.approx(4.5, rel=ROUND_OFF)
 
@@ -111,6 +121,8 @@ BAD = [
     ({"field_deg": 90}, "field_deg is 90°"),
     ({"field_deg": -120}, "field_deg is -120°"),
     ({"field_deg": nan}, "field_deg is nan°"),
+    ({"field_x_deg": -90}, "field_x_deg is -90°"),
+    ({"field_x_deg": 3, "image_height_mm": 2}, "field_x_deg is given with image_height_mm"),
     ({"field_deg": 3, "image_height_mm": 2}, "field_deg and image_height_mm"),
     ({"object_height_mm": 3}, "object_height_mm is 3 mm"),
     ({"stop": "open"}, 'stop is "open"'),

@@ -1,6 +1,6 @@
 """`p2sf psf`: one point spread function, computed and written to a file."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -160,7 +160,8 @@ def render(setup: Setup, picture: Picture) -> Psf:
         return _from_coefficients(setup, picture)
     from p2sf.psf.pixel_integrals import render_integrated
 
-    return render_integrated(setup.lens, setup.source, method, picture.pixels, picture.pixel_um, picture.tolerance)
+    made = render_integrated(setup.lens, setup.source, method, picture.pixels, picture.pixel_um, picture.tolerance)
+    return replace(made, azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 FROM_THE_LENS = {
     "object_height_mm": None,
+    "field_x_deg": None,
     "zoom": None,
     "focus_position": None,
     "focus_mm": None,

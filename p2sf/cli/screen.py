@@ -8,6 +8,7 @@ from typing import Any
 
 from p2sf.cli import STYLE
 from p2sf.files.writing import plain
+from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.request import Setup
 
@@ -57,10 +58,17 @@ def warn(message: Message | None) -> None:
         print(f"warning: {text(message)}", file=sys.stderr)
 
 
+def _field(source: Source) -> str:
+    if not source.azimuth_deg:
+        return f"{source.field_deg:.6g}°"
+    x, y = source.field_xy_deg
+    return f"({x:.6g}°, {y:.6g}°)"
+
+
 def heading(setup: Setup) -> str:
     """Return one line that says which lens and which source a table is about."""
     lens, source = setup.prescription, setup.source
     depth = f"{text(source.depth_mm)} mm" if not isinf(source.depth_mm) else "∞"
-    place = f"object at {depth}, field {setup.field_deg:.6g}°, {source.wavelength_um * 1000:.7g} nm"
+    place = f"object at {depth}, field {_field(source)}, {source.wavelength_um * 1000:.7g} nm"
     turned = f", {text(lens.positions.words)}" if lens.positions else ""
     return f"{lens.title or lens.name}{turned}: {place}"

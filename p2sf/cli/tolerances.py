@@ -52,7 +52,8 @@ def tolerance(
     else:
         listed, compensators = read_tolerances(own, setup.lens, grade)
     tolerances, places = with_compensators(listed, compensators)
-    known = differentials(setup.lens, sources_of(setup, request.field_deg is not None), tolerances)
+    given = request.field_deg is not None or request.field_x_deg is not None
+    known = differentials(setup.lens, sources_of(setup, given), tolerances)
     alone, found = sensitivities(known, places), simulate(known, builds, places, seed)
     record = record_of(known, places, alone, found, (rms_waves, strehl))
     if as_json:

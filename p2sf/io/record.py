@@ -36,6 +36,7 @@ def describe(setup: Setup) -> dict:
             "setup": {
                 "depth_mm": source.depth_mm,
                 "field_deg": setup.field_deg,
+                **({"azimuth_deg": source.azimuth_deg} if source.azimuth_deg else {}),
                 "wavelength_nm": source.wavelength_um * NM_PER_UM,
                 "sensor_mm": setup.lens.sensor_mm,
                 "stop_surface": setup.stop.surface,

@@ -1,7 +1,7 @@
 """One point source: the place in (depth, field, wavelength) that a PSF belongs to."""
 
 from dataclasses import dataclass
-from math import atan2, degrees, hypot, inf
+from math import atan2, cos, degrees, hypot, inf, radians, sin
 
 import numpy as np
 
@@ -90,6 +90,13 @@ class Source:
     def field_deg(self) -> float:
         """Return the angle of the chief ray at the entrance pupil, degrees."""
         return float(degrees_from_slope(self.field_slope))
+
+    @property
+    def field_xy_deg(self) -> tuple[float, float]:
+        """Return the angles (x, y) of the chief ray at the entrance pupil, degrees, as ``field_deg`` takes them."""
+        turn = radians(self.azimuth_deg)
+        x, y = (float(degrees_from_slope(self.field_slope * part)) for part in (sin(turn), cos(turn)))
+        return x if self.azimuth_deg else 0.0, y
 
     def __repr__(self) -> str:
         place = f"depth_mm={_shown(self.depth_mm)}, field_deg={_shown(degrees_from_slope(self.field_slope))}"
