@@ -7,11 +7,13 @@ from math import inf, isinf, pi, tan
 import numpy as np
 from mpmath import binomial, mpf, sqrt
 
-from p2sf.glass.media import ConstantIndex
+from p2sf.glass.media import MIRROR, ConstantIndex
 from p2sf.lens import Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.shapes import Shape
 from p2sf.paraxial.first_order import basis_rays, cardinal_points
+from tests.support.mirrors import aplanatic, classical, folded, mangin, mirror, two_mirrors
+from tests.support.mirrors import telescope as corrected_telescope
 from tests.support.reference import prescription_lens, reference
 from tests.support.simple_lenses import simple, telescope
 
@@ -36,7 +38,7 @@ def system_of(case: Case) -> dict:
     return {
         "radius": [radius for radius, _, _ in shapes],
         "thickness": [s.thickness for s in surfaces],
-        "index": [float(medium.index(case.wavelength)) for medium in lens.media],
+        "index": signed_indices(lens, case.wavelength),
         "conic": [conic for _, conic, _ in shapes],
         "a4": [a4 for _, _, a4 in shapes],
         "stop": lens.stop_surface - 1,
@@ -46,6 +48,16 @@ def system_of(case: Case) -> dict:
         "field": case.field,
         "wavelength_mm": case.wavelength / 1000,
     }
+
+
+def signed_indices(lens: Lens, wavelength: float) -> list[float]:
+    """Return the index of every space, negative where light goes back: behind an odd number of mirrors."""
+    found = [float(lens.object_medium.index(wavelength))]
+    for surface in lens.surfaces:
+        reflects = surface.medium == MIRROR
+        new = abs(found[-1]) if reflects else float(surface.medium.index(wavelength))
+        found.append(new if (found[-1] > 0) != reflects else -new)
+    return found
 
 
 def vertex_of(surface: Surface) -> tuple:
@@ -258,6 +270,23 @@ def shape_cases():
                     yield Case("Qbfs, Qcon and r² terms", lens, inf if number else 300.0)
 
 
+def mirror_cases():
+    """Yield systems that light goes back in: from a bare mirror to three of them before a corrector of lenses."""
+    systems = [
+        *(mirror(radius, radius / 2, conic) for radius in (-1e-2, -1e3, -1e9, 1e3) for conic in (0.0, -1.0, 30.0)),
+        *(mangin(conic) for conic in (0.0, -0.5, 1e3)),
+        *(two_mirrors(conics) for conics in ((0.0, 0.0), classical(), aplanatic())),
+        *(two_mirrors(classical(), magnified=m) for m in (1 + 1e-9, 1.01, 1e3)),
+        *(two_mirrors(classical(), behind=behind) for behind in (-1e2, 1e-9, 1e5)),
+        *(folded(base(name)) for name in BASES),
+        corrected_telescope(),
+    ]
+    for lens in systems:
+        for depth in (inf, 1e6, 150.0):
+            yield Case("mirrors", lens, depth, 0.01)
+        yield Case("mirrors", replace(lens, stop_surface=len(lens.surfaces)), inf, 0.01)
+
+
 REGIMES = (
     *(depth_cases, focal_plane_cases),
     *(field_cases, aperture_cases, wavelength_cases),
@@ -273,6 +302,7 @@ REGIMES = (
     virtual_cases,
     scaling_cases,
     shape_cases,
+    mirror_cases,
 )
 
 

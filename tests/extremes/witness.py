@@ -119,7 +119,7 @@ def pupils(system: dict) -> dict:
         "entrance_from_first": over_or_infinite(-height, slope),
         "entrance_diameter": over_or_infinite(2 * system["rim"], abs(up)),
         "exit_from_last": over_or_infinite(-out[0], out[2]),
-        "exit_diameter": over_or_infinite(2 * system["rim"] * system["index"][system["stop"]], abs(last * out[2])),
+        "exit_diameter": over_or_infinite(2 * system["rim"] * abs(system["index"][system["stop"]]), abs(last * out[2])),
         "f_number": over_or_infinite(abs(up), 2 * system["rim"] * abs(march(system, mpf(1), mpf(0))[-1][2] * last)),
     }
 

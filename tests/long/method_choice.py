@@ -6,17 +6,20 @@ reference. Never may the chosen one fall below the tolerance; how often a cheape
 """
 
 import argparse
+from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf
 
 import numpy as np
 
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.lens.lens import Lens, with_f_number, with_mask, with_sensor
+from p2sf.lens.positions import PARAMETER
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.first_order import cardinal_points, image_distance
+from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
@@ -54,9 +57,13 @@ class Trial:
         return any(1 - error >= self.tolerance for error in self.cheaper)
 
 
-def random_point(rng: np.random.Generator) -> tuple[Lens, Source]:
-    """Return a shipped lens and a source it can be asked about; both may still have no image."""
-    lens = find_lens(shipped_lenses()[rng.integers(len(shipped_lenses()))])
+def random_point(rng: np.random.Generator, names: Sequence[str] = ()) -> tuple[Lens, Source]:
+    """Return a shipped lens, its rings anywhere, and a source it can be asked about; both may still have no image."""
+    names = names or shipped_lenses()
+    lens = find_lens(names[rng.integers(len(names))])
+    if lens.positions:
+        turned = {PARAMETER[axis.kind]: rng.uniform(axis.low, axis.high) for axis in lens.positions.axes}
+        lens = lens_at(lens, **turned)
     low, high = min(lens.wavelengths_nm), max(lens.wavelengths_nm)
     wavelength = rng.uniform(low, high) / 1000
     focal = abs(float(cardinal_points(lens, wavelength).effective_focal_length))
@@ -114,11 +121,11 @@ def _cheaper(lens: Lens, source: Source, choice: Choice, pixel: float):
                 yield fitted_psf(lens, source, PIXELS, pixel, level.numbers)
 
 
-def trials(points: int, seed: int = 1, masks: bool = False):
-    """Yield ``points`` outcomes, the tolerances in turn; ``masks``: behind random masks."""
+def trials(points: int, seed: int = 1, masks: bool = False, names: Sequence[str] = ()):
+    """Yield ``points`` outcomes of shipped lenses, the tolerances in turn; ``masks``: behind random masks."""
     rng, found = np.random.default_rng(seed), 0
     while found < points:
-        lens, source = random_point(rng)
+        lens, source = random_point(rng, names)
         lens = with_mask(lens, random_mask(rng)) if masks else lens
         outcome = trial(lens, source, TOLERANCES[found % len(TOLERANCES)])
         if outcome:
@@ -145,11 +152,15 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--masks", action="store_true", help="put random masks into the stops")
+    parser.add_argument("--lenses", nargs="+", default=(), metavar="LENS", help="draw from these only")
     given = parser.parse_args()
-    outcomes = list(trials(given.points, given.seed, given.masks))
-    for outcome in outcomes:
+    outcomes = []
+    for outcome in trials(given.points, given.seed, given.masks, given.lenses):
+        outcomes.append(outcome)
         if outcome.wrong:
-            print("WRONG", replace(outcome, source=outcome.source))
+            print("WRONG", outcome, flush=True)
+        if len(outcomes) % 50 == 0:
+            print(len(outcomes), "points", flush=True)
     print(summary(outcomes))
 
 
