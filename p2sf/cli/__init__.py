@@ -25,6 +25,7 @@ COMMANDS = {
         "tolerances:tolerance",
         "Which errors of a built lens hurt, and the yield of random builds.",
     ),
+    "nodes": ("nodes:nodes", "Where in the field of a misaligned lens coma and astigmatism vanish, and what moves it."),
     "zernike": ("zernikes:zernike", "The exact wavefront as Zernike terms, in waves and shares of its variance."),
     "measure": ("measuring:measure", "From a picture of points to the wavefronts that made it, with errors."),
     "compare": ("measuring:compare", "Two measurements of the same points beside each other."),

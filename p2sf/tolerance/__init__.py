@@ -6,6 +6,7 @@ The wavefront of a build is a quadratic form in its errors (`differentials`), so
 from p2sf.tolerance.builds import Builds, sensitivities, simulate
 from p2sf.tolerance.differentials import Differentials, differentials
 from p2sf.tolerance.errors_of_build import GRADES, Tolerance, build, usual_tolerances
+from p2sf.tolerance.nodal import field_aberrations, nodal_sensitivities, third_order
 
 __all__ = [
     "GRADES",
@@ -14,7 +15,10 @@ __all__ = [
     "Tolerance",
     "build",
     "differentials",
+    "field_aberrations",
+    "nodal_sensitivities",
     "sensitivities",
     "simulate",
+    "third_order",
     "usual_tolerances",
 ]
