@@ -9,10 +9,13 @@ from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import RULES, GridDatabase, traced_grid
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
-from p2sf.lens.lens import Lens, check_aligned, check_unmasked
+from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import coefficients
+from p2sf.pupil.mask import PupilMask
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
 INTERPOLANTS = ("exact", *RULES)
@@ -31,7 +34,8 @@ def build_database(
     """Return the coefficient database of a lens over ``space``, at one stop for all depths.
 
     ``interpolant``: "exact" (polynomials, exact to round-off), "table1" (the rule of Pieroni et al. 2015,
-    table 1) or "linear". Its ``errors`` against direct evaluation are in waves.
+    table 1) or "linear". Its ``errors`` against direct evaluation are in waves. A mask in the stop changes none of the
+    coefficients; the database keeps it, and renders through it.
     Raises DatabaseError, GeometryError and GlassError.
     """
     if interpolant not in INTERPOLANTS:
@@ -41,7 +45,6 @@ def build_database(
             interpolants=Alternatives(INTERPOLANTS),
         )
     check_aligned(lens, Message("a database"))
-    check_unmasked(lens, Message("a database"))
     stop = stop or find_stop(lens)
     return build_exact(lens, space, stop) if interpolant == "exact" else _grid(lens, space, interpolant, stop)
 
@@ -57,7 +60,8 @@ def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
     allowed = {kind: TOLERANCE * top + floor for kind, top in largest(direct).items()}
     before = dict.fromkeys(allowed, 0.0)
     for terms in TERMS if np.ptp(space.wavelengths_um) else (1,):
-        database = ExactDatabase(space, *exact_series(lens, space, stop, terms), lens.sensor_mm, {})
+        series = exact_series(lens, space, stop, terms)
+        database = ExactDatabase(space, *series, lens.sensor_mm, {}, mask=mask_of(lens, space))
         errors = departures(database.coefficients(*points), direct)
         # Where the pupil lies far away, rounding of the direct coefficients themselves is more than usual.
         rounded = {kind: STALLED * top if errors[kind] > before[kind] / 2 > 0 else top for kind, top in allowed.items()}
@@ -74,6 +78,11 @@ def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
     )
 
 
+def mask_of(lens: Lens, space: Space) -> PupilMask:
+    """Return the mask in the stop as a source sees it whose chief ray lands at +y."""
+    return mask_seen(lens, Source(wavelength_um=float(space.wavelengths_um[len(space.wavelengths_um) // 2])))
+
+
 def _check_one_stop(stop: Stop) -> None:
     if np.ndim(stop.surface):
         raise DatabaseError("the stop changes with depth or wavelength; a database holds one stop, choose it")
@@ -81,7 +90,7 @@ def _check_one_stop(stop: Stop) -> None:
 
 def _grid(lens: Lens, space: Space, interpolant: str, stop: Stop) -> GridDatabase:
     _check_one_stop(stop)
-    database = GridDatabase(space, traced_grid(lens, space, stop), interpolant, {})
+    database = GridDatabase(space, traced_grid(lens, space, stop), interpolant, {}, mask=mask_of(lens, space))
     points = cell_middles(space, database.last_depth_mm)
     direct = coefficients(lens, *points, stop=stop)
     return replace(database, errors=departures(database.coefficients(*points), direct))

@@ -23,6 +23,7 @@ from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
 from p2sf.paraxial.seidel import Coefficients, seidel_sums
+from p2sf.pupil.mask import CLEAR, PupilMask
 
 # Numbers per wavelength of each part: a polynomial's degree in s, plus one.
 LENGTHS = {
@@ -49,7 +50,8 @@ class ExactDatabase:
 
     ``series``: (terms, 23), mm and mm of path, polynomial coefficients in t = (s − ``middle``)/``half``.
     ``sensor_mm``: position of the sensor; at any other one the coefficients are as exact. ``errors``: the largest
-    departure of each coefficient from direct evaluation at points between the nodes, in waves.
+    departure of each coefficient from direct evaluation at points between the nodes, in waves. ``mask``: what stands in
+    the pupil, as a source whose chief ray lands at +y sees it; the coefficients do not depend on it.
     """
 
     space: Space
@@ -60,6 +62,7 @@ class ExactDatabase:
     errors: dict[str, float]
     interpolant: str = "exact"
     method: str = "seidel"
+    mask: PupilMask = CLEAR
 
     def with_sensor(self, sensor_mm: float) -> "ExactDatabase":
         """Return the same database with the sensor ``sensor_mm`` behind the last vertex; nothing is traced."""

@@ -22,10 +22,12 @@ from p2sf.psf.fitted import summed
 from p2sf.psf.plane_waves import Origin, psf_from_intensity
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.zernike import basis, gradient, terms
 from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays
 from p2sf.raytrace.ray_field import Steepness
+from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.threads import mapped, one_blas_thread
 
 
@@ -51,6 +53,11 @@ class FittedDatabase:
         """Return the space that is covered."""
         return self.seidel.space
 
+    @property
+    def mask(self) -> PupilMask:
+        """Return what stands in the pupil, as a source whose chief ray lands at +y sees it."""
+        return self.seidel.mask
+
     def coefficients(self, depth_mm: ArrayLike, field_slope: ArrayLike, wavelength_um: ArrayLike) -> Coefficients:
         """Return the six Seidel coefficients and scales of the same lens; DatabaseError outside the space."""
         return self.seidel.coefficients(depth_mm, field_slope, wavelength_um)
@@ -69,10 +76,10 @@ class FittedDatabase:
     def fit_at(self, source: Source) -> FittedPencil:
         """Return the fitted pencil of one source, looked up and not traced; DatabaseError outside the space."""
         phase, fx, fy, weight, _ = split(self.level, self.numbers_at(source))
-        steep = steepness(self.level, phase, fx, fy)
-        return FittedPencil(
-            self.level, phase, fx, fy, self.residual_waves, steep, blur_um2=np.nan, rays=0, weight=weight
-        )
+        mask, colour = self.mask.turned(-source.azimuth_deg), float(source.wavelength_um)
+        steep = with_slopes(steepness(self.level, phase, fx, fy), mask, colour)
+        made = self.level, phase, fx, fy, self.residual_waves, steep
+        return FittedPencil(*made, blur_um2=np.nan, rays=0, weight=weight, mask=mask, wavelength_um=colour)
 
     @one_blas_thread
     def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:

@@ -11,10 +11,11 @@ from p2sf.database.departure import scattered
 from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
-from p2sf.lens.lens import Lens, check_aligned, check_unmasked
+from p2sf.lens.lens import Lens, check_aligned, with_mask
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
+from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.zernike import terms
 from p2sf.raytrace.fit import FittedPencil, Level, fit, level_rays
 from p2sf.raytrace.pencil import pencil
@@ -41,11 +42,11 @@ def build_fitted(
     Raises DatabaseError where MOST_NODES are not enough, GeometryError where rays do not reach the sensor.
     """
     check_aligned(lens, Message("a database"))
-    check_unmasked(lens, Message("a database"))
     stop = stop or find_stop(lens)
     seidel = build_exact(lens, space, stop)
     axes = axes_of(space, seidel)
     level, left = _level_for(lens, axes, stop, numbers)
+    lens = with_mask(lens, CLEAR)  # the fits are those of the whole disc; their residuals are those of its open part
     held = list(held_out(lens, space, level, stop))
     counts = [count if spread else 1 for count, spread in zip(START, axes.spread, strict=True)]
     while max(counts) <= MOST_NODES:

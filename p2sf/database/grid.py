@@ -22,6 +22,7 @@ from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import Coefficients
+from p2sf.pupil.mask import CLEAR, PupilMask
 
 
 class Depth(NamedTuple):
@@ -72,7 +73,7 @@ class GridDatabase:
 
     Only (depth, wavelength) is stored: a Seidel coefficient's value at a field node is its value at unit
     slope times a power of that slope. ``errors``: the largest departure of each coefficient from direct
-    evaluation at points between the nodes, in waves.
+    evaluation at points between the nodes, in waves. ``mask`` as in `ExactDatabase`.
     """
 
     space: Space
@@ -80,6 +81,7 @@ class GridDatabase:
     interpolant: str
     errors: dict[str, float]
     method: str = "seidel"
+    mask: PupilMask = CLEAR
 
     @property
     def rule(self) -> Rule:

@@ -15,6 +15,7 @@ from p2sf.psf import pixel_integrals
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, check_window, seidel_psf
 from p2sf.psf.seidel_stack import stack_of
+from p2sf.pupil.mask import PupilMask
 from p2sf.threads import mapped, one_blas_thread
 
 Points = Iterable[ArrayLike]
@@ -39,6 +40,10 @@ class Database(Protocol):
     @property
     def errors(self) -> dict[str, float]:
         """Return the largest errors against direct evaluation, waves."""
+
+    @property
+    def mask(self) -> PupilMask:
+        """Return what stands in the pupil, as a source whose chief ray lands at +y sees it."""
 
     def coefficients(self, depth_mm: ArrayLike, field_slope: ArrayLike, wavelength_um: ArrayLike) -> Coefficients:
         """Return the six coefficients at one point or over broadcast arrays; DatabaseError outside the space."""
@@ -66,6 +71,7 @@ def rendered(
 ) -> np.ndarray:
     """Return unit-sum PSFs, (*points' broadcast shape, pixels, pixels), at (depth mm, slope, wavelength µm).
 
+    Their chief rays land at +y (azimuth 0): behind a mask that is not round, `database_psf` gives those of another.
     They are summed in batches (`seidel_stack`), so that little more memory than the result is used, and by ``threads``
     (`p2sf.threads`), whose number does not change a bit of them. Raises
     DatabaseError outside the database's space, GeometryError and SamplingError where there is no PSF to sample.
@@ -77,7 +83,7 @@ def rendered(
     found = database.coefficients(*(np.asarray(x, dtype=float) for x in points))
     check_image(found)
     check_window(found, pixels, pixel_um)
-    return stack_of(found, pixels, pixel_um, sampling.quality, dtype, threads).values
+    return stack_of(found, pixels, pixel_um, sampling.quality, dtype, threads, database.mask).values
 
 
 @one_blas_thread
@@ -133,13 +139,16 @@ def samples_per_pixel(database: Database, sampling: Sampling) -> int:
 
 @one_blas_thread
 def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
-    """Return the settled PSF of one source, float64, looked up instead of traced; errors as `rendered`."""
+    """Return the settled PSF of one source, float64, looked up instead of traced; errors as `rendered`.
+
+    The mask is turned against the source's azimuth, as `raytrace.seen_mask` has it.
+    """
     if hasattr(database, "psf"):
         own: Psf = database.psf(source, pixels, pixel_um)
         return own
     start = perf_counter()
     found = database.coefficients(float(source.depth_mm), float(source.field_slope), float(source.wavelength_um))
-    psf = seidel_psf(found, pixels, pixel_um)
+    psf = seidel_psf(found, pixels, pixel_um, mask=database.mask.turned(-source.azimuth_deg))
     return replace(psf, seconds=perf_counter() - start)
 
 

@@ -13,14 +13,15 @@ from p2sf.database.exact import NUMBERS
 from p2sf.database.fitted import FittedDatabase
 from p2sf.database.grid import PER_WAVELENGTH, STORED, NodeGrid
 from p2sf.database.render import Database
-from p2sf.database_files.provenance import Stored, provenance
+from p2sf.database_files.provenance import MAPS, Stored, provenance
 from p2sf.database_files.sealed import opened, read_sealed, sealed, write_sealed
-from p2sf.errors import DatabaseError
+from p2sf.errors import DatabaseError, RequestError
 from p2sf.lens.lens import AIMS, Lens
 from p2sf.paraxial.pupils import Stop
+from p2sf.pupil.mask import CLEAR, PupilMap, PupilMask
 from p2sf.raytrace.fit import Level
 
-SCHEMA = 1
+SCHEMA, WITHOUT_MASK = 2, 1  # the newest, and that of files which say nothing that one before it does not know
 MARK = "p2sf_database"
 LEVEL = ("wave_order", "map_order", "radii", "directions")
 
@@ -73,7 +74,10 @@ def _meta(mark: np.ndarray) -> Meta:
 def _arrays(database: Database, lens: Lens, stop: Stop | None) -> Arrays:
     pack, _ = _KINDS[type(database).__name__]
     arrays, numbers = pack(database)
-    head = {"schema": SCHEMA, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
+    mask = database.mask
+    arrays |= {name: table.values for name in MAPS if (table := getattr(mask, name)) is not None}
+    schema = WITHOUT_MASK if mask.clear else SCHEMA
+    head = {"schema": schema, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
     space = database.space
     axes = {"depths_mm": space.depths_mm, "field_slopes": space.field_slopes, "wavelengths_um": space.wavelengths_um}
     return {MARK: np.array(json.dumps(head, ensure_ascii=False)), **axes, **arrays}
@@ -93,11 +97,21 @@ def _stored(arrays: Arrays, name: str | PathLike[str]) -> Stored:
             raise KeyError(f"an aim that is one of {AIMS}")
         space = Space(arrays["depths_mm"], arrays["field_slopes"], arrays["wavelengths_um"])
         _, unpack = _KINDS[meta["kind"]]
-        return Stored(unpack(space, arrays, meta), meta)
-    except (KeyError, TypeError, IndexError, json.JSONDecodeError) as error:
+        mask = _mask(arrays, meta) if "mask" in meta else CLEAR
+        return Stored(unpack(space, arrays, meta, mask), meta)
+    except (KeyError, TypeError, IndexError, json.JSONDecodeError, RequestError) as error:
         raise DatabaseError(
             "{name} lacks what a P2SF database holds, {reason}; build it again", name=str(name), reason=repr(error)
         ) from error
+
+
+def _mask(arrays: Arrays, meta: Meta) -> PupilMask:
+    """Return the mask of a file; RequestError, TypeError and KeyError where that is none."""
+    stated: dict[str, Any] = {**meta["mask"], "zernike_um": tuple(meta["mask"].get("zernike_um", ()))}
+    stated |= {name: PupilMap(arrays[name]) for name in MAPS if name in arrays}
+    if None in stated.values():
+        raise TypeError("a mask of numbers only")
+    return PupilMask(**stated)
 
 
 def _pack_exact(database: ExactDatabase) -> tuple[Arrays, Meta]:
@@ -105,22 +119,23 @@ def _pack_exact(database: ExactDatabase) -> tuple[Arrays, Meta]:
     return {"series": database.series}, numbers
 
 
-def _unpack_exact(space: Space, arrays: Arrays, meta: Meta) -> ExactDatabase:
+def _unpack_exact(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> ExactDatabase:
     series, numbers = _shaped(arrays["series"], (None, NUMBERS)), meta["numbers"]
-    return ExactDatabase(space, series, numbers["middle"], numbers["half"], numbers["sensor_mm"], meta["errors_waves"])
+    made = series, numbers["middle"], numbers["half"], numbers["sensor_mm"], meta["errors_waves"]
+    return ExactDatabase(space, *made, mask=mask)
 
 
 def _pack_grid(database: GridDatabase) -> tuple[Arrays, Meta]:
     return {"depth": database.grid.depth, "wavelength": database.grid.wavelength}, {}
 
 
-def _unpack_grid(space: Space, arrays: Arrays, meta: Meta) -> GridDatabase:
+def _unpack_grid(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> GridDatabase:
     depths, _, wavelengths = space.shape
     grid = NodeGrid(
         _shaped(arrays["depth"], (depths, wavelengths, len(STORED))),
         _shaped(arrays["wavelength"], (wavelengths, len(PER_WAVELENGTH))),
     )
-    return GridDatabase(space, grid, meta["interpolant"], meta["errors_waves"])
+    return GridDatabase(space, grid, meta["interpolant"], meta["errors_waves"], mask=mask)
 
 
 def _pack_fitted(database: FittedDatabase) -> tuple[Arrays, Meta]:
@@ -130,12 +145,12 @@ def _pack_fitted(database: FittedDatabase) -> tuple[Arrays, Meta]:
     return {**arrays, "fits": database.series}, {**numbers, "residual_waves": database.residual_waves}
 
 
-def _unpack_fitted(space: Space, arrays: Arrays, meta: Meta) -> FittedDatabase:
+def _unpack_fitted(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> FittedDatabase:
     numbers = meta["numbers"]
     wave_order, map_order, radii, directions, *weighted = (int(count) for count in numbers["level"])
     level = Level(wave_order, map_order, radii, directions, bool(weighted and weighted[0]))
     fits = _shaped(arrays["fits"], (None, None, None, level.numbers + 1))
-    seidel = _unpack_exact(space, arrays, {**meta, "errors_waves": numbers["seidel_errors_waves"]})
+    seidel = _unpack_exact(space, arrays, {**meta, "errors_waves": numbers["seidel_errors_waves"]}, mask)
     return FittedDatabase(seidel, fits, level, meta["errors_waves"], numbers["residual_waves"])
 
 
@@ -146,7 +161,7 @@ def _shaped(array: np.ndarray, shape: tuple[int | None, ...]) -> np.ndarray:
     return array
 
 
-_KINDS: dict[str, tuple[Callable[..., tuple[Arrays, Meta]], Callable[[Space, Arrays, Meta], Database]]] = {
+_KINDS: dict[str, tuple[Callable[..., tuple[Arrays, Meta]], Callable[[Space, Arrays, Meta, PupilMask], Database]]] = {
     "ExactDatabase": (_pack_exact, _unpack_exact),
     "GridDatabase": (_pack_grid, _unpack_grid),
     "FittedDatabase": (_pack_fitted, _unpack_fitted),

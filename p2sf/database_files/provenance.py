@@ -1,7 +1,7 @@
 """What a file says about its database: lens, glasses, method, units, conventions, versions."""
 
 import hashlib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from math import inf
 from typing import Any
@@ -20,6 +20,7 @@ from p2sf.notebook import html_table
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.result import Psf
+from p2sf.pupil.mask import CLEAR, PupilMask
 
 COEFFICIENT_UNITS = {
     "w40 w31 w22 w20 w11 wd errors": "waves",
@@ -32,6 +33,12 @@ CONVENTIONS = (
     "Welford's signs; W = (chief path − ray path)/λ; rows +y up the sensor, columns +x, sample N//2 is the chief ray, "
     "unit sum; a positive field's chief ray lands at +y; W11 moves the image and is not rendered"
 )
+
+AZIMUTH = (
+    "the mask stands as a field lands at +y sees it; a field at another azimuth sees it turned the other way, and its "
+    "PSF is rendered so, not turned as a picture"
+)
+MAPS = ("phase_map", "amplitude_map")
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +99,7 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
             "sensor_mm": lens.sensor_mm,
             **position_of(lens),
             "aim": lens.aim,
+            **_masked(database.mask),
             "covers": {
                 "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],
                 "field_deg": [low, high],
@@ -104,6 +112,17 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
         }
     )
     return record
+
+
+def _masked(mask: PupilMask) -> dict[str, Any]:
+    """Return what a file says about the mask that its PSFs are rendered through, but for its maps: nothing if clear."""
+    if mask.clear:
+        return {}
+    stated = {f.name: getattr(mask, f.name) for f in fields(mask) if f.name not in MAPS}
+    return {
+        "mask": {name: value for name, value in stated.items() if value != getattr(CLEAR, name)},
+        **({} if mask.round else {"azimuth": AZIMUTH}),
+    }
 
 
 def _glasses(lens: Lens) -> dict[tuple[str, str], None]:

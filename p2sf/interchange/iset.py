@@ -54,6 +54,11 @@ def write_iset(stored: Stored, path: str | os.PathLike[str], options: IsetOption
         )
     if stored.database.space.field_slopes[0] > 0:
         raise ExportError("ISETCam's field heights start at 0 and this database does not; build it from field 0 on")
+    if not stored.database.mask.round:
+        raise ExportError(
+            "ISETCam turns one PSF for each field height about the axis, and the mask in the stop is not round; write "
+            "a stack or .fits, or take vanes, blades and phases away"
+        )
     traced = ray_trace(stored, options)
     optics = {"type": "optics", "name": traced["name"], "model": "rayTrace", "rayTrace": traced}
     return write_beside(path, lambda handle: savemat(handle, {"optics": optics}, do_compression=True))
