@@ -184,7 +184,8 @@ class ImagePanel:
         self.widget.set_readout(tr(quality))
         for button in (self.words.button, self.save):  # enabled in a drag too, so that they keep the focus
             button.setEnabled(quality not in (WORKING, NONE))
-        self.overlay.say(self._refusal if quality == NONE else "", 0)
+        instead = {NONE: self._refusal, WORKING: tr("The first picture is being made …")}
+        self.overlay.say(instead.get(quality, ""), 0)
         self.plan_line.show_plan(planning, stopped)
         self.headline.setHidden(planning or stopped or bool(self.overlay.text))
 

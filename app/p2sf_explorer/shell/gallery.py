@@ -1,6 +1,7 @@
 """Pictures of the window, to look at after changing a panel: ``python -m p2sf_explorer.shell.gallery FOLDER``."""
 
 import sys
+from argparse import ArgumentParser
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QSize, QTimer
@@ -98,12 +99,11 @@ def sizes_of(name: str) -> tuple[str, ...]:
     return tuple(SIZES) if name.startswith(EVERY_SIZE) else USUAL[:1] if name.startswith(ONE_SIZE) else USUAL
 
 
-def main(arguments: list[str]) -> int:
-    """Write every picture into the folder named by the one argument."""
-    if len(arguments) != 1:
-        print("usage: python -m p2sf_explorer.shell.gallery FOLDER", file=sys.stderr)
-        return 2
-    folder = Path(arguments[0])
+def main() -> None:
+    """Write every picture into the folder named on the command line."""
+    parser = ArgumentParser(prog="python -m p2sf_explorer.shell.gallery", description="Take pictures of the window.")
+    parser.add_argument("folder", type=Path, help="where the pictures go")
+    folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
     _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
     QApplication.setStyle("Fusion")
@@ -113,8 +113,7 @@ def main(arguments: list[str]) -> int:
             if size in sizes_of(name):
                 picture(state, pixels, folder / f"{name}_{size}.png")
                 print(folder / f"{name}_{size}.png")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    main()
