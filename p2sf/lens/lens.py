@@ -58,6 +58,8 @@ class Surface:
         runs, stand in the surface's own: one break of the coordinates after the other.
     inner_radius : float
         Radius, mm, within which rays are lost where rims clip: a mirror's hole, or the shadow of what stands there.
+    ideal_focal_length : float
+        The focal length, mm, of an ideal lens in this plane, whose power is its inverse; inf for a real surface.
     """
 
     radius: float = inf
@@ -71,6 +73,7 @@ class Surface:
     before: tuple[Placement, ...] = ()
     after: tuple[Placement, ...] = ()
     inner_radius: float = 0.0
+    ideal_focal_length: float = inf
 
     @property
     def curvature(self) -> float:
@@ -91,8 +94,13 @@ class Surface:
 
     @property
     def bare(self) -> bool:
-        """Return whether the surface is a plane without diffraction: between equal media it does nothing."""
-        return self.flat and self.diffraction is None
+        """Return whether the surface is a plane that neither diffracts nor is ideal: between equal media it is idle."""
+        return self.flat and self.diffraction is None and not self.ideal
+
+    @property
+    def ideal(self) -> bool:
+        """Return whether this is an ideal lens, which images every point sharply where first order has it."""
+        return isfinite(self.ideal_focal_length)
 
     @property
     def reflects(self) -> bool:
@@ -348,9 +356,10 @@ def surface_power(
 ) -> FloatOrArray:
     """Return the power (n′ − n)c of a surface, and −2 times the r² term of the path that its diffraction adds, per mm.
 
-    ``before``, ``after``: the signed indices. Source: Welford 1986, ch. 3; Sweatt 1977.
+    That of an ideal lens is 1/f in any media. ``before``, ``after``: the signed indices. Source: Welford 1986, ch. 3;
+    Sweatt 1977.
     """
-    power = surface.vertex_curvature * (after - before)
+    power = surface.vertex_curvature * (after - before) + 1 / surface.ideal_focal_length
     if surface.diffraction is None:
         return power
     return power - 2 * surface.diffraction.path_terms(wavelength_um)[0]
@@ -414,6 +423,13 @@ def _check_shape(surface: Surface, number: int) -> None:
             raise GeometryError(
                 "surface {surface}: a coefficient of its shape or its phase is not finite; correct it", surface=number
             )
+    if surface.ideal and not (surface.flat and surface.diffraction is None and abs(surface.ideal_focal_length) > 0):
+        raise GeometryError(
+            "surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not "
+            "diffract, and its focal length not 0",
+            surface=number,
+            focal=surface.ideal_focal_length,
+        )
     if isinstance(surface.shape, Qbfs) and surface.conic:
         raise GeometryError(
             "surface {surface}: Qbfs departs from a sphere, and the conic constant is {conic:g}; set it to 0 or use "

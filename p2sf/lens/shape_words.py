@@ -20,8 +20,10 @@ def kind_of(shape: Shape) -> Message:
 
 
 def shape_words(surface: Surface) -> tuple[Message, ...]:
-    """Return the shape of a surface and its diffraction, each with its numbers; nothing for conics with even terms."""
+    """Return shape and diffraction in numbers, or the ideal lens; nothing for conics with even terms."""
     found = []
+    if surface.ideal:
+        found.append(Message("ideal lens: focal length {focal:g} mm", focal=surface.ideal_focal_length))
     shape, diffraction = surface.shape, surface.diffraction
     if isinstance(shape, RadialPolynomial) and shape.normalisation_mm == 1:
         found.append(Message("odd asphere: coefficients of r, r², … in mm {numbers:.6g}", numbers=shape.coefficients))

@@ -164,6 +164,7 @@ def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surfa
         inner_radius=raw.inner_radius * unit,
         before=_scaled(raw.before, unit),
         after=_scaled(raw.after, unit),
+        ideal_focal_length=raw.ideal_focal_length * unit,
     )
 
 

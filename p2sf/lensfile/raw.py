@@ -59,6 +59,7 @@ class RawSurface:
     diffraction: Diffraction | None = None
     before: tuple[Placement, ...] = ()
     after: tuple[Placement, ...] = ()
+    ideal_focal_length: float = inf
 
     @property
     def name(self) -> Message:

@@ -28,6 +28,7 @@ inner_radius = 2.0               # rays within are lost: a hole, a shadow; left 
 conic = -1.0
 aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
 shape = { type = "Qcon", normalisation_radius = 10.0, coefficients = [1e-3] }  # added to it, see SHAPES
+ideal_focal_length = 100.0       # an ideal lens in this plane, which needs no radius; left out: a real surface
 diffraction = { order = 1, normalisation_radius = 10.0, coefficients = [-300.0] }  # radians, of ρ², ρ⁴, …
 before = [{ decentre = [0, 0.1, 0], tilt_deg = [0.5, 0, 0] }]  # how its axes stand in those before it: moved, then
 after = [{ tilt_deg = [-0.5, 0, 0], tilt_first = true }]       # turned about x, y, z; tilt_first: z, y, x, then moved
@@ -139,6 +140,7 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
         _Line("semi_diameter", _number(surface.semi_diameter), "inf"),
         _Line("inner_radius", _number(surface.inner_radius), "0.0"),
         _Line("conic", _number(surface.conic), "0.0"),
+        _Line("ideal_focal_length", _number(surface.ideal_focal_length), "inf"),
         _Line("aspheric", _list(surface.aspheric), "[]"),
         _Line("shape", _shape(surface.shape) if surface.shape else ""),
         _Line("diffraction", _diffraction(surface.diffraction) if surface.diffraction else ""),
@@ -207,7 +209,7 @@ TEXTS = ("title", "name", "character", "source", "comment")
 TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "pupil", "surface")
 TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
-SHAPED = ("shape", "diffraction", "before", "after")
+SHAPED = ("ideal_focal_length", "shape", "diffraction", "before", "after")
 SURFACE = ("radius", "thickness", "glass", "semi_diameter", "inner_radius", "conic", "aspheric", *SHAPED)
 # The names are OpticStudio's. Coefficients are of r, r², … (in units⁰, units⁻¹, …), of ρ = r/normalisation radius,
 # ρ², …, of ρ², ρ⁴, …, and of Forbes's polynomials Q₀, Q₁, … (all in units).
@@ -303,8 +305,9 @@ def _surface_tables(top: Table) -> list[Table]:
 def _surface(table: Table, scale: float) -> Surface:
     table.check_keys(SURFACE, TOP)
     aspheric = table.numbers("aspheric", FINITE, ())
+    focal = table.number("ideal_focal_length", RADIUS, inf) * scale
     return Surface(
-        radius=table.number("radius", RADIUS) * scale,
+        radius=table.number("radius", RADIUS, None if focal == inf else inf) * scale,
         thickness=table.number("thickness", THICKNESS) * scale,
         medium=table.medium("glass"),
         conic=table.number("conic", FINITE, 0.0),
@@ -315,6 +318,7 @@ def _surface(table: Table, scale: float) -> Surface:
         diffraction=_read_diffraction(table, scale),
         before=read_placements(table, "before", scale),
         after=read_placements(table, "after", scale),
+        ideal_focal_length=focal,
     )
 
 

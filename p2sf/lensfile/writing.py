@@ -134,7 +134,7 @@ def _check_zemax_columns(lens: Lens) -> None:
     for number, rows in enumerate(zip(*(column.surfaces for column in lens.positions.lenses), strict=True), 1):
         unnamed = [row.medium for row in rows if not isinstance(row.medium, CatalogueGlass | FormulaGlass)]
         different = len({row.medium for row in rows}) > 1
-        shapes = {(row.aspheric, row.shape, row.diffraction) for row in rows}
+        shapes = {(row.aspheric, row.shape, row.diffraction, row.ideal_focal_length) for row in rows}
         if len(shapes) > 1 or (different and unnamed):
             raise LensFileError(
                 "surface {surface} differs between columns in its aspheric terms or in a medium without a name, for "
@@ -217,6 +217,8 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
     odd, top = any(power % 2 for power in terms), max(terms, default=0)
     step = 1 if odd else 2
     parameters = [f"  PARM {power // step} {value!r}" for power, value in sorted(terms.items())]
+    if surface.ideal:
+        return "PARAXIAL", [f"  PARM 1 {surface.ideal_focal_length!r}"]
     if surface.diffraction is not None:
         if odd or radius != 1 or top > HIGHEST_ZEMAX_ORDER:
             raise LensFileError(
@@ -347,7 +349,7 @@ def _iset_surface(surface: Surface, number: int) -> Surface:
     except GeometryError:
         made = None
     exact = made is not None and not made.residual_mm and len(made.surface.aspheric) <= MOST_ISET_TERMS
-    if made is not None and exact and surface.diffraction is None:
+    if made is not None and exact and surface.diffraction is None and not surface.ideal:
         return made.surface
     raise LensFileError(
         "surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML",

@@ -30,8 +30,7 @@ REFUSED_TYPES = {
     "DGRATING": Message("a grating that diffracts"),
     "BINARY_1": Message("a diffractive surface"),
     "BINARY_3": Message("a diffractive surface"),
-    "PARAXIAL": Message("an ideal lens without a prescription"),
-    "PARAX_XY": Message("an ideal lens without a prescription"),
+    "PARAX_XY": Message("an ideal lens that is not round"),
     "NONSEQCO": Message("a non-sequential part"),
     "BLACKBOX": Message("a black box that hides its surfaces"),
     "BLCKBOX1": Message("a black box that hides its surfaces"),
@@ -40,7 +39,7 @@ REFUSED_TYPES = {
     "GRINSUR1": Message("a gradient index"),
     "ALTERNAT": Message("the root of the sphere on its other side"),
 }
-READ_TYPES = ("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2")
+READ_TYPES = ("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2", "PARAXIAL")
 MOST_TERMS = 60  # of an extended asphere or a phase
 UNKNOWN_TYPE = Message("which P2SF does not trace")
 HARMLESS = (
@@ -627,6 +626,9 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
         surface.keeps_medium, surface.before = True, () if placement.idle else (placement,)
         surface.curvature = surface.conic = 0.0
         return
+    if kind == "PARAXIAL":
+        surface.ideal_focal_length = parameters.get(1, 0.0)
+        surface.curvature = surface.conic = 0.0
     step = 1 if kind in ("ODDASPHE", "XOSPHERE") else 2
     if kind in ("EVENASPH", "ODDASPHE", "BINARY_2"):
         surface.aspheric = {step * place: value for place, value in parameters.items() if place and value}

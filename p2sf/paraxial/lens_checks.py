@@ -97,7 +97,7 @@ def _negative_glass(lens: Lens) -> Iterator[Message]:
 
 def _nothing_bends(lens: Lens) -> Message | None:
     index = indices(lens, lens.reference_wavelength_um)
-    if np.ptp(index) or any(surface.diffraction for surface in lens.surfaces):
+    if np.ptp(index) or any(surface.diffraction or surface.ideal for surface in lens.surfaces):
         return None
     return Message(
         "every medium of this lens has the index {index:g}, so no surface bends light; name its glasses",

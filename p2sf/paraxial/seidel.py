@@ -116,6 +116,7 @@ def chromatic_sums(
     bend = y * np.diff(relative, axis=0)  # yΔ(δn/n)
     snell, chief_snell = nu + n * y * c, chief_nu + n * chief_y * c  # A and Ā
     axial, lateral = snell * bend, chief_snell * bend
+    axial[list(_ideal(lens))] = lateral[list(_ideal(lens))] = 0.0
     for at, diffraction in _diffractive(lens):
         jump = -2 * diffraction.path_terms(shorter_um - longer_um)[0] * y[at] * y[at]
         behind = nu_after[at] + after[at] * y[at] * c[at], rays.chief_nu[at + 1] + after[at] * chief_y[at] * c[at]
@@ -147,10 +148,12 @@ def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
         paths = diffraction.path_terms(rays.wavelength_um)
         here = diffractive_sums(rays.invariant, float(c.flat[at]), float(figure.flat[at]), paths, *sides)
         sums = tuple(_with_row(column, at, value) for column, value in zip(sums, here, strict=True))
+    for at in _ideal(lens):
+        sums = tuple(_with_row(column, at, 0.0) for column in sums)
     return SeidelSums(*sums)
 
 
-def _with_row(column: np.ndarray, at: int, value: np.ndarray) -> np.ndarray:
+def _with_row(column: np.ndarray, at: int, value: FloatOrArray) -> np.ndarray:
     """Return a column of sums with one surface's replaced."""
     changed = column.copy()
     changed[at] = value
@@ -159,7 +162,7 @@ def _with_row(column: np.ndarray, at: int, value: np.ndarray) -> np.ndarray:
 
 def _unit_totals(lens: Lens, rays: ParaxialRays) -> tuple:
     """Return the five sums over all surfaces; for one source in plain numbers, three times faster."""
-    if rays.y.ndim > 1 or _diffractive(lens):
+    if rays.y.ndim > 1 or _diffractive(lens) or _ideal(lens):
         return tuple(map(np.add.reduce, _unit_sums(lens, rays).columns()))
     columns = (column.tolist() for column in (*_shape_terms(lens), *_layers(rays)))
     invariant = float(rays.invariant)
@@ -290,6 +293,12 @@ def _shape_of(surface: Surface) -> tuple[float, float]:
 def _diffractive(lens: Lens) -> tuple[tuple[int, Diffraction], ...]:
     """Return the diffractive surfaces: their places from 0, and what they add."""
     return tuple((at, s.diffraction) for at, s in enumerate(lens.surfaces) if s.diffraction is not None)
+
+
+@lru_cache(maxsize=64)
+def _ideal(lens: Lens) -> tuple[int, ...]:
+    """Return the places of ideal lenses from 0: they add nothing to any sum."""
+    return tuple(at for at, surface in enumerate(lens.surfaces) if surface.ideal)
 
 
 def _per_surface(column: np.ndarray, ndim: int) -> np.ndarray:

@@ -63,7 +63,8 @@ class PupilRays:
     ``wavelength_um``, (…, 1) or a number.
     ``weight``: the light sent through unit area about (ξ, η), over that of the paraxial pupil's: the solid angle times
     the square of the distance, for a source at infinity an area; 1 for the paraxial pupil itself. ``stop_surface``: the
-    stop at which rays were aimed, 0 if they were not; a ray that could not be aimed is NaN.
+    stop at which rays were aimed, 0 if they were not; a ray that could not be aimed is NaN. ``reach`` and
+    ``chief_slope``, (…, 1): as in `Entrance`, which is where the source stands.
     """
 
     x: np.ndarray
@@ -74,6 +75,8 @@ class PupilRays:
     plane: np.ndarray
     index: Index
     wavelength_um: FloatOrArray
+    reach: FloatOrArray
+    chief_slope: FloatOrArray
     weight: FloatOrArray = 1.0
     stop_surface: int = 0
 
@@ -224,7 +227,8 @@ def _through(enter: Entrance, x: np.ndarray, y: np.ndarray, slope: FloatOrArray 
     slope_x, slope_y = enter.reach * x, enter.reach * y + s
     length = np.sqrt(1 + slope_x * slope_x + slope_y * slope_y) + np.sqrt(1 + s * s)
     path = enter.index[0] * (enter.reach * (x * x + y * y) + 2 * s * y) / length
-    return PupilRays(x, y, slope_x, slope_y, path, enter.plane, enter.index, enter.wavelength_um)
+    waves = enter.wavelength_um
+    return PupilRays(x, y, slope_x, slope_y, path, enter.plane, enter.index, waves, enter.reach, s)
 
 
 def start(rays: PupilRays) -> Beam:
@@ -232,6 +236,8 @@ def start(rays: PupilRays) -> Beam:
     scale = 1 / np.sqrt(1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
     along = rays.slope_x * scale, rays.slope_y * scale, scale
     beam = launch(rays.index[0], rays.wavelength_um, rays.x, rays.y, rays.plane, *along)
+    # The chief ray's slope leads from the source to the pupil's centre, 1/reach along the axis.
+    beam.source = 0.0, -rays.chief_slope, rays.reach * rays.plane - 1, rays.reach
     if rays.stop_surface:
         beam.fail(np.isnan(beam.x), Status.UNAIMED, rays.stop_surface)
     return beam

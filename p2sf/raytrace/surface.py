@@ -39,6 +39,7 @@ class Beam:
 
     ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that an operation on all
     components is one call. The last ``exempt`` rays pass every rim. ``wavelength_um`` broadcasts against (…, ray).
+    ``source``: the point (X, Y, Z, W) at (X, Y, Z)/W in the axes of the lens, mm, where all rays come from, if known.
     """
 
     def __init__(self, place: np.ndarray, ray: np.ndarray, wavelength_um: FloatOrArray):
@@ -49,6 +50,7 @@ class Beam:
         self.status = np.zeros(place.shape[1:], np.int8)
         self.failed_surface = np.zeros(place.shape[1:], np.int16)
         self.exempt = 0
+        self.source: tuple[FloatOrArray, FloatOrArray, FloatOrArray, FloatOrArray] | None = None
         self.wavelength_um = wavelength_um
 
     def advance(self, step: np.ndarray, index: FloatOrArray) -> None:

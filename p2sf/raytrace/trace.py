@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.lens.lens import Lens, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
+from p2sf.raytrace.ideal import bend_ideally, object_point
 from p2sf.raytrace.surface import Beam, Status, clip, clip_inside, diffract, meet, move, refract, to_plane
 
 Index: TypeAlias = np.ndarray | list[float]  # per medium, object space first; floats for one wavelength
@@ -34,7 +35,8 @@ class Trace:
     ``points``: (surfaces + 2, …, ray, 3) mm from the first vertex: the origin, every surface, the sensor; NaN from
     where the ray failed; in the axes of the lens, also where parts of it are tilted. ``cosines``: (…, ray, 3) in image
     space, in the same axes, as the ray travels. ``path``: optical path from the
-    origin to the sensor, mm. ``status``: `Status` per ray; ``failed_surface`` counts from 1, 0 where the ray passed.
+    origin to the sensor, mm; NaN through an ideal lens, whose path depends on where the other rays of the source come
+    from (`pencil` knows). ``status``: `Status` per ray; ``failed_surface`` counts from 1, 0 where the ray passed.
     """
 
     points: np.ndarray
@@ -71,7 +73,7 @@ def trace(
     cosines = np.stack([beam.p, beam.q, beam.r], -1) / np.abs(np.asarray(index[-1]))[..., None]
     if lens.misaligned:
         cosines = cosines @ lens.frames[-1].rotation.T
-    cosines[np.isnan(beam.path)] = np.nan
+    cosines[beam.status != Status.PASSED] = np.nan
     return Trace(np.stack(points), cosines, beam.path, beam.status, beam.failed_surface)
 
 
@@ -140,7 +142,7 @@ def run(
         for number, surface in enumerate(lens.surfaces[first - 1 : last], first):
             idle = surface.bare and rims is None and visit is None
             if number == last or not (idle and _same(index[number - 1], index[number])):
-                _cross(beam, surface, index, number, rims, visit)
+                _cross(beam, lens, index, number, rims, visit)
             if number != last:
                 _onward(beam, lens, number, index)
         if last is None:
@@ -160,14 +162,14 @@ def _onward(beam: Beam, lens: Lens, number: int, index: Index) -> None:
 
 def _cross(
     beam: Beam,
-    surface: Surface,
+    lens: Lens,
     index: Index,
     number: int,
     rims: np.ndarray | None,
     visit: Callable[[int], None] | None,
 ) -> None:
     """Carry a beam to a surface, clip it there, and refract it."""
-    before, after = index[number - 1], index[number]
+    surface, before, after = lens.surfaces[number - 1], index[number - 1], index[number]
     normal = meet(beam, surface, before, number)
     if visit:
         visit(number)
@@ -175,7 +177,9 @@ def _cross(
         clip(beam, rims[number - 1], number)
         if surface.inner_radius:
             clip_inside(beam, surface.inner_radius, number)
-    if surface.diffraction is not None:
+    if surface.ideal:
+        bend_ideally(beam, surface.ideal_focal_length, before, after, object_point(lens, beam, index, number))
+    elif surface.diffraction is not None:
         diffract(beam, normal, surface.diffraction, after, number)
     elif not _same(before, after):
         refract(beam, normal, before, after, number)

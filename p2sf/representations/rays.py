@@ -30,5 +30,6 @@ def prescription_numbers(lens: Lens) -> int:
     figures = sum((surface.conic != 0) + len(surface.aspheric) for surface in lens.surfaces)
     parts = (part for surface in lens.surfaces for part in (surface.shape, surface.diffraction))
     figures += sum(len(part.numbers) for part in parts if part is not None)
+    figures += sum(surface.ideal for surface in lens.surfaces)
     glasses = {surface.medium for surface in lens.surfaces if surface.medium.label != "air"}
     return PER_SURFACE * len(lens.surfaces) + figures + PER_GLASS * len(glasses) + 1

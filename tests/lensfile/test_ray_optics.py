@@ -112,7 +112,7 @@ def test_a_phase_of_coefficients_of_path_is_read():
         ),
         (
             lambda m: m["seq_model"]["attributes"]["ifcs"][1].update(__instance_type__=["m", "ThinLens"]),
-            r"surface 1 \(primary\) is an ideal lens",
+            "the file's model is incomplete",
         ),
         (lambda m: m["system_spec"]["attributes"].update(_dimensions="furlong"), 'lens unit "furlong"'),
         (lambda m: m.pop("optical_spec"), "the file's model is incomplete"),
@@ -123,3 +123,13 @@ def test_what_cannot_be_read_is_refused_by_surface(change, said):
     with pytest.raises(LensFileError, match=said) as caught:
         lens_of(change)
     assert caught.value.line
+
+
+def test_a_thin_lens_is_an_ideal_one_of_its_power():
+    def thin(model):
+        interface = model["seq_model"]["attributes"]["ifcs"][3]
+        interface["__instance_type__"] = ["rayoptics.oprops.thinlens", "ThinLens"]
+        interface["attributes"].update(_power=0.02, profile_id=None)
+
+    third = lens_of(thin).surfaces[2]
+    assert (third.ideal_focal_length, third.radius) == (50.0, np.inf)

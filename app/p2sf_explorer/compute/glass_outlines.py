@@ -35,10 +35,11 @@ class Outline:
 
 @dataclass(frozen=True)
 class Glass:
-    """Outlines of the elements, mirrors, the last surface's profile, the index behind it, and the extent."""
+    """Outlines of the elements, mirrors, ideal lenses, the last surface's profile, the index behind it, the extent."""
 
     outlines: tuple[Outline, ...]
     mirrors: tuple["MirrorProfile", ...]
+    ideal: tuple["IdealProfile", ...]
     last: Profile
     image_index: float
     half_height: float
@@ -53,6 +54,15 @@ class MirrorProfile:
     z: np.ndarray
     y: np.ndarray
     behind: int
+
+
+@dataclass(frozen=True)
+class IdealProfile:
+    """An ideal lens: its place and half its height in mm; ``gathers`` where its focal length is positive."""
+
+    z: float
+    half: float
+    gathers: bool
 
 
 @lru_cache(maxsize=8)
@@ -80,9 +90,14 @@ def glass_of(lens: Lens) -> Glass:
         for line, surface, direction in zip(profiles, lens.surfaces, lens.directions, strict=False)
         if surface.reflects
     )
+    ideal = tuple(
+        IdealProfile(at, rim, surface.ideal_focal_length > 0)
+        for surface, at, rim in zip(lens.surfaces, z, rims, strict=False)
+        if surface.ideal
+    )
     ends = [end(line[0]) for end in (np.min, np.max) for line in profiles]
     return Glass(
-        outlines, mirrors, profiles[-1], float(index[-1]), float(max(rims)), float(min(ends)), float(max(ends))
+        outlines, mirrors, ideal, profiles[-1], float(index[-1]), float(max(rims)), float(min(ends)), float(max(ends))
     )
 
 

@@ -48,8 +48,7 @@ def path(
             return *places, False
         if number + 1 == last:
             return *places, True
-        kick = steered(surface, y, wavelength_um)
-        turned = refracted(met[2], cz, cy, index[number], index[number + 1], kick)
+        turned = _behind(surface, met, (cz, cy), index[number : number + 2], wavelength_um)
         if turned is None:
             return *places, False
         cz, cy = turned
@@ -114,6 +113,17 @@ def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float) -> M
         step = miss / (cz - slope * cy)
         z, y = z + step * cz, y + step * cy
     return None
+
+
+def _behind(
+    surface: Surface, met: Meeting, along: tuple[float, float], index: Sequence[float], wavelength_um: float
+) -> tuple[float, float] | None:
+    """Return the direction behind a surface of a ray that meets it along (cz, cy); None where totally reflected."""
+    if surface.ideal:
+        tangent = (index[0] * along[1] / along[0] - met[1] / surface.ideal_focal_length) / index[1]
+        cosine = copysign(1 / hypot(1.0, tangent), index[1])
+        return cosine, tangent * cosine
+    return refracted(met[2], *along, index[0], index[1], steered(surface, met[1], wavelength_um))
 
 
 def steered(surface: Surface, y: float, wavelength_um: float) -> float:

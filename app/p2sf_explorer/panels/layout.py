@@ -204,6 +204,9 @@ class LayoutChart(Chart):
             painter.drawPolygon(self._polygon(outline))
         for mirror in self._drawn[0].glass.mirrors:
             paint_mirror(painter, polygon(*self.to_pixels(mirror.z, mirror.y)), mirror.behind, self.theme)
+        for lens in self._drawn[0].glass.ideal:
+            x, y = self.to_pixels([lens.z, lens.z], [-lens.half, lens.half])
+            paint_ideal_lens(painter, QPointF(x[0], y[0]), QPointF(x[1], y[1]), lens.gathers, self.theme)
 
     def _paint_bars(self, painter: QPainter, d: Drawing, half: float) -> None:
         """Paint stop and sensor."""
@@ -327,6 +330,18 @@ def paint_mirror(painter: QPainter, line: QPolygonF, behind: int, theme: Tokens)
         painter.drawLine(QPointF(x, y), QPointF(x + behind * length, y + length))
 
 
+def paint_ideal_lens(painter: QPainter, low: QPointF, high: QPointF, gathers: bool, theme: Tokens) -> None:
+    """Paint a thin lens as a line with arrowheads, which point outwards where it gathers light, else inwards."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(QColor(theme.glass_edge), theme.px(2)))
+    painter.drawLine(low, high)
+    barb = theme.px(ARROW_PX)
+    for tip, inwards in ((low, -1), (high, 1)):
+        back = inwards * (barb if gathers else -barb)
+        painter.drawPolyline([tip + QPointF(-barb, back), tip, tip + QPointF(barb, back)])
+
+
+ARROW_PX = 6  # an ideal lens's arrowhead along and across, at scale 1
 HATCH_PX = 8  # from one line of a mirror's hatching to the next, at scale 1
 ROOM = 1.22  # of the lens's length with the sensor, right of the break of the axis
 ASIDE = 0.3  # of the room that is left over, behind the sensor

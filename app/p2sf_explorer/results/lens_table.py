@@ -9,7 +9,7 @@ from p2sf_explorer.compute.editing import written
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription
 
-DIFFRACTIVE = Message("diffractive")
+DIFFRACTIVE, IDEAL = Message("diffractive"), Message("ideal lens")
 COLUMNS = ("radius", "thickness", "medium", "semi_diameter", "conic", "aspheric")
 
 
@@ -36,6 +36,8 @@ def rows(live: Live) -> Rows:
 
 
 def names(surface: Surface) -> tuple[Message, ...]:
-    """Return the names of a surface's shape and of diffraction, where it has them."""
+    """Return the names of a surface's shape and of diffraction, where it has them, and of an ideal lens."""
+    if surface.ideal:
+        return (IDEAL,)
     found = (kind_of(surface.shape),) if surface.shape else ()
     return (*found, DIFFRACTIVE) if surface.diffraction else found

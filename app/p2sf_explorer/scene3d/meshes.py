@@ -39,7 +39,7 @@ class Element:
 def elements(lens: Lens) -> tuple[Element, ...]:
     """Return the glass of a lens of `glass_outlines.still`: real sag to the clear rims, a quarter cut away.
 
-    A mirror is a thin shell on its back.
+    A mirror is a thin shell on its back, and so is an ideal lens.
     """
     z, rims = vertices(lens), clear_rims(lens)
     index = np.abs(indices(lens, lens.reference_wavelength_um))
@@ -52,7 +52,7 @@ def elements(lens: Lens) -> tuple[Element, ...]:
     shells = (
         Element(element((s, z[i], rims[i]), (s, z[i] + lens.directions[i] * SHELL * rims[i], rims[i])), SHELL_INDEX)
         for i, s in enumerate(lens.surfaces)
-        if s.reflects
+        if s.reflects or s.ideal
     )
     return (*glass, *shells)
 

@@ -163,6 +163,12 @@ def draw_layout(page: Page, shown: Layout, room: QRectF) -> None:
     for mirror in drawn.glass.mirrors:
         page.pen(LIGHT.glass_edge, 0.5)
         page.lines(*at(mirror.z, mirror.y))
+    page.pen(LIGHT.glass_edge, 0.3)
+    for lens in drawn.glass.ideal:
+        barb = 0.12 * lens.half * (1 if lens.gathers else -1)
+        for side in (-1, 1):
+            tip, back = side * lens.half, side * (lens.half - barb)
+            page.lines(*at(lens.z + np.array([0, 0, -1, 0, 1]) * abs(barb), [0, tip, back, tip, back]))
     for ray in shown.rays:
         page.pen(RAY_COLOURS[ray.kind], 0.25 if ray.kind == "chief" else 0.15)
         page.lines(*at(ray.z, ray.y))

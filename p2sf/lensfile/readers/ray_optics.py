@@ -39,7 +39,10 @@ DAMAGED = (KeyError, TypeError, ValueError, IndexError, AttributeError, Recursio
 
 
 def read_ray_optics(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
-    """Return the lens of a .roa file; LensFileError for damage, tilts, gratings and shapes that are not round."""
+    """Return the lens of a .roa file; LensFileError for damage, tilts, gratings and shapes that are not round.
+
+    A thin lens, there made by a hologram of two points, becomes an ideal lens of its power.
+    """
     try:
         model = _inside(json.loads(source.text)["optical_model"])
         raw = _raw_lens(model, source)
@@ -91,15 +94,13 @@ def _surface(
     if values.get("decenter"):
         raise source.error("{surface} is tilted or decentred; only centred lenses are read", 1, surface=surface.name)
     if _kind(interface) == "ThinLens":
-        raise source.error(
-            "{surface} is an ideal lens made by a hologram, which has no prescription; put a real lens in its place",
-            1,
-            surface=surface.name,
-        )
-    if values.get("phase_element"):
-        surface.diffraction = _diffraction(surface, values["phase_element"], unit_mm, source)
-    profile = values.get("profile") or model.get("profile_dict", {}).get(str(values.get("profile_id")))
-    _shape(surface, profile, source)
+        power = float(values["_power"])
+        surface.ideal_focal_length = 1 / power if power else inf
+    else:
+        if values.get("phase_element"):
+            surface.diffraction = _diffraction(surface, values["phase_element"], unit_mm, source)
+        profile = values.get("profile") or model.get("profile_dict", {}).get(str(values.get("profile_id")))
+        _shape(surface, profile, source)
     reflects = values.get("interact_mode") == "reflect"
     surface.glass = RawGlass(medium=MIRROR, line=1) if reflects else _glass(gap["medium"])
     rim = values.get("max_aperture") or inf

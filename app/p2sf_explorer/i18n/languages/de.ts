@@ -865,7 +865,7 @@
 <message><source>an asphere in Forbes's polynomials</source><translation>eine Asphäre in Forbes-Polynomen</translation></message>
 <message><source>an end of the sweep</source><translation>ein Ende des Durchlaufs</translation></message>
 <message><source>an energy fraction of {fraction}; give a number between 0 and 1</source><translation>ein Energieanteil von {fraction}; eine Zahl zwischen 0 und 1 angeben</translation></message>
-<message><source>an ideal lens without a prescription</source><translation>eine ideale Linse ohne Rezept</translation></message>
+<message><source>an ideal lens that is not round</source><translation>eine ideale Linse, die nicht rund ist</translation></message>
 <message><source>an object at infinity has no height; give the field as an angle or an image height</source><translation>ein Objekt im Unendlichen hat keine Höhe; das Feld als Winkel oder Bildhöhe angeben</translation></message>
 <message><source>an object at infinity has no numerical aperture; state the pupil's diameter or f-number</source><translation>ein Objekt im Unendlichen hat keine numerische Apertur; Pupillendurchmesser oder Blendenzahl angeben</translation></message>
 <message><source>an odd asphere has no normalisation radius; write type = "extended odd asphere"</source><translation>eine ungerade Asphäre hat keinen Normierungsradius; type = "extended odd asphere" schreiben</translation></message>
@@ -1095,6 +1095,8 @@
 <message><source>heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them</source><translation>Höhen × Abstände × Wellenlängen: {heights} × {depths} × {waves}; alle übrigen liegen auf Polynomen durch diese</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
 <message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
+<message><source>ideal lens</source><translation>ideale Linse</translation></message>
+<message><source>ideal lens: focal length {focal:g} mm</source><translation>ideale Linse: Brennweite {focal:g} mm</translation></message>
 <message><source>ignored, without effect on the picture</source><translation>übergangen, ohne Wirkung auf das Bild</translation></message>
 <message><source>image</source><translation>Bild</translation></message>
 <message><source>image f number</source><translation>bildseitige Blendenzahl</translation></message>
@@ -1451,6 +1453,7 @@
 <message><source>surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} off, or take the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface} is a Qbfs asphere, for which no line of Zemax is known here; save as TOML, or convert it to even terms</source><translation>Fläche {surface} ist eine Qbfs-Asphäre, für die hier keine Zeile von Zemax bekannt ist; als TOML speichern oder in gerade Glieder umrechnen</translation></message>
+<message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not diffract, and its focal length not 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
@@ -2037,7 +2040,6 @@
 <message><source>{surface} has type {kind}, {description}; only the types {known} are read</source><translation>{surface} hat den Typ {kind}, {description}; nur die Typen {known} werden gelesen</translation></message>
 <message><source>{surface} has {count:g} terms and a normalisation radius of {radius:g} in its extra data (XDAT); give up to {most} terms and a positive radius</source><translation>{surface} hat {count:g} Glieder und einen Normierungsradius von {radius:g} in den Zusatzdaten (XDAT); bis zu {most} Glieder und einen positiven Radius angeben</translation></message>
 <message><source>{surface} is a special surface of type {kind}, which is not read; only ODD is</source><translation>{surface} ist eine Sonderfläche vom Typ {kind}, die nicht gelesen wird; nur ODD wird gelesen</translation></message>
-<message><source>{surface} is an ideal lens made by a hologram, which has no prescription; put a real lens in its place</source><translation>{surface} ist eine ideale Linse aus einem Hologramm, ohne Konstruktionsdaten; bitte eine wirkliche Linse einsetzen</translation></message>
 <message><source>{surface} is tilted or decentred by its properties (SCBD); give coordinate breaks instead</source><translation>{surface} ist durch ihre Eigenschaften (SCBD) gekippt oder dezentriert; stattdessen Koordinatenbrüche angeben</translation></message>
 <message><source>{surface} is tilted or decentred; only centred lenses are read</source><translation>{surface} ist gekippt oder dezentriert; nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>{surface} {reason} ({command}), which is not read; give a lens without it</source><translation>{surface} {reason} ({command}), was nicht gelesen wird; ein Objektiv ohne das angeben</translation></message>
